@@ -1,0 +1,55 @@
+#include "engine/base/trigonometry.h"
+
+#include <cmath>
+
+namespace sunder {
+namespace {
+
+// Taylor polynomials on |x| <= pi/4; the first term left out is below 1e-17.
+double sin_poly(double x) {
+  const double z = x * x;
+  double sum = -1.0 / 1307674368000.0;
+  sum = sum * z + 1.0 / 6227020800.0;
+  sum = sum * z - 1.0 / 39916800.0;
+  sum = sum * z + 1.0 / 362880.0;
+  sum = sum * z - 1.0 / 5040.0;
+  sum = sum * z + 1.0 / 120.0;
+  sum = sum * z - 1.0 / 6.0;
+  return x + x * z * sum;
+}
+
+double cos_poly(double x) {
+  const double z = x * x;
+  double sum = 1.0 / 20922789888000.0;
+  sum = sum * z - 1.0 / 87178291200.0;
+  sum = sum * z + 1.0 / 479001600.0;
+  sum = sum * z - 1.0 / 3628800.0;
+  sum = sum * z + 1.0 / 40320.0;
+  sum = sum * z - 1.0 / 720.0;
+  sum = sum * z + 1.0 / 24.0;
+  sum = sum * z - 0.5;
+  return 1.0 + z * sum;
+}
+
+}  // namespace
+
+SinCos sin_cos(double angle_rad) {
+  // pi/2 in two parts (Cody and Waite), so that the reduction keeps its low bits.
+  constexpr double kHalfPiHigh = 1.57079632673412561417e+00;
+  constexpr double kHalfPiLow = 6.07710050650619224932e-11;
+  const double quarter = std::floor(angle_rad / (kHalfPiHigh + kHalfPiLow) + 0.5);
+  const double x = (angle_rad - quarter * kHalfPiHigh) - quarter * kHalfPiLow;
+  const double s = sin_poly(x), c = cos_poly(x);
+  switch (static_cast<long long>(quarter) & 3) {
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
+  }
+}
+
+}  // namespace sunder

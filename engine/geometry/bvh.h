@@ -1,0 +1,35 @@
+// A bounding-volume hierarchy over boxes that do not move.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "engine/base/types.h"
+
+namespace sunder {
+
+/// Built once (binned surface-area heuristic, deterministic), queried often, from any thread.
+class Bvh {
+ public:
+  Bvh() = default;
+  explicit Bvh(std::span<const Box> boxes);
+
+  /// Appends the indices of the boxes overlapping `query` to `hits`, ascending.
+  void overlaps(const Box& query, std::vector<std::uint32_t>& hits) const;
+  /// Appends the indices of the boxes that come within `radius_m` of `center`, ascending.
+  void within(const Vec3& center, double radius_m, std::vector<std::uint32_t>& hits) const;
+  bool empty() const { return nodes_.empty(); }
+
+ private:
+  struct Node {
+    Box box;
+    std::uint32_t first = 0;  ///< Leaf: first item; inner: index of the second child.
+    std::uint32_t count = 0;  ///< Items of a leaf; 0 for an inner node.
+  };
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> items_;
+};
+
+}  // namespace sunder

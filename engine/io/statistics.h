@@ -1,0 +1,41 @@
+// Figures of a run: stage timings, counts, energy, penetration; as a table and as JSON.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/world/frame.h"
+#include "engine/world/scene.h"
+
+namespace sunder {
+
+/// What the figures are of; goes into the JSON as it is.
+struct RunInfo {
+  std::string scene;
+  std::string preset;
+  int threads = 1;
+  Accuracy accuracy;
+  std::map<std::string, std::string> modelled;  ///< feature -> "on" | "off" | "off: why"
+};
+
+/// Collects the reports of every frame but the first (which is no simulated time).
+class Statistics final : public FrameSink {
+ public:
+  explicit Statistics(RunInfo info);
+  ~Statistics() override;
+  void take(const FramePtr& frame) override;
+
+  /// The `simulate`/`bench` object of docs (README, "JSON"); ends with a newline.
+  /// `state_hash` may be empty; `per_frame` adds an array with an object a frame.
+  std::string json(const std::string& state_hash, bool per_frame) const;
+  /// The stage timing table and the final counts, for people.
+  std::string table() const;
+
+ private:
+  struct Series;
+  std::unique_ptr<Series> series_;
+};
+
+}  // namespace sunder

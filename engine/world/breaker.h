@@ -1,0 +1,60 @@
+// The seam between the world, which decides whether a solid breaks, and fracture, which decides
+// into what.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/world/compound.h"
+
+namespace sunder {
+
+/// A blow on a compound, in its rest frame R.
+struct Hit {
+  Vec3 point_R = Vec3::Zero();
+  Vec3 direction_R = Vec3::UnitY();  ///< Unit, the way the blow pushes (into the solid).
+  double energy_J = 0;
+};
+
+/// Everything a break depends on besides the compound: the same command gives the same pieces.
+struct BreakCommand {
+  std::uint64_t event = 1;  ///< Unique in a run, >= 1; names the planes the break makes.
+  std::uint64_t seed = 0;
+  PatternSpec pattern;
+  Pose X_RP;            ///< Pose of the pattern; its origin is the impact.
+  double radius_m = 1;  ///< Of the impact sphere; infinity breaks the whole compound.
+};
+
+/// A face that a break laid bare, in the rest frame R.
+struct ExposedFace {
+  std::uint32_t piece = 0;
+  std::uint32_t convex = 0;  ///< Index in that piece's compound.
+  std::uint32_t face = 0;
+  double area_m2 = 0;
+};
+
+/// What a compound becomes. Pieces are islands (connected); volumes sum to the parent's.
+struct BreakPlan {
+  std::vector<Compound> pieces;
+  double new_area_m2 = 0;  ///< Crack surface, both sides counted once.
+  std::vector<ExposedFace> exposed;
+  double debris_volume_m3 = 0;  ///< Under the volume floor: mass that became debris.
+  std::uint32_t untouched = 0;  ///< Convexes handed on as they were.
+  std::uint32_t welded = 0;     ///< Cells that became one convex.
+
+  bool broke() const { return pieces.size() > 1; }
+};
+
+/// Pure and const: any thread may ask about any compound.
+class Breaker {
+ public:
+  virtual ~Breaker() = default;
+  /// The command that a blow on a solid of this material amounts to.
+  virtual BreakCommand command(const Compound& compound, const Material& material, const Hit& hit,
+                               std::uint64_t event, std::uint64_t seed) const = 0;
+  /// Carries a command out. A pattern that misses gives back the one compound it was given.
+  virtual BreakPlan plan(const Compound& compound, const BreakCommand& command) const = 0;
+};
+
+}  // namespace sunder

@@ -1,0 +1,99 @@
+// The seam between the world and whatever moves bodies. Called a few times a step, in batches;
+// nothing calls back.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/index.h"
+#include "engine/base/types.h"
+#include "engine/geometry/convex_polyhedron.h"
+
+namespace sunder {
+
+struct BodyTag;
+using BodyId = Id<BodyTag>;
+
+/// One convex shape of a body. `hull` must outlive the call only.
+struct ShapeDesc {
+  enum class Kind : std::uint8_t { kHull, kSphere, kHalfSpace };
+  Kind kind = Kind::kHull;
+  const ConvexPolyhedron* hull = nullptr;  ///< kHull: in the rest frame R of the body.
+  Vec3 center_R = Vec3::Zero();            ///< kSphere: centre; kHalfSpace: a point of the surface.
+  double radius_m = 0;                     ///< kSphere.
+  Vec3 normal_R = Vec3::UnitY();           ///< kHalfSpace: out of the solid.
+  double friction = 0.6;
+  double restitution = 0;
+  std::uint32_t tag = 0;  ///< Opaque; comes back in contacts.
+};
+
+/// A body to add. B sits at the centre of mass with the axes of the rest frame R.
+struct BodyDesc {
+  Pose X_WB;
+  Vec3 com_R = Vec3::Zero();  ///< Origin of B in R: point_B = point_R − com_R.
+  Vec3 velocity_W = Vec3::Zero();
+  Vec3 angular_velocity_W = Vec3::Zero();
+  bool is_static = false;
+  double mass_kg = 0;             ///< > 0 unless static.
+  Mat3 inertia_B = Mat3::Zero();  ///< kg·m², about the centre of mass; unless static.
+  std::vector<ShapeDesc> shapes;
+  std::uint32_t tag = 0;    ///< Opaque; comes back in contacts.
+  bool breakable = false;   ///< Its approaches are reported.
+  std::uint32_t group = 0;  ///< Bodies of one non-zero group ignore each other until separated.
+};
+
+/// How a body moves now.
+struct BodyState {
+  Pose X_WB;
+  Vec3 velocity_W = Vec3::Zero();
+  Vec3 angular_velocity_W = Vec3::Zero();
+  bool asleep = false;
+};
+
+/// A contact that closes, or would close within the step, and touches a breakable body.
+/// Ordered by a key that does not depend on threads.
+struct Approach {
+  BodyId a, b;
+  std::uint32_t body_tag_a = 0, body_tag_b = 0;
+  std::uint32_t shape_tag_a = 0, shape_tag_b = 0;
+  Vec3 point_W = Vec3::Zero();
+  Vec3 normal_W = Vec3::UnitY();  ///< Unit, from a to b.
+  double separation_m = 0;        ///< Negative: penetrating.
+  double speed_m_s = 0;           ///< Approach speed along the normal, > 0.
+  double effective_mass_kg = 0;   ///< Of the pair at the point along the normal.
+};
+
+/// What one solve did, for the books.
+struct SolveReport {
+  Vec3 external_impulse_Ns = Vec3::Zero();  ///< Gravity, static bodies, and what sleep took away.
+  std::uint32_t contacts = 0;               ///< Manifolds with a point in reach.
+  std::uint32_t contact_points = 0;
+  std::uint32_t awake = 0;   ///< Dynamic bodies.
+  std::uint32_t frozen = 0;  ///< Bodies stopped because they were no longer finite.
+};
+
+class Physics {
+ public:
+  virtual ~Physics() = default;
+
+  /// Removes, then adds; the answer's order is that of `add`. Neighbours of what goes wake up.
+  virtual std::vector<BodyId> replace(std::span<const BodyId> remove,
+                                      std::span<const BodyDesc> add) = 0;
+  /// Finds contacts and what may touch within dt_s; new bodies are included when called again.
+  virtual void collide(double dt_s) = 0;
+  /// Approaches found by the last collide(); valid until the next call that changes anything.
+  virtual std::span<const Approach> approaches() const = 0;
+  /// Changes a body's momentum by an impulse at a point and wakes it; static bodies ignore it.
+  virtual void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) = 0;
+  /// Advances by dt_s in `substeps` equal parts, using the contacts of the last collide().
+  virtual SolveReport solve(double dt_s, int substeps) = 0;
+
+  virtual BodyState state(BodyId body) const = 0;
+  /// Depths (m, >= 0) of all contact points that carry load, unordered; for statistics.
+  virtual std::vector<float> penetrations() const = 0;
+  /// Time spent since the last call, by name; for the timing table.
+  virtual std::vector<std::pair<const char*, double>> take_timings_ms() = 0;
+};
+
+}  // namespace sunder

@@ -1,0 +1,71 @@
+// A scene: everything a run starts from. Made by scenes/ from a file, or by hand in code.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/world/compound.h"
+#include "engine/world/frame.h"
+#include "engine/world/material.h"
+
+namespace sunder {
+
+/// A compound placed in the world; held in place if any of its convexes is anchored.
+struct Solid {
+  std::string name;
+  Compound compound;
+  Pose X_WR;
+  Vec3 velocity_W = Vec3::Zero();
+  Vec3 angular_velocity_W = Vec3::Zero();
+};
+
+struct Ball {
+  std::string name;
+  double radius_m = 0.5;
+  MaterialIndex material;
+  Vec3 center_W = Vec3::Zero();
+  Vec3 velocity_W = Vec3::Zero();
+};
+
+/// A ball that appears at a time.
+struct Shot {
+  double time_s = 0;
+  Ball ball;
+};
+
+/// The horizontal plane y = height_m, without end.
+struct Ground {
+  double height_m = 0;
+  double friction = 0.8;
+  double restitution = 0;
+};
+
+/// Speed against accuracy.
+struct Accuracy {
+  double dt_s = 1.0 / 120;
+  int substeps = 2;
+};
+
+struct Limits {
+  std::uint32_t bodies = 20000;
+  std::uint32_t pieces_a_frame = 400;  ///< Breaks beyond it wait for the next frame.
+};
+
+struct Scene {
+  std::string name;
+  std::string description;
+  double duration_s = 6;
+  Vec3 gravity_W = Vec3(0, -9.81, 0);
+  std::uint64_t seed = 1;
+  Accuracy accuracy;
+  Limits limits;
+  Ground ground;
+  View view;
+  std::vector<Material> materials;
+  std::vector<Solid> solids;
+  std::vector<Ball> balls;
+  std::vector<Shot> shots;  ///< In order of time.
+};
+
+}  // namespace sunder

@@ -1,0 +1,31 @@
+// The simulation: a scene advanced step by step, seen as frames.
+//
+// Read first: Simulation::advance() in simulation.cpp, the list of a step's stages.
+#pragma once
+
+#include <memory>
+
+#include "engine/world/breaker.h"
+#include "engine/world/frame.h"
+#include "engine/world/physics.h"
+#include "engine/world/scene.h"
+
+namespace sunder {
+
+/// A FrameSource that simulates: frame 0 is the scene as given, then one frame every 1/60 s until
+/// the scene's duration has passed.
+class Simulation final : public FrameSource {
+ public:
+  Simulation(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaker);
+  ~Simulation() override;
+
+  FramePtr next() override;
+  /// One step of the scene's dt.
+  void advance();
+
+ private:
+  struct World;
+  std::unique_ptr<World> world_;
+};
+
+}  // namespace sunder

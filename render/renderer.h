@@ -1,0 +1,35 @@
+// A frame becomes an image, off-screen.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/world/frame.h"
+#include "render/image.h"
+
+namespace sunder::render {
+
+struct RenderOptions {
+  int width = 1280;
+  int height = 720;
+  std::string gl = "auto";  ///< auto | egl-device:N | egl-surfaceless | osmesa
+  bool hud = false;         ///< Frame number, time and counts in the corner.
+};
+
+/// Owns a GL context; used from the thread that made it. The same frame gives the same bytes.
+class Renderer {
+ public:
+  /// Throws InputError if the context asked for cannot be had, saying what was tried.
+  explicit Renderer(const RenderOptions& options);
+  ~Renderer();
+
+  Image draw(const Frame& frame);
+  /// Context, driver and version, for logs.
+  std::string description() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sunder::render
