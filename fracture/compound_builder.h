@@ -7,9 +7,15 @@
 
 namespace sunder::fracture {
 
-/// A compound of convexes that do not overlap. Faces within `tolerance_m` of one plane share a
-/// plane id; touching pairs become bonds. `anchored` is empty or one flag per convex.
-Compound make_compound(std::vector<ConvexPolyhedron> polyhedra, MaterialIndex material,
-                       std::vector<std::uint8_t> anchored = {}, double tolerance_m = 1e-6);
+/// A convex on its way into a compound.
+struct Part {
+  ConvexPolyhedron polyhedron;
+  MaterialIndex material;
+  bool anchored = false;
+};
+
+/// A compound of parts that do not overlap. Faces within `tolerance_m` of one plane share a plane
+/// id; touching pairs become bonds.
+Compound make_compound(std::vector<Part> parts, double tolerance_m = 1e-6);
 
 }  // namespace sunder::fracture

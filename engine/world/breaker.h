@@ -14,6 +14,7 @@ namespace sunder {
 struct Hit {
   Vec3 point_R = Vec3::Zero();
   Vec3 direction_R = Vec3::UnitY();  ///< Unit, the way the blow pushes (into the solid).
+  std::uint32_t convex = 0;          ///< The one that was hit.
   double energy_J = 0;
 };
 
@@ -50,7 +51,7 @@ struct BreakPlan {
 class Breaker {
  public:
   virtual ~Breaker() = default;
-  /// The command that a blow on a solid of this material amounts to.
+  /// The command that a blow amounts to; `material` is that of the convex hit.
   virtual BreakCommand command(const Compound& compound, const Material& material, const Hit& hit,
                                std::uint64_t event, std::uint64_t seed) const = 0;
   /// Carries a command out. A pattern that misses gives back the one compound it was given.

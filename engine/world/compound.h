@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/geometry/convex_polyhedron.h"
@@ -14,13 +15,14 @@ namespace sunder {
 /// same object, bit for bit.
 struct Convex {
   ConvexPolyhedron polyhedron;
-  MassProperties mass;  ///< Of `polyhedron`, unit density.
-  Box box;              ///< Of `polyhedron`.
+  MaterialIndex material;
+  MassProperties solid;  ///< Of `polyhedron`, unit density.
+  Box box;               ///< Of `polyhedron`.
 };
 using ConvexPtr = std::shared_ptr<const Convex>;
 
-/// A polyhedron with its mass and box worked out.
-ConvexPtr make_convex(ConvexPolyhedron polyhedron);
+/// A polyhedron with its volume and box worked out.
+ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material);
 
 /// Two convexes of a compound that share part of a plane (property (c) of paper 3.1).
 struct Bond {
@@ -34,12 +36,18 @@ struct Compound {
   std::vector<ConvexPtr> convexes;
   std::vector<std::uint8_t> anchored;  ///< Per convex: 1 where it is held by the world.
   std::vector<Bond> bonds;             ///< Sorted by (a, b, face_a, face_b).
-  MaterialIndex material;
 
   bool is_anchored() const;
 };
 
-MassProperties mass_properties(const Compound& compound);
+/// Mass, centre of mass and inertia about it, in the rest frame.
+struct Weight {
+  double mass_kg = 0;
+  Vec3 com_R = Vec3::Zero();
+  Mat3 inertia_R = Mat3::Zero();  ///< kg·m²
+};
+Weight weigh(const Compound& compound, std::span<const Material> materials);
+double volume(const Compound& compound);
 Box bounds(const Compound& compound);
 
 }  // namespace sunder
