@@ -13,13 +13,14 @@
 
 namespace sunder {
 
-/// Camera and light of a scene.
+/// Camera, light and ground of a scene.
 struct View {
   Vec3 eye_W = Vec3(6, 4, 10);
   Vec3 target_W = Vec3(0, 1, 0);
   double fov_rad = 0.8;                             ///< Vertical.
   Vec3 to_sun_W = Vec3(0.5, 0.7, 0.4);              ///< Towards the sun, any length.
   Vec3f ground_color = Vec3f(0.42f, 0.38f, 0.32f);  ///< Linear RGB.
+  double ground_m = 0;  ///< Height of the ground plane.
 };
 
 /// A body at one instant. `key` is unique for a run and never reused.

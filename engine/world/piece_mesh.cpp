@@ -1,0 +1,84 @@
+#include "engine/world/piece_mesh.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "engine/base/trigonometry.h"
+
+namespace sunder {
+namespace {
+
+// A face counts as covered when less than this part of it shows: bond areas carry rounding.
+constexpr double kCovered = 1 - 1e-6;
+
+}  // namespace
+
+std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound) {
+  std::vector<std::vector<double>> covered_m2(compound.convexes.size());
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+    covered_m2[c].assign(compound.convexes[c]->polyhedron.faces.size(), 0.0);
+  }
+  for (const Bond& bond : compound.bonds) {
+    covered_m2[bond.a][bond.face_a] += bond.area_m2;
+    covered_m2[bond.b][bond.face_b] += bond.area_m2;
+  }
+  std::vector<std::vector<std::uint8_t>> hidden(compound.convexes.size());
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+    hidden[c].resize(covered_m2[c].size());
+    for (std::size_t f = 0; f < hidden[c].size(); ++f) {
+      hidden[c][f] = covered_m2[c][f] > 0 &&
+                     covered_m2[c][f] >= kCovered * face_area(compound.convexes[c]->polyhedron, f);
+    }
+  }
+  return hidden;
+}
+
+std::shared_ptr<const Mesh> make_mesh(const Convex& convex,
+                                      const std::vector<std::uint8_t>& hidden) {
+  const ConvexPolyhedron& polyhedron = convex.polyhedron;
+  auto mesh = std::make_shared<Mesh>();
+  mesh->origin_R = convex.box.center();
+  mesh->material = convex.material;
+  for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
+    if (hidden[f]) continue;
+    const ConvexPolyhedron::Face& face = polyhedron.faces[f];
+    const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) {
+      const std::uint32_t corner = face.first_corner + k;
+      const Vec3 position = polyhedron.vertices[polyhedron.corners[corner]] - mesh->origin_R;
+      mesh->vertices.push_back({position.cast<float>(), polyhedron.corner_normals[corner],
+                                face.kind == FaceKind::kInterior ? 1u : 0u});
+      if (k >= 2) {
+        mesh->indices.insert(mesh->indices.end(), {first, first + k - 1, first + k});
+      }
+    }
+  }
+  return mesh->indices.empty() ? nullptr : mesh;
+}
+
+std::shared_ptr<const Mesh> make_ball_mesh(double radius_m, MaterialIndex material) {
+  constexpr std::uint32_t kRings = 24, kSectors = 48;
+  auto mesh = std::make_shared<Mesh>();
+  mesh->material = material;
+  for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
+    const SinCos polar = sin_cos(std::numbers::pi * ring / kRings);
+    for (std::uint32_t sector = 0; sector <= kSectors; ++sector) {
+      const SinCos around = sin_cos(2 * std::numbers::pi * (sector % kSectors) / kSectors);
+      const Vec3 normal(polar.sin * around.sin, polar.cos, polar.sin * around.cos);
+      mesh->vertices.push_back({(radius_m * normal).cast<float>(), normal.cast<float>(), 0});
+    }
+  }
+  constexpr std::uint32_t kRow = kSectors + 1;
+  for (std::uint32_t ring = 0; ring < kRings; ++ring) {
+    for (std::uint32_t sector = 0; sector < kSectors; ++sector) {
+      const std::uint32_t top = ring * kRow + sector, bottom = top + kRow;
+      if (ring > 0) mesh->indices.insert(mesh->indices.end(), {top, bottom, top + 1});
+      if (ring + 1 < kRings) {
+        mesh->indices.insert(mesh->indices.end(), {top + 1, bottom, bottom + 1});
+      }
+    }
+  }
+  return mesh;
+}
+
+}  // namespace sunder
