@@ -20,7 +20,7 @@ struct View {
   double fov_rad = 0.8;                             ///< Vertical.
   Vec3 to_sun_W = Vec3(0.5, 0.7, 0.4);              ///< Towards the sun, any length.
   Vec3f ground_color = Vec3f(0.42f, 0.38f, 0.32f);  ///< Linear RGB.
-  double ground_m = 0;  ///< Height of the ground plane.
+  double ground_m = 0;                              ///< Height of the ground plane.
 };
 
 /// A body at one instant. `key` is unique for a run and never reused.

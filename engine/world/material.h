@@ -27,6 +27,9 @@ struct PatternSpec {
   int rings = 6;        ///< Web.
   int spokes = 12;      ///< Web.
   double jitter = 0.3;  ///< Web: 0 = regular.
+
+  /// How many cells a pattern of this kind has, about: the unit that fracture budgets count.
+  int cell_count() const { return kind == Kind::kWeb ? rings * spokes : cells; }
 };
 
 struct MaterialTag;

@@ -49,7 +49,7 @@ struct Accuracy {
 
 struct Limits {
   std::uint32_t bodies = 20000;
-  std::uint32_t pieces_a_frame = 400;  ///< Breaks beyond it wait for the next frame.
+  std::uint32_t cells_a_frame = 2000;  ///< Pattern cells to cut by; breaks beyond it wait a frame.
 };
 
 struct Scene {

@@ -12,6 +12,8 @@
 
 namespace sunder {
 
+struct World;
+
 /// A FrameSource that simulates: frame 0 is the scene as given, then one frame every 1/60 s until
 /// the scene's duration has passed.
 class Simulation final : public FrameSource {
@@ -24,7 +26,6 @@ class Simulation final : public FrameSource {
   void advance();
 
  private:
-  struct World;
   std::unique_ptr<World> world_;
 };
 

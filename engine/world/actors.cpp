@@ -1,0 +1,145 @@
+// Actors come and go: bodies for the physics, meshes for the eye.
+#include "engine/world/actors.h"
+
+#include <algorithm>
+#include <numbers>
+#include <unordered_map>
+
+#include "engine/base/check.h"
+#include "engine/world/piece_mesh.h"
+
+namespace sunder {
+namespace {
+
+std::vector<ShapeDesc> hull_shapes(const World& world, const Compound& compound) {
+  std::vector<ShapeDesc> shapes(compound.convexes.size());
+  for (std::size_t c = 0; c < shapes.size(); ++c) {
+    const Material& material = world.material(compound.convexes[c]->material);
+    shapes[c].hull = &compound.convexes[c]->polyhedron;
+    shapes[c].friction = material.friction;
+    shapes[c].restitution = material.restitution;
+    shapes[c].tag = static_cast<std::uint32_t>(c);
+  }
+  return shapes;
+}
+
+bool is_breakable(const World& world, const Actor& actor) {
+  return std::any_of(actor.compound.convexes.begin(), actor.compound.convexes.end(),
+                     [&](const ConvexPtr& c) { return world.material(c->material).breakable(); });
+}
+
+}  // namespace
+
+Actor* World::find(std::uint32_t key) {
+  const auto it =
+      std::lower_bound(actors.begin(), actors.end(), key,
+                       [](const Actor& actor, std::uint32_t k) { return actor.key < k; });
+  return it != actors.end() && it->key == key ? &*it : nullptr;
+}
+
+MeshIndex World::add_mesh(std::shared_ptr<const Mesh> mesh) {
+  if (meshes_published) {
+    meshes = std::make_shared<MeshStore>(*meshes);
+    meshes_published = false;
+  }
+  meshes->push_back(std::move(mesh));
+  return MeshIndex(meshes->size() - 1);
+}
+
+Actor make_actor(World& world, Compound compound) {
+  Actor actor;
+  actor.key = world.next_key++;
+  actor.is_static = compound.is_anchored();
+  actor.weight = weigh(compound, *world.materials);
+  actor.volume_m3 = volume(compound);
+  actor.born_step = world.step;
+  actor.compound = std::move(compound);
+  actor.hidden = hidden_faces(actor.compound);
+  return actor;
+}
+
+BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) {
+  BodyDesc body;
+  body.com_R = actor.weight.com_R;
+  body.X_WB = {motion.X_WR * actor.weight.com_R, motion.X_WR.rotation};
+  body.is_static = actor.is_static;
+  body.mass_kg = actor.weight.mass_kg;
+  body.inertia_B = actor.weight.inertia_R;
+  if (!actor.is_static) {
+    body.angular_velocity_W = motion.angular_velocity_W;
+    body.velocity_W =
+        motion.velocity_W + motion.angular_velocity_W.cross(body.X_WB.position - motion.point_W);
+  }
+  body.shapes = hull_shapes(world, actor.compound);
+  body.tag = actor.key;
+  body.breakable = is_breakable(world, actor);
+  return body;
+}
+
+void add_meshes(World& world, std::span<Actor> actors, const Actor* parent) {
+  std::unordered_map<const Convex*, std::size_t> parent_convex;
+  if (parent) {
+    for (std::size_t c = 0; c < parent->compound.convexes.size(); ++c) {
+      parent_convex.emplace(parent->compound.convexes[c].get(), c);
+    }
+  }
+  for (Actor& actor : actors) {
+    const auto& convexes = actor.compound.convexes;
+    actor.meshes.resize(convexes.size());
+    for (std::size_t c = 0; c < convexes.size(); ++c) {
+      const auto old = parent_convex.find(convexes[c].get());
+      if (old != parent_convex.end() && parent->hidden[old->second] == actor.hidden[c]) {
+        actor.meshes[c] = parent->meshes[old->second];
+      } else if (auto mesh = make_mesh(*convexes[c], actor.hidden[c])) {
+        actor.meshes[c] = world.add_mesh(std::move(mesh));
+      }
+    }
+  }
+}
+
+void add_compounds(World& world, std::span<const Solid> solids) {
+  std::vector<Actor> actors;
+  std::vector<BodyDesc> bodies;
+  for (const Solid& solid : solids) {
+    actors.push_back(make_actor(world, solid.compound));
+    const Actor& actor = actors.back();
+    const Vec3 com_W = solid.X_WR * actor.weight.com_R;
+    bodies.push_back(
+        describe(world, actor, {solid.X_WR, com_W, solid.velocity_W, solid.angular_velocity_W}));
+  }
+  add_meshes(world, actors, nullptr);
+  const std::vector<BodyId> ids = world.physics->replace({}, bodies);
+  for (std::size_t i = 0; i < actors.size(); ++i) {
+    actors[i].body = ids[i];
+    world.actors.push_back(std::move(actors[i]));
+  }
+}
+
+void add_ball(World& world, const Ball& ball) {
+  const Material& material = world.material(ball.material);
+  const double radius = ball.radius_m;
+  Actor actor;
+  actor.key = world.next_key++;
+  actor.volume_m3 = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  actor.weight.mass_kg = material.density_kg_m3 * actor.volume_m3;
+  actor.weight.inertia_R = 0.4 * actor.weight.mass_kg * radius * radius * Mat3::Identity();
+  actor.born_step = world.step;
+  actor.meshes = {world.add_mesh(make_ball_mesh(radius, ball.material))};
+
+  BodyDesc body;
+  body.X_WB.position = ball.center_W;
+  body.velocity_W = ball.velocity_W;
+  body.mass_kg = actor.weight.mass_kg;
+  body.inertia_B = actor.weight.inertia_R;
+  ShapeDesc shape;
+  shape.kind = ShapeDesc::Kind::kSphere;
+  shape.radius_m = radius;
+  shape.friction = material.friction;
+  shape.restitution = material.restitution;
+  body.shapes = {shape};
+  body.tag = actor.key;
+  actor.body = world.physics->replace({}, std::span(&body, 1))[0];
+  world.actors.push_back(std::move(actor));
+}
+
+}  // namespace sunder

@@ -1,0 +1,113 @@
+#include "engine/world/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/trace.h"
+#include "engine/world/actors.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60;
+
+/// Adds what the script brings in at this time.
+void act(World& world) {
+  const double until_s = world.time_s() + 0.5 * world.scene.accuracy.dt_s;
+  for (; world.next_shot < world.scene.shots.size() &&
+         world.scene.shots[world.next_shot].time_s <= until_s;
+       ++world.next_shot) {
+    add_ball(world, world.scene.shots[world.next_shot].ball);
+  }
+}
+
+void collide(World& world) { world.physics->collide(world.scene.accuracy.dt_s); }
+
+Vec3 momentum(const World& world) {
+  Vec3 sum = Vec3::Zero();
+  for (const Actor& actor : world.actors) {
+    if (!actor.is_static) sum += actor.weight.mass_kg * world.physics->state(actor.body).velocity_W;
+  }
+  return sum;
+}
+
+/// Moves everything; what the momentum did not come from gravity or static bodies is an error.
+void solve(World& world) {
+  const Vec3 before = momentum(world);
+  const SolveReport report =
+      world.physics->solve(world.scene.accuracy.dt_s, world.scene.accuracy.substeps);
+  const Vec3 after = momentum(world);
+  world.momentum_error_Ns += (after - before - report.external_impulse_Ns).norm();
+  world.momentum_moved_Ns += before.norm() + report.external_impulse_Ns.norm();
+  world.report.counts.contacts = report.contacts;
+  world.report.frozen += report.frozen;
+}
+
+void add_ground(World& world) {
+  ShapeDesc plane;
+  plane.kind = ShapeDesc::Kind::kHalfSpace;
+  plane.friction = world.scene.ground.friction;
+  plane.restitution = world.scene.ground.restitution;
+  BodyDesc body;
+  body.X_WB.position = Vec3(0, world.scene.ground.height_m, 0);
+  body.is_static = true;
+  body.shapes = {plane};
+  body.tag = kGroundKey;
+  world.physics->replace({}, std::span(&body, 1));
+}
+
+int steps_per_frame(double dt_s) {
+  return std::max(1, static_cast<int>(std::lround(kFrame_s / dt_s)));
+}
+
+}  // namespace
+
+Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
+                       std::unique_ptr<Breaker> breaker)
+    : world_(std::make_unique<World>()) {
+  World& world = *world_;
+  world.scene = std::move(scene);
+  world.physics = std::move(physics);
+  world.breaker = std::move(breaker);
+  world.materials = std::make_shared<const std::vector<Material>>(world.scene.materials);
+  add_ground(world);
+  add_compounds(world, world.scene.solids);
+  for (const Ball& ball : world.scene.balls) add_ball(world, ball);
+}
+
+Simulation::~Simulation() = default;
+
+FramePtr Simulation::next() {
+  World& world = *world_;
+  const int steps = steps_per_frame(world.scene.accuracy.dt_s);
+  if (world.started) {
+    const double frame_s = steps * world.scene.accuracy.dt_s;
+    if (static_cast<double>(world.frame + 1) * frame_s > world.scene.duration_s + 0.5 * frame_s) {
+      return nullptr;
+    }
+    ++world.frame;
+    world.pieces_left = world.scene.limits.cells_a_frame;
+    for (int i = 0; i < steps; ++i) advance();
+  }
+  world.started = true;
+  const Stopwatch watch;
+  auto frame = snapshot(world);
+  frame->report.stage_ms[static_cast<int>(Stage::kSnapshot)] = watch.ms();
+  return frame;
+}
+
+void Simulation::advance() {
+  World& world = *world_;
+  const auto stage = [&](Stage name, void (*work)(World&)) {
+    const Stopwatch watch;
+    work(world);
+    world.report.stage_ms[static_cast<int>(name)] += watch.ms();
+  };
+  stage(Stage::kAct, act);
+  stage(Stage::kCollide, collide);
+  stage(Stage::kBreak, break_stage);
+  stage(Stage::kSolve, solve);
+  ++world.step;
+}
+
+}  // namespace sunder

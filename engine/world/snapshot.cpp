@@ -1,0 +1,60 @@
+// Stage `snapshot`: the frame as it stands, for the sinks.
+#include <algorithm>
+
+#include "engine/world/world.h"
+
+namespace sunder {
+namespace {
+
+void add_body(const World& world, const Actor& actor, Frame& frame) {
+  const BodyState state = world.physics->state(actor.body);
+  const auto body = static_cast<std::uint32_t>(frame.bodies.size());
+  frame.bodies.push_back({actor.key, state.X_WB, actor.weight.com_R, state.velocity_W,
+                          state.angular_velocity_W, actor.is_static, state.asleep});
+  for (const MeshIndex mesh : actor.meshes) {
+    if (!mesh.none()) frame.instances.push_back({mesh, body});
+  }
+}
+
+void count(const World& world, const Actor& actor, const FrameBody& body, FrameReport& report) {
+  report.mass_kg += actor.weight.mass_kg;
+  report.counts.convexes += static_cast<std::uint32_t>(actor.compound.convexes.size());
+  if (!actor.compound.convexes.empty()) ++report.counts.compounds;
+  if (body.is_static) return;
+  ++report.counts.bodies;
+  if (!body.asleep) ++report.counts.awake;
+  const Vec3 spin_B = body.X_WB.rotation.conjugate() * body.angular_velocity_W;
+  report.kinetic_J += 0.5 * actor.weight.mass_kg * body.velocity_W.squaredNorm() +
+                      0.5 * spin_B.dot(actor.weight.inertia_R * spin_B);
+  report.potential_J -= actor.weight.mass_kg * world.scene.gravity_W.dot(body.X_WB.position);
+}
+
+}  // namespace
+
+std::shared_ptr<Frame> snapshot(World& world) {
+  auto frame = std::make_shared<Frame>();
+  frame->index = world.frame;
+  frame->time_s = world.time_s();
+  frame->view = world.scene.view;
+  frame->view.ground_m = world.scene.ground.height_m;
+  frame->materials = world.materials;
+  frame->meshes = world.meshes;
+  world.meshes_published = true;
+  frame->bodies.reserve(world.actors.size());
+  frame->report = std::exchange(world.report, {});
+  FrameReport& report = frame->report;
+  for (const Actor& actor : world.actors) {
+    add_body(world, actor, *frame);
+    count(world, actor, frame->bodies.back(), report);
+  }
+  report.mass_kg += world.debris_mass_kg;
+  report.penetrations_m = world.physics->penetrations();
+  report.carried_over = static_cast<std::uint32_t>(world.waiting.size());
+  report.momentum_residual =
+      world.momentum_moved_Ns > 0 ? world.momentum_error_Ns / world.momentum_moved_Ns : 0;
+  world.momentum_error_Ns = world.momentum_moved_Ns = 0;
+  frame->breaks = std::exchange(world.breaks, {});
+  return frame;
+}
+
+}  // namespace sunder

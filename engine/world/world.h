@@ -1,0 +1,83 @@
+// The state behind a simulation: actors, books, and the stages that work on them. Internal to
+// engine/world; users see Simulation and Frame.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "engine/world/breaker.h"
+#include "engine/world/frame.h"
+#include "engine/world/physics.h"
+#include "engine/world/scene.h"
+
+namespace sunder {
+
+/// A solid in the world: a body, what it is made of, and what is drawn of it.
+struct Actor {
+  std::uint32_t key = 0;  ///< Unique in a run, ascending with age; the tag of its body.
+  BodyId body;
+  bool is_static = false;
+  Compound compound;  ///< Without convexes for a ball.
+  Weight weight;
+  double volume_m3 = 0;
+  std::uint64_t born_step = 0;
+  /// Least energy that its last fruitless plan asked for; weaker blows need not be planned.
+  double needs_J = 0;
+  std::vector<MeshIndex> meshes;                  ///< Per convex; none() where nothing shows.
+  std::vector<std::vector<std::uint8_t>> hidden;  ///< Per convex, a flag for each face.
+};
+
+/// The body tag of the ground, which is no actor.
+inline constexpr std::uint32_t kGroundKey = 0xffffffff;
+
+/// A blow that may break an actor, as decided from the approaches of a body pair.
+struct Blow {
+  std::uint32_t key = 0;        ///< The actor that may break.
+  std::uint32_t other_key = 0;  ///< What hits it.
+  std::uint32_t convex = 0;     ///< The convex that is hit.
+  Vec3 point_W = Vec3::Zero();
+  Vec3 direction_W = Vec3::UnitY();  ///< Unit, into the actor.
+  double speed_m_s = 0;              ///< Approach speed along the direction.
+  double effective_mass_kg = 0;
+  double energy_J = 0;  ///< ½ · effective mass · speed².
+  bool waited = false;  ///< Put off from an earlier frame for want of budget.
+};
+
+struct World {
+  Scene scene;
+  std::unique_ptr<Physics> physics;
+  std::unique_ptr<Breaker> breaker;
+  std::shared_ptr<const std::vector<Material>> materials;
+
+  std::vector<Actor> actors;  ///< Ascending by key.
+  std::shared_ptr<MeshStore> meshes = std::make_shared<MeshStore>();
+  bool meshes_published = false;  ///< A frame holds `meshes`: copy before the next change.
+  std::uint32_t next_key = 0;
+  std::uint64_t next_event = 1;
+  std::uint64_t step = 0;
+  std::uint64_t frame = 0;
+  bool started = false;  ///< Frame 0 has been given out.
+  std::size_t next_shot = 0;
+  std::vector<Blow> waiting;      ///< Over the frame's budget: decided first in the next frame.
+  std::uint32_t pieces_left = 0;  ///< Of the frame's budget, in cells of patterns to cut by.
+  double debris_mass_kg = 0;
+
+  FrameReport report;  ///< Of the frame under way.
+  std::vector<BreakEvent> breaks;
+  double momentum_error_Ns = 0, momentum_moved_Ns = 0;
+
+  double time_s() const { return static_cast<double>(step) * scene.accuracy.dt_s; }
+  const Material& material(MaterialIndex index) const { return (*materials)[index.value]; }
+  /// Null if the actor is gone.
+  Actor* find(std::uint32_t key);
+  MeshIndex add_mesh(std::shared_ptr<const Mesh> mesh);
+};
+
+/// Stage `break`: approaches become breaks, before the solve.
+void break_stage(World& world);
+
+/// The frame as it stands.
+std::shared_ptr<Frame> snapshot(World& world);
+
+}  // namespace sunder
