@@ -1,10 +1,12 @@
-# How every target of the project is compiled.
+# How every target of the project is compiled and installed.
+
+include(GNUInstallDirs)
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
-if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
 find_program(SUNDER_CCACHE ccache)
@@ -12,26 +14,50 @@ if(SUNDER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${SUNDER_CCACHE})
 endif()
 
+# An older processor stops with "illegal instruction" on what x86-64-v3 is compiled to.
+message(STATUS "Instruction set SUNDER_ARCH: ${SUNDER_ARCH}")
+if(SUNDER_ARCH STREQUAL "x86-64-v3" AND EXISTS /proc/cpuinfo)
+  file(STRINGS /proc/cpuinfo cpu_flags REGEX "^flags.* avx2 .*" LIMIT_COUNT 1)
+  if(NOT cpu_flags)
+    message(WARNING "This processor cannot run ${SUNDER_ARCH} code. To run Sunder on it, "
+      "configure with -DSUNDER_ARCH=x86-64-v2: slower, with the same results.")
+  endif()
+endif()
+
 # Same bits everywhere: no contraction, no fast math, and no explicit FMA from Eigen's own kernels
-# (docs/decisions/001-same-bits.md).
+# (docs/decisions/001-same-bits.md). Users of the library get these too: it has inline functions.
 add_library(sunder_options INTERFACE)
 target_compile_features(sunder_options INTERFACE cxx_std_20)
 target_compile_definitions(sunder_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY)
-target_compile_options(sunder_options INTERFACE
-  $<BUILD_INTERFACE:-ffp-contract=off -march=${SUNDER_ARCH}>)
+target_compile_options(sunder_options INTERFACE -ffp-contract=off)
+if(SUNDER_ARCH)
+  target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-march=${SUNDER_ARCH}>)
+endif()
 if(SUNDER_STRICT)
   target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic
     -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual
     -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough -Werror>)
 endif()
+if(SUNDER_SANITIZE)
+  target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-fsanitize=${SUNDER_SANITIZE}
+    -fno-sanitize-recover=all -fno-omit-frame-pointer>)
+  target_link_options(sunder_options INTERFACE $<BUILD_INTERFACE:-fsanitize=${SUNDER_SANITIZE}>)
+endif()
+install(TARGETS sunder_options EXPORT sunderTargets)
+set_target_properties(sunder_options PROPERTIES EXPORT_NAME options)
 
 # One library a room: sunder_room(name SOURCES ... [LINK ...] [PRIVATE_LINK ...])
 function(sunder_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(sunder_${name} STATIC ${ROOM_SOURCES})
   add_library(sunder::${name} ALIAS sunder_${name})
-  target_include_directories(sunder_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_include_directories(sunder_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sunder>)
   target_link_libraries(sunder_${name} PUBLIC sunder_options Eigen3::Eigen ${ROOM_LINK}
     PRIVATE ${ROOM_PRIVATE_LINK})
   set_target_properties(sunder_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
+  install(TARGETS sunder_${name} EXPORT sunderTargets)
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sunder
+    FILES_MATCHING PATTERN "*.h" PATTERN app EXCLUDE)
 endfunction()

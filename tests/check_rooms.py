@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""Fails where a source breaks the plan of the house (docs/architecture.md, "Rooms").
+
+Usage: check_rooms.py [ROOT]. Read first: the tables, then check_tree().
+"""
+import re
+import sys
+from pathlib import Path
+
+ROOMS = ("engine", "fracture", "solver", "render", "scenes", "bench", "tests")
+FLOORS = ("base", "geometry", "world", "io")
+LONGEST = 400
+
+# Room -> the rooms its sources may include. Of scenes, only the library: nothing includes the
+# program, which includes every room.
+MAY_INCLUDE = {
+    "engine": {"engine"},
+    "fracture": {"engine", "fracture"},
+    "solver": {"engine", "solver"},
+    "render": {"engine", "render"},
+    "scenes": {"engine", "fracture", "solver", "render", "scenes"},
+    "scenes/app": {"engine", "fracture", "solver", "render", "scenes", "bench"},
+    "bench": {"engine", "fracture", "solver", "render", "scenes", "bench"},
+    "tests": set(ROOMS),
+}
+
+# Third-party header -> the places it lives in. Tests and benchmarks get no exception: they see a
+# library through its room.
+THIRD_PARTY = [
+    (r"Eigen/.*", ROOMS),
+    (r"omp\.h", ("engine/base/parallel", "solver/")),
+    (r"(nlohmann/.*|zstd.*\.h|xxhash\.h)", ("engine/io/",)),
+    (r"box2d/.*", ("solver/planar/",)),
+    (r"(EGL|GL|GLES\d|KHR|stb)/.*", ("render/",)),
+    (r"toml\+\+/.*", ("scenes/",)),
+    (r"CLI/.*", ("scenes/app/",)),
+    (r"benchmark/.*", ("bench/",)),
+    (r"(bullet/.*|bt[A-Z]\w*\.h|ode/.*)", ("bench/",)),
+    (r"(gtest|gmock|rapidcheck)(/.*|\.h)", ("tests/",)),
+]
+SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|signal|spawn|unistd|poll|errno|"
+                    r"(imm|x86|arm_neo)intrin|cpuid)\.h")
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+PRAGMA_OMP = re.compile(r"^\s*#\s*pragma\s+omp\b", re.MULTILINE)
+
+
+def sources(root):
+    """Paths of the rooms' C++ files, relative to the root, in order."""
+    found = [path for room in ROOMS for path in (root / room).rglob("*")]
+    return sorted(path.relative_to(root) for path in found if path.suffix in (".h", ".cpp"))
+
+
+def owner(path):
+    """The row of MAY_INCLUDE that a path belongs to."""
+    return "scenes/app" if path.parts[:2] == ("scenes", "app") else path.parts[0]
+
+
+def check_own_include(root, path, target):
+    """An include in quotes: spelled from the root, and towards a lower room or floor."""
+    if not (root / target).is_file() and not (root / (target + ".in")).is_file():
+        return f'"{target}" is not a path from the root of the project'
+    target = Path(target)
+    if owner(target) == "scenes/app" and owner(path) != "scenes/app":
+        return f'"{target}": nothing includes the program'
+    if target.parts[0] not in MAY_INCLUDE[owner(path)]:
+        return f'{path.parts[0]} may not include {target.parts[0]}: "{target}"'
+    if path.parts[0] == "engine":
+        mine, other = path.parts[1], target.parts[1]
+        if FLOORS.index(other) > FLOORS.index(mine):
+            return f'engine/{mine} may not include the higher floor {other}: "{target}"'
+    return None
+
+
+def check_foreign_include(path, header):
+    """An include in angle brackets: the standard library, or a third party in its room."""
+    for pattern, places in THIRD_PARTY:
+        if re.fullmatch(pattern, header):
+            if str(path).startswith(tuple(places)):
+                return None
+            return f"<{header}> lives only in {', '.join(places)}"
+    if SYSTEM.fullmatch(header):
+        return None
+    return f"<{header}> belongs to no room: use the C++ header, or name its room in check_rooms.py"
+
+
+def check_source(root, path):
+    """The messages about one source file."""
+    text = (root / path).read_text(encoding="utf-8")
+    found = []
+    for bracket, target in INCLUDE.findall(text):
+        found.append(check_foreign_include(path, target) if bracket == "<"
+                     else check_own_include(root, path, target))
+    if PRAGMA_OMP.search(text) and not str(path).startswith(("engine/base/parallel", "solver/")):
+        found.append("OpenMP pragmas live only in engine/base/parallel and the solver")
+    lines = text.splitlines() or [""]
+    if len(lines) > LONGEST and not re.match(r"//.*\blong\b.*\bbecause\b", lines[0], re.IGNORECASE):
+        found.append(f"{len(lines)} lines: split it, or say in the first line that it is long "
+                     "because ...")
+    if path.suffix == ".h":
+        if not lines[0].startswith("//"):
+            found.append("a header opens with a comment that says what it is for")
+        if "#pragma once" not in text:
+            found.append("no #pragma once")
+    return [message for message in found if message]
+
+
+def listed(root):
+    """The .cpp paths named in the rooms' CMakeLists.txt, relative to the root."""
+    names = set()
+    for room in ROOMS:
+        for cmake in (root / room).rglob("CMakeLists.txt"):
+            text = re.sub(r"#.*", "", cmake.read_text(encoding="utf-8"))
+            names |= {(cmake.parent / name).resolve().relative_to(root)
+                      for name in re.findall(r"[\w./+-]+\.cpp\b", text)}
+    return names
+
+
+def check_tree(root):
+    """Every message about the tree at `root`, as "path: message"."""
+    root = Path(root).resolve()
+    strays = [path for path in root.glob("*") if path.suffix in (".h", ".cpp")]
+    messages = [f"{path.name}: no source lives outside a room" for path in strays]
+    in_cmake = listed(root)
+    for path in sources(root):
+        messages += [f"{path}: {message}" for message in check_source(root, path)]
+        if path.suffix == ".cpp" and path not in in_cmake:
+            messages.append(f"{path}: listed in no CMakeLists.txt")
+    return messages
+
+
+def main():
+    root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent.parent
+    messages = check_tree(root)
+    print("\n".join(messages) or f"{len(sources(root.resolve()))} files are where they belong")
+    return 1 if messages else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

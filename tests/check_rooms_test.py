@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Builds small trees with one violation each; check_rooms.py must find exactly that one."""
+import tempfile
+import unittest
+from pathlib import Path
+
+import check_rooms
+
+HEADER = "// What it is for.\n#pragma once\n"
+
+# A house where everything is as it should be.
+GOOD = {
+    "engine/CMakeLists.txt": "sunder_room(engine SOURCES base/a.cpp io/file.cpp)",
+    "engine/base/a.h": HEADER + "#include <vector>\n#include <Eigen/Core>\n",
+    "engine/base/a.cpp": '#include "engine/base/a.h"\n',
+    "engine/base/parallel.h": HEADER + "#include <omp.h>\n#pragma omp parallel\n",
+    "engine/geometry/g.h": HEADER + '#include "engine/base/a.h"\n',
+    "engine/world/w.h": HEADER + '#include "engine/geometry/g.h"\n',
+    "engine/io/file.cpp": '#include <zstd.h>\n#include "engine/world/w.h"\n',
+    "fracture/f.h": HEADER + '#include "engine/world/w.h"\n',
+    "solver/rigid/r.h": HEADER + '#include "engine/world/w.h"\n',
+    "render/r.h": HEADER + '#include <GL/glcorearb.h>\n#include "engine/world/w.h"\n',
+    "scenes/s.h": HEADER + '#include <toml++/toml.h>\n#include "fracture/f.h"\n',
+    "scenes/app/app.h": HEADER + '#include "bench/b.h"\n#include "scenes/s.h"\n',
+    "bench/b.h": HEADER + '#include <benchmark/benchmark.h>\n#include "solver/rigid/r.h"\n',
+    "tests/t.h": HEADER + '#include <gtest/gtest.h>\n#include "bench/b.h"\n',
+}
+
+# What is put into the good house, and what must be said about it.
+BAD = {
+    "a floor includes a higher one":
+        ("engine/base/b.h", HEADER + '#include "engine/world/w.h"\n', "higher floor world"),
+    "the engine includes fracture":
+        ("engine/world/b.h", HEADER + '#include "fracture/f.h"\n', "engine may not include"),
+    "fracture includes the solver":
+        ("fracture/b.h", HEADER + '#include "solver/rigid/r.h"\n', "fracture may not include"),
+    "the solver includes rendering":
+        ("solver/b.h", HEADER + '#include "render/r.h"\n', "solver may not include render"),
+    "rendering includes scenes":
+        ("render/b.h", HEADER + '#include "scenes/s.h"\n', "render may not include scenes"),
+    "scenes include a benchmark":
+        ("scenes/b.h", HEADER + '#include "bench/b.h"\n', "scenes may not include bench"),
+    "a benchmark includes a test":
+        ("bench/c.h", HEADER + '#include "tests/t.h"\n', "bench may not include tests"),
+    "a test includes the program":
+        ("tests/b.h", HEADER + '#include "scenes/app/app.h"\n', "nothing includes the program"),
+    "an include is not spelled from the root":
+        ("fracture/b.h", HEADER + '#include "f.h"\n', "not a path from the root"),
+    "OpenMP outside its place":
+        ("engine/world/b.h", HEADER + "#include <omp.h>\n", "<omp.h> lives only in"),
+    "an OpenMP pragma outside its place":
+        ("fracture/b.h", HEADER + "#pragma omp parallel for\n", "OpenMP pragmas"),
+    "zstd outside engine/io":
+        ("render/b.h", HEADER + "#include <zstd.h>\n", "<zstd.h> lives only in engine/io"),
+    "JSON in scenes":
+        ("scenes/b.h", HEADER + "#include <nlohmann/json.hpp>\n", "lives only in engine/io"),
+    "TOML in the engine":
+        ("engine/io/b.h", HEADER + "#include <toml++/toml.h>\n", "lives only in scenes"),
+    "the command line outside the program":
+        ("scenes/b.h", HEADER + "#include <CLI/CLI.hpp>\n", "lives only in scenes/app"),
+    "GL outside render":
+        ("bench/c.h", HEADER + "#include <EGL/egl.h>\n", "lives only in render"),
+    "a library nobody named":
+        ("fracture/b.h", HEADER + "#include <boost/graph.hpp>\n", "belongs to no room"),
+    "a long file without a reason":
+        ("fracture/b.h", HEADER + "\n" * 399, "401 lines"),
+    "a source that CMake does not know":
+        ("engine/base/b.cpp", "int b;\n", "listed in no CMakeLists.txt"),
+    "a source outside the rooms":
+        ("main.cpp", "int main() {}\n", "outside a room"),
+    "a header without a guard":
+        ("fracture/b.h", "// What it is for.\n", "no #pragma once"),
+    "a header that does not say what it is for":
+        ("fracture/b.h", "#pragma once\n", "opens with a comment"),
+}
+
+
+def messages_of(files):
+    """What check_rooms says about a tree of these files."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in files.items():
+            path = Path(folder) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        return check_rooms.check_tree(folder)
+
+
+class CheckRooms(unittest.TestCase):
+    def test_a_good_house_passes(self):
+        self.assertEqual(messages_of(GOOD), [])
+
+    def test_every_violation_is_found_alone(self):
+        for what, (path, text, expected) in BAD.items():
+            with self.subTest(what):
+                messages = messages_of(GOOD | {path: text})
+                self.assertEqual(len(messages), 1, messages)
+                self.assertIn(path, messages[0])
+                self.assertIn(expected, messages[0])
+
+    def test_a_long_file_with_a_reason_passes(self):
+        text = "// Long because one table is read as a whole.\n#pragma once\n" + "\n" * 500
+        self.assertEqual(messages_of(GOOD | {"fracture/b.h": text}), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,186 @@
+// What the lowest floor promises: indices, random numbers, trigonometry, parallel loops.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "engine/base/hash.h"
+#include "engine/base/index.h"
+#include "engine/base/parallel.h"
+#include "engine/base/random.h"
+#include "engine/base/trigonometry.h"
+#include "engine/base/types.h"
+
+namespace sunder {
+namespace {
+
+struct AppleTag;
+struct PearTag;
+using Apple = Index<AppleTag>;
+
+TEST(Index, NamesNothingUntilItIsGivenAValue) {
+  EXPECT_TRUE(Apple().none());
+  EXPECT_FALSE(Apple(0).none());
+  EXPECT_EQ(Apple(7).value, 7u);
+}
+
+TEST(Index, OfOneArrayCannotBeUsedInAnother) {
+  static_assert(!std::is_convertible_v<Apple, Index<PearTag>>);
+  static_assert(!std::is_convertible_v<std::size_t, Apple>);
+}
+
+TEST(Index, IsOrderedByItsValue) {
+  EXPECT_LT(Apple(1), Apple(2));
+  EXPECT_EQ(Apple(2), Apple(2));
+}
+
+TEST(Id, OfAnEarlierGenerationIsUnequal) {
+  const Id<AppleTag> old{3, 0}, now{3, 1};
+  EXPECT_NE(old, now);
+  EXPECT_TRUE(Id<AppleTag>().none());
+  EXPECT_FALSE(old.none());
+}
+
+TEST(CheckDeathTest, AFailedCheckNamesItsConditionAndFile) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  SUNDER_CHECK(1 + 1 == 2);
+  EXPECT_DEATH(SUNDER_CHECK(1 + 1 == 3), "base_test.cpp:[0-9]+: check failed: 1 \\+ 1 == 3");
+}
+
+TEST(Hash, CombineDependsOnOrder) { EXPECT_NE(combine(1, 2), combine(2, 1)); }
+
+TEST(Hash, MixHasNoCollisionAmongNeighbours) {
+  std::set<std::uint64_t> seen;
+  for (std::uint64_t i = 0; i < 100000; ++i) seen.insert(mix(i));
+  EXPECT_EQ(seen.size(), 100000u);
+}
+
+TEST(Random, ADrawDependsOnlyOnSeedStreamAndCounter) {
+  Random first(42, 7), second(42, 7);
+  for (int i = 0; i < 100; ++i) {
+    const std::uint64_t alone = first.bits();
+    Random(1, 2).bits();  // a draw elsewhere changes nothing
+    EXPECT_EQ(second.bits(), alone);
+  }
+}
+
+TEST(Random, SeedsAndStreamsGiveDifferentNumbers) {
+  std::set<std::uint64_t> seen;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    for (std::uint64_t stream = 0; stream < 30; ++stream) {
+      Random random(seed, stream);
+      for (int i = 0; i < 10; ++i) seen.insert(random.bits());
+    }
+  }
+  EXPECT_EQ(seen.size(), 30u * 30 * 10);
+}
+
+TEST(Random, UniformFillsTheUnitIntervalEvenly) {
+  Random random(1);
+  std::array<int, 10> buckets{};
+  for (int i = 0; i < 100000; ++i) {
+    const double x = random.uniform();
+    ASSERT_GE(x, 0);
+    ASSERT_LT(x, 1);
+    ++buckets[static_cast<std::size_t>(x * 10)];
+  }
+  for (const int count : buckets) EXPECT_NEAR(count, 10000, 400);  // 4 sigma
+}
+
+TEST(Random, BelowReachesEveryNumberBelowAndNoOther) {
+  Random random(3);
+  std::set<std::uint32_t> seen;
+  for (int i = 0; i < 1000; ++i) seen.insert(random.below(7));
+  EXPECT_EQ(seen, (std::set<std::uint32_t>{0, 1, 2, 3, 4, 5, 6}));
+}
+
+TEST(Random, DirectionsAreUnitVectorsWithoutPreference) {
+  Random random(5);
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 direction = random.direction();
+    ASSERT_NEAR(direction.norm(), 1, 1e-15);
+    sum += direction;
+  }
+  EXPECT_LT(sum.norm(), 300);  // 3 sigma: sqrt(10000) each way
+}
+
+TEST(SinCos, AgreesWithTheCLibraryTo1e15) {
+  Random random(9);
+  for (const double range : {0.8, 7.0, 1000.0, 1e6}) {
+    for (int i = 0; i < 100000; ++i) {
+      const double angle = random.uniform(-range, range);
+      const SinCos ours = sin_cos(angle);
+      ASSERT_NEAR(ours.sin, static_cast<double>(std::sin(static_cast<long double>(angle))), 1e-15);
+      ASSERT_NEAR(ours.cos, static_cast<double>(std::cos(static_cast<long double>(angle))), 1e-15);
+    }
+  }
+}
+
+TEST(SinCos, OfZeroIsExact) {
+  EXPECT_EQ(sin_cos(0).sin, 0);
+  EXPECT_EQ(sin_cos(0).cos, 1);
+}
+
+TEST(Pose, TimesItsInverseIsTheIdentity) {
+  const Pose X_WB{Vec3(1, -2, 3), Quat(0.5, 0.5, -0.5, 0.5)};
+  const Vec3 point(0.3, 4, -5);
+  EXPECT_LT((X_WB.inverse() * (X_WB * point) - point).norm(), 1e-14);
+  EXPECT_LT(((X_WB.inverse() * X_WB) * point - point).norm(), 1e-14);
+}
+
+TEST(Box, IsEmptyUntilExtendedAndThenHoldsItsPoints) {
+  Box box;
+  EXPECT_TRUE(box.empty());
+  box.extend(Vec3(1, 2, 3));
+  box.extend(Vec3(-1, 0, 3));
+  EXPECT_FALSE(box.empty());
+  EXPECT_EQ(box.center(), Vec3(0, 1, 3));
+  EXPECT_EQ(box.extent(), Vec3(2, 2, 0));
+}
+
+/// Restores the number of threads that a test changes.
+class ForChunks : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override { set_threads(GetParam()); }
+  void TearDown() override { set_threads(0); }
+};
+
+TEST_P(ForChunks, CoversEveryElementOnceInChunksThatDoNotDependOnThreads) {
+  for (const std::size_t n : {0u, 1u, 63u, 64u, 65u, 1000u}) {
+    std::vector<int> visits(n, 0);
+    for_chunks(n, 64, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+      EXPECT_EQ(begin, chunk * 64);
+      EXPECT_EQ(end, std::min<std::size_t>(n, begin + 64));
+      for (std::size_t i = begin; i < end; ++i) ++visits[i];
+    });
+    EXPECT_EQ(visits, std::vector<int>(n, 1));
+  }
+}
+
+TEST_P(ForChunks, RethrowsWhatAChunkThrows) {
+  auto work = [](std::size_t, std::size_t, std::size_t chunk) {
+    if (chunk == 5) throw InputError("chunk five");
+  };
+  EXPECT_THROW(for_chunks(1000, 10, work), InputError);
+}
+
+TEST_P(ForChunks, MayBeNested) {
+  std::vector<int> visits(100, 0);
+  for_chunks(10, 1, [&](std::size_t outer, std::size_t, std::size_t) {
+    for_chunks(10, 1,
+               [&](std::size_t inner, std::size_t, std::size_t) { ++visits[outer * 10 + inner]; });
+  });
+  EXPECT_EQ(visits, std::vector<int>(100, 1));
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ForChunks, testing::Values(1, 2, 4));
+
+}  // namespace
+}  // namespace sunder
