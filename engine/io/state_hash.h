@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,20 +9,18 @@
 
 namespace sunder {
 
-/// Folds the bodies of every frame it takes (key, pose, velocities, sleep) into one xxhash.
+/// Hash (XXH3) of the frame's bodies: key, pose, velocities, sleep, bit for bit.
+std::uint64_t hash_state(const Frame& frame);
+
+/// Keeps the hash of every frame it takes.
 class StateHash final : public FrameSink {
  public:
-  StateHash();
-  ~StateHash() override;
   void take(const FramePtr& frame) override;
   /// 16 hexadecimal digits, over all frames so far.
   std::string hex() const;
-  /// One per frame taken, each over that frame alone.
   const std::vector<std::uint64_t>& per_frame() const { return per_frame_; }
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
   std::vector<std::uint64_t> per_frame_;
 };
 

@@ -20,15 +20,18 @@ struct RunInfo {
   std::map<std::string, std::string> modelled;  ///< feature -> "on" | "off" | "off: why"
 };
 
-/// Collects the reports of every frame but the first (which is no simulated time).
+/// The q-th quantile (0..1) by the nearest-rank rule; 0 of nothing.
+double quantile(std::vector<double> values, double q);
+
+/// Collects the reports of every frame; timings leave out the first, which is no simulated time.
 class Statistics final : public FrameSink {
  public:
   explicit Statistics(RunInfo info);
   ~Statistics() override;
   void take(const FramePtr& frame) override;
 
-  /// The `simulate`/`bench` object of docs (README, "JSON"); ends with a newline.
-  /// `state_hash` may be empty; `per_frame` adds an array with an object a frame.
+  /// The `simulate` and `bench` object (README, "JSON"), ending with a newline. An empty
+  /// `state_hash` is left out; `per_frame` adds an array with an object a frame.
   std::string json(const std::string& state_hash, bool per_frame) const;
   /// The stage timing table and the final counts, for people.
   std::string table() const;

@@ -1,0 +1,74 @@
+// Bytes in and out of files: plain values in sequence, read with every length checked.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "engine/base/check.h"
+
+namespace sunder {
+
+/// Appends values to a buffer, little-endian as in memory.
+class ByteWriter {
+ public:
+  template <class T>
+  requires std::is_trivially_copyable_v<T>
+  void put(const T& value) {
+    const std::size_t at = bytes.size();
+    bytes.resize(at + sizeof(T));
+    std::memcpy(bytes.data() + at, &value, sizeof(T));
+  }
+  void put(const std::string& text) {
+    put(static_cast<std::uint32_t>(text.size()));
+    for (const char c : text) put(c);
+  }
+  std::vector<std::byte> bytes;
+};
+
+/// Reads values back; throws InputError naming the file when there are too few bytes.
+class ByteReader {
+ public:
+  ByteReader(const std::vector<std::byte>& bytes, std::string file)
+      : bytes_(bytes), file_(std::move(file)) {}
+
+  template <class T>
+  requires std::is_trivially_copyable_v<T> T take() {
+    need(sizeof(T));
+    T value;
+    std::memcpy(&value, bytes_.data() + at_, sizeof(T));
+    at_ += sizeof(T);
+    return value;
+  }
+  std::string take_text() {
+    const auto size = take_count(1);
+    std::string text(size, ' ');
+    for (char& c : text) c = take<char>();
+    return text;
+  }
+  /// A count of items of at least `item_bytes` each; refuses one that the file cannot hold.
+  std::uint32_t take_count(std::size_t item_bytes) {
+    const auto count = take<std::uint32_t>();
+    need(std::size_t{count} * item_bytes);
+    return count;
+  }
+  bool at_end() const { return at_ == bytes_.size(); }
+
+ private:
+  void need(std::size_t size) const {
+    if (bytes_.size() - at_ < size) throw InputError(file_ + ": the file is cut short or corrupt");
+  }
+  const std::vector<std::byte>& bytes_;
+  std::string file_;
+  std::size_t at_ = 0;
+};
+
+/// The whole file; throws InputError if it cannot be read.
+std::vector<std::byte> read_file(const std::filesystem::path& path);
+/// Writes under a temporary name and renames; throws InputError if that fails.
+void write_file(const std::filesystem::path& path, const std::vector<std::byte>& bytes);
+
+}  // namespace sunder

@@ -1,0 +1,219 @@
+#include "engine/io/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <fstream>
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+namespace sunder {
+
+using Json = nlohmann::ordered_json;
+
+struct Statistics::Series {
+  RunInfo info;
+  std::vector<FrameReport> reports;  ///< Of frames 1, 2, …; without penetrations.
+  FrameReport first, last;
+  std::vector<double> fracture_ms;
+  std::uint64_t pieces = 0;
+  std::uint64_t frames = 0;
+
+  std::vector<double> stage_ms(int stage) const {
+    std::vector<double> values;
+    for (const FrameReport& report : reports) values.push_back(report.stage_ms[stage]);
+    return values;
+  }
+  std::vector<double> frame_ms() const {
+    std::vector<double> values;
+    for (const FrameReport& report : reports) {
+      values.push_back(std::accumulate(report.stage_ms, report.stage_ms + kStages, 0.0));
+    }
+    return values;
+  }
+  std::vector<double> penetrations() const {
+    return {last.penetrations_m.begin(), last.penetrations_m.end()};
+  }
+  double momentum_residual() const {
+    double worst = 0;
+    for (const FrameReport& report : reports) worst = std::max(worst, report.momentum_residual);
+    return worst;
+  }
+  std::uint32_t limits_hit() const {
+    std::uint32_t sum = 0;
+    for (const FrameReport& report : reports) sum += report.limits_hit;
+    return sum;
+  }
+  std::uint32_t carried_over() const {
+    std::uint32_t sum = 0;
+    for (const FrameReport& report : reports) sum += report.carried_over;
+    return sum;
+  }
+};
+
+namespace {
+
+constexpr std::size_t kBusiestFrames = 120;  // two seconds
+
+std::string cpu_name() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+/// p95 of the two seconds whose p95 is largest.
+double busiest_p95(const std::vector<double>& frame_ms) {
+  if (frame_ms.size() <= kBusiestFrames) return quantile(frame_ms, 0.95);
+  double worst = 0;
+  for (std::size_t i = 0; i + kBusiestFrames <= frame_ms.size(); i += kBusiestFrames / 8) {
+    const auto begin = frame_ms.begin() + static_cast<std::ptrdiff_t>(i);
+    worst = std::max(worst, quantile({begin, begin + kBusiestFrames}, 0.95));
+  }
+  return worst;
+}
+
+Json counts_json(const Counts& counts) {
+  return {{"bodies", counts.bodies},     {"awake", counts.awake},
+          {"convexes", counts.convexes}, {"compounds", counts.compounds},
+          {"contacts", counts.contacts}, {"debris", counts.debris},
+          {"dust", counts.dust}};
+}
+
+Counts peak_of(const std::vector<FrameReport>& reports) {
+  Counts peak;
+  for (const FrameReport& report : reports) {
+    const Counts& c = report.counts;
+    peak.bodies = std::max(peak.bodies, c.bodies);
+    peak.awake = std::max(peak.awake, c.awake);
+    peak.convexes = std::max(peak.convexes, c.convexes);
+    peak.compounds = std::max(peak.compounds, c.compounds);
+    peak.contacts = std::max(peak.contacts, c.contacts);
+    peak.debris = std::max(peak.debris, c.debris);
+    peak.dust = std::max(peak.dust, c.dust);
+  }
+  return peak;
+}
+
+Json frame_json(const FrameReport& report, double ms) {
+  Json stages;
+  for (int s = 0; s < kStages; ++s) stages[kStageNames[s]] = report.stage_ms[s];
+  return {{"ms", ms},
+          {"stages_ms", stages},
+          {"counts", counts_json(report.counts)},
+          {"kinetic_J", report.kinetic_J},
+          {"potential_J", report.potential_J}};
+}
+
+std::string line(const char* format, ...) {
+  char text[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+}  // namespace
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  const double rank = std::ceil(q * static_cast<double>(values.size()));
+  const auto index = static_cast<std::ptrdiff_t>(std::max(0.0, rank - 1));
+  std::nth_element(values.begin(), values.begin() + index, values.end());
+  return values[static_cast<std::size_t>(index)];
+}
+
+Statistics::Statistics(RunInfo info) : series_(std::make_unique<Series>()) {
+  series_->info = std::move(info);
+}
+
+Statistics::~Statistics() = default;
+
+void Statistics::take(const FramePtr& frame) {
+  Series& series = *series_;
+  if (series.frames++ == 0) {
+    series.first = frame->report;
+  } else {
+    series.reports.push_back(frame->report);
+    series.reports.back().penetrations_m.clear();
+  }
+  series.last = frame->report;
+  for (const BreakEvent& event : frame->breaks) {
+    series.fracture_ms.push_back(event.plan_ms);
+    series.pieces += event.pieces;
+  }
+}
+
+std::string Statistics::json(const std::string& state_hash, bool per_frame) const {
+  const Series& s = *series_;
+  const std::vector<double> frame_ms = s.frame_ms();
+  const double steps_per_frame = std::max(1.0, std::round(1 / (60 * s.info.accuracy.dt_s)));
+  Json json{{"scene", s.info.scene},        {"preset", s.info.preset},
+            {"threads", s.info.threads},    {"frames", s.reports.size()},
+            {"dt_s", s.info.accuracy.dt_s}, {"substeps", s.info.accuracy.substeps}};
+  if (!state_hash.empty()) json["state_hash"] = state_hash;
+  json["steps"] = static_cast<std::uint64_t>(steps_per_frame) * s.reports.size();
+  for (int i = 0; i < kStages; ++i) {
+    const std::vector<double> ms = s.stage_ms(i);
+    json["stages"][kStageNames[i]] = {
+        {"p50_ms", quantile(ms, 0.5)}, {"p95_ms", quantile(ms, 0.95)}, {"max_ms", quantile(ms, 1)}};
+  }
+  json["frame"] = {{"p50_ms", quantile(frame_ms, 0.5)},
+                   {"p95_ms", quantile(frame_ms, 0.95)},
+                   {"p99_ms", quantile(frame_ms, 0.99)},
+                   {"max_ms", quantile(frame_ms, 1)},
+                   {"busiest_2s_p95_ms", busiest_p95(frame_ms)}};
+  json["counts"] = counts_json(s.last.counts);
+  json["peak"] = counts_json(peak_of(s.reports));
+  json["fractures"] = {
+      {"events", s.fracture_ms.size()},         {"pieces", s.pieces},
+      {"p50_ms", quantile(s.fracture_ms, 0.5)}, {"p99_ms", quantile(s.fracture_ms, 0.99)},
+      {"max_ms", quantile(s.fracture_ms, 1)},   {"carried_over", s.carried_over()}};
+  const std::vector<double> depth = s.penetrations();
+  json["penetration_m"] = {
+      {"p50", quantile(depth, 0.5)}, {"p99", quantile(depth, 0.99)}, {"max", quantile(depth, 1)}};
+  json["energy_J"] = {{"kinetic", s.last.kinetic_J}, {"potential", s.last.potential_J}};
+  json["momentum_residual"] = s.momentum_residual();
+  json["mass_kg"] = {{"initial", s.first.mass_kg}, {"final", s.last.mass_kg}};
+  json["limits_hit"] = s.limits_hit();
+  json["modelled"] = s.info.modelled;
+  json["cpu"] = cpu_name();
+  json["sunder_version"] = SUNDER_VERSION;
+  if (per_frame) {
+    Json& list = json["per_frame"] = Json::array();
+    for (std::size_t i = 0; i < s.reports.size(); ++i) {
+      list.push_back(frame_json(s.reports[i], frame_ms[i]));
+    }
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string Statistics::table() const {
+  const Series& s = *series_;
+  std::string text = line("%-10s %9s %9s %9s\n", "stage", "p50 ms", "p95 ms", "max ms");
+  const auto row = [&](const char* name, const std::vector<double>& ms) {
+    text += line("%-10s %9.3f %9.3f %9.3f\n", name, quantile(ms, 0.5), quantile(ms, 0.95),
+                 quantile(ms, 1));
+  };
+  for (int i = 0; i < kStages; ++i) row(kStageNames[i], s.stage_ms(i));
+  const std::vector<double> frame_ms = s.frame_ms();
+  row("frame", frame_ms);
+  text += line("busiest 2 s: p95 %.3f ms\n", busiest_p95(frame_ms));
+  const Counts& c = s.last.counts;
+  text += line("bodies %u (awake %u), convexes %u, compounds %u, contacts %u\n", c.bodies, c.awake,
+               c.convexes, c.compounds, c.contacts);
+  text += line("breaks %zu into %llu pieces, slowest plan %.2f ms\n", s.fracture_ms.size(),
+               static_cast<unsigned long long>(s.pieces), quantile(s.fracture_ms, 1));
+  const std::vector<double> depth = s.penetrations();
+  text += line("penetration p50 %.2f mm, p99 %.2f mm, max %.2f mm\n", 1e3 * quantile(depth, 0.5),
+               1e3 * quantile(depth, 0.99), 1e3 * quantile(depth, 1));
+  text += line("mass %.6f kg -> %.6f kg, momentum residual %.1e, limits hit %u\n", s.first.mass_kg,
+               s.last.mass_kg, s.momentum_residual(), s.limits_hit());
+  return text;
+}
+
+}  // namespace sunder
