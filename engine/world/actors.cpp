@@ -23,6 +23,10 @@ std::vector<ShapeDesc> hull_shapes(const World& world, const Compound& compound)
   return shapes;
 }
 
+double ball_volume_m3(double radius_m) {
+  return 4.0 / 3.0 * std::numbers::pi * radius_m * radius_m * radius_m;
+}
+
 bool is_breakable(const World& world, const Actor& actor) {
   return std::any_of(actor.compound.convexes.begin(), actor.compound.convexes.end(),
                      [&](const ConvexPtr& c) { return world.material(c->material).breakable(); });
@@ -115,13 +119,17 @@ void add_compounds(World& world, std::span<const Solid> solids) {
   }
 }
 
+double ball_mass_kg(const World& world, const Ball& ball) {
+  return world.material(ball.material).density_kg_m3 * ball_volume_m3(ball.radius_m);
+}
+
 void add_ball(World& world, const Ball& ball) {
   const Material& material = world.material(ball.material);
   const double radius = ball.radius_m;
   Actor actor;
   actor.key = world.next_key++;
-  actor.volume_m3 = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-  actor.weight.mass_kg = material.density_kg_m3 * actor.volume_m3;
+  actor.volume_m3 = ball_volume_m3(radius);
+  actor.weight.mass_kg = ball_mass_kg(world, ball);
   actor.weight.inertia_R = 0.4 * actor.weight.mass_kg * radius * radius * Mat3::Identity();
   actor.born_step = world.step;
   actor.meshes = {world.add_mesh(make_ball_mesh(radius, ball.material))};

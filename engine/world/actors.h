@@ -23,6 +23,7 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion);
 void add_meshes(World& world, std::span<Actor> actors, const Actor* parent);
 
 void add_compounds(World& world, std::span<const Solid> solids);
+double ball_mass_kg(const World& world, const Ball& ball);
 void add_ball(World& world, const Ball& ball);
 
 }  // namespace sunder

@@ -71,7 +71,7 @@ struct Counts {
 struct FrameReport {
   double stage_ms[kStages] = {};  ///< Summed over the frame's steps.
   Counts counts;
-  double mass_kg = 0;  ///< Dynamic and static, debris mass included.
+  double mass_kg = 0;  ///< Everything: debris and shots yet to come included.
   double kinetic_J = 0;
   double potential_J = 0;
   /// |change of momentum − external impulses| of the frame over the momentum that changed hands.

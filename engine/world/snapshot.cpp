@@ -1,7 +1,7 @@
 // Stage `snapshot`: the frame as it stands, for the sinks.
-#include <algorithm>
+#include <utility>
 
-#include "engine/world/world.h"
+#include "engine/world/actors.h"
 
 namespace sunder {
 namespace {
@@ -48,6 +48,9 @@ std::shared_ptr<Frame> snapshot(World& world) {
     count(world, actor, frame->bodies.back(), report);
   }
   report.mass_kg += world.debris_mass_kg;
+  for (std::size_t i = world.next_shot; i < world.scene.shots.size(); ++i) {
+    report.mass_kg += ball_mass_kg(world, world.scene.shots[i].ball);
+  }
   report.penetrations_m = world.physics->penetrations();
   report.carried_over = static_cast<std::uint32_t>(world.waiting.size());
   report.momentum_residual =
