@@ -1,4 +1,7 @@
 // Scene files become scenes.
+//
+// Read first: load_scene() in load.cpp, then schema.h for what a file may say. README.md lists
+// every key.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +21,8 @@ struct LoadOptions {
 /// Loads a file, or the scene of that name from the catalogue. Throws InputError naming file,
 /// line, key, and what is allowed.
 Scene load_scene(const std::string& file_or_name, const LoadOptions& options);
+/// The scene that a text describes; `file` is what errors call it, its stem the scene's name.
+Scene parse_scene(const std::string& text, const std::string& file, const LoadOptions& options);
 
 struct CatalogEntry {
   std::string name;
@@ -26,5 +31,12 @@ struct CatalogEntry {
 };
 /// The scenes that come with the program, by name.
 std::vector<CatalogEntry> catalog();
+/// The folder they lie in: beside the installed program, else in the source tree.
+std::filesystem::path scenes_folder();
+/// The whole file. Throws InputError if it cannot be read.
+std::string read_text(const std::filesystem::path& file);
+
+/// Every table and key of a scene file with unit, default and what is allowed, as Markdown.
+std::string key_reference();
 
 }  // namespace sunder::scenes

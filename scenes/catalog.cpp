@@ -1,0 +1,82 @@
+// Where scenes are found.
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "engine/base/check.h"
+#include "scenes/keys.h"
+#include "scenes/load.h"
+
+namespace sunder::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Files of the catalogue lie one folder down; the library of materials lies beside the folders.
+std::vector<fs::path> catalog_files() {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& folder : fs::directory_iterator(scenes_folder())) {
+    if (!folder.is_directory()) continue;
+    for (const fs::directory_entry& file : fs::directory_iterator(folder)) {
+      if (file.path().extension() == ".toml") files.push_back(file.path());
+    }
+  }
+  std::sort(files.begin(), files.end(),
+            [](const fs::path& a, const fs::path& b) { return a.stem() < b.stem(); });
+  return files;
+}
+
+fs::path resolve(const std::string& file_or_name) {
+  if (fs::is_regular_file(file_or_name) || file_or_name.ends_with(".toml")) return file_or_name;
+  std::vector<std::string> names;
+  for (const fs::path& file : catalog_files()) {
+    if (file.stem() == file_or_name) return file;
+    names.push_back(file.stem().string());
+  }
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  throw InputError(file_or_name + ": no such file, and no scene of that name" +
+                   did_you_mean(file_or_name, views) + "; scenes: " + join(views));
+}
+
+/// Without building the scene.
+std::string description(const fs::path& file) {
+  const Value document = parse_toml(read_text(file), file.string());
+  const Value* scene = find(std::get<Table>(document.data), "scene");
+  const Value* text = scene ? find(as_table(*scene, "[scene]"), "description") : nullptr;
+  const std::string* line = text ? std::get_if<std::string>(&text->data) : nullptr;
+  return line ? *line : "(no description)";
+}
+
+}  // namespace
+
+fs::path scenes_folder() {
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  const fs::path installed = program.parent_path().parent_path() / "share/sunder/scenes";
+  return fs::is_directory(installed) ? installed : fs::path(SUNDER_SCENES_FOLDER);
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  if (!fs::is_regular_file(file) || !in || !(text << in.rdbuf())) {
+    throw InputError(file.string() + ": cannot be read" +
+                     (fs::exists(file) ? " (or is empty)" : ": there is no such file"));
+  }
+  return text.str();
+}
+
+std::vector<CatalogEntry> catalog() {
+  std::vector<CatalogEntry> entries;
+  for (const fs::path& file : catalog_files()) {
+    entries.push_back({file.stem().string(), file, description(file)});
+  }
+  return entries;
+}
+
+Scene load_scene(const std::string& file_or_name, const LoadOptions& options) {
+  const fs::path file = resolve(file_or_name);
+  return parse_scene(read_text(file), file.string(), options);
+}
+
+}  // namespace sunder::scenes

@@ -1,0 +1,275 @@
+// From a document to a scene. Read first: parse_scene().
+#include "scenes/load.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "engine/base/check.h"
+#include "engine/base/trigonometry.h"
+#include "scenes/schema.h"
+#include "scenes/structures/structure.h"
+
+namespace sunder::scenes {
+namespace {
+
+constexpr double kFrame = 1.0 / 60;
+constexpr double kFoundationDepth = 0.3;  // m
+
+Accuracy preset_accuracy(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const Preset& preset : presets()) {
+    if (preset.name == name) return preset.accuracy;
+    names.push_back(preset.name);
+  }
+  throw InputError("--preset " + name + ": unknown preset" + did_you_mean(name, names) +
+                   "; allowed: " + join(names, " | "));
+}
+
+/// The loader's state: the document and the scene it is becoming.
+class Loader {
+ public:
+  explicit Loader(const Value& document) : document_(document) {}
+
+  Scene load(const LoadOptions& options);
+  void add_materials(const Value& document);
+
+ private:
+  template <class T>
+  void read_table(const Keys<T>& keys, std::string_view name, T& object) {
+    if (const Value* table = find(std::get<Table>(document_.data), name)) {
+      read(keys, *table, scene_.materials, object);
+    }
+  }
+  void read_accuracy();
+  void add_solid(const Value& table);
+  void add_ball(const Value& table);
+  void add_script();
+  void add_shot(const Value& table);
+  void check_names() const;
+
+  const Value& document_;
+  Scene scene_;
+};
+
+Scene Loader::load(const LoadOptions& options) {
+  const Schema& s = schema();
+  check_known(document_, s.top.table, {s.top.keys});
+  const Value* scene = find(std::get<Table>(document_.data), "scene");
+  if (!scene) throw InputError(document_.where + ": missing table [scene]");
+  read(s.scene, *scene, {}, scene_);
+  scene_.accuracy = preset_accuracy(options.preset);
+  read_accuracy();
+  read_table(s.limits, "limits", scene_.limits);
+  read_table(s.ground, "ground", scene_.ground);
+  read_table(s.view, "view", scene_.view);
+  if (scene_.view.to_sun_W.isZero() || scene_.view.eye_W == scene_.view.target_W) {
+    throw InputError(document_.where +
+                     ": [view] needs a sun that is not zero, and an eye that is not at its target");
+  }
+  add_materials(document_);
+  for (const Value* table : tables(document_, "solid")) add_solid(*table);
+  for (const Value* table : tables(document_, "ball")) add_ball(*table);
+  add_script();
+  check_names();
+  const std::size_t bodies = scene_.solids.size() + scene_.balls.size() + scene_.shots.size();
+  if (bodies > scene_.limits.bodies) {
+    throw InputError(document_.where + ": " + std::to_string(bodies) + " bodies exceed bodies = " +
+                     std::to_string(scene_.limits.bodies) + " in [limits]");
+  }
+  return std::move(scene_);
+}
+
+void Loader::read_accuracy() {
+  read_table(schema().accuracy, "accuracy", scene_.accuracy);
+  double& dt = scene_.accuracy.dt_s;
+  const double steps = std::round(kFrame / dt);
+  if (std::abs(steps * dt - kFrame) > 1e-6 * kFrame) {
+    const Value& table = *find(std::get<Table>(document_.data), "accuracy");
+    throw InputError(
+        find(std::get<Table>(table.data), "dt_s")->where +
+        ": dt_s in [accuracy] does not divide a frame of 1/60 s; allowed: 1/60, 1/120, "
+        "1/180 and so on");
+  }
+  dt = kFrame / steps;
+}
+
+/// A material of the same name is replaced: a scene may change what the library says.
+void Loader::add_materials(const Value& document) {
+  const Schema& s = schema();
+  std::set<std::string> seen;
+  for (const Value* table : tables(document, "material")) {
+    check_known(*table, s.material.table, {s.material_head.keys, s.material.keys});
+    MaterialHead head;
+    read_keys(*table, s.material.table, s.material_head.keys, {}, &head);
+    if (!seen.insert(head.name).second) {
+      throw InputError(table->where + ": a second [[material]] named '" + head.name + "'");
+    }
+    std::vector<Material>& all = scene_.materials;
+    const auto named = [&](const std::string& name) {
+      return std::find_if(all.begin(), all.end(),
+                          [&](const Material& m) { return m.name == name; });
+    };
+    const auto parent = named(head.like.empty() ? head.name : head.like);
+    if (!head.like.empty() && parent == all.end()) {
+      std::vector<std::string_view> names;
+      for (const Material& m : all) names.push_back(m.name);
+      throw InputError(find(std::get<Table>(table->data), "like")->where + ": unknown material '" +
+                       head.like + "'" + did_you_mean(head.like, names) +
+                       "; there are: " + join(names));
+    }
+    Material material = parent == all.end() ? Material() : *parent;
+    material.name = head.name;
+    read_keys(*table, s.material.table, s.material.keys, {}, &material);
+    const Table& entries = std::get<Table>(table->data);
+    if (const Value* v = find(entries, "pattern")) read(s.pattern, *v, {}, material.pattern);
+    if (const Value* v = find(entries, "surface")) read(s.look, *v, {}, material.surface);
+    if (const Value* v = find(entries, "interior")) read(s.look, *v, {}, material.interior);
+    const auto namesake = named(head.name);
+    if (namesake == all.end()) {
+      all.push_back(material);
+    } else {
+      *namesake = material;
+    }
+  }
+}
+
+Quat rotation(const Vec3& angles_rad) {
+  Quat q = Quat::Identity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const SinCos half = sin_cos(angles_rad[axis] / 2);
+    const Vec3 v = half.sin * Vec3::Unit(axis);
+    q = Quat(half.cos, v.x(), v.y(), v.z()) * q;
+  }
+  return q.normalized();
+}
+
+/// A block under every part that reaches the structure's lowest level; the world holds the blocks.
+void add_foundation(std::vector<Piece>& pieces, MaterialIndex material) {
+  double bottom = std::numeric_limits<double>::max();
+  for (const Piece& piece : pieces) {
+    for (const fracture::Part& part : piece.parts) {
+      bottom = std::min(bottom, piece.at.y() + bounds(part.polyhedron).min.y());
+    }
+  }
+  for (Piece& piece : pieces) {
+    const std::size_t count = piece.parts.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Box box = bounds(piece.parts[i].polyhedron);
+      if (piece.at.y() + box.min.y() > bottom + 1e-6) continue;
+      const Vec3 max(box.max.x(), box.min.y(), box.max.z());
+      const Vec3 min = box.min - Vec3(0, kFoundationDepth, 0);
+      piece.parts.push_back({make_box(min, max), material, true});
+    }
+  }
+}
+
+const Structure& structure_named(const std::string& name, const Value& table) {
+  std::vector<std::string_view> names;
+  for (const Structure& structure : structures()) {
+    if (structure.name == name) return structure;
+    names.push_back(structure.name);
+  }
+  throw InputError(find(std::get<Table>(table.data), "structure")->where + ": unknown structure '" +
+                   name + "'" + did_you_mean(name, names) + "; allowed: " + join(names, " | "));
+}
+
+void Loader::add_solid(const Value& table) {
+  const Keys<SolidHead>& keys = schema().solid;
+  SolidHead head;
+  read_keys(table, keys.table, keys.keys, {}, &head);
+  const Structure& structure = structure_named(head.structure, table);
+  const std::string name = std::string(keys.table) + " " + head.structure;
+  check_known(table, name, {keys.keys, structure.keys});
+  const std::shared_ptr<void> parameters = structure.parameters();
+  read_keys(table, name, structure.keys, scene_.materials, parameters.get());
+
+  std::vector<Piece> pieces;
+  try {
+    pieces = structure.build(parameters.get());
+  } catch (const InputError& error) {
+    throw InputError(table.where + ": " + error.what());
+  }
+  if (head.anchored == Anchored::kBottom) {
+    const auto foundation =
+        std::find_if(scene_.materials.begin(), scene_.materials.end(),
+                     [](const Material& material) { return material.name == "foundation"; });
+    add_foundation(pieces,
+                   MaterialIndex(static_cast<std::size_t>(foundation - scene_.materials.begin())));
+  }
+  const Pose X_WS{head.position, rotation(head.rotation_rad)};
+  const std::string base = head.name.empty() ? head.structure : head.name;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    Solid solid;
+    solid.name = pieces.size() == 1 ? base : base + "." + std::to_string(i);
+    solid.compound = fracture::make_compound(std::move(pieces[i].parts));
+    solid.X_WR = {X_WS * pieces[i].at, X_WS.rotation};
+    solid.velocity_W = head.velocity;
+    solid.angular_velocity_W = head.angular_velocity;
+    scene_.solids.push_back(std::move(solid));
+  }
+}
+
+void Loader::add_ball(const Value& table) {
+  BallText ball;
+  read(schema().ball, table, scene_.materials, ball);
+  scene_.balls.push_back(
+      {ball.name, ball.radius_m, ball.material.index, ball.position, ball.velocity});
+}
+
+void Loader::add_script() {
+  const Value* table = find(std::get<Table>(document_.data), "script");
+  if (!table) return;
+  Script script;
+  read(schema().script, *table, {}, script);
+  // Read even if it is not enabled: a scene is right or wrong whatever is switched off.
+  for (const Value* shot : tables(*table, "shot")) add_shot(*shot);
+  if (!script.enabled) scene_.shots.clear();
+  std::stable_sort(scene_.shots.begin(), scene_.shots.end(),
+                   [](const Shot& a, const Shot& b) { return a.time_s < b.time_s; });
+}
+
+void Loader::add_shot(const Value& table) {
+  ShotText text;
+  read(schema().shot, table, scene_.materials, text);
+  if (text.velocity.has_value() == text.at.has_value()) {
+    throw InputError(table.where +
+                     ": [[script.shot]] needs either velocity, or at (and speed_m_s)");
+  }
+  if (text.at && *text.at == text.from) {
+    throw InputError(table.where + ": at and from in [[script.shot]] are the same point");
+  }
+  const Vec3 velocity =
+      text.velocity ? *text.velocity : text.speed_m_s * (*text.at - text.from).normalized();
+  scene_.shots.push_back(
+      {text.time_s, {text.name, text.radius_m, text.material.index, text.from, velocity}});
+}
+
+void Loader::check_names() const {
+  std::set<std::string> seen;
+  const auto check = [&](const std::string& name) {
+    if (!name.empty() && !seen.insert(name).second) {
+      throw InputError(document_.where + ": two things are named '" + name +
+                       "'; give each a name of its own");
+    }
+  };
+  for (const Solid& solid : scene_.solids) check(solid.name);
+  for (const Ball& ball : scene_.balls) check(ball.name);
+  for (const Shot& shot : scene_.shots) check(shot.ball.name);
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& file, const LoadOptions& options) {
+  Value document = parse_toml(text, file);
+  for (const std::string& assignment : options.set) set_value(document, assignment);
+  const std::filesystem::path library = scenes_folder() / "materials.toml";
+  const Value materials = parse_toml(read_text(library), library.string());
+  Loader loader(document);
+  loader.add_materials(materials);
+  Scene scene = loader.load(options);
+  scene.name = std::filesystem::path(file).stem().string();
+  return scene;
+}
+
+}  // namespace sunder::scenes

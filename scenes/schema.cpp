@@ -1,0 +1,152 @@
+// What a scene file may say. Defaults are those of the objects the keys are stored in.
+#include "scenes/schema.h"
+
+namespace sunder::scenes {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Range kPlace{-1e6, 1e6};
+constexpr Range kSpeed{-1e4, 1e4};
+constexpr Range kRadius{0.001, 100};
+constexpr Range kFraction{0, 1};
+constexpr Range kTurn{-6.2832, 6.2832};
+
+constexpr std::string_view kPatterns[] = {"none", "voronoi", "web"};
+constexpr std::string_view kTextures[] = {"plain", "brick", "concrete", "plaster",
+                                          "wood",  "glass", "metal"};
+constexpr std::string_view kAnchored[] = {"none", "bottom"};
+
+Keys<Scene> top_keys() {
+  return {"the scene file",
+          {table_key("scene", "What it is."), table_key("accuracy", "Overrides the preset."),
+           table_key("limits", "How much may exist."), table_key("ground", "The floor."),
+           table_key("view", "Camera and sun."), table_key("material", "Materials."),
+           table_key("solid", "What stands there."), table_key("ball", "Balls from the start."),
+           table_key("script", "What happens.")}};
+}
+
+Keys<Scene> scene_keys() {
+  return {"[scene]",
+          {key<&Scene::description>("description", "One line for `sunder list`.").must(),
+           key<&Scene::duration_s>("duration_s", "s", Range{0.1, 600}, "How long it runs."),
+           key<&Scene::seed>("seed", "", Range{0, 9e15}, "Changes every random choice."),
+           key<&Scene::gravity_W>("gravity", "m/s²", Range{-100, 100}, "Acceleration of all.")}};
+}
+
+Keys<Material> material_keys() {
+  return {"[[material]]",
+          {key<&Material::density_kg_m3>("density_kg_m3", "kg/m³", Range{1, 30000}, "Density."),
+           key<&Material::friction>("friction", "", Range{0, 10}, "Coefficient of friction."),
+           key<&Material::restitution>("restitution", "", kFraction, "0 = no bounce, 1 = full."),
+           key<&Material::strength_Ns>("strength_Ns", "N·s", Range{0, kInfinity},
+                                       "Least impulse of a contact that can break it."),
+           key<&Material::toughness_J_m2>("toughness_J_m2", "J/m²", Range{0, kInfinity},
+                                          "Energy that each square metre of crack takes."),
+           key<&Material::impact_radius_m>("impact_radius_m", "m", Range{0.001, kInfinity},
+                                           "Only what is nearer to the impact breaks; inf: all."),
+           key<&Material::smallest_break_m3>("smallest_break_m3", "m³", Range{0, kInfinity},
+                                             "Smaller pieces no longer break."),
+           table_key("pattern", "How it breaks."), table_key("surface", "How it looks outside."),
+           table_key("interior", "How it looks where it broke.")}};
+}
+
+Keys<PatternSpec> pattern_keys() {
+  return {"[material.pattern]",
+          {choice<&PatternSpec::kind>("kind", kPatterns, "none never breaks."),
+           key<&PatternSpec::cells>("cells", "", Range{2, 5000}, "voronoi: number of cells."),
+           key<&PatternSpec::falloff>("falloff", "", Range{1, 10},
+                                      "voronoi: 1 = uniform, more = smaller near the impact."),
+           key<&PatternSpec::rings>("rings", "", Range{1, 100}, "web: rings."),
+           key<&PatternSpec::spokes>("spokes", "", Range{3, 200}, "web: spokes."),
+           key<&PatternSpec::jitter>("jitter", "", kFraction, "web: 0 = regular.")}};
+}
+
+Keys<SolidHead> solid_keys() {
+  return {
+      "[[solid]]",
+      {key<&SolidHead::structure>("structure", "Which structure; its keys follow below.").must(),
+       key<&SolidHead::name>("name", "Shown in messages; the structure's name by default."),
+       key<&SolidHead::position>("position", "m", kPlace, "Where the middle of its foot is."),
+       key<&SolidHead::rotation_rad>("rotation_rad", "rad", kTurn,
+                                     "About the axes x, then y, then z, through its foot."),
+       key<&SolidHead::velocity>("velocity", "m/s", kSpeed, "At the start."),
+       key<&SolidHead::angular_velocity>("angular_velocity", "rad/s", kSpeed, "At the start."),
+       choice<&SolidHead::anchored>("anchored", kAnchored,
+                                    "bottom: its lowest parts stand on a foundation that the "
+                                    "world holds; none: it is loose.")}};
+}
+
+Keys<ShotText> shot_keys() {
+  return {"[[script.shot]]",
+          {key<&ShotText::time_s>("time_s", "s", Range{0, 600}, "When the ball appears.").must(),
+           key<&ShotText::from>("from", "m", kPlace, "Where.").must(),
+           key<&ShotText::velocity>("velocity", "m/s", kSpeed, "How it flies; or give `at`."),
+           key<&ShotText::at>("at", "m", kPlace, "What it is aimed at, in a straight line."),
+           key<&ShotText::speed_m_s>("speed_m_s", "m/s", Range{0, 1e4}, "With `at`: how fast."),
+           key<&ShotText::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
+           key<&ShotText::material>("material", "What the ball is made of."),
+           key<&ShotText::name>("name", "Shown in messages.")}};
+}
+
+Schema make_schema() {
+  Schema s;
+  s.top = top_keys();
+  s.scene = scene_keys();
+  s.accuracy = {"[accuracy]",
+                {key<&Accuracy::dt_s>("dt_s", "s", Range{1e-5, 1.0 / 60 + 1e-9},
+                                      "A step; 1/60 s is a whole number of them."),
+                 key<&Accuracy::substeps>("substeps", "", Range{1, 64}, "Substeps of a step.")}};
+  s.limits = {
+      "[limits]",
+      {key<&Limits::bodies>("bodies", "", Range{1, 200000}, "Bodies that may exist."),
+       key<&Limits::cells_a_frame>("cells_a_frame", "", Range{1, 1000000},
+                                   "Pattern cells to cut by; breaks beyond it wait a frame.")}};
+  s.ground = {"[ground]",
+              {key<&Ground::height_m>("height_m", "m", kPlace, "Height of the plane."),
+               key<&Ground::friction>("friction", "", Range{0, 10}, "Coefficient of friction."),
+               key<&Ground::restitution>("restitution", "", kFraction, "Bounce.")}};
+  s.view = {"[view]",
+            {key<&View::eye_W>("eye", "m", kPlace, "Where the camera is."),
+             key<&View::target_W>("target", "m", kPlace, "What it looks at."),
+             key<&View::fov_rad>("fov_rad", "rad", Range{0.02, 3}, "Vertical angle of view."),
+             key<&View::to_sun_W>("sun", "", kPlace, "Direction towards the sun."),
+             key<&View::ground_color>("ground_color", "", kFraction, "Linear red, green, blue.")}};
+  s.material_head = {
+      "[[material]]",
+      {key<&MaterialHead::name>("name", "What solids call it.").must(),
+       key<&MaterialHead::like>("like", "The material it starts from; its namesake by default.")}};
+  s.material = material_keys();
+  s.pattern = pattern_keys();
+  s.look = {"[material.surface], [material.interior]",
+            {choice<&Look::texture>("texture", kTextures, "Procedural texture."),
+             key<&Look::color>("color", "", kFraction, "Linear red, green, blue.")}};
+  s.solid = solid_keys();
+  s.ball = {"[[ball]]",
+            {key<&BallText::name>("name", "Shown in messages."),
+             key<&BallText::position>("position", "m", kPlace, "Of its centre."),
+             key<&BallText::velocity>("velocity", "m/s", kSpeed, "At the start."),
+             key<&BallText::radius_m>("radius_m", "m", kRadius, "Radius."),
+             key<&BallText::material>("material", "What it is made of.")}};
+  s.script = {"[script]",
+              {key<&Script::enabled>("enabled", "false: nothing of it happens."),
+               table_key("shot", "Balls that are shot.")}};
+  s.shot = shot_keys();
+  return s;
+}
+
+}  // namespace
+
+std::span<const Preset> presets() {
+  static constexpr Preset kPresets[] = {
+      {"draft", {1.0 / 60, 2}, "fastest"},
+      {"realtime", {1.0 / 120, 2}, "the default"},
+  };
+  return kPresets;
+}
+
+const Schema& schema() {
+  static const Schema kSchema = make_schema();
+  return kSchema;
+}
+
+}  // namespace sunder::scenes

@@ -1,0 +1,83 @@
+// The tables of a scene file and their keys. Structures declare theirs in structures/.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/world/scene.h"
+#include "scenes/keys.h"
+
+namespace sunder::scenes {
+
+/// Speed against accuracy, by name.
+struct Preset {
+  std::string_view name;
+  Accuracy accuracy;
+  std::string_view help;
+};
+std::span<const Preset> presets();
+
+/// The part of [[material]] that does not end up in a Material.
+struct MaterialHead {
+  std::string name;
+  std::string like;
+};
+
+enum class Anchored { kNone, kBottom };
+
+/// The keys of [[solid]] that all structures share.
+struct SolidHead {
+  std::string structure;
+  std::string name;
+  Vec3 position = Vec3::Zero();
+  Vec3 rotation_rad = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();
+  Anchored anchored = Anchored::kNone;
+};
+
+struct BallText {
+  std::string name;
+  Vec3 position = Vec3(0, 1, 0);
+  Vec3 velocity = Vec3::Zero();
+  double radius_m = 0.5;
+  MaterialRef material{"steel", {}};
+};
+
+struct Script {
+  bool enabled = true;
+};
+
+struct ShotText {
+  std::string name;
+  double time_s = 0;
+  Vec3 from = Vec3::Zero();
+  std::optional<Vec3> velocity;
+  std::optional<Vec3> at;
+  double speed_m_s = 20;
+  double radius_m = 0.5;
+  MaterialRef material{"steel", {}};
+};
+
+/// The tables themselves; `top` lists the names of all others.
+struct Schema {
+  Keys<Scene> top;
+  Keys<Scene> scene;
+  Keys<Accuracy> accuracy;
+  Keys<Limits> limits;
+  Keys<Ground> ground;
+  Keys<View> view;
+  Keys<MaterialHead> material_head;
+  Keys<Material> material;
+  Keys<PatternSpec> pattern;
+  Keys<Look> look;
+  Keys<SolidHead> solid;
+  Keys<BallText> ball;
+  Keys<Script> script;
+  Keys<ShotText> shot;
+};
+const Schema& schema();
+
+}  // namespace sunder::scenes

@@ -1,0 +1,54 @@
+// Procedural structures: what [[solid]] structure = "..." can name.
+//
+// Every structure is built around the middle of its foot: y = 0 is its lowest level, x and z are
+// centred.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "fracture/compound_builder.h"
+#include "scenes/keys.h"
+
+namespace sunder::scenes {
+
+/// One solid of a structure: parts that move as one, placed at `at`.
+struct Piece {
+  std::vector<fracture::Part> parts;
+  Vec3 at = Vec3::Zero();
+};
+
+/// A kind of structure: its keys in the scene file and how it is built.
+struct Structure {
+  std::string_view name;
+  std::string_view help;
+  std::vector<Key> keys;
+  std::shared_ptr<void> (*parameters)();                ///< With their defaults.
+  std::vector<Piece> (*build)(const void* parameters);  ///< Throws InputError without a place.
+};
+
+/// A structure whose parameters are a `P`.
+template <class P, std::vector<Piece> (*build)(const P&)>
+Structure make_structure(std::string_view name, std::string_view help, std::vector<Key> keys) {
+  return {name, help, std::move(keys),
+          []() -> std::shared_ptr<void> { return std::make_shared<P>(); },
+          [](const void* parameters) { return build(*static_cast<const P*>(parameters)); }};
+}
+
+/// All there are, by name.
+std::span<const Structure> structures();
+
+Structure box_structure();
+Structure brick_wall_structure();
+Structure column_structure();
+Structure house_structure();
+Structure pane_structure();
+Structure stack_structure();
+
+/// The box [min, max] cut into equal blocks no longer than `longest_m`, appended to `parts`.
+void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max,
+                double longest_m, MaterialIndex material);
+
+}  // namespace sunder::scenes

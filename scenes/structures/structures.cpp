@@ -1,0 +1,156 @@
+// The list of structures, and the small ones.
+#include <array>
+#include <cmath>
+
+#include "engine/base/trigonometry.h"
+#include "scenes/structures/structure.h"
+
+namespace sunder::scenes {
+namespace {
+
+constexpr Range kLength{0.001, 1000};
+constexpr double kTurn = 6.283185307179586;
+
+struct BoxShape {
+  Vec3 size_m = Vec3(1, 1, 1);
+  double block_m = 1000;
+  MaterialRef material{"concrete", {}};
+};
+
+std::vector<Piece> build_box(const BoxShape& box) {
+  const Vec3 half(box.size_m.x() / 2, 0, box.size_m.z() / 2);
+  Piece piece;
+  add_blocks(piece.parts, -half, box.size_m - half, box.block_m, box.material.index);
+  return {piece};
+}
+
+struct Stack {
+  Vec3 size_m = Vec3(1, 1, 1);
+  int count = 10;
+  MaterialRef material{"concrete", {}};
+};
+
+std::vector<Piece> build_stack(const Stack& stack) {
+  const Vec3 half(stack.size_m.x() / 2, 0, stack.size_m.z() / 2);
+  std::vector<Piece> pieces;
+  for (int i = 0; i < stack.count; ++i) {
+    pieces.push_back({{{make_box(-half, stack.size_m - half), stack.material.index}},
+                      Vec3(0, stack.size_m.y() * i, 0)});
+  }
+  return pieces;
+}
+
+struct Column {
+  double radius_m = 0.25;
+  double height_m = 3;
+  int sides = 20;
+  MaterialRef material{"concrete", {}};
+};
+
+std::vector<Piece> build_column(const Column& column) {
+  std::vector<Vec2> rim;
+  for (int i = 0; i < column.sides; ++i) {
+    const SinCos turn = sin_cos(kTurn * i / column.sides);
+    rim.emplace_back(column.radius_m * turn.sin, column.radius_m * turn.cos);
+  }
+  return {{{{make_prism(rim, 0, column.height_m, true), column.material.index}}, Vec3::Zero()}};
+}
+
+struct Pane {
+  double width_m = 3;
+  double height_m = 2;
+  double thickness_m = 0.02;
+  double frame_m = 0.1;
+  MaterialRef material{"glass", {}};
+  MaterialRef frame{"steel", {}};
+};
+
+/// Glass in four bars; the bars are held by the world, the glass by the bars.
+std::vector<Piece> build_pane(const Pane& pane) {
+  Piece piece;
+  const double f = pane.frame_m, w = pane.width_m / 2, h = pane.height_m, t = pane.thickness_m / 2;
+  piece.parts.push_back({make_box(Vec3(-w, f, -t), Vec3(w, f + h, t)), pane.material.index});
+  if (f == 0) return {piece};
+  const double deep = std::max(t, f / 2);
+  const auto bar = [&](double x0, double y0, double x1, double y1) {
+    piece.parts.push_back(
+        {make_box(Vec3(x0, y0, -deep), Vec3(x1, y1, deep)), pane.frame.index, true});
+  };
+  bar(-w - f, 0, w + f, f);
+  bar(-w - f, f + h, w + f, h + 2 * f);
+  bar(-w - f, f, -w, f + h);
+  bar(w, f, w + f, f + h);
+  return {piece};
+}
+
+}  // namespace
+
+void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max,
+                double longest_m, MaterialIndex material) {
+  const Vec3 extent = max - min;
+  std::array<int, 3> count;
+  for (int a = 0; a < 3; ++a) {
+    count[static_cast<std::size_t>(a)] =
+        std::max(1, static_cast<int>(std::ceil(extent[a] / longest_m - 1e-9)));
+  }
+  // The outermost levels are taken as given, so that neighbours share them to the last bit.
+  const auto level = [&](int axis, int i) {
+    const int n = count[static_cast<std::size_t>(axis)];
+    return i == n ? max[axis] : min[axis] + extent[axis] * i / n;
+  };
+  for (int x = 0; x < count[0]; ++x) {
+    for (int y = 0; y < count[1]; ++y) {
+      for (int z = 0; z < count[2]; ++z) {
+        parts.push_back({make_box(Vec3(level(0, x), level(1, y), level(2, z)),
+                                  Vec3(level(0, x + 1), level(1, y + 1), level(2, z + 1))),
+                         material});
+      }
+    }
+  }
+}
+
+Structure box_structure() {
+  return make_structure<BoxShape, build_box>(
+      "box", "One box.",
+      {key<&BoxShape::size_m>("size_m", "m", kLength, "Edge lengths."),
+       key<&BoxShape::block_m>("block_m", "m", Range{0.05, 1000},
+                               "Longest edge of the convexes it is made of."),
+       key<&BoxShape::material>("material", "What it is made of.")});
+}
+
+Structure stack_structure() {
+  return make_structure<Stack, build_stack>(
+      "stack", "Boxes on top of each other, each a body.",
+      {key<&Stack::size_m>("size_m", "m", kLength, "Edge lengths of one box."),
+       key<&Stack::count>("count", "", Range{1, 1000}, "How many boxes."),
+       key<&Stack::material>("material", "What they are made of.")});
+}
+
+Structure column_structure() {
+  return make_structure<Column, build_column>(
+      "column", "An upright prism, shaded round.",
+      {key<&Column::radius_m>("radius_m", "m", kLength, "Radius."),
+       key<&Column::height_m>("height_m", "m", kLength, "Height."),
+       key<&Column::sides>("sides", "", Range{3, 64}, "Sides of the prism."),
+       key<&Column::material>("material", "What it is made of.")});
+}
+
+Structure pane_structure() {
+  return make_structure<Pane, build_pane>(
+      "pane", "An upright pane facing z, in a frame that is held by the world.",
+      {key<&Pane::width_m>("width_m", "m", kLength, "Width of the glass."),
+       key<&Pane::height_m>("height_m", "m", kLength, "Height of the glass."),
+       key<&Pane::thickness_m>("thickness_m", "m", kLength, "Thickness of the glass."),
+       key<&Pane::frame_m>("frame_m", "m", Range{0, 10}, "Width of the frame; 0 for no frame."),
+       key<&Pane::material>("material", "What the pane is made of."),
+       key<&Pane::frame>("frame", "What the frame is made of.")});
+}
+
+std::span<const Structure> structures() {
+  static const std::vector<Structure> all = {box_structure(),    brick_wall_structure(),
+                                             column_structure(), house_structure(),
+                                             pane_structure(),   stack_structure()};
+  return all;
+}
+
+}  // namespace sunder::scenes
