@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
 #include "engine/world/actors.h"

@@ -1,0 +1,137 @@
+// Frame files, state hashes and statistics.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/random.h"
+#include "engine/io/bytes.h"
+#include "engine/io/frame_file.h"
+#include "engine/io/state_hash.h"
+#include "engine/io/statistics.h"
+#include "engine/world/piece_mesh.h"
+
+namespace sunder {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file name that is gone at the end of the test.
+struct TemporaryFile {
+  fs::path path =
+      fs::temp_directory_path() / ("sunder-io-" + std::to_string(::getpid()) + "-" +
+                                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  ~TemporaryFile() { fs::remove(path); }
+};
+
+Frame sample_frame() {
+  Frame frame;
+  frame.index = 7;
+  frame.time_s = 7 / 60.0;
+  frame.view.eye_W = Vec3(1, 2, 3);
+  frame.view.ground_m = -0.5;
+  Material stone;
+  stone.name = "stone";
+  stone.interior.texture = Texture::kConcrete;
+  frame.materials = std::make_shared<const std::vector<Material>>(std::vector{stone, stone});
+  auto meshes = std::make_shared<MeshStore>();
+  meshes->push_back(make_ball_mesh(3, MaterialIndex(0)));  // not drawn: not written
+  meshes->push_back(make_ball_mesh(0.5, MaterialIndex(1)));
+  frame.meshes = meshes;
+  FrameBody body;
+  body.key = 42;
+  body.X_WB = {Vec3(0.1, 0.2, 1e4), Quat(0.5, 0.5, 0.5, 0.5)};
+  body.com_R = Vec3(1, 1, 1);
+  frame.bodies = {body};
+  frame.instances = {{MeshIndex(1), 0}};
+  return frame;
+}
+
+TEST(FrameFile, GivesBackWhatWasWritten) {
+  const TemporaryFile file;
+  const Frame frame = sample_frame();
+  write_frame(file.path, frame);
+  const FramePtr read = read_frame(file.path);
+  EXPECT_EQ(read->index, frame.index);
+  EXPECT_EQ(read->view.eye_W, frame.view.eye_W);
+  EXPECT_EQ(read->view.ground_m, frame.view.ground_m);
+  EXPECT_EQ(read->materials->at(1).name, "stone");
+  EXPECT_EQ(read->materials->at(1).interior.texture, Texture::kConcrete);
+  ASSERT_EQ(read->meshes->size(), 1u);
+  const Mesh &mesh = *read->meshes->at(0), &drawn = *frame.meshes->at(1);
+  EXPECT_EQ(mesh.indices, drawn.indices);
+  EXPECT_EQ(mesh.vertices.back().position, drawn.vertices.back().position);
+  EXPECT_EQ(mesh.material, MaterialIndex(1));
+  EXPECT_EQ(read->bodies[0].X_WB.position, frame.bodies[0].X_WB.position);
+  EXPECT_EQ(read->instances[0].mesh, MeshIndex(0));
+}
+
+TEST(FrameFile, RefusesEveryTruncationAndCorruptionWithAWord) {
+  const TemporaryFile file;
+  write_frame(file.path, sample_frame());
+  const std::vector<std::byte> good = read_file(file.path);
+  Random random(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<std::byte> bad = good;
+    if (trial % 2) {
+      bad.resize(random.below(static_cast<std::uint32_t>(good.size())));
+    } else {
+      bad[random.below(static_cast<std::uint32_t>(good.size()))] ^= std::byte{0x10};
+    }
+    write_file(file.path, bad);
+    EXPECT_THROW(read_frame(file.path), InputError);
+  }
+  EXPECT_THROW(read_frame("/nowhere/at/all.frame"), InputError);
+}
+
+TEST(StateHash, ChangesWithOneBitAndOnlyThen) {
+  const auto hash_of = [](double x, bool asleep) {
+    auto frame = std::make_shared<Frame>(sample_frame());
+    frame->bodies[0].X_WB.position.x() = x;
+    frame->bodies[0].asleep = asleep;
+    StateHash hash;
+    hash.take(frame);
+    return hash.hex();
+  };
+  EXPECT_EQ(hash_of(0.1, false), hash_of(0.1, false));
+  EXPECT_NE(hash_of(0.1, false), hash_of(std::nextafter(0.1, 1), false));
+  EXPECT_NE(hash_of(0.1, false), hash_of(0.1, true));
+  EXPECT_EQ(hash_of(0.1, false).size(), 16u);
+}
+
+TEST(Statistics, TakesQuantilesByNearestRank) {
+  EXPECT_EQ(quantile({}, 0.5), 0);
+  EXPECT_EQ(quantile({3, 1, 2}, 0.5), 2);
+  EXPECT_EQ(quantile({3, 1, 2}, 1), 3);
+  std::vector<double> hundred(100);
+  for (int i = 0; i < 100; ++i) hundred[static_cast<std::size_t>(i)] = i + 1;
+  EXPECT_EQ(quantile(hundred, 0.95), 95);
+}
+
+TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
+  Statistics statistics({"house", "draft", 2, {1.0 / 60, 2}, {{"dust", "off"}}});
+  auto frame = std::make_shared<Frame>(sample_frame());
+  frame->report.mass_kg = 5;
+  frame->report.stage_ms[static_cast<int>(Stage::kSolve)] = 2;
+  frame->report.penetrations_m = {0.001f, 0.002f};
+  frame->breaks.push_back({0, 42, Vec3::Zero(), 10, 1, 0.5, 8});
+  statistics.take(frame);
+  statistics.take(frame);
+  const auto json = nlohmann::json::parse(statistics.json("0123456789abcdef", true));
+  for (const char* key : {"scene",          "preset",        "threads",    "frames",
+                          "dt_s",           "substeps",      "state_hash", "steps",
+                          "stages",         "frame",         "counts",     "peak",
+                          "fractures",      "penetration_m", "energy_J",   "momentum_residual",
+                          "mass_kg",        "limits_hit",    "modelled",   "cpu",
+                          "sunder_version", "per_frame"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json["frames"], 1);
+  EXPECT_EQ(json["frame"]["p50_ms"], 2.0);
+  EXPECT_EQ(json["fractures"]["pieces"], 16);
+  EXPECT_NEAR(json["penetration_m"]["max"].get<double>(), 0.002, 1e-9);
+  EXPECT_FALSE(nlohmann::json::parse(statistics.json("", false)).contains("state_hash"));
+}
+
+}  // namespace
+}  // namespace sunder

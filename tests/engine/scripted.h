@@ -1,0 +1,103 @@
+// A scripted Physics and Breaker: the world's stages under test, without solver or fracture.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "engine/world/simulation.h"
+
+namespace sunder::testing {
+
+/// Bodies that fly straight on; approaches are whatever `script` says for the number of collides.
+class ScriptedPhysics final : public Physics {
+ public:
+  struct Body {
+    BodyDesc desc;
+    BodyState state;
+    bool alive = true;
+  };
+  using Script = std::function<std::vector<Approach>(const ScriptedPhysics&, int collides)>;
+
+  explicit ScriptedPhysics(Script script) : script_(std::move(script)) {}
+
+  std::vector<BodyId> replace(std::span<const BodyId> remove,
+                              std::span<const BodyDesc> add) override {
+    for (const BodyId id : remove) bodies[id.slot].alive = false;
+    std::vector<BodyId> ids;
+    for (const BodyDesc& desc : add) {
+      ids.push_back({static_cast<std::uint32_t>(bodies.size()), 0});
+      bodies.push_back({desc, {desc.X_WB, desc.velocity_W, desc.angular_velocity_W}});
+    }
+    return ids;
+  }
+  void collide(double) override { approaches_ = script_(*this, collides_++); }
+  std::span<const Approach> approaches() const override { return approaches_; }
+  void apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) override {
+    Body& body = bodies[id.slot];
+    if (body.desc.is_static) return;
+    body.state.velocity_W += impulse_W / body.desc.mass_kg;
+    const Quat& q = body.state.X_WB.rotation;
+    const Vec3 twist = (point_W - body.state.X_WB.position).cross(impulse_W);
+    body.state.angular_velocity_W += q * (body.desc.inertia_B.inverse() * (q.conjugate() * twist));
+  }
+  SolveReport solve(double dt_s, int) override {
+    for (Body& body : bodies) body.state.X_WB.position += dt_s * body.state.velocity_W;
+    return {};
+  }
+  BodyState state(BodyId id) const override { return bodies[id.slot].state; }
+  std::vector<float> penetrations() const override { return {}; }
+  std::vector<std::pair<const char*, double>> take_timings_ms() override { return {}; }
+
+  /// An approach of the living bodies with these tags at a point, along a normal from a to b.
+  std::vector<Approach> approach(std::uint32_t tag_a, std::uint32_t tag_b, const Vec3& point_W,
+                                 const Vec3& normal_W) const {
+    const Body *a = find(tag_a), *b = find(tag_b);
+    if (!a || !b) return {};
+    Approach approach;
+    approach.body_tag_a = tag_a;
+    approach.body_tag_b = tag_b;
+    approach.point_W = point_W;
+    approach.normal_W = normal_W;
+    approach.speed_m_s = normal_W.dot(a->state.velocity_W - b->state.velocity_W);
+    if (approach.speed_m_s <= 0) return {};
+    return {approach};
+  }
+  const Body* find(std::uint32_t tag) const {
+    for (const Body& body : bodies) {
+      if (body.alive && body.desc.tag == tag) return &body;
+    }
+    return nullptr;
+  }
+
+  std::vector<Body> bodies;
+
+ private:
+  Script script_;
+  std::vector<Approach> approaches_;
+  int collides_ = 0;
+};
+
+/// Parts every compound into its convexes; reports `area_m2` of crack for each part.
+class ScriptedBreaker final : public Breaker {
+ public:
+  explicit ScriptedBreaker(double area_m2) : area_m2_(area_m2) {}
+  BreakCommand command(const Compound&, const Material& material, const Hit& hit,
+                       std::uint64_t event, std::uint64_t seed) const override {
+    return {event, seed, material.pattern, {hit.point_R, Quat::Identity()}, 1};
+  }
+  BreakPlan plan(const Compound& compound, const BreakCommand&) const override {
+    BreakPlan plan;
+    for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+      plan.pieces.push_back({{compound.convexes[c]}, {compound.anchored[c]}, {}});
+      plan.exposed.push_back({static_cast<std::uint32_t>(c), 0, 0, area_m2_});
+    }
+    return plan;
+  }
+
+ private:
+  double area_m2_;
+};
+
+}  // namespace sunder::testing

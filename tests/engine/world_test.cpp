@@ -1,0 +1,265 @@
+// The break stage and the books, with scripted physics and fracture: energy, momentum, order.
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "engine/world/piece_mesh.h"
+#include "tests/engine/scripted.h"
+
+namespace sunder {
+namespace {
+
+using testing::ScriptedBreaker;
+using testing::ScriptedPhysics;
+
+constexpr double kToughness = 100, kAreaPerPart = 2;  // 2 parts: 2 · 2 / 2 · 100 = 200 J
+
+/// Two boxes side by side along x, touching, from `low` on.
+Compound two_boxes(const Vec3& low, bool anchored) {
+  Compound compound;
+  for (int i = 0; i < 2; ++i) {
+    const Vec3 min = low + Vec3(i, 0, 0);
+    compound.convexes.push_back(make_convex(make_box(min, min + Vec3::Ones()), MaterialIndex(0)));
+    compound.anchored.push_back(anchored && i == 0);
+  }
+  return compound;
+}
+
+Scene scene_of(std::vector<Solid> solids, std::vector<Ball> balls) {
+  Scene scene;
+  Material stone;
+  stone.name = "stone";
+  stone.density_kg_m3 = 1000;
+  stone.toughness_J_m2 = kToughness;
+  stone.pattern.kind = PatternSpec::Kind::kVoronoi;
+  Material steel;
+  steel.name = "steel";
+  steel.density_kg_m3 = 8000;
+  scene.materials = {stone, steel};
+  scene.gravity_W = Vec3::Zero();
+  scene.accuracy = {1.0 / 60, 1};
+  scene.solids = std::move(solids);
+  scene.balls = std::move(balls);
+  return scene;
+}
+
+struct Sum {
+  double mass = 0, kinetic = 0;
+  Vec3 momentum = Vec3::Zero(), spin = Vec3::Zero();
+};
+
+Sum sum_of(const ScriptedPhysics& physics) {
+  Sum sum;
+  for (const auto& body : physics.bodies) {
+    if (!body.alive || body.desc.is_static) continue;
+    const BodyState& s = body.state;
+    const Vec3 w_B = s.X_WB.rotation.conjugate() * s.angular_velocity_W;
+    sum.mass += body.desc.mass_kg;
+    sum.kinetic += 0.5 * body.desc.mass_kg * s.velocity_W.squaredNorm() +
+                   0.5 * w_B.dot(body.desc.inertia_B * w_B);
+    const Vec3 p = body.desc.mass_kg * s.velocity_W;
+    sum.momentum += p;
+    sum.spin += s.X_WB.position.cross(p) + s.X_WB.rotation * (body.desc.inertia_B * w_B);
+  }
+  return sum;
+}
+
+/// A run with its scripted physics still in reach.
+struct ScriptedRun {
+  ScriptedPhysics* physics;
+  Simulation simulation;
+
+  ScriptedRun(Scene scene, ScriptedPhysics::Script script)
+      : ScriptedRun(std::move(scene), std::make_unique<ScriptedPhysics>(std::move(script))) {}
+
+ private:
+  ScriptedRun(Scene scene, std::unique_ptr<ScriptedPhysics> scripted)
+      : physics(scripted.get()),
+        simulation(std::move(scene), std::move(scripted),
+                   std::make_unique<ScriptedBreaker>(kAreaPerPart)) {}
+};
+
+// Keys count solids first, then balls.
+ScriptedPhysics::Script always(std::uint32_t a, std::uint32_t b, Vec3 point, Vec3 normal) {
+  return [=](const ScriptedPhysics& physics, int) { return physics.approach(a, b, point, normal); };
+}
+
+Ball ball_at(const Vec3& center, const Vec3& velocity) {
+  return {"ball", 0.25, MaterialIndex(1), center, velocity};
+}
+
+TEST(BreakStage, TakesExactlyTheCracksEnergyAndKeepsMomentum) {
+  const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}, Vec3(0.5, 0, 0), Vec3(0, 0.3, 0.2)};
+  ScriptedRun run(scene_of({solid}, {ball_at(Vec3(-0.3, 0.4, 0.7), Vec3(9, 1, 0))}),
+                  always(1, 0, Vec3(0, 0.4, 0.7), Vec3(1, 0, 0)));
+  run.simulation.next();
+  const Sum before = sum_of(*run.physics);
+  const FramePtr frame = run.simulation.next();
+  Sum after = sum_of(*run.physics);
+  ASSERT_EQ(frame->breaks.size(), 1u);
+  EXPECT_NEAR(frame->breaks[0].energy_J, 200, 1e-9);
+  EXPECT_NEAR(after.mass, before.mass, 1e-9 * before.mass);
+  EXPECT_NEAR(before.kinetic - after.kinetic, 200, 1e-9 * before.kinetic);
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-9 * before.momentum.norm());
+}
+
+TEST(BreakStage, KeepsAngularMomentumThroughTheBreakItself) {
+  const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}, Vec3(0.5, 0, 0), Vec3(1, 2, 3)};
+  ScriptedRun run(scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))}),
+                  always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));
+  run.simulation.next();
+  const Sum before = sum_of(*run.physics);
+  ASSERT_EQ(run.simulation.next()->breaks.size(), 1u);
+  Sum after = sum_of(*run.physics);
+  // Moving on for one step in a straight line does not change it either.
+  EXPECT_LT((after.spin - before.spin).norm(), 1e-9 * before.spin.norm());
+}
+
+TEST(BreakStage, LeavesWholeWhatIsHitTooSoftly) {
+  const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
+  ScriptedRun run(scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(0.6, 0, 0))}),
+                  always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));
+  run.simulation.next();
+  const FramePtr frame = run.simulation.next();
+  EXPECT_TRUE(frame->breaks.empty());
+  EXPECT_EQ(frame->report.counts.compounds, 1u);
+}
+
+TEST(BreakStage, LeavesWholeWhatIsHitBelowItsStrength) {
+  const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
+  Scene scene = scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))});
+  scene.materials[0].strength_Ns = 1e6;
+  ScriptedRun run(scene, always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));
+  run.simulation.next();
+  EXPECT_TRUE(run.simulation.next()->breaks.empty());
+}
+
+TEST(BreakStage, LetsTheAnchoredPartStandAndTheRestGo) {
+  const Solid solid{"box", two_boxes(Vec3::Zero(), true), {}};
+  ScriptedRun run(scene_of({solid}, {ball_at(Vec3(2.3, 0.5, 0.5), Vec3(-9, 0, 0))}),
+                  always(1, 0, Vec3(2, 0.5, 0.5), Vec3(-1, 0, 0)));
+  run.simulation.next();
+  const FramePtr frame = run.simulation.next();
+  ASSERT_EQ(frame->bodies.size(), 3u);
+  EXPECT_FALSE(frame->bodies[0].is_static);  // the ball is older than the pieces
+  EXPECT_TRUE(frame->bodies[1].is_static);
+  EXPECT_FALSE(frame->bodies[2].is_static);
+}
+
+TEST(BreakStage, BreaksOneBehindTheOtherInOneStep) {
+  const Solid front{"front", two_boxes(Vec3::Zero(), false), {}};
+  const Solid back{"back", two_boxes(Vec3(0, 0, -2), false), {}};
+  const auto script = [](const ScriptedPhysics& physics, int collides) {
+    return collides == 0 ? physics.approach(2, 0, Vec3(0.5, 0.5, 1), Vec3(0, 0, -1))
+                         : physics.approach(2, 1, Vec3(0.5, 0.5, -1), Vec3(0, 0, -1));
+  };
+  ScriptedRun run(scene_of({front, back}, {ball_at(Vec3(0.5, 0.5, 1.3), Vec3(0, 0, -30))}), script);
+  run.simulation.next();
+  const double before = sum_of(*run.physics).kinetic;
+  const FramePtr frame = run.simulation.next();
+  ASSERT_EQ(frame->breaks.size(), 2u);
+  EXPECT_NEAR(before - sum_of(*run.physics).kinetic, 400, 1e-6);
+}
+
+TEST(BreakStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
+  const Solid front{"front", two_boxes(Vec3::Zero(), false), {}};
+  Scene scene = scene_of({front, front}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(30, 0, 0))});
+  scene.limits.cells_a_frame = static_cast<std::uint32_t>(scene.materials[0].pattern.cells);
+  const auto script = [](const ScriptedPhysics& physics, int collides) {
+    std::vector<Approach> both = physics.approach(2, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0));
+    const auto second = physics.approach(2, 1, Vec3(0, 0.4, 0.5), Vec3(1, 0, 0));
+    if (collides == 0) both.insert(both.end(), second.begin(), second.end());
+    return both;
+  };
+  ScriptedRun run(scene, script);
+  run.simulation.next();
+  const FramePtr first = run.simulation.next();
+  EXPECT_EQ(first->breaks.size(), 1u);
+  EXPECT_EQ(first->report.carried_over, 1u);
+  const FramePtr second = run.simulation.next();
+  EXPECT_EQ(second->breaks.size(), 1u);
+  EXPECT_EQ(second->report.carried_over, 0u);
+}
+
+TEST(BreakStage, CountsABreakThatTheBodyLimitForbids) {
+  const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
+  Scene scene = scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))});
+  scene.limits.bodies = 2;
+  ScriptedRun run(scene, always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));
+  run.simulation.next();
+  const FramePtr frame = run.simulation.next();
+  EXPECT_TRUE(frame->breaks.empty());
+  EXPECT_EQ(frame->report.limits_hit, 1u);
+}
+
+TEST(Simulation, GivesAFrameEverySixtiethOfASecondUntilTheEnd) {
+  Scene scene = scene_of({}, {ball_at(Vec3::Zero(), Vec3(1, 0, 0))});
+  scene.duration_s = 0.5;
+  scene.accuracy.dt_s = 1.0 / 240;
+  ScriptedRun run(scene, [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
+  int frames = 0;
+  while (const FramePtr frame = run.simulation.next()) {
+    EXPECT_NEAR(frame->time_s, frames / 60.0, 1e-12);
+    EXPECT_NEAR(frame->bodies[0].X_WB.position.x(), frames / 60.0, 1e-9);
+    ++frames;
+  }
+  EXPECT_EQ(frames, 31);
+}
+
+TEST(Simulation, FiresShotsAtTheirTimeAndCountsTheirMassFromTheStart) {
+  Scene scene = scene_of({}, {});
+  scene.shots = {{0.1, ball_at(Vec3::Zero(), Vec3(1, 0, 0))}};
+  scene.duration_s = 0.2;
+  ScriptedRun run(scene, [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
+  const FramePtr first = run.simulation.next();
+  EXPECT_TRUE(first->bodies.empty());
+  FramePtr last = first;
+  while (const FramePtr frame = run.simulation.next()) last = frame;
+  EXPECT_EQ(last->bodies.size(), 1u);
+  EXPECT_DOUBLE_EQ(first->report.mass_kg, last->report.mass_kg);
+  EXPECT_NEAR(last->bodies[0].X_WB.position.x(), 0.1, 1.5 / 60);
+}
+
+TEST(Simulation, KeepsTheMeshesOfWhatABreakDidNotChange) {
+  const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
+  ScriptedRun run(scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))}),
+                  always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));
+  const FramePtr before = run.simulation.next();
+  const FramePtr after = run.simulation.next();
+  ASSERT_EQ(after->breaks.size(), 1u);
+  EXPECT_EQ(after->meshes->size(), before->meshes->size());
+  EXPECT_EQ(after->instances.size(), before->instances.size());
+}
+
+TEST(PieceMesh, LeavesOutCoveredFaces) {
+  Compound compound = two_boxes(Vec3::Zero(), false);
+  const auto face_towards = [&](std::size_t c, const Vec3& normal) {
+    const auto& faces = compound.convexes[c]->polyhedron.faces;
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      if (faces[f].plane.normal.dot(normal) > 0.9) return f;
+    }
+    return 0u;
+  };
+  compound.bonds = {{0, 1, face_towards(0, Vec3::UnitX()), face_towards(1, -Vec3::UnitX()), 1}};
+  const auto hidden = hidden_faces(compound);
+  for (std::size_t c = 0; c < 2; ++c) {
+    EXPECT_EQ(std::count(hidden[c].begin(), hidden[c].end(), 1), 1);
+    EXPECT_EQ(make_mesh(*compound.convexes[c], hidden[c])->indices.size(), 5u * 6);
+  }
+}
+
+TEST(PieceMesh, FacesOutwards) {
+  const std::shared_ptr<const Mesh> ball = make_ball_mesh(2, MaterialIndex(0));
+  const ConvexPtr box = make_convex(make_box(-Vec3::Ones(), Vec3::Ones()), MaterialIndex(0));
+  const std::shared_ptr<const Mesh> cube = make_mesh(*box, std::vector<std::uint8_t>(6, 0));
+  for (const Mesh* mesh : {ball.get(), cube.get()}) {
+    for (std::size_t i = 0; i < mesh->indices.size(); i += 3) {
+      const Vec3f a = mesh->vertices[mesh->indices[i]].position;
+      const Vec3f b = mesh->vertices[mesh->indices[i + 1]].position;
+      const Vec3f c = mesh->vertices[mesh->indices[i + 2]].position;
+      EXPECT_GT((b - a).cross(c - a).dot(a + b + c), 0.f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunder
