@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -25,11 +24,17 @@ class Bvh {
  private:
   struct Node {
     Box box;
-    std::uint32_t first = 0;  ///< Leaf: first item; inner: index of the second child.
+    std::uint32_t first = 0;  ///< Of the items below it.
     std::uint32_t count = 0;  ///< Items of a leaf; 0 for an inner node.
+    std::uint32_t next = 0;   ///< The node after the subtree.
   };
-  std::vector<Node> nodes_;
+  void build(std::span<const Box> boxes, std::size_t first, std::size_t count);
+  template <class Touches>
+  void collect(const Touches& touches, std::vector<std::uint32_t>& hits) const;
+
+  std::vector<Node> nodes_;  ///< Depth first.
   std::vector<std::uint32_t> items_;
+  std::vector<Box> boxes_;  ///< Of items_.
 };
 
 }  // namespace sunder

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -44,6 +45,8 @@ Box bounds(const ConvexPolyhedron& convex);
 MassProperties mass_properties(const ConvexPolyhedron& convex);
 double face_area(const ConvexPolyhedron& convex, std::size_t face);
 
+/// Appends a flat-shaded surface face on the plane that fits the corners best; no id.
+void add_face(ConvexPolyhedron& convex, std::span<const std::uint32_t> corners);
 /// An axis-aligned box, flat-shaded.
 ConvexPolyhedron make_box(const Vec3& min, const Vec3& max);
 /// A convex polygon in the xz-plane (counter-clockwise seen from +y) swept from `bottom` to `top`
@@ -62,15 +65,28 @@ enum class PlaneSide { kInside, kOutside, kCut };
 
 /// Reused memory of clip(); one per thread.
 struct ClipScratch {
+  struct Crossing {
+    std::uint32_t outside;  ///< The edge's vertex that is cut off.
+    std::uint32_t vertex;   ///< Where it is cut, in the result.
+    std::uint32_t next;     ///< Of the same inside vertex.
+    double t;               ///< Place along the edge, from its lexicographically first end.
+    bool inside_first;      ///< Which end that is.
+  };
   std::vector<double> distances;
-  std::vector<std::uint32_t> marks;
-  std::vector<std::uint32_t> edge_vertices;
+  std::vector<std::int8_t> sides;             ///< Per vertex: -1 in, 0 on, 1 out.
+  std::vector<std::uint32_t> new_of_old;      ///< Per vertex.
+  std::vector<std::uint32_t> first_crossing;  ///< Per inside vertex, heads of lists.
+  std::vector<Crossing> crossings;
+  std::vector<std::uint32_t> cap_next;  ///< Per new vertex: the cap's edges.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> on_edges;  ///< Kept, both ends on.
 };
 
-/// Keeps the part of `convex` with plane.distance <= 0 in `result` (untouched unless the answer is
-/// kCut). The new face gets `id` and kInterior. Topology follows from the vertices' signs alone
-/// (distances within `tolerance_m` of the plane count as on it), so the result is closed whatever
-/// the rounding; normals are interpolated along cut edges.
+/// Keeps the part of `convex` with plane.distance <= 0 in `result` (unspecified unless the answer
+/// is kCut). The new face, the last, gets `id` and kInterior. Topology follows from the vertices'
+/// signs alone (distances within `tolerance_m` of the plane count as on it), so the result is
+/// closed whatever the rounding; normals are interpolated along cut edges. A cut edge gives the
+/// same bits from either side of the plane and in every convex that has the edge. A convex wholly
+/// within tolerance is inside for exactly one of (plane, id) and (plane.flipped(), id.opposite()).
 PlaneSide clip(const ConvexPolyhedron& convex, const Plane& plane, PlaneId id, double tolerance_m,
                ConvexPolyhedron& result, ClipScratch& scratch);
 

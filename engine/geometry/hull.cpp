@@ -1,0 +1,159 @@
+// The hull by its dual: a point p is the half-space p·y <= 1, the hull of points is the dual of
+// their half-spaces' intersection, and clip() intersects half-spaces closed whatever the rounding.
+// Coplanar points, collinear points and duplicates are planes through existing vertices, which
+// clip() handles exactly like any other case. The hull's corners are the given points themselves.
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+
+#include "engine/geometry/convex_polyhedron.h"
+
+namespace sunder {
+namespace {
+
+/// In the affine space where the starting tetrahedron is regular: there, flat and tiny solids are
+/// as easy as cubes.
+constexpr double kDualTolerance = 1e-10;
+/// The least height of the starting tetrahedron over its length.
+constexpr double kFlat = 1e-9;
+
+using Tetrahedron = std::array<std::uint32_t, 4>;
+
+/// A regular tetrahedron whose dual is its own mirror image through the origin.
+Eigen::Matrix<double, 3, 4> regular_tetrahedron() {
+  Eigen::Matrix<double, 3, 4> r;
+  r << 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1, 1;
+  return r;
+}
+
+template <class Measure>
+std::uint32_t farthest(std::span<const Vec3> points, const Measure& measure) {
+  std::uint32_t best = 0;
+  double most = -1;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (const double m = measure(points[i]); m > most) {
+      best = i;
+      most = m;
+    }
+  }
+  return best;
+}
+
+/// Four points that span about as much as any four, as left-handed as regular_tetrahedron(); none if
+/// the points lie in a plane.
+std::optional<Tetrahedron> spanning_tetrahedron(std::span<const Vec3> points) {
+  if (points.size() < 4) return std::nullopt;
+  const std::uint32_t i = farthest(points, [&](const Vec3& p) { return (p - points[0]).norm(); });
+  const Vec3 a = points[i];
+  const std::uint32_t j = farthest(points, [&](const Vec3& p) { return (p - a).norm(); });
+  const Vec3 ab = points[j] - a;
+  const std::uint32_t k = farthest(points, [&](const Vec3& p) { return ab.cross(p - a).norm(); });
+  const Vec3 normal = ab.cross(points[k] - a);
+  if (!(normal.norm() > kFlat * ab.squaredNorm())) return std::nullopt;
+  const Vec3 up = normal.normalized();
+  const std::uint32_t l = farthest(points, [&](const Vec3& p) { return std::abs(up.dot(p - a)); });
+  const double height = up.dot(points[l] - a);
+  if (!(std::abs(height) > kFlat * ab.norm())) return std::nullopt;
+  return height > 0 ? Tetrahedron{i, k, j, l} : Tetrahedron{i, j, k, l};
+}
+
+/// The points moved by the affine map that makes the tetrahedron regular.
+std::vector<Vec3> regularised(std::span<const Vec3> points, const Tetrahedron& start) {
+  const Eigen::Matrix<double, 3, 4> r = regular_tetrahedron();
+  const Vec3& origin = points[start[0]];
+  Mat3 edges, regular_edges;
+  for (int c = 0; c < 3; ++c) {
+    edges.col(c) = points[start[static_cast<std::size_t>(c + 1)]] - origin;
+    regular_edges.col(c) = r.col(c + 1) - r.col(0);
+  }
+  const double size = edges.cwiseAbs().maxCoeff();  // keeps the determinant in range
+  const Mat3 map = regular_edges * (edges / size).inverse() / size;
+  std::vector<Vec3> moved;
+  moved.reserve(points.size());
+  for (const Vec3& p : points) moved.push_back(r.col(0) + map * (p - origin));
+  return moved;
+}
+
+/// The dual of the starting tetrahedron. A face's id is the index of its point.
+ConvexPolyhedron starting_dual(const Tetrahedron& start) {
+  const Eigen::Matrix<double, 3, 4> r = regular_tetrahedron();
+  ConvexPolyhedron dual;
+  for (int v = 0; v < 4; ++v) dual.vertices.push_back(-r.col(v));
+  constexpr std::uint32_t kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  for (std::size_t f = 0; f < 4; ++f) {
+    add_face(dual, kFaces[f]);
+    dual.faces.back().id.value = start[f];
+  }
+  return dual;
+}
+
+ConvexPolyhedron dual_of_hull(std::span<const Vec3> points, const Tetrahedron& start) {
+  const std::vector<Vec3> moved = regularised(points, start);
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  // Far points first: they leave little for the others to do.
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const double at_a = moved[a].squaredNorm(), at_b = moved[b].squaredNorm();
+    return at_a != at_b ? at_a > at_b : a < b;
+  });
+  ConvexPolyhedron dual = starting_dual(start), next;
+  ClipScratch scratch;
+  for (const std::uint32_t i : order) {
+    const double distance = moved[i].norm();
+    if (distance * distance < 1.0 / 3) break;  // inside the starting tetrahedron, and so the rest
+    const Plane plane{moved[i] / distance, -1 / distance};
+    if (clip(dual, plane, {i}, kDualTolerance, next, scratch) == PlaneSide::kCut) {
+      std::swap(dual, next);
+    }
+  }
+  return dual;
+}
+
+/// A corner of the dual: `face` at `vertex`, between the edges to `next` and from `previous`.
+struct Fan {
+  std::uint32_t vertex, next, previous, face;
+};
+
+std::vector<Fan> fans(const ConvexPolyhedron& dual) {
+  std::vector<Fan> result;
+  for (std::uint32_t f = 0; f < dual.faces.size(); ++f) {
+    const auto corners = dual.face_corners(f);
+    for (std::size_t i = 0, n = corners.size(); i < n; ++i) {
+      result.push_back({corners[i], corners[(i + 1) % n], corners[(i + n - 1) % n], f});
+    }
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Fan& a, const Fan& b) { return a.vertex < b.vertex; });
+  return result;
+}
+
+}  // namespace
+
+ConvexPolyhedron make_hull(std::span<const Vec3> points) {
+  ConvexPolyhedron hull;
+  const std::optional<Tetrahedron> start = spanning_tetrahedron(points);
+  if (!start) return hull;
+  const ConvexPolyhedron dual = dual_of_hull(points, *start);
+  for (const ConvexPolyhedron::Face& face : dual.faces) {
+    hull.vertices.push_back(points[face.id.value]);
+  }
+  const std::vector<Fan> all = fans(dual);
+  std::vector<std::uint32_t> corners;
+  for (auto begin = all.begin(); begin != all.end();) {  // a vertex of the dual: a face of the hull
+    const auto end =
+        std::find_if(begin, all.end(), [&](const Fan& fan) { return fan.vertex != begin->vertex; });
+    corners.clear();
+    auto fan = begin;
+    do {
+      corners.push_back(fan->face);
+      fan = std::find_if(begin, end, [&](const Fan& other) { return other.next == fan->previous; });
+    } while (fan != begin);
+    // A vertex within tolerance of the edge between two others makes an empty face of two corners.
+    if (corners.size() >= 3) add_face(hull, corners);
+    begin = end;
+  }
+  return hull;
+}
+
+}  // namespace sunder
