@@ -1,0 +1,55 @@
+// Visual meshes: closed surfaces of general polygons, possibly non-convex and with holes, never
+// permanently triangulated (paper 3.3, figure 9).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/types.h"
+#include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/mass_properties.h"
+#include "engine/geometry/plane.h"
+
+namespace sunder {
+
+using Vec2f = Eigen::Vector2f;
+
+/// A surface of polygons in the rest frame R. A face has one outer contour, counter-clockwise seen
+/// from outside, and any number of further contours (holes clockwise, islands counter-clockwise);
+/// what is inside follows from even-odd counting. Contours of face f are
+/// [first_contour, +contour_count) of `contours`; corners of a contour likewise of the corner
+/// arrays, which run in parallel.
+struct PolygonMesh {
+  struct Contour {
+    std::uint32_t first_corner = 0;
+    std::uint32_t corner_count = 0;
+  };
+  struct Face {
+    Plane plane;
+    PlaneId id;  ///< None on the original surface; that of the cut on a cap.
+    std::uint32_t first_contour = 0;
+    std::uint32_t contour_count = 0;
+    FaceKind kind = FaceKind::kSurface;
+  };
+
+  std::vector<Vec3> vertices;
+  std::vector<Face> faces;
+  std::vector<Contour> contours;
+  std::vector<std::uint32_t> corners;  ///< Vertex index of each corner.
+  std::vector<Vec3f> corner_normals;   ///< Unit shading normal of each corner.
+  std::vector<Vec2f> corner_uvs;       ///< Texture coordinates; empty if there are none.
+
+  bool empty() const { return faces.empty(); }
+  std::span<const std::uint32_t> contour_corners(std::size_t c) const {
+    return std::span(corners).subspan(contours[c].first_corner, contours[c].corner_count);
+  }
+};
+
+Box bounds(const PolygonMesh& mesh);
+/// Of the enclosed solid (divergence theorem); meaningful only if the mesh is watertight.
+MassProperties mass_properties(const PolygonMesh& mesh);
+/// Directed edges without an opposite, plus those that occur more than once.
+std::size_t open_edges(const PolygonMesh& mesh);
+
+}  // namespace sunder
