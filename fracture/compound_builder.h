@@ -11,7 +11,7 @@ namespace sunder::fracture {
 struct Part {
   ConvexPolyhedron polyhedron;
   MaterialIndex material;
-  bool anchored = false;
+  std::uint8_t anchored = 0;  ///< As in Compound: `true` is held from below.
 };
 
 /// A compound of parts that do not overlap. Faces within `tolerance_m` of one plane share a plane

@@ -23,8 +23,9 @@ struct BreakCommand {
   std::uint64_t event = 1;  ///< Unique in a run, >= 1; names the planes the break makes.
   std::uint64_t seed = 0;
   PatternSpec pattern;
-  Pose X_RP;            ///< Pose of the pattern; its origin is the impact.
-  double radius_m = 1;  ///< Of the impact sphere; infinity breaks the whole compound.
+  Mat3 stretch_P = Mat3::Identity();  ///< Deforms the pattern first; of positive determinant.
+  Pose X_RP;                          ///< Pose of the pattern; its origin is the impact.
+  double radius_m = 1;                ///< Of the impact sphere; infinity breaks the whole compound.
 };
 
 /// A face that a break laid bare, in the rest frame R.
@@ -43,6 +44,7 @@ struct BreakPlan {
   double debris_volume_m3 = 0;  ///< Under the volume floor: mass that became debris.
   std::uint32_t untouched = 0;  ///< Convexes handed on as they were.
   std::uint32_t welded = 0;     ///< Cells that became one convex.
+  std::uint32_t failed = 0;     ///< Convexes left whole because their parts did not add up.
 
   bool broke() const { return pieces.size() > 1; }
 };

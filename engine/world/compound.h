@@ -31,11 +31,20 @@ struct Bond {
   double area_m2 = 0;                    ///< Of the overlap.
 };
 
+/// One side of a convex's box (axis 0 to 2, low or high) as a bit of Compound::anchored. Below, the
+/// low side of y, is 1.
+constexpr std::uint8_t anchor_side(int axis, bool high) {
+  return static_cast<std::uint8_t>(1u << (2 * ((axis + 2) % 3) + (high ? 1 : 0)));
+}
+inline constexpr std::uint8_t kAnchoredAllRound = 0x3f;
+
 /// Convexes that move as one, in the rest frame R of the solid they were cut from.
 struct Compound {
   std::vector<ConvexPtr> convexes;
-  std::vector<std::uint8_t> anchored;  ///< Per convex: 1 where it is held by the world.
-  std::vector<Bond> bonds;             ///< Sorted by (a, b, face_a, face_b).
+  /// Per convex: the sides of its box by which the world holds it (anchor_side()), 0 where free. A
+  /// part of it stays anchored by those of them that it still reaches.
+  std::vector<std::uint8_t> anchored;
+  std::vector<Bond> bonds;  ///< Sorted by (a, b, face_a, face_b).
 
   bool is_anchored() const;
 };

@@ -1,0 +1,38 @@
+// Which convexes touch (property (c) of paper 3.1): faces of one plane with opposite normals that
+// overlap.
+//
+// The paper sorts faces by |d|. Planes have names here, so faces are sorted by name, and within a
+// plane found by a sweep: a grid of bricks, where all |d| are alike, costs no more than any other
+// solid.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/world/compound.h"
+
+namespace sunder::fracture {
+
+/// A face that may touch another.
+struct FaceEntry {
+  PlaneId id;
+  std::uint32_t convex = 0;
+  std::uint32_t face = 0;
+  bool known = false;  ///< Its contacts with other known faces are known already: leave them out.
+};
+
+/// Faces that overlap by less than this share of the smaller one do not touch.
+inline constexpr double kLeastOverlap = 1e-9;
+
+/// Puts bonds in the order of Compound::bonds.
+void sort_bonds(std::vector<Bond>& bonds);
+/// Adds all faces of convex number `index`.
+void add_faces(const ConvexPolyhedron& polyhedron, std::uint32_t index,
+               std::vector<FaceEntry>& entries);
+/// All contacts among `faces` of `convexes`, sorted as Compound::bonds is.
+std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes, std::vector<FaceEntry> faces);
+/// All contacts among `convexes`.
+std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes);
+
+}  // namespace sunder::fracture

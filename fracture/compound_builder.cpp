@@ -1,0 +1,115 @@
+#include "fracture/compound_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/geometry/bvh.h"
+#include "fracture/adjacency.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr double kParallel = 1e-6;  // of unit normals: how far their sum may be from zero
+
+/// Faces joined into planes: union-find where every face also knows on which side of its plane it
+/// is, relative to its parent.
+class Planes {
+ public:
+  explicit Planes(std::size_t faces) : parent_(faces), flipped_(faces, 0) {
+    for (std::size_t i = 0; i < faces; ++i) parent_[i] = static_cast<std::uint32_t>(i);
+  }
+
+  /// Puts two faces into one plane, on opposite sides.
+  void join(std::uint32_t a, std::uint32_t b) {
+    const auto [root_a, side_a] = find(a);
+    const auto [root_b, side_b] = find(b);
+    if (root_a == root_b) return;
+    const std::uint32_t low = std::min(root_a, root_b), high = std::max(root_a, root_b);
+    parent_[high] = low;
+    flipped_[high] = side_a ^ side_b ^ 1;
+  }
+
+  std::pair<std::uint32_t, std::uint8_t> find(std::uint32_t face) const {
+    std::uint8_t side = 0;
+    for (; parent_[face] != face; face = parent_[face]) side ^= flipped_[face];
+    return {face, side};
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint8_t> flipped_;
+};
+
+/// Whether face `f` of `a` and face `g` of `b` lie in one plane, back to back.
+bool back_to_back(const ConvexPolyhedron& a, std::size_t f, const ConvexPolyhedron& b,
+                  std::size_t g, double tolerance) {
+  const Plane& plane = a.faces[f].plane;
+  if ((plane.normal + b.faces[g].plane.normal).squaredNorm() > kParallel * kParallel) return false;
+  for (const std::uint32_t corner : b.face_corners(g)) {
+    if (std::abs(plane.distance(b.vertices[corner])) > tolerance) return false;
+  }
+  return true;
+}
+
+Box grown(const Box& box, double by) {
+  return {box.min - Vec3::Constant(by), box.max + Vec3::Constant(by)};
+}
+
+/// Joins the faces by which two convexes may touch.
+void join_faces(const ConvexPolyhedron& a, std::uint32_t first_a, const Box& box_b,
+                const ConvexPolyhedron& b, std::uint32_t first_b, double tolerance,
+                Planes& planes) {
+  const Vec3 center = box_b.center();
+  for (std::uint32_t f = 0; f < a.faces.size(); ++f) {
+    if (a.faces[f].plane.distance(center) < -tolerance) continue;  // b is not beyond this face
+    for (std::uint32_t g = 0; g < b.faces.size(); ++g) {
+      if (back_to_back(a, f, b, g, tolerance)) planes.join(first_a + f, first_b + g);
+    }
+  }
+}
+
+/// Names the planes of all faces; those back to back share one.
+void name_planes(std::vector<Part>& parts, double tolerance) {
+  std::vector<Box> boxes;
+  std::vector<std::uint32_t> first_face;
+  std::uint32_t faces = 0;
+  for (const Part& part : parts) {
+    boxes.push_back(grown(bounds(part.polyhedron), tolerance));
+    first_face.push_back(faces);
+    faces += static_cast<std::uint32_t>(part.polyhedron.faces.size());
+  }
+  const Bvh tree(boxes);
+  Planes planes(faces);
+  std::vector<std::uint32_t> hits;
+  for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    hits.clear();
+    tree.overlaps(boxes[i], hits);
+    for (const std::uint32_t j : hits) {
+      if (j <= i) continue;
+      join_faces(parts[i].polyhedron, first_face[i], boxes[j], parts[j].polyhedron, first_face[j],
+                 tolerance, planes);
+    }
+  }
+  for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    for (std::uint32_t f = 0; f < parts[i].polyhedron.faces.size(); ++f) {
+      const auto [root, side] = planes.find(first_face[i] + f);
+      parts[i].polyhedron.faces[f].id = {2 * (std::uint64_t{root} + 1) + side};
+    }
+  }
+}
+
+}  // namespace
+
+Compound make_compound(std::vector<Part> parts, double tolerance_m) {
+  name_planes(parts, tolerance_m);
+  Compound compound;
+  for (Part& part : parts) {
+    compound.convexes.push_back(make_convex(std::move(part.polyhedron), part.material));
+    compound.anchored.push_back(part.anchored);
+  }
+  compound.bonds = find_contacts(compound.convexes);
+  return compound;
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,34 @@
+// Steps 2 and 3 of a fracture over all convexes that the impact sphere touches.
+#pragma once
+
+#include <vector>
+
+#include "fracture/fracture.h"
+
+namespace sunder::fracture {
+
+/// A convex after the cuts, on its way into a piece.
+struct Fragment {
+  /// The rest: what is outside the impact sphere or the pattern.
+  static constexpr std::uint32_t kRest = 0xffffffff;
+
+  ConvexPtr convex;
+  std::uint32_t source = 0;  ///< The convex of the parent compound that it came from.
+  std::uint32_t cell = 0;    ///< As in CellPart.
+  std::uint32_t group = kRest;
+  std::uint8_t anchored = 0;
+};
+
+struct Fragments {
+  std::vector<Fragment> all;
+  double debris_volume_m3 = 0;
+  std::uint32_t welded = 0;
+  std::uint32_t failed = 0;
+};
+
+/// Cuts the convexes `touched` of a compound, welds full cells, and groups by colour what the
+/// sphere touches.
+Fragments make_fragments(const Compound& compound, const std::vector<std::uint32_t>& touched,
+                         const AlignedPattern& pattern, const ImpactSphere& sphere);
+
+}  // namespace sunder::fracture

@@ -1,0 +1,16 @@
+// Step 5 of a fracture: convexes that no longer touch part company (paper 3.1).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/world/compound.h"
+
+namespace sunder::fracture {
+
+/// The island of each of `count` convexes joined by `bonds`: islands are numbered in the order of
+/// their first convex.
+std::vector<std::uint32_t> find_islands(std::size_t count, std::span<const Bond> bonds);
+
+}  // namespace sunder::fracture

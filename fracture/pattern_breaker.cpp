@@ -1,0 +1,87 @@
+#include "fracture/pattern_breaker.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/base/random.h"
+#include "engine/base/trigonometry.h"
+#include "fracture/fracture.h"
+#include "fracture/pattern_library.h"
+
+namespace sunder::fracture {
+namespace {
+
+// A convex is a pane if its least width is below this share of the cube root of its volume.
+constexpr double kPane = 0.3;
+
+/// The rotation that takes y to `axis`, after a turn about y.
+Quat turned_onto(const Vec3& axis, double turn_rad) {
+  const Vec3 y = axis.normalized();
+  Vec3 x = y.cross(std::abs(y.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ()).normalized();
+  const SinCos turn = sin_cos(turn_rad);
+  x = turn.cos * x + turn.sin * y.cross(x);
+  Mat3 rotation;
+  rotation << x, y, x.cross(y);
+  return Quat(rotation).normalized();
+}
+
+/// The axis of a pattern: through a pane across it, otherwise along the blow.
+Vec3 pattern_axis(const Convex& convex, const Vec3& direction_R) {
+  double least = std::numeric_limits<double>::infinity();
+  Vec3 thin = direction_R;
+  for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces) {
+    double width = 0;
+    for (const Vec3& vertex : convex.polyhedron.vertices) {
+      width = std::max(width, -face.plane.distance(vertex));
+    }
+    if (width < least) {
+      least = width;
+      thin = face.plane.normal;
+    }
+  }
+  if (least > kPane * std::cbrt(convex.solid.volume_m3)) return direction_R;
+  return thin.dot(direction_R) < 0 ? Vec3(-thin) : thin;
+}
+
+class PatternBreaker final : public Breaker {
+ public:
+  BreakCommand command(const Compound& compound, const Material& material, const Hit& hit,
+                       std::uint64_t event, std::uint64_t seed) const override {
+    Random random(seed, 3);
+    BreakCommand command;
+    command.event = event;
+    command.seed = seed;
+    command.pattern = material.pattern;
+    command.radius_m = material.impact_radius_m;
+    const Vec3 axis = material.pattern.kind == PatternSpec::Kind::kVoronoi
+                          ? random.direction()
+                          : pattern_axis(*compound.convexes[hit.convex], hit.direction_R);
+    command.X_RP = {hit.point_R, turned_onto(axis, random.uniform(0, 2 * std::numbers::pi))};
+    return command;
+  }
+
+  BreakPlan plan(const Compound& compound, const BreakCommand& command) const override {
+    const ImpactSphere sphere{command.X_RP.position, command.radius_m};
+    const double unit = sphere.is_endless() ? reach(compound, sphere.center_R) : sphere.radius_m;
+    const auto pattern = library_.find(command.pattern, unit, command.seed);
+    const Placement placement{command.X_RP.rotation.toRotationMatrix() * (unit * command.stretch_P),
+                              command.X_RP.position};
+    return fracture(compound, *pattern, placement, sphere, command.event);
+  }
+
+ private:
+  /// How far the farthest corner of the compound's box is.
+  static double reach(const Compound& compound, const Vec3& from) {
+    const Box box = bounds(compound);
+    return (box.max - from).cwiseAbs().cwiseMax((box.min - from).cwiseAbs()).norm();
+  }
+
+  mutable PatternLibrary library_;
+};
+
+}  // namespace
+
+std::unique_ptr<Breaker> make_pattern_breaker() { return std::make_unique<PatternBreaker>(); }
+
+}  // namespace sunder::fracture

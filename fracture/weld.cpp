@@ -1,0 +1,43 @@
+#include "fracture/weld.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunder::fracture {
+namespace {
+
+constexpr double kSame = 1e-9;  // relative
+
+double surface_area(const ConvexPolyhedron& polyhedron) {
+  double area = 0;
+  for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) area += face_area(polyhedron, f);
+  return area;
+}
+
+}  // namespace
+
+ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
+               std::span<const ConvexPtr> parts) {
+  double volume = 0;
+  for (const ConvexPtr& part : parts) {
+    if (part->material != parts[0]->material) return nullptr;
+    volume += part->solid.volume_m3;
+  }
+  if (!(std::abs(volume - cell.volume) <= kSame * cell.volume)) return nullptr;
+
+  ConvexPolyhedron whole = pattern.polyhedron(cell);
+  double boundary = 0;
+  for (const ConvexPtr& part : parts) {
+    for (std::size_t f = 0; f < part->polyhedron.faces.size(); ++f) {
+      const PlaneId id = part->polyhedron.faces[f].id;
+      const bool is_boundary = std::any_of(whole.faces.begin(), whole.faces.end(),
+                                           [&](const auto& face) { return face.id == id; });
+      if (is_boundary) boundary += face_area(part->polyhedron, f);
+    }
+  }
+  const double area = surface_area(whole);
+  if (std::abs(boundary - area) > kSame * area) return nullptr;
+  return make_convex(std::move(whole), parts[0]->material);
+}
+
+}  // namespace sunder::fracture

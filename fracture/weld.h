@@ -1,0 +1,17 @@
+// Step 3 of a fracture: a cell that is fully covered becomes one convex (paper 3.1).
+#pragma once
+
+#include <span>
+
+#include "fracture/align.h"
+#include "fracture/intersect.h"
+
+namespace sunder::fracture {
+
+/// The one convex that `parts` of a cell amount to: exactly the cell's polyhedron. Null unless
+/// they fill the cell, are of one material, and its whole boundary was made by this pattern (a
+/// face of the old solid that lies in it keeps its look and name, so it is left alone).
+ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
+               std::span<const ConvexPtr> parts);
+
+}  // namespace sunder::fracture
