@@ -1,10 +1,14 @@
 // One pass over the faces: corners that stay are renumbered, edges that change side get one vertex
 // each, and every edge this leaves without an opposite is, reversed, an edge of the cap. The signs
-// of the vertices decide all of it. Should rounding have made the convex so crooked that the cap is
-// not one loop, more vertices are taken as lying on the plane, until it is.
+// of the vertices decide all of it.
+//
+// Vertices on the plane are reused. Where rounding has left slivers about as thin as the tolerance,
+// that may fail to give one sphere; then the cut is made again with no vertex on the plane, which
+// always closes: each new vertex has one cap edge in and one out.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/base/check.h"
 #include "engine/geometry/convex_polyhedron.h"
@@ -34,17 +38,80 @@ Vec3f blend(const Vec3f& a, const Vec3f& b, double t, const Vec3& fallback) {
   return square > 1e-12f ? Vec3f(sum / std::sqrt(square)) : Vec3f(fallback.cast<float>());
 }
 
+/// 2 for every part of a closed surface.
+std::ptrdiff_t euler_characteristic(const ConvexPolyhedron& convex) {
+  return std::ssize(convex.vertices) + std::ssize(convex.faces) - std::ssize(convex.corners) / 2;
+}
+
+/// Six times the volume between a face and a point.
+double cone_volume6(const ConvexPolyhedron& convex, std::size_t face, const Vec3& apex) {
+  const auto corners = convex.face_corners(face);
+  const Vec3 a = convex.vertices[corners[0]] - apex;
+  double sum = 0;
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    sum +=
+        a.dot((convex.vertices[corners[i - 1]] - apex).cross(convex.vertices[corners[i]] - apex));
+  }
+  return sum;
+}
+
+/// Of several closed parts, all but one slivers that rounding cut off, keeps the largest.
+void keep_largest_part(ConvexPolyhedron& solid) {
+  std::vector<std::uint32_t> part(solid.vertices.size());  // of a vertex: the lowest one joined
+  std::iota(part.begin(), part.end(), 0u);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+      std::uint32_t lowest = kNone;
+      for (const std::uint32_t v : solid.face_corners(f)) lowest = std::min(lowest, part[v]);
+      for (const std::uint32_t v : solid.face_corners(f)) {
+        changed = changed || part[v] != lowest;
+        part[v] = lowest;
+      }
+    }
+  }
+  std::vector<double> volume(solid.vertices.size(), 0);
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    volume[part[solid.face_corners(f)[0]]] += cone_volume6(solid, f, solid.vertices[0]);
+  }
+  const auto largest =
+      static_cast<std::uint32_t>(std::max_element(volume.begin(), volume.end()) - volume.begin());
+
+  ConvexPolyhedron kept;
+  std::vector<std::uint32_t> new_of_old(solid.vertices.size());
+  for (std::size_t v = 0; v < solid.vertices.size(); ++v) {
+    new_of_old[v] = static_cast<std::uint32_t>(kept.vertices.size());
+    if (part[v] == largest) kept.vertices.push_back(solid.vertices[v]);
+  }
+  for (ConvexPolyhedron::Face face : solid.faces) {
+    const std::uint32_t begin = face.first_corner, end = begin + face.corner_count;
+    if (part[solid.corners[begin]] != largest) continue;
+    face.first_corner = static_cast<std::uint32_t>(kept.corners.size());
+    for (std::uint32_t c = begin; c < end; ++c) {
+      kept.corners.push_back(new_of_old[solid.corners[c]]);
+      kept.corner_normals.push_back(solid.corner_normals[c]);
+    }
+    kept.faces.push_back(face);
+  }
+  solid = std::move(kept);
+}
+
 /// One attempt at a cut. Vertices of the result are numbered: inside ones first, in their old
 /// order, then those on the plane as faces meet them.
 class Cut {
  public:
-  Cut(const ConvexPolyhedron& convex, double tolerance, ConvexPolyhedron& result,
-      ClipScratch& scratch);
+  Cut(const ConvexPolyhedron& convex, ConvexPolyhedron& result, ClipScratch& scratch)
+      : convex_(convex), result_(result), scratch_(scratch) {}
 
-  /// Fills the result; false if the signs do not give one cap.
-  bool make(const Plane& plane, PlaneId id);
+  /// Vertices within `tolerance` are on the plane; false if that did not give one sphere.
+  bool reusing_vertices(double tolerance, const Plane& plane, PlaneId id);
+  /// Only signs count, and `tie` is the side of zero; closed, if perhaps in several parts.
+  void strictly(int tie, const Plane& plane, PlaneId id);
 
  private:
+  template <class Side>
+  void place_vertices(const Side& side);
+  void cut_faces();
   void cut_face(const ConvexPolyhedron::Face& face);
   void keep_face(const ConvexPolyhedron::Face& face);
   void close_face(const ConvexPolyhedron::Face& face, std::uint32_t first_corner);
@@ -53,45 +120,55 @@ class Cut {
   void link(const Corner& from, const Corner& to);
   void add_cap_edge(std::uint32_t from, std::uint32_t to);
   void add_unmatched_on_edges();
-  bool add_cap(const Plane& plane, PlaneId id);
+  bool add_caps(const Plane& plane, PlaneId id);
 
   const ConvexPolyhedron& convex_;
   ConvexPolyhedron& result_;
   ClipScratch& scratch_;
+  std::uint32_t inside_count_ = 0;
   std::uint32_t vertex_count_ = 0;
   std::uint32_t corner_count_ = 0;
   std::uint32_t face_count_ = 0;
-  std::uint32_t cap_count_ = 0;
-  std::uint32_t cap_start_ = kNone;
-  bool sound_ = true;
+  bool forked_ = false;  ///< Two cap edges leave one vertex.
 };
 
-Cut::Cut(const ConvexPolyhedron& convex, double tolerance, ConvexPolyhedron& result,
-         ClipScratch& scratch)
-    : convex_(convex), result_(result), scratch_(scratch) {
-  const std::size_t vertices = convex.vertices.size(), corners = convex.corners.size();
-  // Upper bounds: every edge cut, a corner of a face at most two of the result's, and the cap.
-  result.vertices.resize(vertices + corners / 2);
-  result.corners.resize(3 * corners);
-  result.corner_normals.resize(3 * corners);
-  result.faces.resize(convex.faces.size() + 1);
-  scratch.sides.resize(vertices);
-  scratch.new_of_old.resize(vertices);
-  scratch.first_crossing.assign(vertices, kNone);
-  scratch.cap_next.assign(vertices + corners / 2, kNone);
-  scratch.crossings.clear();
-  scratch.on_edges.clear();
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const double distance = scratch.distances[v];
-    scratch.sides[v] = static_cast<std::int8_t>((distance > tolerance) - (distance < -tolerance));
-    scratch.new_of_old[v] = kNone;
-    if (scratch.sides[v] >= 0) continue;
-    scratch.new_of_old[v] = vertex_count_;
-    result.vertices[vertex_count_++] = convex.vertices[v];
-  }
+bool Cut::reusing_vertices(double tolerance, const Plane& plane, PlaneId id) {
+  place_vertices([&](double distance) { return (distance > tolerance) - (distance < -tolerance); });
+  cut_faces();
+  if (!scratch_.on_edges.empty()) add_unmatched_on_edges();
+  return !forked_ && add_caps(plane, id) && euler_characteristic(result_) == 2;
 }
 
-bool Cut::make(const Plane& plane, PlaneId id) {
+void Cut::strictly(int tie, const Plane& plane, PlaneId id) {
+  place_vertices([&](double distance) { return distance > 0 ? 1 : distance < 0 ? -1 : tie; });
+  cut_faces();
+  SUNDER_CHECK(!forked_ && add_caps(plane, id));  // or the convex was not closed
+}
+
+template <class Side>
+void Cut::place_vertices(const Side& side) {
+  const std::size_t vertices = convex_.vertices.size(), corners = convex_.corners.size();
+  // Upper bounds: every edge cut, a corner of a face at most two of the result's, and the caps.
+  result_.vertices.resize(vertices + corners / 2);
+  result_.corners.resize(3 * corners);
+  result_.corner_normals.resize(3 * corners);
+  scratch_.sides.resize(vertices);
+  scratch_.new_of_old.assign(vertices, kNone);
+  scratch_.first_crossing.assign(vertices, kNone);
+  scratch_.cap_next.assign(vertices + corners / 2, kNone);
+  scratch_.crossings.clear();
+  scratch_.on_edges.clear();
+  for (std::size_t v = 0; v < vertices; ++v) {
+    scratch_.sides[v] = static_cast<std::int8_t>(side(scratch_.distances[v]));
+    if (scratch_.sides[v] >= 0) continue;
+    scratch_.new_of_old[v] = vertex_count_;
+    result_.vertices[vertex_count_++] = convex_.vertices[v];
+  }
+  inside_count_ = vertex_count_;
+}
+
+void Cut::cut_faces() {
+  result_.faces.resize(convex_.faces.size());
   for (const ConvexPolyhedron::Face& face : convex_.faces) {
     const std::uint32_t* corner = convex_.corners.data() + face.first_corner;
     int lowest = 1, highest = -1;
@@ -106,8 +183,7 @@ bool Cut::make(const Plane& plane, PlaneId id) {
       cut_face(face);
     }
   }
-  if (!scratch_.on_edges.empty()) add_unmatched_on_edges();
-  return sound_ && add_cap(plane, id);
+  result_.faces.resize(face_count_);
 }
 
 void Cut::keep_face(const ConvexPolyhedron::Face& face) {
@@ -195,16 +271,14 @@ void Cut::link(const Corner& from, const Corner& to) {
 }
 
 void Cut::add_cap_edge(std::uint32_t from, std::uint32_t to) {
-  sound_ = sound_ && scratch_.cap_next[from] == kNone;
+  forked_ = forked_ || scratch_.cap_next[from] != kNone;
   scratch_.cap_next[from] = to;
-  cap_start_ = from;
-  ++cap_count_;
 }
 
 void Cut::add_unmatched_on_edges() {
   auto& edges = scratch_.on_edges;
   std::sort(edges.begin(), edges.end());
-  sound_ = sound_ && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+  forked_ = forked_ || std::adjacent_find(edges.begin(), edges.end()) != edges.end();
   for (const auto& [from, to] : edges) {
     if (!std::binary_search(edges.begin(), edges.end(), std::pair(to, from))) {
       add_cap_edge(to, from);
@@ -212,21 +286,24 @@ void Cut::add_unmatched_on_edges() {
   }
 }
 
-bool Cut::add_cap(const Plane& plane, PlaneId id) {
-  if (cap_count_ < 3) return false;
-  ConvexPolyhedron::Face& cap = result_.faces[face_count_++];
-  cap = {plane, id, corner_count_, cap_count_, FaceKind::kInterior};
+/// One face a loop of cap edges; false if one does not close. A loop of two edges is none: the
+/// faces that left them meet there.
+bool Cut::add_caps(const Plane& plane, PlaneId id) {
   const Vec3f normal = plane.normal.cast<float>();
-  std::uint32_t v = cap_start_;
-  for (std::uint32_t i = 0; i < cap_count_; ++i) {
-    if (v == kNone || (i > 0 && v == cap_start_)) return false;  // open, or more than one loop
-    result_.corners[corner_count_] = v;
-    result_.corner_normals[corner_count_++] = normal;
-    v = scratch_.cap_next[v];
+  for (std::uint32_t start = inside_count_; start < vertex_count_; ++start) {
+    const std::uint32_t first_corner = corner_count_;
+    std::uint32_t v = start;
+    for (std::uint32_t next; (next = scratch_.cap_next[v]) != kNone; v = next) {
+      result_.corners[corner_count_] = v;
+      result_.corner_normals[corner_count_++] = normal;
+      scratch_.cap_next[v] = kNone;
+    }
+    if (v != start) return false;
+    const std::uint32_t count = corner_count_ - first_corner;
+    if (count > 2) result_.faces.push_back({plane, id, first_corner, count, FaceKind::kInterior});
+    if (count == 2) corner_count_ = first_corner;
   }
-  if (v != cap_start_) return false;
   result_.vertices.resize(vertex_count_);
-  result_.faces.resize(face_count_);
   result_.corners.resize(corner_count_);
   result_.corner_normals.resize(corner_count_);
   return true;
@@ -238,26 +315,26 @@ PlaneSide clip(const ConvexPolyhedron& convex, const Plane& plane, PlaneId id, d
                ConvexPolyhedron& result, ClipScratch& scratch) {
   SUNDER_CHECK(&convex != &result);
   scratch.distances.resize(convex.vertices.size());
-  double lowest = 0, highest = 0;
+  double lowest = 0, highest = 0, balance = 0;
   for (std::size_t v = 0; v < convex.vertices.size(); ++v) {
     const double distance = plane.distance(convex.vertices[v]);
     scratch.distances[v] = distance;
     lowest = std::min(lowest, distance);
     highest = std::max(highest, distance);
+    balance += distance;
   }
-  const double rounding = 1e-15 * (highest - lowest);
-  for (double tolerance = tolerance_m;; tolerance = std::max(2 * tolerance, rounding)) {
-    const bool none_outside = highest <= tolerance, none_inside = lowest >= -tolerance;
-    if (none_outside && none_inside) break;
-    if (none_outside) return PlaneSide::kInside;
-    if (none_inside) return PlaneSide::kOutside;
-    if (Cut(convex, tolerance, result, scratch).make(plane, id)) return PlaneSide::kCut;
+  // Ties turn round with the plane.
+  const int tie = id.value & 1 ? 1 : -1;
+  const bool none_outside = highest <= tolerance_m, none_inside = lowest >= -tolerance_m;
+  if (none_outside && none_inside) {
+    return (balance != 0 ? balance < 0 : tie < 0) ? PlaneSide::kInside : PlaneSide::kOutside;
   }
-  // All of it lies on the plane: an answer that turns round with the plane.
-  double balance = 0;
-  for (const double distance : scratch.distances) balance += distance;
-  const bool inside = balance != 0 ? balance < 0 : (id.value & 1) == 0;
-  return inside ? PlaneSide::kInside : PlaneSide::kOutside;
+  if (none_outside) return PlaneSide::kInside;
+  if (none_inside) return PlaneSide::kOutside;
+  if (Cut(convex, result, scratch).reusing_vertices(tolerance_m, plane, id)) return PlaneSide::kCut;
+  Cut(convex, result, scratch).strictly(tie, plane, id);
+  if (euler_characteristic(result) != 2) keep_largest_part(result);
+  return PlaneSide::kCut;
 }
 
 }  // namespace sunder

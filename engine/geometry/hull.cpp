@@ -40,8 +40,8 @@ std::uint32_t farthest(std::span<const Vec3> points, const Measure& measure) {
   return best;
 }
 
-/// Four points that span about as much as any four, as left-handed as regular_tetrahedron(); none if
-/// the points lie in a plane.
+/// Four points that span about as much as any four, as left-handed as regular_tetrahedron(); none
+/// if the points lie in a plane.
 std::optional<Tetrahedron> spanning_tetrahedron(std::span<const Vec3> points) {
   if (points.size() < 4) return std::nullopt;
   const std::uint32_t i = farthest(points, [&](const Vec3& p) { return (p - points[0]).norm(); });

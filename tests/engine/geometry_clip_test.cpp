@@ -27,7 +27,9 @@ Halves expect_halves(const ConvexPolyhedron& solid, const Plane& plane, double s
   expect_sound(halves.inside, size);
   expect_sound(halves.outside, size);
   const double whole = volume(solid);
-  EXPECT_NEAR(volume(halves.inside) + volume(halves.outside), whole, 1e-14 * size * size * size);
+  // Reused vertices lie off the plane by up to the tolerance, and a cap's area is below 12 size².
+  EXPECT_NEAR(volume(halves.inside) + volume(halves.outside), whole,
+              2e-14 * size * size * size + 12 * tolerance * size * size);
   return halves;
 }
 
