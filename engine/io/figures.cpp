@@ -1,0 +1,30 @@
+#include "engine/io/figures.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/check.h"
+
+namespace sunder {
+
+Figures parse_figures(const std::string& text, const std::string& file) {
+  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
+  if (document.is_discarded()) throw InputError(file + ": not a JSON document");
+  Figures figures;
+  for (const auto& [place, value] : document.flatten().items()) {
+    if (value.is_boolean()) figures[place] = value.get<bool>();
+    if (value.is_number_integer()) figures[place] = value.get<std::int64_t>();
+    if (value.is_number_float()) figures[place] = value.get<double>();
+    if (value.is_string()) figures[place] = value.get<std::string>();
+  }
+  return figures;
+}
+
+std::string format_figures(const Figures& figures) {
+  nlohmann::json flat = nlohmann::json::object();
+  for (const auto& [place, value] : figures) {
+    std::visit([&](const auto& v) { flat[place] = v; }, value);
+  }
+  return flat.unflatten().dump(2) + "\n";
+}
+
+}  // namespace sunder

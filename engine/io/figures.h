@@ -1,0 +1,19 @@
+// JSON as figures: a flat list of what is where, for files the program reads back.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <variant>
+
+namespace sunder {
+
+/// A JSON document by place: "/frame/p50_ms", "/scenes/0/name" (JSON pointers, RFC 6901).
+using Figures = std::map<std::string, std::variant<bool, std::int64_t, double, std::string>>;
+
+/// Throws InputError naming `file` if the text is not JSON. Nulls are left out.
+Figures parse_figures(const std::string& text, const std::string& file);
+/// The nested document, indented; ends with a newline.
+std::string format_figures(const Figures& figures);
+
+}  // namespace sunder

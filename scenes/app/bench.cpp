@@ -1,0 +1,145 @@
+// sunder bench: frame timing of the benchmark scenes, gated by the state hash: a faster run that
+// simulates something else is no faster run.
+#include <cstdio>
+#include <memory>
+
+#include "engine/base/check.h"
+#include "engine/io/figures.h"
+#include "engine/io/state_hash.h"
+#include "scenes/app/run.h"
+
+namespace sunder::app {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::vector<std::string> scenes = {"house", "brick_wall", "column_row", "glass"};
+  scenes::LoadOptions load;
+  int frames = -1;
+  std::string compare;
+};
+
+constexpr const char* kQuantiles[] = {"p50_ms", "p95_ms", "p99_ms", "max_ms"};
+
+/// The figures of one scene's run, without the leading place.
+Figures measure(const std::string& name, const Options& options) {
+  Scene scene = scenes::load_scene(name, options.load);
+  const int last = last_frame(scene, options.frames);
+  Statistics statistics(run_info(scene, options.load));
+  Progress progress("bench " + scene.name, last, options.common.quiet);
+  StateHash hash;
+  const auto simulation = make_simulation(std::move(scene));
+  FramesUntil frames(*simulation, last);
+  FrameSink* const sinks[] = {&statistics, &hash, &progress};
+  pump(frames, sinks);
+  return parse_figures(statistics.json(hash.hex(), false), name);
+}
+
+double number(const Figures& figures, const std::string& place) {
+  const auto found = figures.find(place);
+  if (found == figures.end()) return 0;
+  if (const auto* whole = std::get_if<std::int64_t>(&found->second)) {
+    return static_cast<double>(*whole);
+  }
+  const auto* real = std::get_if<double>(&found->second);
+  return real ? *real : 0;
+}
+
+std::string text(const Figures& figures, const std::string& place) {
+  const auto found = figures.find(place);
+  const auto* words = found == figures.end() ? nullptr : std::get_if<std::string>(&found->second);
+  return words ? *words : std::string();
+}
+
+/// Where a document of scenes holds the one of this name; empty if it does not.
+std::string place_of(const Figures& figures, const std::string& scene) {
+  for (int i = 0;; ++i) {
+    const std::string at = "/scenes/" + std::to_string(i);
+    if (!figures.contains(at + "/scene")) return {};
+    if (text(figures, at + "/scene") == scene) return at;
+  }
+}
+
+std::string row(const Figures& figures, const std::string& at) {
+  char line[200];
+  std::snprintf(line, sizeof line, "%-14s %6.0f frames %9.2f %9.2f %9.2f %9.2f  %s\n",
+                text(figures, at + "/scene").c_str(), number(figures, at + "/frames"),
+                number(figures, at + "/frame/p50_ms"), number(figures, at + "/frame/p95_ms"),
+                number(figures, at + "/frame/p99_ms"), number(figures, at + "/frame/max_ms"),
+                text(figures, at + "/state_hash").c_str());
+  return line;
+}
+
+/// Ratios old to new, and whether both simulated the same.
+struct Comparison {
+  std::string line;
+  bool same = true;
+};
+
+Comparison compare(const Figures& now, const std::string& at, const Figures& old) {
+  const std::string scene = text(now, at + "/scene");
+  const std::string was = place_of(old, scene);
+  if (was.empty()) return {scene + ": not in the older file\n"};
+  for (const char* key : {"/preset", "/frames", "/dt_s", "/substeps"}) {
+    if (text(now, at + key) != text(old, was + key) ||
+        number(now, at + key) != number(old, was + key)) {
+      return {scene + ": not comparable, its " + (key + 1) + " differs\n", false};
+    }
+  }
+  std::string line = scene + ": new / old";
+  for (const char* quantile : kQuantiles) {
+    const double before = number(old, was + "/frame/" + quantile);
+    const double after = number(now, at + "/frame/" + quantile);
+    char part[64];
+    std::snprintf(part, sizeof part, "  %.3s %.2f", quantile, before > 0 ? after / before : 0);
+    line += part;
+  }
+  const bool same = text(now, at + "/state_hash") == text(old, was + "/state_hash");
+  return {line + (same ? "  same state\n" : "  OTHER STATE: it simulated something else\n"), same};
+}
+
+int bench(const Options& options) {
+  options.common.apply();
+  Figures old;
+  if (!options.compare.empty()) {
+    old = parse_figures(scenes::read_text(options.compare), options.compare);
+    if (!old.contains("/scenes/0/scene")) {
+      throw InputError(options.compare + ": not a file of sunder bench --json");
+    }
+  }
+  Figures all;
+  std::string table = "scene                  ms a frame:   p50       p95       p99       max\n";
+  std::string comparison;
+  bool same = true;
+  for (std::size_t i = 0; i < options.scenes.size(); ++i) {
+    const std::string at = "/scenes/" + std::to_string(i);
+    for (const auto& [place, value] : measure(options.scenes[i], options)) all[at + place] = value;
+    table += row(all, at);
+    if (!options.compare.empty()) {
+      const Comparison compared = compare(all, at, old);
+      comparison += compared.line;
+      same = same && compared.same;
+    }
+  }
+  options.common.say(table + comparison);
+  options.common.write_json(format_figures(all));
+  if (!same) std::fprintf(stderr, "failed: the state differs from %s\n", options.compare.c_str());
+  return same ? 0 : 1;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand("bench", "Frame timing of the benchmark scenes");
+  const auto options = std::make_shared<Options>();
+  command->add_option("SCENE", options->scenes, "Files or names of scenes")->capture_default_str();
+  command->add_option("--frames", options->frames, "Stop after this many frames of 1/60 s")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--compare", options->compare,
+                      "An earlier --json file: prints ratios, fails if the state differs");
+  add_changes(*command, options->load);
+  add_common(*command, options->common);
+  command->callback([&chosen, options] { chosen = [options] { return bench(*options); }; });
+}
+
+}  // namespace sunder::app

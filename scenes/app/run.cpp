@@ -1,0 +1,76 @@
+#include "scenes/app/run.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "engine/base/parallel.h"
+#include "fracture/pattern_breaker.h"
+#include "solver/rigid/rigid_physics.h"
+
+namespace sunder::app {
+
+std::unique_ptr<Simulation> make_simulation(Scene scene) {
+  solver::RigidOptions rigid;
+  rigid.gravity_W = scene.gravity_W;
+  return std::make_unique<Simulation>(std::move(scene), solver::make_rigid_physics(rigid),
+                                      fracture::make_pattern_breaker());
+}
+
+RunInfo run_info(const Scene& scene, const scenes::LoadOptions& load) {
+  const auto breaks = [&](const Solid& solid) {
+    return std::any_of(solid.compound.convexes.begin(), solid.compound.convexes.end(),
+                       [&](const ConvexPtr& convex) {
+                         return scene.materials[convex->material.value].breakable();
+                       });
+  };
+  const bool any = std::any_of(scene.solids.begin(), scene.solids.end(), breaks);
+  return {scene.name,
+          load.preset,
+          threads(),
+          scene.accuracy,
+          {{"fracture", any ? "on" : "off: nothing here is breakable"},
+           {"script", scene.shots.empty() ? "off: no shots" : "on"},
+           {"sleeping", "on"}}};
+}
+
+int last_frame(const Scene& scene, int wanted) {
+  const int all = static_cast<int>(std::lround(scene.duration_s * 60));
+  return wanted < 0 ? all : std::min(all, wanted);
+}
+
+Progress::Progress(std::string title, int last_frame, bool quiet)
+    : title_(std::move(title)), last_(last_frame), quiet_(quiet), terminal_(isatty(2) == 1) {}
+
+std::string Progress::line(int frame) const {
+  const double elapsed_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double left_s = frame > 0 ? elapsed_s / frame * (last_ - frame) : 0;
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: frame %d of %d, %.0f s left", title_.c_str(), frame, last_,
+                left_s);
+  return text;
+}
+
+void Progress::take(const FramePtr& frame) {
+  const int index = static_cast<int>(frame->index);
+  if (quiet_ || last_ <= 0 || index < next_report_) return;
+  if (terminal_) {
+    constexpr int kWidth = 30;
+    const auto done = static_cast<std::size_t>(std::min(kWidth, kWidth * index / last_));
+    std::fprintf(stderr, "\r[%s%s] %s\033[K", std::string(done, '#').c_str(),
+                 std::string(kWidth - done, ' ').c_str(), line(index).c_str());
+    next_report_ = index + 1;
+  } else {
+    if (index > 0) std::fprintf(stderr, "%s\n", line(index).c_str());
+    next_report_ = index + std::max(1, last_ / 5);
+  }
+}
+
+void Progress::finish() {
+  if (!quiet_ && terminal_) std::fputs("\n", stderr);
+}
+
+}  // namespace sunder::app

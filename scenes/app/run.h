@@ -1,0 +1,65 @@
+// A scene on its way through the program: built, limited to some frames, watched.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "engine/io/statistics.h"
+#include "engine/world/simulation.h"
+#include "scenes/app/options.h"
+
+namespace sunder::app {
+
+/// The composition root: our solver and our fracture around a scene.
+std::unique_ptr<Simulation> make_simulation(Scene scene);
+/// What statistics say about the run.
+RunInfo run_info(const Scene& scene, const scenes::LoadOptions& load);
+/// Index of the last frame: the scene's duration, or `wanted` if that comes first.
+int last_frame(const Scene& scene, int wanted);
+
+/// The frames 0 to `last` of another source.
+class FramesUntil final : public FrameSource {
+ public:
+  FramesUntil(FrameSource& source, int last) : source_(source), left_(last + 1) {}
+  FramePtr next() override { return left_-- > 0 ? source_.next() : nullptr; }
+
+ private:
+  FrameSource& source_;
+  int left_;
+};
+
+/// Hands on the frames from `first` on.
+class FramesFrom final : public FrameSink {
+ public:
+  FramesFrom(FrameSink& sink, std::uint64_t first) : sink_(sink), first_(first) {}
+  void take(const FramePtr& frame) override {
+    if (frame->index >= first_) sink_.take(frame);
+  }
+  void finish() override { sink_.finish(); }
+
+ private:
+  FrameSink& sink_;
+  std::uint64_t first_;
+};
+
+/// Says on stderr how far the run is and how long it will take: a bar on a terminal, otherwise a
+/// line now and then.
+class Progress final : public FrameSink {
+ public:
+  Progress(std::string title, int last_frame, bool quiet);
+  void take(const FramePtr& frame) override;
+  void finish() override;
+
+ private:
+  std::string line(int frame) const;
+
+  std::string title_;
+  int last_;
+  bool quiet_;
+  bool terminal_;
+  int next_report_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace sunder::app
