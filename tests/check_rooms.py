@@ -105,13 +105,14 @@ def check_source(root, path):
 
 
 def listed(root):
-    """The .cpp paths named in the rooms' CMakeLists.txt, relative to the root."""
+    """The .cpp paths named in the rooms' CMakeLists.txt, relative to the root; generated ones,
+    which begin with a variable, are not."""
     names = set()
     for room in ROOMS:
         for cmake in (root / room).rglob("CMakeLists.txt"):
             text = re.sub(r"#.*", "", cmake.read_text(encoding="utf-8"))
             names |= {(cmake.parent / name).resolve().relative_to(root)
-                      for name in re.findall(r"[\w./+-]+\.cpp\b", text)}
+                      for name in re.findall(r"(?<![\w./+}-])[\w.+-][\w./+-]*\.cpp\b", text)}
     return names
 
 

@@ -11,6 +11,7 @@ HEADER = "// What it is for.\n#pragma once\n"
 # A house where everything is as it should be.
 GOOD = {
     "engine/CMakeLists.txt": "sunder_room(engine SOURCES base/a.cpp io/file.cpp)",
+    "render/CMakeLists.txt": "sunder_room(render SOURCES ${CMAKE_CURRENT_BINARY_DIR}/made.cpp)",
     "engine/base/a.h": HEADER + "#include <vector>\n#include <Eigen/Core>\n",
     "engine/base/a.cpp": '#include "engine/base/a.h"\n',
     "engine/base/parallel.h": HEADER + "#include <omp.h>\n#pragma omp parallel\n",
