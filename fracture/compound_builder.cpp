@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/geometry/bvh.h"
+#include "engine/world/piece_mesh.h"
 #include "fracture/adjacency.h"
 
 namespace sunder::fracture {
@@ -99,6 +100,18 @@ void name_planes(std::vector<Part>& parts, double tolerance) {
   }
 }
 
+/// Faces that a neighbour covers were never part of the surface: laid bare, they look broken.
+void mark_inner_faces(Compound& compound) {
+  const auto hidden = hidden_faces(compound);
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+    ConvexPolyhedron polyhedron = compound.convexes[c]->polyhedron;
+    for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
+      if (hidden[c][f]) polyhedron.faces[f].kind = FaceKind::kInterior;
+    }
+    compound.convexes[c] = make_convex(std::move(polyhedron), compound.convexes[c]->material);
+  }
+}
+
 }  // namespace
 
 Compound make_compound(std::vector<Part> parts, double tolerance_m) {
@@ -109,6 +122,7 @@ Compound make_compound(std::vector<Part> parts, double tolerance_m) {
     compound.anchored.push_back(part.anchored);
   }
   compound.bonds = find_contacts(compound.convexes);
+  mark_inner_faces(compound);
   return compound;
 }
 
