@@ -21,8 +21,8 @@ Figures parse_figures(const std::string& text, const std::string& file) {
 
 std::string format_figures(const Figures& figures) {
   nlohmann::json flat = nlohmann::json::object();
-  for (const auto& [place, value] : figures) {
-    std::visit([&](const auto& v) { flat[place] = v; }, value);
+  for (const auto& figure : figures) {
+    std::visit([&](const auto& value) { flat[figure.first] = value; }, figure.second);
   }
   return flat.unflatten().dump(2) + "\n";
 }

@@ -108,7 +108,7 @@ Json frame_json(const FrameReport& report, double ms) {
           {"potential_J", report.potential_J}};
 }
 
-std::string line(const char* format, ...) {
+[[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
   char text[256];
   va_list arguments;
   va_start(arguments, format);
