@@ -18,6 +18,9 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
+/// The sides of a plane, as flags so that one | tells what a face has.
+enum Side : std::uint8_t { kIn = 1, kOn = 2, kOut = 4 };
+
 /// A corner of a kept face; kOn and kCrossing lie on the plane.
 enum class Place { kIn, kOn, kCrossing };
 struct Corner {
@@ -106,15 +109,15 @@ class Cut {
   /// Vertices within `tolerance` are on the plane; false if that did not give one sphere.
   bool reusing_vertices(double tolerance, const Plane& plane, PlaneId id);
   /// Only signs count, and `tie` is the side of zero; closed, if perhaps in several parts.
-  void strictly(int tie, const Plane& plane, PlaneId id);
+  void strictly(Side tie, const Plane& plane, PlaneId id);
 
  private:
-  template <class Side>
-  void place_vertices(const Side& side);
+  template <class SideOf>
+  void place_vertices(const SideOf& side_of);
   void cut_faces();
   void cut_face(const ConvexPolyhedron::Face& face);
   void keep_face(const ConvexPolyhedron::Face& face);
-  void close_face(const ConvexPolyhedron::Face& face, std::uint32_t first_corner);
+  void close_face(const ConvexPolyhedron::Face& face, std::uint32_t end_corner);
   std::uint32_t on_vertex(std::uint32_t old);
   const ClipScratch::Crossing& crossing(std::uint32_t inside, std::uint32_t outside);
   void link(const Corner& from, const Corner& to);
@@ -133,20 +136,22 @@ class Cut {
 };
 
 bool Cut::reusing_vertices(double tolerance, const Plane& plane, PlaneId id) {
-  place_vertices([&](double distance) { return (distance > tolerance) - (distance < -tolerance); });
+  place_vertices([&](double distance) {
+    return distance > tolerance ? kOut : distance < -tolerance ? kIn : kOn;
+  });
   cut_faces();
   if (!scratch_.on_edges.empty()) add_unmatched_on_edges();
   return !forked_ && add_caps(plane, id) && euler_characteristic(result_) == 2;
 }
 
-void Cut::strictly(int tie, const Plane& plane, PlaneId id) {
-  place_vertices([&](double distance) { return distance > 0 ? 1 : distance < 0 ? -1 : tie; });
+void Cut::strictly(Side tie, const Plane& plane, PlaneId id) {
+  place_vertices([&](double distance) { return distance > 0 ? kOut : distance < 0 ? kIn : tie; });
   cut_faces();
   SUNDER_CHECK(!forked_ && add_caps(plane, id));  // or the convex was not closed
 }
 
-template <class Side>
-void Cut::place_vertices(const Side& side) {
+template <class SideOf>
+void Cut::place_vertices(const SideOf& side_of) {
   const std::size_t vertices = convex_.vertices.size(), corners = convex_.corners.size();
   // Upper bounds: every edge cut, a corner of a face at most two of the result's, and the caps.
   result_.vertices.resize(vertices + corners / 2);
@@ -159,8 +164,9 @@ void Cut::place_vertices(const Side& side) {
   scratch_.crossings.clear();
   scratch_.on_edges.clear();
   for (std::size_t v = 0; v < vertices; ++v) {
-    scratch_.sides[v] = static_cast<std::int8_t>(side(scratch_.distances[v]));
-    if (scratch_.sides[v] >= 0) continue;
+    const Side side = side_of(scratch_.distances[v]);
+    scratch_.sides[v] = side;
+    if (side != kIn) continue;
     scratch_.new_of_old[v] = vertex_count_;
     result_.vertices[vertex_count_++] = convex_.vertices[v];
   }
@@ -171,15 +177,11 @@ void Cut::cut_faces() {
   result_.faces.resize(convex_.faces.size());
   for (const ConvexPolyhedron::Face& face : convex_.faces) {
     const std::uint32_t* corner = convex_.corners.data() + face.first_corner;
-    int lowest = 1, highest = -1;
-    for (std::uint32_t i = 0; i < face.corner_count; ++i) {
-      const int side = scratch_.sides[corner[i]];
-      lowest = std::min(lowest, side);
-      highest = std::max(highest, side);
-    }
-    if (highest < 0) {
+    int sides = 0;
+    for (std::uint32_t i = 0; i < face.corner_count; ++i) sides |= scratch_.sides[corner[i]];
+    if (sides == kIn) {
       keep_face(face);
-    } else if (lowest < 0) {
+    } else if (sides & kIn) {
       cut_face(face);
     }
   }
@@ -187,49 +189,52 @@ void Cut::cut_faces() {
 }
 
 void Cut::keep_face(const ConvexPolyhedron::Face& face) {
-  const std::uint32_t first = corner_count_;
-  for (std::uint32_t i = 0; i < face.corner_count; ++i) {
-    const std::uint32_t old = face.first_corner + i;
-    result_.corners[corner_count_] = scratch_.new_of_old[convex_.corners[old]];
-    result_.corner_normals[corner_count_++] = convex_.corner_normals[old];
-  }
-  close_face(face, first);
+  const std::uint32_t* corner = convex_.corners.data() + face.first_corner;
+  const Vec3f* normal = convex_.corner_normals.data() + face.first_corner;
+  std::uint32_t* kept = result_.corners.data() + corner_count_;
+  for (std::uint32_t i = 0; i < face.corner_count; ++i) kept[i] = scratch_.new_of_old[corner[i]];
+  std::copy_n(normal, face.corner_count, result_.corner_normals.data() + corner_count_);
+  close_face(face, corner_count_ + face.corner_count);
 }
 
 void Cut::cut_face(const ConvexPolyhedron::Face& face) {
   const std::uint32_t* corner = convex_.corners.data() + face.first_corner;
   const Vec3f* normal = convex_.corner_normals.data() + face.first_corner;
-  const std::uint32_t first_corner = corner_count_;
+  std::uint32_t* kept = result_.corners.data() + corner_count_;
+  Vec3f* kept_normal = result_.corner_normals.data() + corner_count_;
   Corner first, last;
   const auto emit = [&](const Corner& here, const Vec3f& shading) {
-    result_.corners[corner_count_] = here.vertex;
-    result_.corner_normals[corner_count_++] = shading;
-    link(last, here);
+    *kept++ = here.vertex;
+    *kept_normal++ = shading;
+    if (last.place != Place::kIn && here.place != Place::kIn) link(last, here);
     if (first.vertex == kNone) first = here;
     last = here;
   };
   std::uint32_t before = face.corner_count - 1;
+  int side_before = scratch_.sides[corner[before]];
   for (std::uint32_t i = 0; i < face.corner_count; before = i++) {
-    const int side_before = scratch_.sides[corner[before]], side = scratch_.sides[corner[i]];
-    if (side_before * side < 0) {
-      const std::uint32_t inside = side < 0 ? i : before, outside = side < 0 ? before : i;
+    const int side = scratch_.sides[corner[i]];
+    if ((side | side_before) == (kIn | kOut)) {
+      const std::uint32_t inside = side == kIn ? i : before, outside = side == kIn ? before : i;
       const ClipScratch::Crossing& cut = crossing(corner[inside], corner[outside]);
       const Vec3f& start = normal[cut.inside_first ? inside : outside];
       const Vec3f& end = normal[cut.inside_first ? outside : inside];
       emit({cut.vertex, Place::kCrossing}, blend(start, end, cut.t, face.plane.normal));
     }
-    if (side < 0) emit({scratch_.new_of_old[corner[i]], Place::kIn}, normal[i]);
-    if (side == 0) emit({on_vertex(corner[i]), Place::kOn}, normal[i]);
+    if (side == kIn) emit({scratch_.new_of_old[corner[i]], Place::kIn}, normal[i]);
+    if (side == kOn) emit({on_vertex(corner[i]), Place::kOn}, normal[i]);
+    side_before = side;
   }
-  link(last, first);
-  close_face(face, first_corner);
+  if (last.place != Place::kIn && first.place != Place::kIn) link(last, first);
+  close_face(face, static_cast<std::uint32_t>(kept - result_.corners.data()));
 }
 
-void Cut::close_face(const ConvexPolyhedron::Face& face, std::uint32_t first_corner) {
+void Cut::close_face(const ConvexPolyhedron::Face& face, std::uint32_t end_corner) {
   ConvexPolyhedron::Face& kept = result_.faces[face_count_++];
   kept = face;
-  kept.first_corner = first_corner;
-  kept.corner_count = corner_count_ - first_corner;
+  kept.first_corner = corner_count_;
+  kept.corner_count = end_corner - corner_count_;
+  corner_count_ = end_corner;
 }
 
 std::uint32_t Cut::on_vertex(std::uint32_t old) {
@@ -262,7 +267,6 @@ const ClipScratch::Crossing& Cut::crossing(std::uint32_t inside, std::uint32_t o
 /// Two corners in a row on the plane: an edge of the cap, unless a kept face lies beyond it. That
 /// can only be where both are old vertices.
 void Cut::link(const Corner& from, const Corner& to) {
-  if (from.place == Place::kIn || to.place == Place::kIn) return;
   if (from.place == Place::kOn && to.place == Place::kOn) {
     scratch_.on_edges.emplace_back(from.vertex, to.vertex);
   } else {
@@ -315,19 +319,19 @@ PlaneSide clip(const ConvexPolyhedron& convex, const Plane& plane, PlaneId id, d
                ConvexPolyhedron& result, ClipScratch& scratch) {
   SUNDER_CHECK(&convex != &result);
   scratch.distances.resize(convex.vertices.size());
-  double lowest = 0, highest = 0, balance = 0;
+  double lowest = 0, highest = 0;
   for (std::size_t v = 0; v < convex.vertices.size(); ++v) {
     const double distance = plane.distance(convex.vertices[v]);
     scratch.distances[v] = distance;
     lowest = std::min(lowest, distance);
     highest = std::max(highest, distance);
-    balance += distance;
   }
-  // Ties turn round with the plane.
-  const int tie = id.value & 1 ? 1 : -1;
   const bool none_outside = highest <= tolerance_m, none_inside = lowest >= -tolerance_m;
+  const Side tie = id.value & 1 ? kOut : kIn;  // turns round with the plane
   if (none_outside && none_inside) {
-    return (balance != 0 ? balance < 0 : tie < 0) ? PlaneSide::kInside : PlaneSide::kOutside;
+    const double balance = std::accumulate(scratch.distances.begin(), scratch.distances.end(), 0.0);
+    const bool inside = balance != 0 ? balance < 0 : tie == kIn;
+    return inside ? PlaneSide::kInside : PlaneSide::kOutside;
   }
   if (none_outside) return PlaneSide::kInside;
   if (none_inside) return PlaneSide::kOutside;

@@ -73,7 +73,7 @@ struct ClipScratch {
     bool inside_first;      ///< Which end that is.
   };
   std::vector<double> distances;
-  std::vector<std::int8_t> sides;             ///< Per vertex: -1 in, 0 on, 1 out.
+  std::vector<std::uint8_t> sides;            ///< Per vertex.
   std::vector<std::uint32_t> new_of_old;      ///< Per vertex.
   std::vector<std::uint32_t> first_crossing;  ///< Per inside vertex, heads of lists.
   std::vector<Crossing> crossings;
