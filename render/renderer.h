@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/world/frame.h"
 #include "render/image.h"
@@ -12,8 +13,15 @@ namespace sunder::render {
 struct RenderOptions {
   int width = 1280;
   int height = 720;
-  std::string gl = "auto";  ///< auto | egl-device:N | egl-surfaceless | osmesa
-  bool hud = false;         ///< Frame number, time and counts in the corner.
+  std::string gl = "auto";   ///< auto | egl-device:N | egl-surfaceless | osmesa
+  bool hud = false;          ///< Frame number, time and counts in the corner.
+  bool time_passes = false;  ///< Waits for the GPU after each pass, to fill pass_times().
+};
+
+/// What one pass of the last draw took.
+struct PassTime {
+  const char* name;
+  double ms;
 };
 
 /// Owns a GL context; used from the thread that made it. The same frame gives the same bytes.
@@ -26,6 +34,10 @@ class Renderer {
   Image draw(const Frame& frame);
   /// Context, driver and version, for logs.
   std::string description() const;
+  int width() const;
+  int height() const;
+  /// In order; empty unless asked for in the options.
+  const std::vector<PassTime>& pass_times() const;
 
  private:
   struct Impl;

@@ -1,0 +1,16 @@
+// Smooths the stairs of edges in a finished picture.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "render/image.h"
+
+namespace sunder::render {
+
+/// Fast approximate anti-aliasing (Lottes, "FXAA", 2009): finds edges by their brightness, follows
+/// each to its ends and blends its pixels by where on the stair they are. On the processor: few
+/// pixels are on edges, and a software GL driver would run the shader on all of them.
+Image antialiased(std::span<const std::uint8_t> rgba, int width, int height);
+
+}  // namespace sunder::render

@@ -1,0 +1,308 @@
+// The list of passes that make a picture. Read first: Renderer::draw().
+#include "render/renderer.h"
+
+#include "engine/base/check.h"
+#include "engine/base/trace.h"
+#include "render/antialias.h"
+#include "render/gl/context.h"
+#include "render/gl/objects.h"
+#include "render/hud.h"
+#include "render/looks.h"
+#include "render/pieces.h"
+#include "render/shaders.h"
+#include "render/tiles.h"
+#include "render/viewpoint.h"
+
+namespace sunder::render {
+namespace {
+
+// Texture units: each texture stays on its own for good.
+enum Unit {
+  kShadowUnit,
+  kSlotUnit,
+  kLookUnit,
+  kTileUnit,
+  kDepthUnit,
+  kLightUnit,
+  kOpenUnit,
+  kBlurUnit
+};
+
+struct Programs {
+  GLuint shadow, pieces, glass, ground, sky, occlusion, blur, composite;
+};
+
+struct Target {
+  GLuint framebuffer = 0;
+  int width = 0;
+  int height = 0;
+};
+
+Programs make_programs(const GlTable& gl) {
+  using namespace shaders;
+  Programs p;
+  p.shadow = make_program(gl, "shadow", {common_glsl, bodies_glsl, shadow_vert},
+                          {common_glsl, nothing_frag});
+  p.pieces = make_program(gl, "pieces", {common_glsl, bodies_glsl, pieces_vert},
+                          {common_glsl, shadow_glsl, pieces_frag});
+  p.glass = make_program(gl, "glass", {common_glsl, bodies_glsl, pieces_vert},
+                         {common_glsl, shadow_glsl, glass_frag});
+  p.ground = make_program(gl, "ground", {common_glsl, ground_vert},
+                          {common_glsl, shadow_glsl, ground_frag});
+  p.sky = make_program(gl, "sky", {common_glsl, screen_vert}, {common_glsl, sky_frag});
+  p.occlusion =
+      make_program(gl, "occlusion", {common_glsl, screen_vert}, {common_glsl, occlusion_frag});
+  p.blur = make_program(gl, "blur", {common_glsl, screen_vert}, {common_glsl, blur_frag});
+  p.composite =
+      make_program(gl, "composite", {common_glsl, screen_vert}, {common_glsl, composite_frag});
+  for (const GLuint program : {p.pieces, p.glass, p.ground}) {
+    set_sampler(gl, program, "shadow_map", kShadowUnit);
+  }
+  for (const GLuint program : {p.shadow, p.pieces, p.glass}) {
+    set_sampler(gl, program, "slots", kSlotUnit);
+  }
+  for (const GLuint program : {p.pieces, p.glass}) set_sampler(gl, program, "looks", kLookUnit);
+  for (const GLuint program : {p.pieces, p.ground, p.sky}) {
+    set_sampler(gl, program, "tiles", kTileUnit);
+  }
+  set_sampler(gl, p.occlusion, "depths", kDepthUnit);
+  set_sampler(gl, p.blur, "occlusion", kOpenUnit);
+  set_sampler(gl, p.composite, "lights", kLightUnit);
+  set_sampler(gl, p.composite, "occlusion", kBlurUnit);
+  return p;
+}
+
+void upload_tiles(const GlTable& gl) {
+  GLuint texture = 0;
+  gl.GenTextures(1, &texture);
+  gl.ActiveTexture(GL_TEXTURE0 + kTileUnit);
+  gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
+  const std::vector<std::uint8_t> texels = bake_tiles();
+  gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, kTileSize, kTileSize, kTiles, 0, GL_RGBA,
+                GL_UNSIGNED_BYTE, texels.data());
+  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.GenerateMipmap(GL_TEXTURE_2D_ARRAY);
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  explicit Impl(const RenderOptions& wanted);
+
+  void upload(const Frame& frame);
+  void draw_shadows();
+  void draw_pieces();
+  void draw_ground_and_sky();
+  void draw_occlusion();
+  void draw_glass();
+  void composite();
+  Image read_back();
+
+  void begin(const Target& target, GLuint program);
+  GLuint bound_texture(Unit unit, GLuint texture);
+  /// Ends a pass, and times it if that was asked for.
+  void done(const char* pass);
+
+  RenderOptions options;
+  std::unique_ptr<GlContext> context;
+  const GlTable& gl;
+  Programs programs;
+  Pieces pieces;
+  GLuint uniform_buffer = 0;
+  GLuint look_buffer = 0;
+  GLuint empty_vertex_array = 0;  ///< For passes that need no vertices.
+  Target shadow;
+  Target light;
+  Target open;
+  Target blurred;
+  Target picture;
+  std::shared_ptr<const std::vector<Material>> materials;
+  std::vector<std::uint8_t> pixels;
+  std::vector<PassTime> times;
+  Stopwatch watch;
+};
+
+Renderer::Impl::Impl(const RenderOptions& wanted)
+    : options(wanted),
+      context(make_context(wanted.gl)),
+      gl(context->gl()),
+      programs(make_programs(gl)),
+      pieces(gl) {
+  const int w = options.width;
+  const int h = options.height;
+  const int half_w = (w + 1) / 2;
+  const int half_h = (h + 1) / 2;
+  const GLuint shadow_map = bound_texture(kShadowUnit, make_shadow_texture(gl, kShadowTexels));
+  const GLuint depth =
+      bound_texture(kDepthUnit, make_texture(gl, GL_DEPTH_COMPONENT24, w, h, Filter::kNearest));
+  const GLuint lights =
+      bound_texture(kLightUnit, make_texture(gl, GL_RGBA16F, w, h, Filter::kNearest));
+  const GLuint occlusion =
+      bound_texture(kOpenUnit, make_texture(gl, GL_RG16F, half_w, half_h, Filter::kNearest));
+  const GLuint smooth =
+      bound_texture(kBlurUnit, make_texture(gl, GL_RG16F, half_w, half_h, Filter::kLinear));
+  shadow = {make_framebuffer(gl, 0, shadow_map), kShadowTexels, kShadowTexels};
+  light = {make_framebuffer(gl, lights, depth), w, h};
+  open = {make_framebuffer(gl, occlusion, 0), half_w, half_h};
+  blurred = {make_framebuffer(gl, smooth, 0), half_w, half_h};
+  gl.ActiveTexture(GL_TEXTURE0 + kBlurUnit + 1);
+  picture = {make_framebuffer(gl, make_texture(gl, GL_RGBA8, w, h, Filter::kNearest), 0), w, h};
+  pixels.resize(std::size_t{4} * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+
+  upload_tiles(gl);
+  gl.ActiveTexture(GL_TEXTURE0 + kSlotUnit);
+  gl.BindTexture(GL_TEXTURE_BUFFER, pieces.slot_texture());
+  GLuint look_texture = 0;
+  gl.GenTextures(1, &look_texture);
+  gl.GenBuffers(1, &look_buffer);
+  gl.ActiveTexture(GL_TEXTURE0 + kLookUnit);
+  gl.BindBuffer(GL_TEXTURE_BUFFER, look_buffer);
+  gl.BindTexture(GL_TEXTURE_BUFFER, look_texture);
+  gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, look_buffer);
+  gl.GenBuffers(1, &uniform_buffer);
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, uniform_buffer);
+  gl.GenVertexArrays(1, &empty_vertex_array);
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  SUNDER_CHECK(gl.GetError() == GL_NO_ERROR);
+}
+
+/// `texture`, put on its unit.
+GLuint Renderer::Impl::bound_texture(Unit unit, GLuint texture) {
+  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  gl.BindTexture(GL_TEXTURE_2D, texture);
+  return texture;
+}
+
+void Renderer::Impl::begin(const Target& target, GLuint program) {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  gl.Viewport(0, 0, target.width, target.height);
+  gl.UseProgram(program);
+}
+
+void Renderer::Impl::done(const char* pass) {
+  if (!options.time_passes) return;
+  gl.Finish();
+  times.push_back({pass, watch.lap_ms()});
+}
+
+void Renderer::Impl::upload(const Frame& frame) {
+  gl.ActiveTexture(GL_TEXTURE0 + kSlotUnit);
+  pieces.update(frame);
+  if (frame.materials != materials) {
+    materials = frame.materials;
+    const std::vector<float> texels = look_texels(*materials);
+    gl.BindBuffer(GL_TEXTURE_BUFFER, look_buffer);
+    gl.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(texels.size() * sizeof(float)),
+                  texels.data(), GL_STATIC_DRAW);
+  }
+  const FrameUniforms uniforms =
+      make_uniforms(frame.view, pieces.casters(), options.width, options.height);
+  gl.BindBuffer(GL_UNIFORM_BUFFER, uniform_buffer);
+  gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
+}
+
+void Renderer::Impl::draw_shadows() {
+  begin(shadow, programs.shadow);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.Enable(GL_CULL_FACE);
+  gl.CullFace(GL_BACK);
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(1.5f, 2);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  pieces.draw_opaque();
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+void Renderer::Impl::draw_pieces() {
+  begin(light, programs.pieces);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);  // every pixel's colour is written by a piece, ground or sky
+  pieces.draw_opaque();
+}
+
+void Renderer::Impl::draw_ground_and_sky() {
+  gl.Disable(GL_CULL_FACE);
+  gl.BindVertexArray(empty_vertex_array);
+  begin(light, programs.ground);
+  gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  begin(light, programs.sky);
+  gl.DepthFunc(GL_LEQUAL);
+  gl.DepthMask(GL_FALSE);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_LESS);
+}
+
+void Renderer::Impl::draw_occlusion() {
+  gl.Disable(GL_DEPTH_TEST);
+  gl.BindVertexArray(empty_vertex_array);
+  begin(open, programs.occlusion);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  begin(blurred, programs.blur);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.Enable(GL_DEPTH_TEST);
+}
+
+void Renderer::Impl::draw_glass() {
+  begin(light, programs.glass);
+  gl.Enable(GL_CULL_FACE);
+  gl.Enable(GL_BLEND);
+  gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
+  gl.DepthMask(GL_FALSE);
+  pieces.draw_glass();
+  gl.DepthMask(GL_TRUE);
+  gl.Disable(GL_BLEND);
+  gl.CullFace(GL_BACK);
+}
+
+void Renderer::Impl::composite() {
+  gl.Disable(GL_DEPTH_TEST);
+  gl.Disable(GL_CULL_FACE);
+  gl.BindVertexArray(empty_vertex_array);
+  begin(picture, programs.composite);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+Image Renderer::Impl::read_back() {
+  gl.ReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  done("read");
+  Image image = antialiased(pixels, options.width, options.height);
+  done("antialias");
+  return image;
+}
+
+Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Renderer::~Renderer() = default;
+
+Image Renderer::draw(const Frame& frame) {
+  Impl& r = *impl_;
+  r.context->make_current();
+  r.times.clear();
+  r.watch.lap_ms();
+
+  r.upload(frame);
+  r.done("upload");
+  r.draw_shadows();
+  r.done("shadows");
+  r.draw_pieces();
+  r.done("pieces");
+  r.draw_ground_and_sky();
+  r.done("ground and sky");
+  r.draw_occlusion();
+  r.done("occlusion");
+  if (r.pieces.has_glass()) r.draw_glass();
+  r.done("glass");
+  r.composite();
+  r.done("composite");
+  Image image = r.read_back();
+  if (r.options.hud) draw_text(image, hud_text(frame));
+  SUNDER_CHECK(r.gl.GetError() == GL_NO_ERROR);
+  return image;
+}
+
+std::string Renderer::description() const { return impl_->context->description(); }
+int Renderer::width() const { return impl_->options.width; }
+int Renderer::height() const { return impl_->options.height; }
+const std::vector<PassTime>& Renderer::pass_times() const { return impl_->times; }
+
+}  // namespace sunder::render

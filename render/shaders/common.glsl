@@ -1,0 +1,47 @@
+// Before every shader: the frame's uniforms, the sky, the sun and its shadow.
+// "Eye space" here has the world's axes and its origin at the eye.
+#version 330 core
+
+layout(std140) uniform Frame {
+  mat4 clip_of_eye;
+  mat4 shadow_of_eye;    // to [0,1] cubed
+  vec4 ray_right;        // a pixel's ray is forward + x * right + y * up, x and y in [-1,1]
+  vec4 ray_up;
+  vec4 ray_forward;
+  vec4 to_sun;           // w: metres a texel of the shadow map
+  vec4 ground;           // linear colour; w: height above the eye
+  vec4 ground_offset;    // of the eye in the ground's texture: x, z, in metres
+  vec4 pixel;            // width, height, and their inverses
+  vec4 lens;             // x: near plane, y: pixels a radian
+};
+
+const vec3 kSunLight = vec3(4.6, 3.75, 2.75);
+const vec3 kSkyLight = vec3(0.62, 0.80, 1.12);   // on a face turned up
+const vec3 kZenith = vec3(0.24, 0.36, 0.58);
+const vec3 kHorizon = vec3(0.86, 0.84, 0.80);
+
+// What is seen of the sky in a direction; also what far things fade into.
+vec3 sky(vec3 direction) {
+  float height = clamp(direction.y, 0.0, 1.0);
+  float thin = 1.0 - height;
+  float air = thin * thin;
+  air *= air;
+  vec3 color = mix(kZenith, kHorizon, 0.22 + 0.78 * air);
+  float glow = max(dot(direction, to_sun.xyz), 0.0);
+  float glow4 = glow * glow * glow * glow;
+  return color + vec3(0.55, 0.40, 0.22) * (0.35 * glow4 + 0.8 * glow4 * glow4 * glow4 * glow4);
+}
+
+// Air between the eye and something `metres` away.
+vec3 through_air(vec3 color, vec3 direction, float metres) {
+  float clear = exp2(-metres * 0.0042);
+  return mix(sky(vec3(direction.x, abs(direction.y) * 0.3, direction.z)), color, clear);
+}
+
+// Light that the ground throws back up.
+vec3 ground_light() { return ground.rgb * (0.16 * kSunLight * to_sun.y + 0.25 * kSkyLight); }
+
+// Light from all around on a face whose normal has the given height.
+vec3 ambient_light(float normal_y) {
+  return mix(ground_light(), kSkyLight, 0.5 + 0.5 * normal_y);
+}

@@ -1,0 +1,74 @@
+// A lit, textured face. Alpha is the share of the light that comes from all around: what ambient
+// occlusion may take away.
+uniform sampler2DArray tiles;
+
+in vec3 rest;
+in vec3 normal_rest;
+in vec3 shadow;
+flat in vec3 sun_rest;
+flat in vec3 up_rest;
+flat in vec3 eye_rest;
+flat in vec4 first_color;
+flat in vec4 second_color;
+flat in vec4 finish;
+
+out vec4 color;
+
+const float kCloudLayer = 6.0;
+const float kCloudsPerMetre = 1.0 / 7.3;
+const float kSteepest = 2.0;
+const vec3 kPlaster = vec3(0.66, 0.62, 0.54);
+
+void main() {
+  vec3 n = normalize(normal_rest);
+
+  // The texture is laid on along the axis that the face looks along most.
+  vec3 a = abs(n);
+  vec3 place = rest;
+  vec2 uv = a.y > max(a.x, a.z) ? place.xz : (a.x > 1.01 * a.z ? place.zy : place.xy);
+  vec4 tile = texture(tiles, vec3(uv * first_color.w, finish.x));
+  vec4 cloud = texture(tiles, vec3(uv * kCloudsPerMetre, kCloudLayer));
+
+  vec3 albedo = mix(first_color.rgb, second_color.rgb, tile.g);
+  albedo *= 1.0 + finish.w * (tile.r - 0.5) + 0.5 * (cloud.r - 0.5);
+
+  // Plaster where the weather has left it, with a dark broken rim.
+  float bare = second_color.w;
+  float plaster = 1.0 - smoothstep(bare - 0.035, bare + 0.0, cloud.g + 0.08 * (tile.r - 0.5));
+  plaster = 1.0 - plaster;
+  float rim = plaster * (1.0 - smoothstep(bare, bare + 0.05, cloud.g));
+  vec3 coat = kPlaster * (0.75 + 0.5 * cloud.r) * (1.0 - 0.25 * rim);
+  albedo = mix(albedo, coat, plaster);
+  vec2 slope = (mix(tile.ba, cloud.ba, plaster) - 0.5) * (2.0 * kSteepest * finish.y);
+
+  vec3 tilt = a.y > max(a.x, a.z) ? vec3(slope.x, 0.0, slope.y)
+                                  : (a.x > 1.01 * a.z ? vec3(0.0, slope.y, slope.x)
+                                                      : vec3(slope, 0.0));
+  vec3 bumped = normalize(n - tilt + n * dot(n, tilt));
+
+  float facing = dot(bumped, sun_rest) * smoothstep(0.0, 0.12, dot(n, sun_rest));
+  vec3 direct = kSunLight * (max(facing, 0.0) * sunlit(shadow));
+  vec3 around = ambient_light(dot(bumped, up_rest));
+
+  vec3 from_eye = rest - eye_rest;
+  float metres = length(from_eye);
+  vec3 view = from_eye / metres;
+  vec3 mirrored = reflect(view, bumped);
+  float fresnel = 1.0 - max(-dot(view, bumped), 0.0);
+  fresnel *= fresnel;
+  fresnel *= fresnel;
+  float gloss = finish.z;
+  float shine = max(dot(mirrored, sun_rest), 0.0);
+  shine *= shine;
+  shine *= shine;
+  shine *= shine;
+  shine *= shine;
+  vec3 mirrored_sky = mix(ground_light(), mix(kHorizon, kZenith, max(dot(mirrored, up_rest), 0.0)),
+                          smoothstep(-0.15, 0.15, dot(mirrored, up_rest)));
+  around = albedo * around + mirrored_sky * gloss * (0.2 + 0.8 * fresnel);
+  direct = direct * (albedo + gloss * 1.5 * shine);
+
+  vec3 light = direct + around;
+  float ambient_share = dot(around, vec3(0.33)) / max(dot(light, vec3(0.33)), 1e-4);
+  color = vec4(mix(light, vec3(0.80, 0.82, 0.84), 1.0 - exp2(-metres * 0.0042)), ambient_share);
+}

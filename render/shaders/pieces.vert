@@ -1,0 +1,36 @@
+// Light, sky and eye are turned into the piece's rest frame here, so that the fragment shader
+// works in the frame its textures live in.
+uniform samplerBuffer looks;  // three texels a look, surface then interior of each material
+
+out vec3 rest;
+out vec3 normal_rest;
+out vec3 shadow;
+flat out vec3 sun_rest;
+flat out vec3 up_rest;
+flat out vec3 eye_rest;
+flat out vec4 first_color;   // w: tiles a metre
+flat out vec4 second_color;  // w: bare share of plaster-covered faces; 1 where nothing covers
+flat out vec4 finish;        // tile layer, bump, gloss, contrast
+
+void main() {
+  Piece piece_ = this_piece();
+  vec3 place = piece_.rotation * position + piece_.translation;
+  gl_Position = clip_of_eye * vec4(place, 1.0);
+
+  mat3 back = transpose(piece_.rotation);
+  rest = piece_.origin + position;
+  normal_rest = normal;
+  sun_rest = back * to_sun.xyz;
+  up_rest = back[1];
+  eye_rest = piece_.origin - back * piece_.translation;
+
+  // The shadow is looked up a little off the face, more where light grazes it.
+  float facing = clamp(dot(normal, sun_rest), 0.0, 1.0);
+  vec3 off = piece_.rotation * normal * (to_sun.w * (0.6 + 2.2 * (1.0 - facing)));
+  shadow = (shadow_of_eye * vec4(place + off, 1.0)).xyz;
+
+  int look = 6 * piece_.material + 3 * int(piece & 1u);
+  first_color = texelFetch(looks, look);
+  second_color = texelFetch(looks, look + 1);
+  finish = texelFetch(looks, look + 2);
+}

@@ -1,0 +1,104 @@
+// The three kinds of picture sink: a video, the last frame, a folder of frames.
+#include "render/sinks.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "engine/base/check.h"
+#include "render/encoder.h"
+
+namespace sunder::render {
+namespace {
+
+constexpr int kFramesPerS = 60;
+
+/// Makes `folder`, if it is not there yet; throws InputError.
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder.string() + ": cannot be made: " + error.message());
+  if (!folder.empty() && ::access(folder.c_str(), W_OK) != 0) {
+    throw InputError(folder.string() + ": cannot be written");
+  }
+}
+
+class VideoSink final : public FrameSink {
+ public:
+  VideoSink(std::filesystem::path path, Renderer& renderer)
+      : renderer_(renderer), encoder_(path, renderer.width(), renderer.height(), kFramesPerS) {}
+  void take(const FramePtr& frame) override { encoder_.add(renderer_.draw(*frame)); }
+  void finish() override { encoder_.finish(); }
+
+ private:
+  Renderer& renderer_;
+  Encoder encoder_;
+};
+
+class LastImageSink final : public FrameSink {
+ public:
+  LastImageSink(std::filesystem::path path, Renderer& renderer)
+      : path_(std::move(path)), renderer_(renderer) {}
+  void take(const FramePtr& frame) override { last_ = frame; }
+  void finish() override {
+    if (last_) write_png(path_, renderer_.draw(*last_));
+  }
+
+ private:
+  std::filesystem::path path_;
+  Renderer& renderer_;
+  FramePtr last_;
+};
+
+class ImagesSink final : public FrameSink {
+ public:
+  ImagesSink(std::filesystem::path folder, Renderer& renderer)
+      : folder_(std::move(folder)), partial_(temporary_name(folder_)), renderer_(renderer) {
+    make_folder(partial_);
+  }
+  ~ImagesSink() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(partial_, ignored);
+  }
+
+  void take(const FramePtr& frame) override {
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%05llu.png",
+                  static_cast<unsigned long long>(frame->index));
+    write_png(partial_ / name, renderer_.draw(*frame));
+  }
+  void finish() override {
+    make_folder(folder_);
+    for (const auto& image : std::filesystem::directory_iterator(partial_)) {
+      replace_file(image.path(), folder_ / image.path().filename());
+    }
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path partial_;
+  Renderer& renderer_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
+                                             Renderer& renderer) {
+  const std::string extension = path.extension().string();
+  if (extension == ".mp4" || extension == ".png") {
+    if (std::filesystem::is_directory(path)) {
+      throw InputError(path.string() + ": is a folder; name a file");
+    }
+    make_folder(path.parent_path());
+    if (extension == ".mp4") return std::make_unique<VideoSink>(path, renderer);
+    return std::make_unique<LastImageSink>(path, renderer);
+  }
+  const std::filesystem::path folder = path.has_filename() ? path : path.parent_path();
+  if (!extension.empty() && !std::filesystem::is_directory(folder)) {
+    throw InputError(path.string() + ": make it .mp4, .png, or a folder (ending in /)");
+  }
+  return std::make_unique<ImagesSink>(folder, renderer);
+}
+
+}  // namespace sunder::render
