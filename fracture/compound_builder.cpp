@@ -58,12 +58,11 @@ Box grown(const Box& box, double by) {
 }
 
 /// Joins the faces by which two convexes may touch.
-void join_faces(const ConvexPolyhedron& a, std::uint32_t first_a, const Box& box_b,
-                const ConvexPolyhedron& b, std::uint32_t first_b, double tolerance,
-                Planes& planes) {
-  const Vec3 center = box_b.center();
+void join_faces(const ConvexPolyhedron& a, std::uint32_t first_a, const ConvexPolyhedron& b,
+                std::uint32_t first_b, double tolerance, Planes& planes) {
   for (std::uint32_t f = 0; f < a.faces.size(); ++f) {
-    if (a.faces[f].plane.distance(center) < -tolerance) continue;  // b is not beyond this face
+    // Unless all of b is beyond face f, they do not touch there.
+    if (a.faces[f].plane.distance(b.vertices[0]) < -tolerance) continue;
     for (std::uint32_t g = 0; g < b.faces.size(); ++g) {
       if (back_to_back(a, f, b, g, tolerance)) planes.join(first_a + f, first_b + g);
     }
@@ -88,8 +87,8 @@ void name_planes(std::vector<Part>& parts, double tolerance) {
     tree.overlaps(boxes[i], hits);
     for (const std::uint32_t j : hits) {
       if (j <= i) continue;
-      join_faces(parts[i].polyhedron, first_face[i], boxes[j], parts[j].polyhedron, first_face[j],
-                 tolerance, planes);
+      join_faces(parts[i].polyhedron, first_face[i], parts[j].polyhedron, first_face[j], tolerance,
+                 planes);
     }
   }
   for (std::uint32_t i = 0; i < parts.size(); ++i) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "engine/base/check.h"
 
@@ -138,38 +140,54 @@ class Cutter {
     }
   }
 
-  /// Gives a sliver to the neighbour behind its largest cut, by not making that cut.
+  /// Gives a sliver to its neighbours by not making the cuts towards it: to the one behind its
+  /// largest cut if that takes all of it, otherwise shared among all.
   bool hand_over(std::size_t sliver) {
-    const ConvexPolyhedron& shape = drafts_[sliver].convex->polyhedron;
-    std::vector<std::pair<double, PlaneId>> cuts;
-    for (const PlaneId id : drafts_[sliver].region) {
-      for (std::size_t f = 0; f < shape.faces.size(); ++f) {
-        if (shape.faces[f].id == pattern_.name(id)) cuts.emplace_back(-face_area(shape, f), id);
-      }
-    }
-    std::sort(cuts.begin(), cuts.end());
-    for (const auto& [area, id] : cuts) {
+    const Draft& giver = drafts_[sliver];
+    std::vector<std::pair<double, std::size_t>> neighbours;  // −area of the cut, draft
+    std::vector<PlaneId> cuts(drafts_.size());
+    for (const PlaneId id : giver.region) {
+      const double area = area_in(giver.convex->polyhedron, pattern_.name(id));
+      if (area <= 0) continue;
       for (std::size_t other = 0; other < drafts_.size(); ++other) {
-        if (other != sliver && take_over(drafts_[other], id.opposite(), drafts_[sliver])) {
-          return true;
-        }
+        const std::vector<PlaneId>& region = drafts_[other].region;
+        if (other == sliver || !cuts[other].none()) continue;
+        if (std::find(region.begin(), region.end(), id.opposite()) == region.end()) continue;
+        cuts[other] = id.opposite();
+        neighbours.emplace_back(-area, other);
       }
     }
-    return false;
+    std::sort(neighbours.begin(), neighbours.end());
+    for (const auto& neighbour : neighbours) {
+      if (take_over(std::span(&neighbour, 1), cuts, giver)) return true;
+    }
+    return neighbours.size() > 1 && take_over(neighbours, cuts, giver);
   }
 
-  /// Whether `draft` without its plane `id` is exactly itself and the sliver; if so, it becomes
-  /// that.
-  bool take_over(Draft& draft, PlaneId id, const Draft& sliver) {
-    std::vector<PlaneId> region = draft.region;
-    if (std::erase(region, id) == 0) return false;
-    const ConvexPtr grown = clip_by(region);
-    if (!grown) return false;
-    const double expected = draft.convex->solid.volume_m3 + sliver.convex->solid.volume_m3;
+  static double area_in(const ConvexPolyhedron& shape, PlaneId name) {
+    double area = 0;
+    for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+      if (shape.faces[f].id == name) area += face_area(shape, f);
+    }
+    return area;
+  }
+
+  /// Whether drafts without their cuts towards a sliver are exactly themselves and it; if so, they
+  /// become that.
+  bool take_over(std::span<const std::pair<double, std::size_t>> takers,
+                 const std::vector<PlaneId>& cuts, const Draft& sliver) {
+    std::vector<Draft> grown;
+    double surplus = -sliver.convex->solid.volume_m3;
+    for (const auto& [area, taker] : takers) {
+      grown.push_back(drafts_[taker]);
+      std::erase(grown.back().region, cuts[taker]);
+      grown.back().convex = clip_by(grown.back().region);
+      if (!grown.back().convex) return false;
+      surplus += grown.back().convex->solid.volume_m3 - drafts_[taker].convex->solid.volume_m3;
+    }
     const double allowed = 0.1 * (kVolumeError * parent_->solid.volume_m3 + noise_);
-    if (std::abs(grown->solid.volume_m3 - expected) > allowed) return false;
-    draft.region = std::move(region);
-    draft.convex = grown;
+    if (std::abs(surplus) > allowed) return false;
+    for (std::size_t i = 0; i < takers.size(); ++i) drafts_[takers[i].second] = std::move(grown[i]);
     return true;
   }
 

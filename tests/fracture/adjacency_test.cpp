@@ -1,0 +1,96 @@
+// Which convexes touch, and what holds together.
+#include "fracture/adjacency.h"
+
+#include <gtest/gtest.h>
+
+#include "fracture/islands.h"
+#include "fracture/polygon.h"
+#include "tests/fracture/solids.h"
+#include "tests/fracture/truths.h"
+
+namespace sunder::fracture {
+namespace {
+
+void expect_same(const std::vector<Bond>& found, const std::vector<Bond>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].a, expected[i].a);
+    EXPECT_EQ(found[i].b, expected[i].b);
+    EXPECT_EQ(found[i].face_a, expected[i].face_a);
+    EXPECT_EQ(found[i].face_b, expected[i].face_b);
+    EXPECT_NEAR(found[i].area_m2, expected[i].area_m2, 1e-12 + 1e-9 * expected[i].area_m2);
+  }
+}
+
+TEST(Adjacency, of_a_grid_is_its_inner_faces_with_their_areas) {
+  const Compound grid = grid_compound(5, 4, 3, Vec3(0.3, 0.2, 0.1));
+  EXPECT_EQ(grid.bonds.size(), 4u * 4 * 3 + 5 * 3 * 3 + 5 * 4 * 2);
+  double area = 0;
+  for (const Bond& bond : grid.bonds) area += bond.area_m2;
+  EXPECT_NEAR(area, 48 * .02 + 45 * .03 + 40 * .06, 1e-12);
+}
+
+TEST(Adjacency, agrees_with_the_papers_sort_by_distance) {
+  const Compound voronoi = voronoi_compound(200, 1);
+  ASSERT_GT(voronoi.bonds.size(), 900u);
+  expect_same(voronoi.bonds, contacts_by_distance(voronoi, 1e-9));
+  const Compound grid = grid_compound(4, 5, 3);
+  expect_same(grid.bonds, contacts_by_distance(grid, 1e-9));
+}
+
+TEST(Adjacency, counts_only_the_part_that_overlaps) {
+  const Compound pair =
+      make_compound({{make_box(Vec3(0, 0, 0), Vec3(1, 1, 1)), MaterialIndex(0u), 0},
+                     {make_box(Vec3(0.75, 1, 0.5), Vec3(2, 2, 2)), MaterialIndex(0u), 0},
+                     {make_box(Vec3(1, 0, 1), Vec3(2, 1, 2)), MaterialIndex(0u), 0}});
+  ASSERT_EQ(pair.bonds.size(), 2u);  // boxes 0 and 2 share an edge only
+  EXPECT_NEAR(pair.bonds[0].area_m2, 0.125, 1e-15);
+  EXPECT_NEAR(pair.bonds[1].area_m2, 1, 1e-15);
+}
+
+TEST(Islands, are_those_of_brute_force) {
+  Random random(9);
+  for (int round = 0; round < 50; ++round) {
+    const std::size_t count = 2 + random.below(40);
+    std::vector<Bond> bonds;
+    for (std::uint32_t i = 0; i < count / 2; ++i) {
+      const auto a = random.below(static_cast<std::uint32_t>(count));
+      const auto b = random.below(static_cast<std::uint32_t>(count));
+      if (a != b) bonds.push_back({std::min(a, b), std::max(a, b), 0, 0, 1});
+    }
+    std::vector<std::uint32_t> label(count);
+    for (std::uint32_t i = 0; i < count; ++i) label[i] = i;
+    for (std::size_t pass = 0; pass < count; ++pass) {
+      for (const Bond& bond : bonds) {
+        label[bond.a] = label[bond.b] = std::min(label[bond.a], label[bond.b]);
+      }
+    }
+    const std::vector<std::uint32_t> islands = find_islands(count, bonds);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        ASSERT_EQ(islands[i] == islands[j], label[i] == label[j]);
+      }
+    }
+  }
+}
+
+TEST(Polygon, overlap_of_squares_is_the_common_rectangle) {
+  const std::vector<Vec2> a{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  const std::vector<Vec2> b{{.5, .25}, {2, .25}, {2, 2}, {.5, 2}};
+  OverlapScratch scratch;
+  EXPECT_DOUBLE_EQ(overlap_area(a, b, scratch), .375);
+  EXPECT_DOUBLE_EQ(overlap_area(b, a, scratch), .375);
+}
+
+TEST(Polygon, distance_to_a_box_is_that_of_its_nearest_point) {
+  const ConvexPolyhedron box = make_box(Vec3(0, 0, 0), Vec3(1, 2, 3));
+  Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 point(random.uniform(-3, 4), random.uniform(-3, 5), random.uniform(-3, 6));
+    const Vec3 nearest = point.cwiseMax(Vec3(0, 0, 0)).cwiseMin(Vec3(1, 2, 3));
+    EXPECT_NEAR(distance(point, box), (point - nearest).norm(), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace sunder::fracture

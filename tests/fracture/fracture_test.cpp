@@ -1,0 +1,223 @@
+// What a break must keep, step by step and as a whole.
+#include "fracture/fracture.h"
+
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "fracture/adjacency.h"
+#include "fracture/pattern_breaker.h"
+#include "tests/fracture/solids.h"
+#include "tests/fracture/truths.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+PatternSpec voronoi(int cells) {
+  PatternSpec spec;
+  spec.kind = PatternSpec::Kind::kVoronoi;
+  spec.cells = cells;
+  return spec;
+}
+
+PatternSpec web(int rings, int spokes) {
+  PatternSpec spec;
+  spec.kind = PatternSpec::Kind::kWeb;
+  spec.rings = rings;
+  spec.spokes = spokes;
+  return spec;
+}
+
+BreakCommand blow(const PatternSpec& pattern, const Vec3& at, double radius,
+                  std::uint64_t event = 1) {
+  BreakCommand command;
+  command.event = event;
+  command.seed = event;
+  command.pattern = pattern;
+  command.X_RP.position = at;
+  command.radius_m = radius;
+  return command;
+}
+
+TEST(Fracture, keeps_every_truth_when_a_box_breaks_whole) {
+  const auto breaker = make_pattern_breaker();
+  const Compound box = box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  const BreakPlan plan = breaker->plan(box, blow(voronoi(50), Vec3(0.2, 0.1, 0.3), kEndless));
+  EXPECT_EQ(broken_truth(box, plan), "");
+  
+  EXPECT_GT(plan.pieces.size(), 35u);
+  EXPECT_EQ(plan.failed, 0u);
+  EXPECT_EQ(plan.debris_volume_m3, 0);
+}
+
+TEST(Fracture, covers_every_point_exactly_once) {
+  const auto breaker = make_pattern_breaker();
+  const Compound ring = ring_compound(12, 0.6, 1, 0.5);
+  const BreakPlan plan = breaker->plan(ring, blow(voronoi(40), Vec3(0.8, 0.2, 0), 0.7));
+  ASSERT_TRUE(plan.broke());
+  Random random(5);
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 point(random.uniform(-1.1, 1.1), random.uniform(-.1, .6), random.uniform(-1.1, 1.1));
+    int inside = 0;
+    for (const ConvexPtr& convex : ring.convexes) inside += contains(convex->polyhedron, point);
+    ASSERT_EQ(cover(plan, point), inside);
+  }
+}
+
+TEST(Fracture, that_misses_gives_back_its_input) {
+  const auto breaker = make_pattern_breaker();
+  const Compound wall = grid_compound(4, 4, 1);
+  const BreakPlan plan = breaker->plan(wall, blow(voronoi(50), Vec3(20, 0, 0), 1));
+  ASSERT_EQ(plan.pieces.size(), 1u);
+  EXPECT_EQ(plan.pieces[0].convexes, wall.convexes);
+  EXPECT_EQ(hash_of(plan.pieces[0]), hash_of(wall));
+  EXPECT_EQ(plan.untouched, wall.convexes.size());
+}
+
+TEST(Fracture, leaves_convexes_outside_the_sphere_the_very_same) {
+  const auto breaker = make_pattern_breaker();
+  const Compound wall = grid_compound(10, 10, 2, Vec3(0.4, 0.2, 0.2), true);
+  const Vec3 at(2.1, 1.1, 0.4);
+  const BreakPlan plan = breaker->plan(wall, blow(voronoi(50), at, 0.5));
+  ASSERT_TRUE(plan.broke());
+  EXPECT_EQ(broken_truth(wall, plan), "");
+  const ImpactSphere sphere{at, 0.5};
+  std::set<const Convex*> kept;
+  for (const Compound& piece : plan.pieces) {
+    for (const ConvexPtr& convex : piece.convexes) kept.insert(convex.get());
+  }
+  for (const ConvexPtr& convex : wall.convexes) {
+    EXPECT_TRUE(kept.count(convex.get()) || sphere.touches(*convex));
+  }
+  EXPECT_TRUE(plan.pieces[0].is_anchored());
+}
+
+TEST(Fracture, joins_what_is_outside_the_sphere_into_one_compound) {
+  const auto breaker = make_pattern_breaker();
+  const Compound pane = box_compound(Vec3(-1, -1, -.003), Vec3(1, 1, .003));
+  BreakCommand command = blow(web(6, 12), Vec3(0.2, 0.1, 0), 0.4);
+  command.X_RP.rotation = Quat(Mat3((Mat3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished()));
+  const BreakPlan plan = breaker->plan(pane, command);
+  EXPECT_EQ(broken_truth(pane, plan), "");
+  ASSERT_GT(plan.pieces.size(), 50u);
+  double largest = 0;
+  for (const Compound& piece : plan.pieces) {
+    const Box box = bounds(piece);
+    if (volume(piece) > largest) largest = volume(piece);
+    if (volume(piece) < 0.5 * volume(pane)) {
+      const Vec3 farthest = (box.max - command.X_RP.position)
+                                .cwiseAbs()
+                                .cwiseMax((box.min - command.X_RP.position).cwiseAbs());
+      EXPECT_LT(farthest.x(), 0.5);
+      EXPECT_LT(farthest.y(), 0.5);
+    }
+  }
+  EXPECT_GT(largest, 0.8 * volume(pane));
+}
+
+TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_hit) {
+  const auto breaker = make_pattern_breaker();
+  const Compound pane = box_compound(Vec3(-1, -1, -.003), Vec3(1, 1, .003));
+  Material glass;
+  glass.pattern = web(6, 12);
+  glass.impact_radius_m = 0.4;
+  const Hit hit{Vec3(0.3, -0.2, 0.003), Vec3(0.6, 0, -0.8), 0, 1};
+  const BreakCommand command = breaker->command(pane, glass, hit, 1, 42);
+  const Vec3 axis = command.X_RP.rotation * Vec3::UnitY();
+  EXPECT_NEAR(std::abs(axis.z()), 1, 1e-12);
+  const BreakPlan plan = breaker->plan(pane, command);
+  ASSERT_GT(plan.pieces.size(), 50u);
+  int at_the_hit = 0;  // the innermost pieces meet at the impact
+  for (const Compound& piece : plan.pieces) {
+    for (const ConvexPtr& convex : piece.convexes) {
+      for (const Vec3& vertex : convex->polyhedron.vertices) {
+        if ((vertex - hit.point_R).norm() < 1e-9) ++at_the_hit;
+      }
+    }
+  }
+  EXPECT_EQ(at_the_hit, 12);
+}
+
+TEST(Fracture, is_the_same_for_any_number_of_threads) {
+  const auto breaker = make_pattern_breaker();
+  const Compound wall = grid_compound(8, 8, 2, Vec3(0.4, 0.2, 0.2), true);
+  std::set<std::uint64_t> hashes;
+  for (const int count : {1, 2, 4}) {
+    set_threads(count);
+    hashes.insert(hash_of(breaker->plan(wall, blow(voronoi(60), Vec3(1.5, .8, .4), 0.8))));
+  }
+  set_threads(0);
+  EXPECT_EQ(hashes.size(), 1u);
+}
+
+TEST(Fracture, keeps_the_truths_at_many_places_to_any_depth) {
+  const auto breaker = make_pattern_breaker();
+  const Compound wall = grid_compound(6, 6, 1, Vec3(0.4, 0.3, 0.2), true);
+  std::vector<Compound> solids{wall};
+  double debris = 0;
+  Random random(3);
+  std::uint64_t event = 1;
+  for (int round = 0; round < 60; ++round) {
+    const std::size_t which = random.below(static_cast<std::uint32_t>(solids.size()));
+    const Compound solid = solids[which];
+    const Box box = bounds(solid);
+    const Vec3 at =
+        box.min +
+        Vec3(random.uniform(), random.uniform(), random.uniform()).cwiseProduct(box.extent());
+    const double radius = 0.4 * box.extent().norm();
+    const BreakPlan plan = breaker->plan(solid, blow(voronoi(12), at, radius, ++event));
+    ASSERT_EQ(broken_truth(solid, plan), "") << "round " << round;
+    ASSERT_EQ(plan.failed, 0u);
+    debris += plan.debris_volume_m3;
+    solids[which] = plan.pieces[0];
+    solids.insert(solids.end(), plan.pieces.begin() + 1, plan.pieces.end());
+  }
+  double sum = debris;
+  for (const Compound& solid : solids) sum += volume(solid);
+  EXPECT_NEAR(sum, volume(wall), 1e-11 * volume(wall));
+  EXPECT_GT(solids.size(), 200u);
+}
+
+TEST(Fracture, reports_as_exposed_what_it_laid_bare) {
+  const auto breaker = make_pattern_breaker();
+  const Compound bricks = grid_compound(3, 3, 3);
+  const BreakPlan plan = breaker->plan(bricks, blow(voronoi(30), Vec3(1.5, 1.5, 1.5), kEndless));
+  double exposed = 0;
+  for (const ExposedFace& face : plan.exposed) {
+    const ConvexPolyhedron& polyhedron = plan.pieces[face.piece].convexes[face.convex]->polyhedron;
+    EXPECT_LE(face.area_m2, face_area(polyhedron, face.face) * (1 + 1e-9));
+    exposed += face.area_m2;
+  }
+  EXPECT_NEAR(exposed, 2 * plan.new_area_m2, 1e-12 * exposed);
+  double surface = 0;  // all of the pieces, less what is hidden inside them
+  for (const Compound& piece : plan.pieces) {
+    for (const ConvexPtr& convex : piece.convexes) {
+      for (std::size_t f = 0; f < convex->polyhedron.faces.size(); ++f) {
+        surface += face_area(convex->polyhedron, f);
+      }
+    }
+    for (const Bond& bond : piece.bonds) surface -= 2 * bond.area_m2;
+  }
+  EXPECT_NEAR(surface, 6 * 9 + exposed, 1e-9 * surface);
+}
+
+TEST(Fracture, keeps_anchored_only_what_still_reaches_the_held_side) {
+  const auto breaker = make_pattern_breaker();
+  const Compound block = box_compound(Vec3(-1, 0, -1), Vec3(1, 2, 1), 1);
+  const BreakPlan plan = breaker->plan(block, blow(voronoi(40), Vec3(0, 1, 0), kEndless));
+  std::size_t held = 0;
+  for (const Compound& piece : plan.pieces) {
+    const bool reaches = bounds(piece).min.y() < 1e-9;
+    EXPECT_EQ(piece.is_anchored(), reaches);
+    held += reaches;
+  }
+  EXPECT_GT(held, 0u);
+  EXPECT_LT(held, plan.pieces.size());
+}
+
+}  // namespace
+}  // namespace sunder::fracture

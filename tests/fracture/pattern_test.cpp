@@ -1,0 +1,63 @@
+// Patterns tile their box.
+#include "fracture/pattern.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/fracture/solids.h"
+
+namespace sunder::fracture {
+namespace {
+
+void expect_tiling(const Pattern& pattern) {
+  double volume = 0;
+  for (const Cell& cell : pattern.cells) {
+    EXPECT_TRUE(is_closed(cell.polyhedron));
+    EXPECT_GT(cell.volume, 0);
+    volume += cell.volume;
+    for (const auto& face : cell.polyhedron.faces) {
+      const Plane& stored = pattern.planes.at(plane_index(face.id));
+      const double side = plane_flipped(face.id) ? -1 : 1;
+      EXPECT_EQ((stored.normal - side * face.plane.normal).norm(), 0);
+    }
+  }
+  EXPECT_NEAR(volume / std::pow(2 * Pattern::kHalfExtent, 3), 1, 1e-12);
+  Random random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 point = 1.5 * random.uniform() * random.direction();
+    int count = 0;
+    for (const Cell& cell : pattern.cells) count += contains(cell.polyhedron, point);
+    EXPECT_EQ(count, 1);
+  }
+}
+
+TEST(Pattern, of_voronoi_cells_tiles_its_box) {
+  const Pattern pattern = voronoi_pattern(100, 2, 1);
+  EXPECT_GE(pattern.cells.size(), 100u);
+  expect_tiling(pattern);
+}
+
+TEST(Pattern, of_a_web_tiles_its_box) {
+  const Pattern pattern = web_pattern(6, 12, 0.3, 1);
+  EXPECT_EQ(pattern.cells.size(), 7u * 12);
+  expect_tiling(pattern);
+}
+
+TEST(Pattern, has_smaller_cells_towards_the_impact) {
+  const Pattern pattern = voronoi_pattern(200, 2, 1);
+  double near = 0, far = 0;
+  int near_count = 0, far_count = 0;
+  for (const Cell& cell : pattern.cells) {
+    if (cell.outer) continue;
+    const double distance = mass_properties(cell.polyhedron).centroid.norm();
+    if (distance < 0.4) near += cell.volume, ++near_count;
+    if (distance > 0.6) far += cell.volume, ++far_count;
+  }
+  ASSERT_GT(near_count, 20);
+  ASSERT_GT(far_count, 20);
+  EXPECT_LT(near / near_count, 0.3 * far / far_count);
+}
+
+}  // namespace
+}  // namespace sunder::fracture
