@@ -1,0 +1,36 @@
+// A mesh as a file gives it: polygons that may be open, doubled, flipped or degenerate. What can
+// be broken is a PolygonMesh; engine/geometry/repair.h makes one of the other.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/types.h"
+#include "engine/geometry/polygon_mesh.h"
+
+namespace sunder {
+
+/// Polygons with one contour each. Every corner names a vertex that exists; nothing else is sure.
+struct RawMesh {
+  struct Polygon {
+    std::uint32_t first_corner = 0;
+    std::uint32_t corner_count = 0;
+    std::uint32_t group = 0;  ///< Index into `groups`, if there are any.
+  };
+
+  std::vector<Vec3> vertices;
+  std::vector<Polygon> polygons;
+  std::vector<std::uint32_t> corners;  ///< Vertex index of each corner.
+  std::vector<Vec3f>
+      corner_normals;               ///< Zero where the file has none; empty if it has none at all.
+  std::vector<Vec2f> corner_uvs;    ///< Likewise.
+  std::vector<std::string> groups;  ///< Names of objects and groups, as in the file.
+
+  std::span<const std::uint32_t> polygon_corners(std::size_t p) const {
+    return std::span(corners).subspan(polygons[p].first_corner, polygons[p].corner_count);
+  }
+};
+
+}  // namespace sunder

@@ -1,0 +1,76 @@
+// STL, in text or binary: triangles that share no vertices. Its facet normals say nothing that the
+// vertices do not, and are passed over.
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "engine/io/mesh_text.h"
+
+namespace sunder {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 80, kTriangleBytes = 50;
+
+std::size_t triangle_count(std::string_view bytes) {
+  std::uint32_t count = 0;
+  if (bytes.size() >= kHeaderBytes + sizeof count) {
+    std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof count);
+  }
+  return count;
+}
+
+/// Whether the size is the one that binary triangles give: the text "solid" opens many a binary
+/// file too.
+bool is_binary(std::string_view bytes) {
+  return bytes.size() >= kHeaderBytes + 4 &&
+         (bytes.size() - kHeaderBytes - 4) / kTriangleBytes >= triangle_count(bytes) &&
+         (!bytes.starts_with("solid") ||
+          bytes.size() == kHeaderBytes + 4 + kTriangleBytes * triangle_count(bytes));
+}
+
+RawMesh read_binary(std::string_view bytes) {
+  static_assert(std::endian::native == std::endian::little);
+  RawMesh mesh;
+  const char* triangle = bytes.data() + kHeaderBytes + 4;
+  for (std::size_t t = 0, n = triangle_count(bytes); t < n; ++t, triangle += kTriangleBytes) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    float coordinates[9];
+    std::memcpy(coordinates, triangle + 3 * sizeof(float), sizeof coordinates);
+    for (int v = 0; v < 3; ++v) {
+      mesh.vertices.push_back(Eigen::Map<const Vec3f>(coordinates + 3 * v).cast<double>());
+    }
+    add_polygon(mesh, std::array{first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+RawMesh read_text(const MeshSource& source) {
+  RawMesh mesh;
+  MeshText text(source);
+  std::vector<std::uint32_t> polygon;
+  bool any_keyword = false;
+  while (text.next_line()) {
+    const std::string_view keyword = text.word();
+    if (keyword == "solid") {
+      mesh.groups.emplace_back(text.word());
+      any_keyword = true;
+    } else if (keyword == "vertex") {
+      polygon.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back(text.point());
+    } else if (keyword == "endloop") {
+      add_polygon(mesh, polygon);
+      polygon.clear();
+    }
+  }
+  if (!any_keyword) source.fail("not an STL file, or cut short: export the mesh again");
+  if (!polygon.empty()) text.fail("the file ends within a facet: it is cut short");
+  return mesh;
+}
+
+}  // namespace
+
+RawMesh read_stl(const MeshSource& source) {
+  return is_binary(source.bytes) ? read_binary(source.bytes) : read_text(source);
+}
+
+}  // namespace sunder
