@@ -85,7 +85,12 @@ class ScriptedBreaker final : public Breaker {
   explicit ScriptedBreaker(double area_m2) : area_m2_(area_m2) {}
   BreakCommand command(const Compound&, const Material& material, const Hit& hit,
                        std::uint64_t event, std::uint64_t seed) const override {
-    return {event, seed, material.pattern, {hit.point_R, Quat::Identity()}, 1};
+    BreakCommand command;
+    command.event = event;
+    command.seed = seed;
+    command.pattern = material.pattern;
+    command.X_RP.position = hit.point_R;
+    return command;
   }
   BreakPlan plan(const Compound& compound, const BreakCommand&) const override {
     BreakPlan plan;
