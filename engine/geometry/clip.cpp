@@ -73,7 +73,10 @@ void keep_largest_part(ConvexPolyhedron& solid) {
       }
     }
   }
-  std::vector<double> volume(solid.vertices.size(), 0);
+  std::vector<double> volume(solid.vertices.size());
+  for (std::uint32_t v = 0; v < volume.size(); ++v) {
+    volume[v] = part[v] == v ? 0 : std::numeric_limits<double>::lowest();
+  }
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     volume[part[solid.face_corners(f)[0]]] += cone_volume6(solid, f, solid.vertices[0]);
   }
