@@ -13,24 +13,12 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Angles may be given in degrees: the same name with another unit.
-std::string degrees_name(const Key& key) {
-  const std::string name(key.name);
-  return name.ends_with("_rad") ? name.substr(0, name.size() - 3) + "deg" : std::string();
-}
-
-std::string number(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 std::string bounds(const Range& range) {
   const bool low = range.low > -std::numeric_limits<double>::max();
   const bool high = range.high < std::numeric_limits<double>::max();
-  if (low && high) return " from " + number(range.low) + " to " + number(range.high);
-  if (low) return " of at least " + number(range.low);
-  return high ? " of at most " + number(range.high) : "";
+  if (low && high) return " from " + format(range.low) + " to " + format(range.high);
+  if (low) return " of at least " + format(range.low);
+  return high ? " of at most " + format(range.high) : "";
 }
 
 /// One key of one table being read.
@@ -165,44 +153,18 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-template <class Vector>
-std::string show(const Vector& v) {
-  return "[" + number(static_cast<double>(v[0])) + ", " + number(static_cast<double>(v[1])) + ", " +
-         number(static_cast<double>(v[2])) + "]";
-}
-
-std::string default_of(const Key& key, void* fresh) {
-  using Kind = Key::Kind;
-  if (key.required) return "required";
-  if (key.optional || key.kind == Kind::kTable) return "none";
-  if (key.kind == Kind::kChoice) return std::string(key.choices[key.chosen(fresh)]);
-  const void* field = key.field(fresh);
-  const auto text = [](const std::string& s) { return s.empty() ? "none" : s; };
-  switch (key.kind) {
-    case Kind::kBool:
-      return *static_cast<const bool*>(field) ? "true" : "false";
-    case Kind::kInteger:
-      return std::to_string(*static_cast<const int*>(field));
-    case Kind::kCount:
-      return std::to_string(*static_cast<const std::uint32_t*>(field));
-    case Kind::kSeed:
-      return std::to_string(*static_cast<const std::uint64_t*>(field));
-    case Kind::kNumber:
-      return number(*static_cast<const double*>(field));
-    case Kind::kVector:
-      return show(*static_cast<const Vec3*>(field));
-    case Kind::kColor:
-      return show(*static_cast<const Vec3f*>(field));
-    case Kind::kText:
-      return text(*static_cast<const std::string*>(field));
-    case Kind::kMaterial:
-      return text(static_cast<const MaterialRef*>(field)->name);
-    default:
-      return "";
-  }
-}
-
 }  // namespace
+
+std::string degrees_name(const Key& key) {
+  const std::string name(key.name);
+  return name.ends_with("_rad") ? name.substr(0, name.size() - 3) + "deg" : std::string();
+}
+
+std::string format(double number) {
+  std::ostringstream out;
+  out << number;
+  return out.str();
+}
 
 std::string join(std::span<const std::string_view> words, std::string_view separator) {
   std::string joined;
@@ -320,23 +282,6 @@ std::vector<const Value*> tables(const Value& parent, std::string_view key) {
     all.push_back(&element);
   }
   return all;
-}
-
-std::string reference_rows(std::span<const Key> keys, void* fresh) {
-  std::string rows = "| key | what | unit | default | allowed |\n|---|---|---|---|---|\n";
-  for (const Key& key : keys) {
-    const std::string degrees = degrees_name(key);
-    Key bare = key;
-    bare.unit = "";
-    std::string range = allowed(bare);
-    for (std::size_t at = 0; (at = range.find('|', at)) != std::string::npos; at += 2) {
-      range.insert(at, "\\");
-    }
-    rows += "| `" + std::string(key.name) + "`" + (degrees.empty() ? "" : " or `" + degrees + "`") +
-            " | " + std::string(key.help) + " | " + std::string(key.unit) + " | " +
-            default_of(key, fresh) + " | " + range + " |\n";
-  }
-  return rows;
 }
 
 }  // namespace sunder::scenes

@@ -188,7 +188,9 @@ std::string join(std::span<const std::string_view> words, std::string_view separ
 
 /// What a key allows, for errors and the reference: "a number from 0 to 1".
 std::string allowed(const Key& key);
-/// The rows of a Markdown table with all keys of one table; `fresh` holds the defaults.
-std::string reference_rows(std::span<const Key> keys, void* fresh);
+/// The name under which an angle may be given in degrees; empty if the key is no angle.
+std::string degrees_name(const Key& key);
+/// As short as it can be said: "0.1", "1e+06", "inf".
+std::string format(double number);
 
 }  // namespace sunder::scenes

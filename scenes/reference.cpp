@@ -6,32 +6,105 @@
 namespace sunder::scenes {
 namespace {
 
+template <class Vector>
+std::string show(const Vector& v) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    text += (i == 0 ? "[" : ", ") + format(static_cast<double>(v[i]));
+  }
+  return text + "]";
+}
+
+/// What the field of a fresh object holds.
+std::string default_of(const Key& key, void* fresh) {
+  using Kind = Key::Kind;
+  if (key.required) return "required";
+  if (key.optional || key.kind == Kind::kTable) return "none";
+  if (key.kind == Kind::kChoice) return std::string(key.choices[key.chosen(fresh)]);
+  const void* field = key.field(fresh);
+  const auto text = [](const std::string& s) { return s.empty() ? "none" : s; };
+  switch (key.kind) {
+    case Kind::kBool:
+      return *static_cast<const bool*>(field) ? "true" : "false";
+    case Kind::kInteger:
+      return std::to_string(*static_cast<const int*>(field));
+    case Kind::kCount:
+      return std::to_string(*static_cast<const std::uint32_t*>(field));
+    case Kind::kSeed:
+      return std::to_string(*static_cast<const std::uint64_t*>(field));
+    case Kind::kNumber:
+      return format(*static_cast<const double*>(field));
+    case Kind::kVector:
+      return show(*static_cast<const Vec3*>(field));
+    case Kind::kColor:
+      return show(*static_cast<const Vec3f*>(field));
+    case Kind::kText:
+      return text(*static_cast<const std::string*>(field));
+    case Kind::kMaterial:
+      return text(static_cast<const MaterialRef*>(field)->name);
+    default:
+      return "";
+  }
+}
+
+/// A bar would end the cell of a Markdown table.
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '|') safe += '\\';
+    safe += c;
+  }
+  return safe;
+}
+
+std::string row(const Key& key, void* fresh) {
+  Key bare = key;  // the unit has a column of its own
+  bare.unit = "";
+  std::string name = "`";
+  name.append(key.name).append("`");
+  const std::string degrees = degrees_name(key);
+  if (!degrees.empty()) name.append(" or `").append(degrees).append("`");
+  std::string line;
+  for (const std::string& cell : {name, std::string(key.help), std::string(key.unit),
+                                  default_of(key, fresh), escaped(allowed(bare))}) {
+    line.append("| ").append(cell).append(" ");
+  }
+  return line + "|\n";
+}
+
+std::string rows(std::span<const Key> keys, void* fresh) {
+  std::string text = "| key | what | unit | default | allowed |\n|---|---|---|---|---|\n";
+  for (const Key& key : keys) text += row(key, fresh);
+  return text + "\n";
+}
+
 template <class T>
 std::string section(const Keys<T>& keys) {
   T fresh;
-  std::string title(keys.table);
-  return "### " + title + "\n\n" + reference_rows(keys.keys, &fresh) + "\n";
+  return "### " + std::string(keys.table) + "\n\n" + rows(keys.keys, &fresh);
+}
+
+std::string preset_list() {
+  std::string text = "Without [accuracy], the preset decides:";
+  for (const Preset& preset : presets()) {
+    text += "\n`" + std::string(preset.name) + "` (" + std::string(preset.help) + "): dt 1/" +
+            format(1 / preset.accuracy.dt_s) + " s, " + std::to_string(preset.accuracy.substeps) +
+            " substeps.";
+  }
+  return text + "\n\n";
 }
 
 }  // namespace
 
 std::string key_reference() {
   const Schema& s = schema();
-  std::string text = section(s.scene) + section(s.accuracy);
-  text += "Without [accuracy], the preset decides:";
-  for (const Preset& preset : presets()) {
-    text += " `" + std::string(preset.name) + "` (1/" +
-            std::to_string(static_cast<int>(1 / preset.accuracy.dt_s + 0.5)) + " s, " +
-            std::to_string(preset.accuracy.substeps) + " substeps; " + std::string(preset.help) +
-            ")";
-  }
-  text += ".\n\n" + section(s.limits) + section(s.ground) + section(s.view);
-  text += section(s.material_head) + section(s.material) + section(s.pattern) + section(s.look);
-  text += section(s.solid);
+  std::string text = section(s.scene) + section(s.accuracy) + preset_list() + section(s.limits) +
+                     section(s.ground) + section(s.view) + section(s.material_head) +
+                     section(s.material) + section(s.pattern) + section(s.look) + section(s.solid);
   for (const Structure& structure : structures()) {
     text += "#### structure = \"" + std::string(structure.name) + "\"\n\n" +
             std::string(structure.help) + "\n\n" +
-            reference_rows(structure.keys, structure.parameters().get()) + "\n";
+            rows(structure.keys, structure.parameters().get());
   }
   return text + section(s.ball) + section(s.script) + section(s.shot);
 }

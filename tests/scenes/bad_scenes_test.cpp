@@ -1,0 +1,221 @@
+// Faults in scene files: each is answered with its place, its key and what is allowed.
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "scenes/load.h"
+
+namespace sunder::scenes {
+namespace {
+
+/// The message a text is refused with; empty if it is accepted.
+std::string refusal(const std::string& text, const LoadOptions& options = {}) {
+  try {
+    parse_scene(text, "bad.toml", options);
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+/// Lines that follow a good line 1 and 2.
+struct Fault {
+  const char* lines;
+  const char* message;
+};
+
+constexpr const char* kGood = "[scene]\ndescription = \"x\"\n";
+
+constexpr Fault kFaults[] = {
+    // Keys and tables
+    {"duratoin_s = 3",
+     "bad.toml:3: unknown key 'duratoin_s' in [scene]; did you mean 'duration_s'?"
+     "; allowed: description, duration_s, seed, gravity"},
+    {"[grund]\nheight_m = 1",
+     "bad.toml:3: unknown key 'grund' in the scene file; did you mean "
+     "'ground'?"},
+    {"[ground]\nbounciness = 1",
+     "bad.toml:4: unknown key 'bounciness' in [ground]; allowed: "
+     "height_m, friction, restitution"},
+    {"[[solid]]\nstructure = \"box\"\nradius_m = 1",
+     "bad.toml:5: unknown key 'radius_m' in "
+     "[[solid]] box"},
+    {"[[material]]\nname = \"x\"\npattern = { knd = \"web\" }",
+     "bad.toml:5: unknown key 'knd' in [material.pattern]; did you mean 'kind'?"},
+    {"[[material]]\nname = \"x\"\nsurface = { colour = [0, 0, 0] }",
+     "bad.toml:5: unknown key 'colour' in [material.surface], [material.interior]; did you mean "
+     "'color'?"},
+    {"[script]\nenable = false",
+     "bad.toml:4: unknown key 'enable' in [script]; did you mean "
+     "'enabled'?"},
+    // Types
+    {"duration_s = \"long\"",
+     "bad.toml:3: duration_s in [scene] is the string \"long\"; allowed: "
+     "a number from 0.1 to 600, in s"},
+    {"seed = 1.5", "bad.toml:3: seed in [scene] is the number 1.5; allowed: a whole number"},
+    {"gravity = 9.81", "bad.toml:3: gravity in [scene] is the number 9.81; allowed: [x, y, z]"},
+    {"gravity = [0, -9.81]", "bad.toml:3: gravity in [scene] is an array of 2; allowed: [x, y, z]"},
+    {"gravity = [0, \"down\", 0]",
+     "bad.toml:3: gravity in [scene] is an array of 3; allowed: "
+     "[x, y, z], each a number"},
+    {"[script]\nenabled = 1",
+     "bad.toml:4: enabled in [script] is the number 1; allowed: true or "
+     "false"},
+    {"[ground]\nfriction = true",
+     "bad.toml:4: friction in [ground] is true; allowed: a number "
+     "from 0 to 10"},
+    {"[[solid]]\nstructure = 3",
+     "bad.toml:4: structure in [[solid]] is the number 3; allowed: a "
+     "text"},
+    {"[solid]\nstructure = \"box\"",
+     "bad.toml:3: [[solid]] is a table; expected an array of "
+     "tables: write [[solid]] with two brackets"},
+    {"[[ground]]\nfriction = 1", "bad.toml:3: [ground] is an array of 1; expected a table"},
+    {"[[material]]\nname = \"x\"\npattern = \"web\"",
+     "bad.toml:5: [material.pattern] is the string "
+     "\"web\"; expected a table"},
+    {"duration_s = 2020-01-01", "bad.toml:3: scenes have no use for dates and times"},
+    // Ranges
+    {"duration_s = -1",
+     "bad.toml:3: duration_s in [scene] is the number -1; allowed: a number "
+     "from 0.1 to 600, in s"},
+    {"duration_s = nan", "bad.toml:3: duration_s in [scene] is the number nan; allowed"},
+    {"duration_s = inf", "bad.toml:3: duration_s in [scene] is the number inf; allowed"},
+    {"gravity = [0, -inf, 0]",
+     "bad.toml:3: gravity in [scene] is an array of 3; allowed: "
+     "[x, y, z], each a number from -100 to 100"},
+    {"[view]\nfov_deg = 270",
+     "bad.toml:4: fov_rad in [view] is the number 270; allowed: a number "
+     "from 0.02 to 3"},
+    {"[limits]\nbodies = 0",
+     "bad.toml:4: bodies in [limits] is the number 0; allowed: a whole "
+     "number from 1 to 200000"},
+    {"[limits]\nbodies = 5000000000", "bad.toml:4: bodies in [limits] is the number 5000000000"},
+    {"[[solid]]\nstructure = \"stack\"\ncount = 1000000",
+     "bad.toml:5: count in [[solid]] stack is "
+     "the number 1000000; allowed: a whole "
+     "number from 1 to 1000"},
+    {"[[solid]]\nstructure = \"box\"\nsize_m = [1, 0, 1]",
+     "bad.toml:5: size_m in [[solid]] box is "
+     "an array of 3"},
+    {"[[material]]\nname = \"x\"\ndensity_kg_m3 = 0",
+     "bad.toml:5: density_kg_m3 in [[material]] is "
+     "the number 0; allowed: a number from 1"},
+    {"[[material]]\nname = \"x\"\npattern = { cells = 1 }",
+     "bad.toml:5: cells in [material.pattern] "
+     "is the number 1"},
+    {"[limits]\nbodies = 5\n[[solid]]\nstructure = \"stack\"",
+     "bad.toml: 10 bodies exceed bodies = "
+     "5 in [limits]"},
+    {"[accuracy]\ndt_s = 0.007",
+     "bad.toml:4: dt_s in [accuracy] does not divide a frame of 1/60 s"},
+    // Names
+    {"[[solid]]\nstructure = \"hose\"",
+     "bad.toml:4: unknown structure 'hose'; did you mean "
+     "'house'?; allowed: box | brick_wall | column | house | "
+     "pane | stack"},
+    {"[[solid]]\nstructure = \"box\"\nmaterial = \"stel\"",
+     "bad.toml:5: unknown material 'stel'; "
+     "did you mean 'steel'?; there are: "
+     "brick, clay, concrete"},
+    {"[[solid]]\nstructure = \"box\"\nanchored = \"top\"",
+     "bad.toml:5: anchored in [[solid]] is the "
+     "string \"top\"; allowed: none | bottom"},
+    {"[[material]]\nname = \"x\"\nlike = \"oak\"", "bad.toml:5: unknown material 'oak'"},
+    {"[[material]]\nname = \"x\"\npattern = { kind = \"spider\" }",
+     "bad.toml:5: kind in [material.pattern] is the string \"spider\"; allowed: none | voronoi | "
+     "web"},
+    {"[[material]]\nname = \"x\"\n[[material]]\nname = \"x\"",
+     "bad.toml:5: a second [[material]] "
+     "named 'x'"},
+    {"[[solid]]\nstructure = \"box\"\nname = \"a\"\n[[ball]]\nname = \"a\"",
+     "bad.toml: two things are named 'a'; give each a name of its own"},
+    {"[[ball]]\nname = \"\"",
+     "bad.toml:4: name in [[ball]] is the string \"\"; allowed: a text "
+     "that is not empty"},
+    // What is missing, or too much
+    {"[[solid]]\nposition = [0, 0, 0]", "bad.toml:3: missing key 'structure' in [[solid]]"},
+    {"[[material]]\nfriction = 1", "bad.toml:3: missing key 'name' in [[material]]"},
+    {"[[script.shot]]\nfrom = [0, 0, 0]\nvelocity = [1, 0, 0]",
+     "bad.toml:3: missing key 'time_s' "
+     "in [[script.shot]]"},
+    {"[[script.shot]]\ntime_s = 1\nfrom = [0, 0, 0]",
+     "bad.toml:3: [[script.shot]] needs either "
+     "velocity, or at (and speed_m_s)"},
+    {"[[script.shot]]\ntime_s = 1\nfrom = [0, 0, 0]\nat = [1, 0, 0]\nvelocity = [1, 0, 0]",
+     "bad.toml:3: [[script.shot]] needs either velocity, or at"},
+    {"[[script.shot]]\ntime_s = 1\nfrom = [0, 0, 0]\nat = [0, 0, 0]",
+     "bad.toml:3: at and from in [[script.shot]] are the same point"},
+    {"[view]\nfov_rad = 1\nfov_deg = 50",
+     "bad.toml:5: fov_deg in [view] is given beside fov_rad; "
+     "keep one"},
+    {"[view]\nsun = [0, 0, 0]", "bad.toml: [view] needs a sun that is not zero"},
+    {"[[solid]]\nstructure = \"house\"\nwindows = 40",
+     "bad.toml:3: house: windows of window_m do "
+     "not fit side by side"},
+    // Syntax
+    {"duration_s = ", "bad.toml:3: "},
+    {"duration_s = 1\nduration_s = 2", "bad.toml:4: "},
+    {"[view", "bad.toml:3: "},
+};
+
+TEST(BadScenes, AreRefusedWithPlaceKeyAndWhatIsAllowed) {
+  ASSERT_EQ(refusal(kGood), "");
+  for (const Fault& fault : kFaults) {
+    const std::string message = refusal(std::string(kGood) + fault.lines + "\n");
+    EXPECT_TRUE(message.starts_with(fault.message))
+        << fault.lines << "\nexpected: " << fault.message << "\nsaid:     " << message;
+  }
+}
+
+TEST(BadScenes, WithoutASceneTableAreRefused) {
+  EXPECT_EQ(refusal("[ground]\nfriction = 1\n"), "bad.toml: missing table [scene]");
+  EXPECT_EQ(refusal("[scene]\nseed = 1\n"),
+            "bad.toml:1: missing key 'description' in [scene]: a text that is not empty");
+}
+
+TEST(BadFlags, AreRefusedByTheirOwnName) {
+  const Fault flags[] = {
+      {"duration", "--set duration: expected key=value"},
+      {"=3", "--set =3: expected key=value"},
+      {"scene.duration_s=", "--set scene.duration_s=: expected key=value"},
+      {"scene.duration_s=1 second!", "--set scene.duration_s=1 second!: '1 second!' is not a TOML"},
+      {"scene.duration=3",
+       "--set scene.duration=3: unknown key 'duration' in [scene]; did you "
+       "mean 'duration_s'?"},
+      {"scene.duration_s=long",
+       "--set scene.duration_s=long: duration_s in [scene] is the string "
+       "\"long\"; allowed: a number from 0.1 to 600, in s"},
+      {"scene.seed.x=1", "--set scene.seed.x=1: "},
+      {"ball.3.radius_m=1", "--set ball.3.radius_m=1: '3' is not an index of an array of 1"},
+      {"ball.first.radius_m=1", "--set ball.first.radius_m=1: 'first' is not an index"},
+      {"scene.description.x=1", "--set scene.description.x=1: 'x' is sought inside the string"},
+  };
+  for (const Fault& flag : flags) {
+    LoadOptions options;
+    options.set = {flag.lines};
+    const std::string message = refusal(std::string(kGood) + "[[ball]]\n", options);
+    EXPECT_TRUE(message.starts_with(flag.message)) << "said: " << message;
+  }
+  LoadOptions options;
+  options.preset = "realtme";
+  EXPECT_EQ(
+      refusal(kGood, options),
+      "--preset realtme: unknown preset; did you mean 'realtime'?; allowed: draft | realtime");
+}
+
+TEST(BadFiles, AreNamed) {
+  const auto refused = [](const std::string& name) -> std::string {
+    try {
+      load_scene(name, {});
+      return {};
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refused("no/such.toml"), "no/such.toml: cannot be read: there is no such file");
+  EXPECT_TRUE(refused("hause").starts_with(
+      "hause: no such file, and no scene of that name; did you mean 'house'?; scenes: "));
+}
+
+}  // namespace
+}  // namespace sunder::scenes

@@ -1,0 +1,117 @@
+// What a good scene file becomes.
+#include "scenes/load.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace sunder::scenes {
+namespace {
+
+Scene scene_of(const std::string& lines, const LoadOptions& options = {}) {
+  return parse_scene("[scene]\ndescription = \"x\"\n" + lines, "folder/name.toml", options);
+}
+
+const Material& material(const Scene& scene, const std::string& name) {
+  for (const Material& m : scene.materials) {
+    if (m.name == name) return m;
+  }
+  throw std::runtime_error("no material " + name);
+}
+
+TEST(Load, NamesTheSceneAfterItsFile) { EXPECT_EQ(scene_of("").name, "name"); }
+
+TEST(Load, KeepsTheDefaultsOfTheWorld) {
+  const Scene scene = scene_of("");
+  const Scene fresh;
+  EXPECT_EQ(scene.duration_s, fresh.duration_s);
+  EXPECT_EQ(scene.gravity_W, fresh.gravity_W);
+  EXPECT_EQ(scene.limits.bodies, fresh.limits.bodies);
+  EXPECT_EQ(scene.ground.friction, fresh.ground.friction);
+}
+
+TEST(Load, TurnsDegreesIntoRadians) {
+  EXPECT_DOUBLE_EQ(scene_of("[view]\nfov_deg = 90\n").view.fov_rad, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(scene_of("[view]\nfov_rad = 0.5\n").view.fov_rad, 0.5);
+}
+
+TEST(Load, PresetsSetTheStepAndTheFileOverridesThem) {
+  EXPECT_DOUBLE_EQ(scene_of("", {"draft", {}}).accuracy.dt_s, 1.0 / 60);
+  EXPECT_DOUBLE_EQ(scene_of("", {"realtime", {}}).accuracy.dt_s, 1.0 / 120);
+  const Scene scene = scene_of("[accuracy]\ndt_s = 0.004166667\nsubsteps = 8\n");
+  EXPECT_EQ(scene.accuracy.dt_s, 1.0 / 60 / 4);
+  EXPECT_EQ(scene.accuracy.substeps, 8);
+}
+
+TEST(Load, AMaterialStartsFromItsNamesakeOrFromAnother) {
+  const Scene scene = scene_of(
+      "[[material]]\nname = \"brick\"\ntoughness_J_m2 = 7\n"
+      "[[material]]\nname = \"tile\"\nlike = \"glass\"\npattern = { rings = 3 }\n");
+  EXPECT_EQ(material(scene, "brick").toughness_J_m2, 7);
+  EXPECT_EQ(material(scene, "brick").density_kg_m3, 1900);
+  EXPECT_EQ(material(scene, "tile").density_kg_m3, material(scene, "glass").density_kg_m3);
+  EXPECT_EQ(material(scene, "tile").pattern.rings, 3);
+  EXPECT_EQ(material(scene, "tile").pattern.spokes, material(scene, "glass").pattern.spokes);
+  EXPECT_EQ(material(scene, "tile").pattern.kind, PatternSpec::Kind::kWeb);
+}
+
+TEST(Load, PlacesSolidsByTheirFootAndTurnsThem) {
+  const Scene scene = scene_of(
+      "[[solid]]\nstructure = \"box\"\nsize_m = [2, 1, 4]\nposition = [10, 0, 0]\n"
+      "rotation_deg = [0, 90, 0]\n");
+  ASSERT_EQ(scene.solids.size(), 1u);
+  const Vec3 corner_W = scene.solids[0].X_WR * Vec3(1, 1, 2);
+  EXPECT_NEAR((corner_W - Vec3(12, 1, -1)).norm(), 0, 1e-12);
+}
+
+TEST(Load, AnAnchoredSolidStandsOnAFoundationThatIsHeld) {
+  const std::string box = "[[solid]]\nstructure = \"box\"\n";
+  EXPECT_FALSE(scene_of(box).solids[0].compound.is_anchored());
+  const Scene scene = scene_of(box + "anchored = \"bottom\"\n");
+  const Compound& compound = scene.solids[0].compound;
+  EXPECT_TRUE(compound.is_anchored());
+  ASSERT_EQ(compound.bonds.size(), 1u);
+  EXPECT_NEAR(compound.bonds[0].area_m2, 1, 1e-12);
+  EXPECT_LT(bounds(compound).min.y(), 0) << "the foundation is in the ground";
+}
+
+TEST(Load, ShotsAreInOrderOfTimeAndAimed) {
+  const Scene scene = scene_of(
+      "[script]\n[[script.shot]]\ntime_s = 2\nfrom = [0, 0, 0]\nvelocity = [1, 2, 3]\n"
+      "[[script.shot]]\ntime_s = 1\nfrom = [0, 0, 0]\nat = [0, 0, -5]\nspeed_m_s = 30\n");
+  ASSERT_EQ(scene.shots.size(), 2u);
+  EXPECT_EQ(scene.shots[0].time_s, 1);
+  EXPECT_EQ(scene.shots[0].ball.velocity_W, Vec3(0, 0, -30));
+  EXPECT_EQ(scene.shots[1].ball.velocity_W, Vec3(1, 2, 3));
+}
+
+TEST(Load, FlagsChangeKeysThatAreThereAndKeysThatAreNot) {
+  LoadOptions options;
+  options.set = {"scene.seed=7", "ground.friction=0.25", "ball.1.position=[1, 2, 3]",
+                 "ball.0.material=wood"};
+  const Scene scene = scene_of("[[ball]]\n[[ball]]\n", options);
+  EXPECT_EQ(scene.seed, 7u);
+  EXPECT_EQ(scene.ground.friction, 0.25);
+  EXPECT_EQ(scene.balls[1].center_W, Vec3(1, 2, 3));
+  EXPECT_EQ(scene.materials[scene.balls[0].material.value].name, "wood");
+}
+
+TEST(Load, AScriptCanBeSwitchedOff) {
+  const std::string shot = "[[script.shot]]\ntime_s = 2\nfrom = [0, 0, 0]\nvelocity = [1, 2, 3]\n";
+  EXPECT_EQ(scene_of(shot).shots.size(), 1u);
+  EXPECT_EQ(scene_of(shot, {"realtime", {"script.enabled=false"}}).shots.size(), 0u);
+}
+
+TEST(Load, EverySceneOfTheCatalogueLoadsAndSaysWhatItIs) {
+  const std::vector<CatalogEntry> entries = catalog();
+  EXPECT_GE(entries.size(), 5u);
+  for (const CatalogEntry& entry : entries) {
+    const Scene scene = load_scene(entry.name, {});
+    EXPECT_EQ(scene.name, entry.name);
+    EXPECT_EQ(scene.description, entry.description);
+    EXPECT_FALSE(scene.solids.empty()) << entry.name;
+  }
+}
+
+}  // namespace
+}  // namespace sunder::scenes

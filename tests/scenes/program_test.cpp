@@ -1,0 +1,150 @@
+// The program as its users see it: exit codes, messages and JSON.
+#include "tests/scenes/program.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "engine/io/figures.h"
+#include "scenes/load.h"
+
+namespace sunder::tests {
+namespace {
+
+constexpr const char* kCommands[] = {"list", "check", "simulate", "render", "bench", "golden test"};
+
+Figures figures(const std::string& arguments) {
+  const Outcome outcome = sunder(arguments + " --quiet --json -");
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << "\n" << outcome.err;
+  return parse_figures(outcome.out, arguments);
+}
+
+TEST(Program, EveryCommandHasHelp) {
+  for (const std::string command : kCommands) {
+    const Outcome outcome = sunder(command + " --help");
+    EXPECT_EQ(outcome.exit_code, 0) << command;
+    for (const char* option : {"--threads", "--quiet", "--json"}) {
+      EXPECT_NE(outcome.out.find(option), std::string::npos) << command << " " << option;
+    }
+  }
+}
+
+TEST(Program, WrongUseExitsWithTwoAndSaysWhy) {
+  for (const std::string wrong :
+       {"", "explode", "simulate", "simulate nowhere", "simulate stack --frames 0",
+        "simulate stack --frames ten", "simulate stack --preset fast", "simulate stack --set x",
+        "simulate stack --speed 3", "check nowhere.toml", "render stack",
+        "render stack -o x.png --frames 9:3", "render stack -o x.png --size 3",
+        "render stack -o x.png --frames 100000:100001", "render stack -o x.png --gl vulkan",
+        "bench stack --compare nowhere.json", "golden test nowhere", "golden accept"}) {
+    const Outcome outcome = sunder(wrong);
+    EXPECT_EQ(outcome.exit_code, 2) << wrong << "\n" << outcome.err;
+    EXPECT_NE(outcome.err, "") << wrong;
+  }
+}
+
+TEST(Program, ListNamesTheScenes) {
+  const Outcome outcome = sunder("list");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const scenes::CatalogEntry& entry : scenes::catalog()) {
+    EXPECT_NE(outcome.out.find(entry.name + " "), std::string::npos) << entry.name;
+  }
+  EXPECT_TRUE(figures("list").contains("/scenes/0/description"));
+}
+
+TEST(Program, CheckReportsEverySceneItIsGiven) {
+  const Folder folder;
+  std::ofstream(folder / "bad.toml") << "[scene]\ndescription = \"x\"\nlength = 3\n";
+  const Outcome outcome = sunder("check stack " + folder / "bad.toml" + " glass");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.out.find("stack: good"), std::string::npos);
+  EXPECT_NE(outcome.out.find("glass: good"), std::string::npos);
+  EXPECT_NE(outcome.err.find("bad.toml:3: unknown key 'length'"), std::string::npos);
+}
+
+TEST(Program, SimulateGivesItsFigures) {
+  const Figures json = figures("simulate stack --frames 5 --preset draft --threads 1");
+  for (const char* key : {"/scene",
+                          "/preset",
+                          "/threads",
+                          "/frames",
+                          "/dt_s",
+                          "/substeps",
+                          "/state_hash",
+                          "/steps",
+                          "/stages/collide/p50_ms",
+                          "/stages/break/p95_ms",
+                          "/stages/solve/max_ms",
+                          "/frame/p50_ms",
+                          "/frame/p95_ms",
+                          "/frame/p99_ms",
+                          "/frame/max_ms",
+                          "/counts/bodies",
+                          "/counts/awake",
+                          "/counts/convexes",
+                          "/counts/compounds",
+                          "/counts/contacts",
+                          "/counts/debris",
+                          "/counts/dust",
+                          "/peak/bodies",
+                          "/fractures/events",
+                          "/fractures/pieces",
+                          "/fractures/p50_ms",
+                          "/fractures/p99_ms",
+                          "/fractures/max_ms",
+                          "/fractures/carried_over",
+                          "/penetration_m/p50",
+                          "/penetration_m/p99",
+                          "/penetration_m/max",
+                          "/energy_J/kinetic",
+                          "/energy_J/potential",
+                          "/momentum_residual",
+                          "/mass_kg/initial",
+                          "/mass_kg/final",
+                          "/limits_hit",
+                          "/modelled/fracture",
+                          "/cpu",
+                          "/sunder_version"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(std::get<std::string>(json.at("/scene")), "stack");
+  EXPECT_EQ(std::get<std::string>(json.at("/preset")), "draft");
+  EXPECT_EQ(std::get<std::int64_t>(json.at("/counts/bodies")), 10);
+}
+
+TEST(Program, ChangesOnTheCommandLineChangeTheRun) {
+  const Figures json = figures("simulate stack --frames 2 --set solid.0.count=3");
+  EXPECT_EQ(std::get<std::int64_t>(json.at("/counts/bodies")), 3);
+}
+
+TEST(Program, QuietPrintsNothingAndJsonGoesToAFile) {
+  const Folder folder;
+  const Outcome outcome = sunder("simulate stack --frames 2 --quiet --json " + folder / "x.json");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  EXPECT_TRUE(parse_figures(scenes::read_text(folder / "x.json"), "x").contains("/state_hash"));
+}
+
+TEST(Program, BenchComparesOnlyRunsOfTheSameState) {
+  const Folder folder;
+  const std::string bench = "bench stack --frames 5 --quiet ";
+  ASSERT_EQ(sunder(bench + "--json " + folder / "old.json").exit_code, 0);
+  const Outcome same = sunder("bench stack --frames 5 --compare " + folder / "old.json");
+  EXPECT_EQ(same.exit_code, 0);
+  EXPECT_NE(same.out.find("same state"), std::string::npos) << same.out;
+  const Outcome other =
+      sunder(bench + "--set scene.gravity=[0,-5,0] --compare " + folder / "old.json");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("the state differs"), std::string::npos) << other.err;
+}
+
+TEST(Program, RenderWritesThePictureItWasAskedFor) {
+  const Folder folder;
+  const std::string picture = folder / "stack.png";
+  const Outcome outcome = sunder("render stack --frames 0:2 --size 64x48 -o " + picture);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(picture));
+}
+
+}  // namespace
+}  // namespace sunder::tests

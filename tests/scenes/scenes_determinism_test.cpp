@@ -1,0 +1,36 @@
+// Every scene runs, and to the same bits on any number of threads.
+#include <gtest/gtest.h>
+
+#include "engine/io/figures.h"
+#include "scenes/load.h"
+#include "tests/scenes/program.h"
+
+namespace sunder::tests {
+namespace {
+
+class EveryScene : public testing::TestWithParam<std::string> {};
+
+std::string state_hash(const std::string& arguments) {
+  const Outcome outcome = sunder("simulate " + arguments + " --quiet --json -");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return std::get<std::string>(parse_figures(outcome.out, arguments).at("/state_hash"));
+}
+
+TEST_P(EveryScene, HasTheSameStateOnOneTwoAndFourThreads) {
+  const std::string run = GetParam() + " --preset draft --frames 120 --threads ";
+  const std::string one = state_hash(run + "1");
+  EXPECT_EQ(state_hash(run + "2"), one);
+  EXPECT_EQ(state_hash(run + "4"), one);
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const scenes::CatalogEntry& entry : scenes::catalog()) all.push_back(entry.name);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryScene, testing::ValuesIn(names()),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace sunder::tests

@@ -1,0 +1,106 @@
+// Structures: sound, without overlap, bonded where they touch.
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "scenes/load.h"
+
+namespace sunder::scenes {
+namespace {
+
+std::vector<Solid> solids(const std::string& lines) {
+  return parse_scene("[scene]\ndescription = \"x\"\n[[solid]]\n" + lines, "x.toml", {}).solids;
+}
+
+/// Bonds join all convexes.
+bool is_connected(const Compound& compound) {
+  std::vector<std::size_t> root(compound.convexes.size());
+  for (std::size_t i = 0; i < root.size(); ++i) root[i] = i;
+  const auto find = [&](std::size_t i) {
+    while (root[i] != i) i = root[i];
+    return i;
+  };
+  for (const Bond& bond : compound.bonds) root[find(bond.a)] = find(bond.b);
+  std::set<std::size_t> roots;
+  for (std::size_t i = 0; i < root.size(); ++i) roots.insert(find(i));
+  return roots.size() == 1;
+}
+
+/// Volume that two axis-aligned boxes share.
+double overlap(const Box& a, const Box& b) {
+  const Vec3 extent = a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min);
+  return (extent.array() > 0).all() ? extent.prod() : 0;
+}
+
+TEST(Structures, AWallHasTwentyCoursesOfTwentyFiveBodies) {
+  const std::vector<Solid> wall = solids("structure = \"brick_wall\"");
+  ASSERT_EQ(wall.size(), 500u);
+  double volume_m3 = 0;
+  for (const Solid& brick : wall) volume_m3 += volume(brick.compound);
+  EXPECT_NEAR(volume_m3, 24.5 * 0.4 * 20 * 0.2 * 0.2, 1e-9);
+}
+
+TEST(Structures, NoJointOfAWallLiesOverAnother) {
+  const std::vector<Solid> wall = solids("structure = \"brick_wall\"\nbricks = 6\ncourses = 2");
+  std::vector<std::set<long>> joints(2);
+  for (std::size_t i = 0; i < wall.size(); ++i) {
+    const double left = wall[i].X_WR.position.x() + bounds(wall[i].compound).min.x();
+    if (i % 6 != 0) joints[i / 6].insert(std::lround(1e6 * left));
+  }
+  for (const long joint : joints[0]) EXPECT_FALSE(joints[1].contains(joint));
+}
+
+TEST(Structures, AHouseIsOneConnectedCompoundWithoutOverlaps) {
+  const std::vector<Solid> house = solids("structure = \"house\"\nanchored = \"bottom\"");
+  ASSERT_EQ(house.size(), 1u);
+  const Compound& compound = house[0].compound;
+  EXPECT_TRUE(is_connected(compound));
+  EXPECT_TRUE(compound.is_anchored());
+  for (std::size_t i = 0; i < compound.convexes.size(); ++i) {
+    EXPECT_TRUE(is_closed(compound.convexes[i]->polyhedron));
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_LT(overlap(compound.convexes[i]->box, compound.convexes[j]->box), 1e-9)
+          << i << " and " << j;
+    }
+  }
+}
+
+TEST(Structures, AHouseHasBrickAndConcreteAndHolesForWindows) {
+  const Scene scene =
+      parse_scene("[scene]\ndescription = \"x\"\n[[solid]]\nstructure = \"house\"\n", "x.toml", {});
+  const Compound& house = scene.solids[0].compound;
+  std::set<std::string> names;
+  for (const ConvexPtr& convex : house.convexes) {
+    names.insert(scene.materials[convex->material.value].name);
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"brick", "concrete"}));
+  const Vec3 size = bounds(house).extent();
+  EXPECT_LT(volume(house), 0.3 * size.prod()) << "it is hollow";
+}
+
+TEST(Structures, AColumnIsAClosedPrismOfTheRightVolume) {
+  const std::vector<Solid> column =
+      solids("structure = \"column\"\nradius_m = 0.5\nheight_m = 2\nsides = 64");
+  const ConvexPolyhedron& prism = column[0].compound.convexes[0]->polyhedron;
+  EXPECT_TRUE(is_closed(prism));
+  EXPECT_NEAR(volume(column[0].compound), 64 * 0.25 * std::sin(2 * M_PI / 64), 1e-9);
+}
+
+TEST(Structures, GlassHangsInAFrameThatIsHeld) {
+  const std::vector<Solid> pane = solids("structure = \"pane\"");
+  const Compound& compound = pane[0].compound;
+  ASSERT_EQ(compound.convexes.size(), 5u);
+  EXPECT_TRUE(is_connected(compound));
+  EXPECT_EQ(compound.anchored[0], 0) << "the glass itself is held by its frame only";
+  EXPECT_FALSE(solids("structure = \"pane\"\nframe_m = 0")[0].compound.is_anchored());
+}
+
+TEST(Structures, AStackIsSeparateBodies) {
+  const std::vector<Solid> stack = solids("structure = \"stack\"\ncount = 3\nsize_m = [1, 2, 1]");
+  ASSERT_EQ(stack.size(), 3u);
+  EXPECT_DOUBLE_EQ(stack[2].X_WR.position.y(), 4);
+}
+
+}  // namespace
+}  // namespace sunder::scenes
