@@ -1,8 +1,9 @@
 #include "render/antialias.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
+#include <cstring>
+#include <vector>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
@@ -10,53 +11,55 @@
 namespace sunder::render {
 namespace {
 
-constexpr int kFaintest = 12;  // contrast below which nothing is an edge, of 255
-constexpr int kRelative = 8;   // and below this part of the brightest neighbour
-constexpr int kReach = 16;     // how far an edge is followed, in pixels
+constexpr std::uint8_t kFaintest = 12;  // contrast below which nothing is an edge, of 255
+constexpr std::uint8_t kRelative = 8;   // and below this part of the brightest neighbour
+constexpr int kReach = 16;              // how far an edge is followed, in pixels
 constexpr std::size_t kRowsPerChunk = 16;
 
-/// The picture, and its brightness with a border so that neighbours always exist.
-class Picture {
+/// Brightness of every pixel, with a border so that neighbours always exist.
+class Luma {
  public:
-  Picture(std::span<const std::uint8_t> rgba, int width, int height)
-      : rgba_(rgba), width_(width), stride_(width + 2), luma_(padded_size(width, height)) {
-    for_chunks(static_cast<std::size_t>(height), kRowsPerChunk,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                 for (std::size_t y = begin; y < end; ++y) fill_row(static_cast<int>(y));
-               });
-    const auto row = static_cast<std::size_t>(stride_);
-    std::copy_n(luma_.begin() + stride_, row, luma_.begin());
-    std::copy_n(luma_.end() - 2 * stride_, row, luma_.end() - stride_);
+  Luma(std::span<const std::uint32_t> pixels, int width, int height)
+      : stride_(width + 2),
+        values_(static_cast<std::size_t>(width + 2) * static_cast<std::size_t>(height + 2)) {
+    for (int y = -1; y <= height; ++y) {
+      const int from = std::clamp(y, 0, height - 1);
+      fill_row(pixels.data() + static_cast<std::ptrdiff_t>(from) * width, at(0, y), width);
+    }
   }
 
-  const std::uint8_t* luma(int x, int y) const {
-    return luma_.data() + static_cast<std::ptrdiff_t>(y + 1) * stride_ + x + 1;
-  }
-  const std::uint8_t* rgba(int x, int y) const {
-    return rgba_.data() + 4 * (static_cast<std::ptrdiff_t>(y) * width_ + x);
+  const std::uint8_t* at(int x, int y) const {
+    return values_.data() + static_cast<std::ptrdiff_t>(y + 1) * stride_ + x + 1;
   }
   int stride() const { return stride_; }
 
  private:
-  static std::size_t padded_size(int width, int height) {
-    return static_cast<std::size_t>(width + 2) * static_cast<std::size_t>(height + 2);
+  std::uint8_t* at(int x, int y) {
+    return values_.data() + static_cast<std::ptrdiff_t>(y + 1) * stride_ + x + 1;
   }
-  void fill_row(int y) {
-    const std::uint8_t* in = rgba(0, y);
-    std::uint8_t* out = luma_.data() + static_cast<std::ptrdiff_t>(y + 1) * stride_;
-    for (int x = 0; x < width_; ++x) {
-      out[x + 1] = static_cast<std::uint8_t>(
-          (77 * in[4 * x] + 150 * in[4 * x + 1] + 29 * in[4 * x + 2]) >> 8);
-    }
-    out[0] = out[1];
-    out[width_ + 1] = out[width_];
+  static void fill_row(const std::uint32_t* in, std::uint8_t* out, int width) {
+    for (int x = 0; x < width; ++x) out[x] = static_cast<std::uint8_t>(in[x] >> 24);
+    out[-1] = out[0];
+    out[width] = out[width - 1];
   }
 
-  std::span<const std::uint8_t> rgba_;
-  int width_;
   int stride_;
-  std::vector<std::uint8_t> luma_;
+  std::vector<std::uint8_t> values_;
 };
+
+/// Marks the pixels of a row that may be on an edge: plain enough for the compiler to do many at
+/// once.
+void mark_edges(const std::uint8_t* luma, int stride, int width, std::uint8_t* marks) {
+  for (int x = 0; x < width; ++x) {
+    const std::uint8_t* l = luma + x;
+    const std::uint8_t high =
+        std::max(std::max(std::max(l[-stride], l[stride]), l[0]), std::max(l[-1], l[1]));
+    const std::uint8_t low =
+        std::min(std::min(std::min(l[-stride], l[stride]), l[0]), std::min(l[-1], l[1]));
+    const auto least = std::max<std::uint8_t>(kFaintest, high / kRelative);
+    marks[x] = static_cast<std::uint8_t>(high - low) >= least;
+  }
+}
 
 /// Which neighbour to blend with, as a step in luma and in pixels, and how much, of 256.
 struct Blend {
@@ -82,14 +85,12 @@ End follow(const std::uint8_t* at, int across, int step, int room, int mean2, in
   return {reach + 1, change};
 }
 
-Blend blend_at(const Picture& picture, int x, int y, int width, int height) {
-  const std::uint8_t* l = picture.luma(x, y);
-  const int s = picture.stride();
+Blend blend_at(const Luma& luma, int x, int y, int width, int height) {
+  const std::uint8_t* l = luma.at(x, y);
+  const int s = luma.stride();
   const int m = l[0], n = l[-s], e = l[1], w = l[-1], d = l[s];
   const int high = std::max({m, n, e, w, d});
   const int low = std::min({m, n, e, w, d});
-  if (high - low < std::max(kFaintest, high / kRelative)) return {};
-
   const int nw = l[-s - 1], ne = l[-s + 1], sw = l[s - 1], se = l[s + 1];
   const int bend_y =
       std::abs(nw + sw - 2 * w) + 2 * std::abs(n + d - 2 * m) + std::abs(ne + se - 2 * e);
@@ -123,25 +124,38 @@ Blend blend_at(const Picture& picture, int x, int y, int width, int height) {
   return {level ? 0 : sign, level ? sign : 0, std::clamp(share, 0, 128)};
 }
 
+/// Copies a row without its alpha; the fourth byte of each pixel is overwritten by the next.
+void copy_rgb(const std::uint32_t* in, int width, std::uint8_t* out) {
+  for (int x = 0; x + 1 < width; ++x) std::memcpy(out + 3 * x, in + x, 4);
+  std::memcpy(out + 3 * (width - 1), in + width - 1, 3);
+}
+
 }  // namespace
 
-Image antialiased(std::span<const std::uint8_t> rgba, int width, int height) {
+Image antialiased(std::span<const std::uint32_t> pixels, int width, int height) {
   const auto columns = static_cast<std::size_t>(width);
   const auto rows = static_cast<std::size_t>(height);
-  SUNDER_CHECK(rgba.size() == 4 * columns * rows);
-  const Picture picture(rgba, width, height);
+  SUNDER_CHECK(pixels.size() == columns * rows);
+  const Luma luma(pixels, width, height);
   Image image{width, height, std::vector<std::uint8_t>(3 * columns * rows)};
   for_chunks(rows, kRowsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    std::vector<std::uint8_t> marks(columns);
     for (std::size_t row = begin; row < end; ++row) {
       const int y = static_cast<int>(row);
       std::uint8_t* out = image.rgb.data() + 3 * columns * row;
-      for (int x = 0; x < width; ++x, out += 3) {
-        const Blend blend = blend_at(picture, x, y, width, height);
-        const std::uint8_t* here = picture.rgba(x, y);
-        const std::uint8_t* there = picture.rgba(std::clamp(x + blend.dx, 0, width - 1),
-                                                 std::clamp(y + blend.dy, 0, height - 1));
+      copy_rgb(pixels.data() + columns * row, width, out);
+      mark_edges(luma.at(0, y), luma.stride(), width, marks.data());
+      for (int x = 0; x < width; ++x) {
+        if (marks[static_cast<std::size_t>(x)] == 0) continue;
+        const Blend blend = blend_at(luma, x, y, width, height);
+        const int from_x = std::clamp(x + blend.dx, 0, width - 1);
+        const int from_y = std::clamp(y + blend.dy, 0, height - 1);
+        const std::uint32_t there =
+            pixels[static_cast<std::size_t>(from_y) * columns + static_cast<std::size_t>(from_x)];
         for (int c = 0; c < 3; ++c) {
-          out[c] = static_cast<std::uint8_t>(here[c] + (there[c] - here[c]) * blend.share / 256);
+          std::uint8_t& value = out[3 * x + c];
+          const int other = static_cast<int>((there >> (8 * c)) & 255);
+          value = static_cast<std::uint8_t>(value + (other - value) * blend.share / 256);
         }
       }
     }

@@ -31,6 +31,7 @@ Finish surface_finish(const Look& look) {
     case Texture::kMetal:
       return {Tile::kGrain, look.color, 0.25f, 0.55f, 0.8f};
     case Texture::kGlass:
+      return {Tile::kGrain, look.color, 0, 0.1f, 1};  // no bump: how glass.frag tells a clear face
     case Texture::kPlain:
       return {Tile::kGrain, look.color, 1, 0.03f, 1.2f};
   }
@@ -41,7 +42,7 @@ Finish surface_finish(const Look& look) {
 Finish interior_finish(const Look& look) {
   switch (look.texture) {
     case Texture::kBrick:
-      return {Tile::kRubble, 0.9f * look.color + Vec3f::Constant(0.05f), 0.9f, 0.01f, 1.5f};
+      return {Tile::kRubble, 0.9f * look.color + Vec3f::Constant(0.05f), 0.7f, 0.01f, 1.4f};
     case Texture::kWood:
       return {Tile::kWood, 0.7f * look.color, 2, 0.02f, 1.9f};
     case Texture::kMetal:

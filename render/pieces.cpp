@@ -10,6 +10,7 @@ namespace sunder::render {
 namespace {
 
 constexpr std::size_t kFloatsPerSlot = 16;
+constexpr float kLarge_m = 0.25f;  // radius
 
 struct GpuVertex {
   float position[3];
@@ -145,6 +146,7 @@ void Pieces::place(const Frame& frame) {
   slot_texels_.resize(std::max<std::size_t>(1, slots_.size()) * kFloatsPerSlot);
   casters_.clear();
   std::vector<Placed> opaque;
+  std::vector<Placed> large;
   std::vector<Placed> glass;
   const Vec3 forward = (frame.view.target_W - frame.view.eye_W).normalized();
   for (std::size_t i = 0; i < frame.instances.size(); ++i) {
@@ -165,14 +167,17 @@ void Pieces::place(const Frame& frame) {
     const Vec3f center = rotation * slot.center + translation;
     const float distance = center.dot(forward.cast<float>());
     const Material& material = (*frame.materials)[slot.mesh->material.value];
+    const Placed placed{distance, static_cast<std::uint32_t>(i), s};
     if (material.surface.texture == Texture::kGlass) {
-      glass.push_back({distance, static_cast<std::uint32_t>(i), s});
-    } else {
-      opaque.push_back({distance, static_cast<std::uint32_t>(i), s});
-      casters_.push_back({center, slot.radius});
+      glass.push_back(placed);
+      continue;
     }
+    opaque.push_back(placed);
+    if (slot.radius > kLarge_m) large.push_back(placed);
+    casters_.push_back({center, slot.radius});
   }
   opaque_ = ordered(opaque, true);
+  large_ = ordered(large, true);
   glass_ = ordered(glass, false);
   gl_.BindBuffer(GL_TEXTURE_BUFFER, slot_buffer_);
   gl_.BufferData(GL_TEXTURE_BUFFER, bytes(slot_texels_.size(), sizeof(float)), slot_texels_.data(),
@@ -193,12 +198,16 @@ Pieces::Draws Pieces::ordered(std::vector<Placed>& placed, bool near_first) cons
   return draws;
 }
 
-void Pieces::draw_opaque() const {
-  if (opaque_.counts.empty()) return;
+void Pieces::draw(const Draws& draws) const {
+  if (draws.counts.empty()) return;
   gl_.BindVertexArray(vertex_array_);
-  gl_.MultiDrawElements(GL_TRIANGLES, opaque_.counts.data(), GL_UNSIGNED_INT,
-                        opaque_.offsets.data(), static_cast<GLsizei>(opaque_.counts.size()));
+  gl_.MultiDrawElements(GL_TRIANGLES, draws.counts.data(), GL_UNSIGNED_INT, draws.offsets.data(),
+                        static_cast<GLsizei>(draws.counts.size()));
 }
+
+void Pieces::draw_opaque() const { draw(opaque_); }
+
+void Pieces::draw_large() const { draw(large_); }
 
 void Pieces::draw_glass() const {
   gl_.BindVertexArray(vertex_array_);

@@ -21,6 +21,8 @@ class Pieces {
   const std::vector<Caster>& casters() const { return casters_; }
   /// Nearest first.
   void draw_opaque() const;
+  /// The opaque pieces that keep light from rooms: not the small ones.
+  void draw_large() const;
   /// Farthest first; back faces, then front faces, of each.
   void draw_glass() const;
   bool has_glass() const { return !glass_.counts.empty(); }
@@ -60,6 +62,7 @@ class Pieces {
   void forget(const Frame& frame);
   void upload_new();
   void place(const Frame& frame);
+  void draw(const Draws& draws) const;
   Draws ordered(std::vector<Placed>& placed, bool near_first) const;
 
   const GlTable& gl_;
@@ -82,6 +85,7 @@ class Pieces {
   std::vector<float> slot_texels_;
   std::vector<Caster> casters_;
   Draws opaque_;
+  Draws large_;
   Draws glass_;
 };
 

@@ -1,6 +1,8 @@
 // The list of passes that make a picture. Read first: Renderer::draw().
 #include "render/renderer.h"
 
+#include <ctime>
+
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
 #include "render/antialias.h"
@@ -19,6 +21,7 @@ namespace {
 // Texture units: each texture stays on its own for good.
 enum Unit {
   kShadowUnit,
+  kZenithUnit,
   kSlotUnit,
   kLookUnit,
   kTileUnit,
@@ -29,7 +32,7 @@ enum Unit {
 };
 
 struct Programs {
-  GLuint shadow, pieces, glass, ground, sky, occlusion, blur, composite;
+  GLuint shadow, zenith, pieces, glass, ground, sky, occlusion, blur, composite;
 };
 
 struct Target {
@@ -41,7 +44,11 @@ struct Target {
 Programs make_programs(const GlTable& gl) {
   using namespace shaders;
   Programs p;
-  p.shadow = make_program(gl, "shadow", {common_glsl, bodies_glsl, shadow_vert},
+  p.shadow = make_program(gl, "shadow",
+                          {common_glsl, bodies_glsl, "#define LIGHT shadow_of_eye\n", shadow_vert},
+                          {common_glsl, nothing_frag});
+  p.zenith = make_program(gl, "zenith",
+                          {common_glsl, bodies_glsl, "#define LIGHT zenith_of_eye\n", shadow_vert},
                           {common_glsl, nothing_frag});
   p.pieces = make_program(gl, "pieces", {common_glsl, bodies_glsl, pieces_vert},
                           {common_glsl, shadow_glsl, pieces_frag});
@@ -58,7 +65,7 @@ Programs make_programs(const GlTable& gl) {
   for (const GLuint program : {p.pieces, p.glass, p.ground}) {
     set_sampler(gl, program, "shadow_map", kShadowUnit);
   }
-  for (const GLuint program : {p.shadow, p.pieces, p.glass}) {
+  for (const GLuint program : {p.shadow, p.zenith, p.pieces, p.glass}) {
     set_sampler(gl, program, "slots", kSlotUnit);
   }
   for (const GLuint program : {p.pieces, p.glass}) set_sampler(gl, program, "looks", kLookUnit);
@@ -66,10 +73,16 @@ Programs make_programs(const GlTable& gl) {
     set_sampler(gl, program, "tiles", kTileUnit);
   }
   set_sampler(gl, p.occlusion, "depths", kDepthUnit);
+  set_sampler(gl, p.occlusion, "zenith_map", kZenithUnit);
   set_sampler(gl, p.blur, "occlusion", kOpenUnit);
   set_sampler(gl, p.composite, "lights", kLightUnit);
   set_sampler(gl, p.composite, "occlusion", kBlurUnit);
   return p;
+}
+
+void bind_texture(const GlTable& gl, Unit unit, GLuint texture) {
+  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  gl.BindTexture(GL_TEXTURE_2D, texture);
 }
 
 void upload_tiles(const GlTable& gl) {
@@ -100,7 +113,6 @@ struct Renderer::Impl {
   Image read_back();
 
   void begin(const Target& target, GLuint program);
-  GLuint bound_texture(Unit unit, GLuint texture);
   /// Ends a pass, and times it if that was asked for.
   void done(const char* pass);
 
@@ -113,14 +125,16 @@ struct Renderer::Impl {
   GLuint look_buffer = 0;
   GLuint empty_vertex_array = 0;  ///< For passes that need no vertices.
   Target shadow;
+  Target zenith;
   Target light;
   Target open;
   Target blurred;
   Target picture;
   std::shared_ptr<const std::vector<Material>> materials;
-  std::vector<std::uint8_t> pixels;
+  std::vector<std::uint32_t> pixels;
   std::vector<PassTime> times;
   Stopwatch watch;
+  std::clock_t cpu_start = 0;
 };
 
 Renderer::Impl::Impl(const RenderOptions& wanted)
@@ -133,22 +147,26 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   const int h = options.height;
   const int half_w = (w + 1) / 2;
   const int half_h = (h + 1) / 2;
-  const GLuint shadow_map = bound_texture(kShadowUnit, make_shadow_texture(gl, kShadowTexels));
-  const GLuint depth =
-      bound_texture(kDepthUnit, make_texture(gl, GL_DEPTH_COMPONENT24, w, h, Filter::kNearest));
-  const GLuint lights =
-      bound_texture(kLightUnit, make_texture(gl, GL_RGBA16F, w, h, Filter::kNearest));
-  const GLuint occlusion =
-      bound_texture(kOpenUnit, make_texture(gl, GL_RG16F, half_w, half_h, Filter::kNearest));
-  const GLuint smooth =
-      bound_texture(kBlurUnit, make_texture(gl, GL_RG16F, half_w, half_h, Filter::kLinear));
+  const GLuint shadow_map = make_shadow_texture(gl, kShadowTexels);
+  const GLuint zenith_map = make_shadow_texture(gl, kZenithTexels);
+  const GLuint depth = make_texture(gl, GL_DEPTH_COMPONENT24, w, h, Filter::kNearest);
+  const GLuint lights = make_texture(gl, GL_RGBA16F, w, h, Filter::kNearest);
+  const GLuint occlusion = make_texture(gl, GL_RG16F, half_w, half_h, Filter::kNearest);
+  const GLuint smooth = make_texture(gl, GL_RG16F, half_w, half_h, Filter::kLinear);
+  const GLuint final = make_texture(gl, GL_RGBA8, w, h, Filter::kNearest);
+  bind_texture(gl, kShadowUnit, shadow_map);
+  bind_texture(gl, kZenithUnit, zenith_map);
+  bind_texture(gl, kDepthUnit, depth);
+  bind_texture(gl, kLightUnit, lights);
+  bind_texture(gl, kOpenUnit, occlusion);
+  bind_texture(gl, kBlurUnit, smooth);
   shadow = {make_framebuffer(gl, 0, shadow_map), kShadowTexels, kShadowTexels};
+  zenith = {make_framebuffer(gl, 0, zenith_map), kZenithTexels, kZenithTexels};
   light = {make_framebuffer(gl, lights, depth), w, h};
   open = {make_framebuffer(gl, occlusion, 0), half_w, half_h};
   blurred = {make_framebuffer(gl, smooth, 0), half_w, half_h};
-  gl.ActiveTexture(GL_TEXTURE0 + kBlurUnit + 1);
-  picture = {make_framebuffer(gl, make_texture(gl, GL_RGBA8, w, h, Filter::kNearest), 0), w, h};
-  pixels.resize(std::size_t{4} * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+  picture = {make_framebuffer(gl, final, 0), w, h};
+  pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
 
   upload_tiles(gl);
   gl.ActiveTexture(GL_TEXTURE0 + kSlotUnit);
@@ -167,13 +185,6 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   SUNDER_CHECK(gl.GetError() == GL_NO_ERROR);
 }
 
-/// `texture`, put on its unit.
-GLuint Renderer::Impl::bound_texture(Unit unit, GLuint texture) {
-  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-  gl.BindTexture(GL_TEXTURE_2D, texture);
-  return texture;
-}
-
 void Renderer::Impl::begin(const Target& target, GLuint program) {
   gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   gl.Viewport(0, 0, target.width, target.height);
@@ -183,7 +194,10 @@ void Renderer::Impl::begin(const Target& target, GLuint program) {
 void Renderer::Impl::done(const char* pass) {
   if (!options.time_passes) return;
   gl.Finish();
-  times.push_back({pass, watch.lap_ms()});
+  const std::clock_t now = std::clock();
+  times.push_back(
+      {pass, watch.lap_ms(), 1e3 * static_cast<double>(now - cpu_start) / CLOCKS_PER_SEC});
+  cpu_start = now;
 }
 
 void Renderer::Impl::upload(const Frame& frame) {
@@ -203,15 +217,20 @@ void Renderer::Impl::upload(const Frame& frame) {
 }
 
 void Renderer::Impl::draw_shadows() {
-  begin(shadow, programs.shadow);
   gl.Enable(GL_DEPTH_TEST);
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_BACK);
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5f, 2);
+  begin(shadow, programs.shadow);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   pieces.draw_opaque();
   gl.Disable(GL_POLYGON_OFFSET_FILL);
+  done("shadows");
+  begin(zenith, programs.zenith);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  pieces.draw_large();
+  done("zenith");
 }
 
 void Renderer::Impl::draw_pieces() {
@@ -279,11 +298,11 @@ Image Renderer::draw(const Frame& frame) {
   r.context->make_current();
   r.times.clear();
   r.watch.lap_ms();
+  r.cpu_start = std::clock();
 
   r.upload(frame);
   r.done("upload");
   r.draw_shadows();
-  r.done("shadows");
   r.draw_pieces();
   r.done("pieces");
   r.draw_ground_and_sky();

@@ -22,6 +22,7 @@ struct RenderOptions {
 struct PassTime {
   const char* name;
   double ms;
+  double cpu_ms;  ///< Processor time of all threads, the software driver's included.
 };
 
 /// Owns a GL context; used from the thread that made it. The same frame gives the same bytes.

@@ -58,12 +58,12 @@ double stepped_up(double x) {
 
 /// Eye space to shadow-map coordinates. Steps are taken in the world, not relative to the eye, so
 /// that a moving camera does not make shadows crawl.
-Mat4 shadow_matrix(const Mat3& sun, const Box& box, const Vec3& eye_W, double& texel_m) {
+Mat4 shadow_matrix(const Mat3& sun, const Box& box, const Vec3& eye_W, double& side_m) {
   const Vec3 extent = box.extent();
   // A quarter more than needed leaves room for the snapping below.
   const double side = stepped_up(1.1 * std::max(extent.x(), extent.y()));
   const double depth = stepped_up(1.1 * extent.z());
-  texel_m = side / kShadowTexels;
+  side_m = side;
   const Vec3 eye = sun * eye_W;
   const double grid = side / 32;
   const auto snapped = [](double x, double step) { return std::floor(x / step + 0.5) * step; };
@@ -100,18 +100,24 @@ FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, i
   rotation.topLeftCorner<3, 3>() = camera;
 
   const Vec3 to_sun = view.to_sun_W.normalized();
-  const Mat3 sun = frame_along(-to_sun);
-  double texel_m = 0;
-  const Mat4 shadow =
-      shadow_matrix(sun, caster_box(casters, sun, look, 2.5 * distance), view.eye_W, texel_m);
+  const auto seen_along = [&](const Vec3& forward, double& side_m) {
+    const Mat3 light = frame_along(forward);
+    return shadow_matrix(light, caster_box(casters, light, look, 2.5 * distance), view.eye_W,
+                         side_m);
+  };
+  double shadow_m = 0;
+  double zenith_m = 0;
+  const Mat4 shadow = seen_along(-to_sun, shadow_m);
+  const Mat4 zenith = seen_along(-Vec3::UnitY(), zenith_m);
 
   FrameUniforms u;
   store(u.clip_of_eye, Mat4(projection * rotation));
   store(u.shadow_of_eye, shadow);
+  store(u.zenith_of_eye, zenith);
   store(u.ray_right, wide * camera.row(0).transpose(), 0);
   store(u.ray_up, tall * camera.row(1).transpose(), 0);
   store(u.ray_forward, camera.row(2).transpose(), 0);
-  store(u.to_sun, to_sun, texel_m);
+  store(u.to_sun, to_sun, shadow_m / kShadowTexels);
   store(u.ground, view.ground_color.cast<double>(), view.ground_m - view.eye_W.y());
   store(u.ground_offset,
         Vec3(std::fmod(view.eye_W.x(), kGroundPeriod_m), std::fmod(view.eye_W.z(), kGroundPeriod_m),

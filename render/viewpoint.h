@@ -12,6 +12,7 @@ namespace sunder::render {
 struct FrameUniforms {
   float clip_of_eye[16];
   float shadow_of_eye[16];
+  float zenith_of_eye[16];
   float ray_right[4];
   float ray_up[4];
   float ray_forward[4];
@@ -23,6 +24,7 @@ struct FrameUniforms {
 };
 
 inline constexpr int kShadowTexels = 2048;
+inline constexpr int kZenithTexels = 512;
 
 /// A ball around something that casts a shadow, relative to the eye.
 struct Caster {

@@ -4,7 +4,8 @@
 
 layout(std140) uniform Frame {
   mat4 clip_of_eye;
-  mat4 shadow_of_eye;    // to [0,1] cubed
+  mat4 shadow_of_eye;    // to [0,1] cubed, seen from the sun
+  mat4 zenith_of_eye;    // the same, seen from straight above
   vec4 ray_right;        // a pixel's ray is forward + x * right + y * up, x and y in [-1,1]
   vec4 ray_up;
   vec4 ray_forward;
@@ -15,10 +16,12 @@ layout(std140) uniform Frame {
   vec4 lens;             // x: near plane, y: pixels a radian
 };
 
-const vec3 kSunLight = vec3(4.6, 3.75, 2.75);
-const vec3 kSkyLight = vec3(0.62, 0.80, 1.12);   // on a face turned up
-const vec3 kZenith = vec3(0.24, 0.36, 0.58);
-const vec3 kHorizon = vec3(0.86, 0.84, 0.80);
+const vec3 kSunLight = vec3(3.7, 3.05, 2.3);
+const vec3 kSkyLight = vec3(0.60, 0.72, 0.92);   // on a face turned up
+const vec3 kZenith = vec3(0.20, 0.30, 0.47);
+const vec3 kHorizon = vec3(0.70, 0.70, 0.69);
+
+const float kHaze = 0.0075;  // per metre
 
 // What is seen of the sky in a direction; also what far things fade into.
 vec3 sky(vec3 direction) {
@@ -29,17 +32,17 @@ vec3 sky(vec3 direction) {
   vec3 color = mix(kZenith, kHorizon, 0.22 + 0.78 * air);
   float glow = max(dot(direction, to_sun.xyz), 0.0);
   float glow4 = glow * glow * glow * glow;
-  return color + vec3(0.55, 0.40, 0.22) * (0.35 * glow4 + 0.8 * glow4 * glow4 * glow4 * glow4);
+  return color + vec3(0.42, 0.31, 0.18) * (0.35 * glow4 + 0.8 * glow4 * glow4 * glow4 * glow4);
 }
 
 // Air between the eye and something `metres` away.
 vec3 through_air(vec3 color, vec3 direction, float metres) {
-  float clear = exp2(-metres * 0.0042);
+  float clear = exp2(-metres * kHaze);
   return mix(sky(vec3(direction.x, abs(direction.y) * 0.3, direction.z)), color, clear);
 }
 
 // Light that the ground throws back up.
-vec3 ground_light() { return ground.rgb * (0.16 * kSunLight * to_sun.y + 0.25 * kSkyLight); }
+vec3 ground_light() { return ground.rgb * (0.13 * kSunLight * to_sun.y + 0.25 * kSkyLight); }
 
 // Light from all around on a face whose normal has the given height.
 vec3 ambient_light(float normal_y) {

@@ -24,7 +24,7 @@ void main() {
   float shine = pow(max(dot(mirrored, sun_rest), 0.0), 200.0) * 6.0 * sunlit(shadow);
 
   vec3 scattered = first_color.rgb * (ambient_light(dot(n, up_rest)) + 0.5 * kSunLight * sunlit(shadow));
-  float body = mix(0.10, 0.62, edge);
+  float body = mix(0.025, 0.5, edge);
   vec3 light = mirrored_sky * fresnel + scattered * body + kSunLight * 0.25 * shine;
   color = vec4(light, clamp(fresnel + body, 0.0, 1.0));
 }

@@ -10,13 +10,14 @@ void main() {
   vec3 place = ray * along;
   vec2 uv = place.xz + ground_offset.xy;
 
-  vec4 fine = texture(tiles, vec3(uv * (40.0 / 64.0), 5.0));
-  vec4 grain = texture(tiles, vec3(uv * (13.0 / 64.0), 6.0));
+  vec4 stones = texture(tiles, vec3(uv * (52.0 / 64.0), 5.0));
+  vec4 grain = texture(tiles, vec3(uv * (15.0 / 64.0), 6.0));
   vec4 broad = texture(tiles, vec3(uv.yx * (2.0 / 64.0), 6.0));
-  vec3 albedo = ground.rgb * (0.62 + 0.45 * grain.r + 0.35 * broad.r);
-  albedo *= 1.0 + 0.5 * (fine.r - 0.5);
-  albedo = mix(albedo, albedo * vec3(1.1, 1.02, 0.9), broad.g);
-  vec2 slope = (fine.ba - 0.5) * 0.9 + (grain.ba - 0.5) * 1.2;
+  float patches = smoothstep(0.25, 0.75, broad.g);
+  vec3 albedo = ground.rgb * (0.22 + 0.48 * grain.r + 0.32 * broad.r + 0.18 * patches);
+  albedo *= 1.0 + 0.7 * (stones.r - 0.5) - 0.16 * stones.g * (1.0 - patches);
+  albedo = mix(albedo, albedo * vec3(1.1, 1.0, 0.86), patches);
+  vec2 slope = (stones.ba - 0.5) * mix(1.5, 0.7, patches) + (grain.ba - 0.5) * 1.0;
   vec3 n = normalize(vec3(-slope.x, 1.0, -slope.y));
 
   vec3 shadow = (shadow_of_eye * vec4(place + vec3(0.0, to_sun.w, 0.0), 1.0)).xyz;

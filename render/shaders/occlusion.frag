@@ -1,11 +1,13 @@
-// How much of what is all around is hidden by near things, from the depths alone (after McGuire et
-// al., "The Alchemy Screen-Space Ambient Obscurance Algorithm", 2011), at half the resolution.
+// How much of the light from all around is kept out, at half the resolution: by near things, from
+// the depths alone (after McGuire et al., "The Alchemy Screen-Space Ambient Obscurance Algorithm",
+// 2011), and by roofs and walls, from the heights seen from above.
 // Red: light left. Green: distance along the view, for the blur.
 uniform sampler2D depths;
+uniform sampler2DShadow zenith_map;
 in vec2 at;
 out vec4 result;
 
-const float kRadius = 0.85;  // metres
+const float kRadius = 0.7;  // metres
 const int kTaps = 10;
 
 float distance_at(vec2 where) {
@@ -15,6 +17,20 @@ float distance_at(vec2 where) {
 vec3 place_at(vec2 where, float along) {
   vec2 ndc = 2.0 * where - 1.0;
   return (ray_forward.xyz + ndc.x * ray_right.xyz + ndc.y * ray_up.xyz) * along;
+}
+
+// The part of the sky that is seen from somewhere, roughly: taps around it are open if nothing
+// stands higher there than a line that rises outwards.
+float open_sky(vec3 place, vec3 n, vec2 arm) {
+  vec3 from = place + vec3(n.x, 0.0, n.z) * 0.9 + vec3(0.0, 0.12, 0.0);
+  float sum = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    arm = mat2(-0.737369, 0.675490, -0.675490, -0.737369) * arm;
+    float out_m = 0.35 + 0.42 * float(i);
+    vec3 at_line = from + vec3(arm.x * out_m, 0.45 * out_m, arm.y * out_m);
+    sum += texture(zenith_map, (zenith_of_eye * vec4(at_line, 1.0)).xyz);
+  }
+  return sum / 6.0;
 }
 
 void main() {
@@ -46,6 +62,7 @@ void main() {
     float fade = max(1.0 - squared / (kRadius * kRadius), 0.0);
     sum += fade * max(dot(v, n) - 0.0025 * along, 0.0) * inversesqrt(squared + 1e-4);
   }
-  float left = max(1.0 - 1.9 * sum / float(kTaps), 0.0);
+  float left = max(1.0 - 2.6 * sum / float(kTaps), 0.0);
+  left *= mix(0.28, 1.0, open_sky(here, n, arm));
   result = vec4(left, along, 0.0, 0.0);
 }

@@ -17,15 +17,14 @@ out vec4 color;
 const float kCloudLayer = 6.0;
 const float kCloudsPerMetre = 1.0 / 7.3;
 const float kSteepest = 2.0;
-const vec3 kPlaster = vec3(0.66, 0.62, 0.54);
+const vec3 kPlaster = vec3(0.56, 0.52, 0.45);
 
 void main() {
   vec3 n = normalize(normal_rest);
 
   // The texture is laid on along the axis that the face looks along most.
   vec3 a = abs(n);
-  vec3 place = rest;
-  vec2 uv = a.y > max(a.x, a.z) ? place.xz : (a.x > 1.01 * a.z ? place.zy : place.xy);
+  vec2 uv = a.y > max(a.x, a.z) ? rest.xz : (a.x > 1.01 * a.z ? rest.zy : rest.xy);
   vec4 tile = texture(tiles, vec3(uv * first_color.w, finish.x));
   vec4 cloud = texture(tiles, vec3(uv * kCloudsPerMetre, kCloudLayer));
 
@@ -37,7 +36,7 @@ void main() {
   float plaster = 1.0 - smoothstep(bare - 0.035, bare + 0.0, cloud.g + 0.08 * (tile.r - 0.5));
   plaster = 1.0 - plaster;
   float rim = plaster * (1.0 - smoothstep(bare, bare + 0.05, cloud.g));
-  vec3 coat = kPlaster * (0.75 + 0.5 * cloud.r) * (1.0 - 0.25 * rim);
+  vec3 coat = kPlaster * (0.65 + 0.7 * cloud.r) * (1.0 - 0.25 * rim);
   albedo = mix(albedo, coat, plaster);
   vec2 slope = (mix(tile.ba, cloud.ba, plaster) - 0.5) * (2.0 * kSteepest * finish.y);
 
@@ -70,5 +69,5 @@ void main() {
 
   vec3 light = direct + around;
   float ambient_share = dot(around, vec3(0.33)) / max(dot(light, vec3(0.33)), 1e-4);
-  color = vec4(mix(light, vec3(0.80, 0.82, 0.84), 1.0 - exp2(-metres * 0.0042)), ambient_share);
+  color = vec4(mix(kHorizon, light, exp2(-metres * kHaze)), ambient_share);
 }

@@ -1,6 +1,7 @@
+// Depth of the pieces as a light sees them; LIGHT is the matrix.
 void main() {
   Piece piece = this_piece();
   vec3 place = piece.rotation * position + piece.translation;
-  vec3 shadow = (shadow_of_eye * vec4(place, 1.0)).xyz;
-  gl_Position = vec4(2.0 * shadow - 1.0, 1.0);
+  vec3 seen = (LIGHT * vec4(place, 1.0)).xyz;
+  gl_Position = vec4(2.0 * seen - 1.0, 1.0);
 }
