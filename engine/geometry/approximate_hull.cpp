@@ -1,0 +1,239 @@
+#include "engine/geometry/approximate_hull.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace sunder {
+namespace {
+
+/// Volumes below this part of the bounding cube's are rounding, not shape.
+constexpr double kNothing = 1e-13;
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+template <class Measure>
+std::uint32_t farthest(std::span<const Vec3> points, const Measure& measure) {
+  std::uint32_t best = 0;
+  double most = -1e300;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (const double m = measure(points[i]); m > most) {
+      best = i;
+      most = m;
+    }
+  }
+  return best;
+}
+
+/// The first four vertices of algorithm 1, the last above the triangle of the others.
+std::array<std::uint32_t, 4> first_tetrahedron(std::span<const Vec3> points) {
+  const auto a = farthest(points, [](const Vec3& p) { return p.x(); });
+  const auto b = farthest(points, [&](const Vec3& p) { return (p - points[a]).squaredNorm(); });
+  const Vec3 ab = points[b] - points[a];
+  const auto c =
+      farthest(points, [&](const Vec3& p) { return ab.cross(p - points[a]).squaredNorm(); });
+  const Vec3 normal = ab.cross(points[c] - points[a]);
+  const auto d =
+      farthest(points, [&](const Vec3& p) { return std::abs(normal.dot(p - points[a])); });
+  if (normal.dot(points[d] - points[a]) > 0) return {a, b, c, d};
+  return {a, c, b, d};
+}
+
+/// The hull that algorithm 1 grows, and the points still outside it.
+class GrowingHull {
+ public:
+  explicit GrowingHull(std::span<const Vec3> points) : points_(points) {
+    Box box;
+    for (const Vec3& p : points) box.extend(p);
+    origin_ = box.center();
+    const double size = box.extent().maxCoeff();
+    nothing_ = kNothing * size * size * size;
+    const auto [a, b, c, d] = first_tetrahedron(points);
+    hull_.vertices = {a, b, c, d};
+    for (const Face& face :
+         {face_of(a, c, b), face_of(a, b, d), face_of(b, c, d), face_of(c, a, d)}) {
+      faces_.push_back(face);
+    }
+    hull_.volume_m3 = faces_[0].volume_to(points[d] - origin_) * -1;
+    if (!(hull_.volume_m3 > nothing_)) return;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      const Vec3 p = points[i] - origin_;
+      outside_.index.push_back(i);
+      outside_.x.push_back(p.x());
+      outside_.y.push_back(p.y());
+      outside_.z.push_back(p.z());
+    }
+    outside_.gain.assign(points.size(), 0);
+    for (const Face& face : faces_) outside_.add(face, 1);
+    outside_.drop_below(nothing_);
+  }
+
+  bool flat() const { return !(hull_.volume_m3 > nothing_); }
+  bool done() const { return outside_.index.empty(); }
+
+  /// Includes the point that adds most volume.
+  void grow() {
+    const auto most = std::max_element(outside_.gain.begin(), outside_.gain.end());
+    const auto k = outside_.index[static_cast<std::size_t>(most - outside_.gain.begin())];
+    const Vec3 apex = points_[k] - origin_;
+    hull_.vertices.push_back(k);
+    hull_.volume_m3 += *most;
+
+    const auto removed = std::stable_partition(
+        faces_.begin(), faces_.end(), [&](const Face& face) { return face.volume_to(apex) <= 0; });
+    std::vector<Edge> edges;
+    for (auto face = removed; face != faces_.end(); ++face) {
+      outside_.add(*face, -1);
+      for (std::size_t i = 0; i < 3; ++i) {
+        edges.emplace_back(face->vertices[i], face->vertices[(i + 1) % 3]);
+      }
+    }
+    faces_.erase(removed, faces_.end());
+    std::sort(edges.begin(), edges.end());
+    for (const auto& [from, to] : edges) {
+      // Between two removed faces, an edge is there both ways.
+      if (std::binary_search(edges.begin(), edges.end(), Edge(to, from))) continue;
+      faces_.push_back(face_of(from, to, k));
+      outside_.add(faces_.back(), 1);
+    }
+    outside_.drop_below(nothing_);
+  }
+
+  ApproximateHull result() && {
+    for (const Face& face : faces_) {
+      const double size = face.normal.norm();
+      if (size > 0) hull_.directions.push_back(face.normal / size);
+    }
+    return std::move(hull_);
+  }
+
+ private:
+  struct Face {
+    std::array<std::uint32_t, 3> vertices;
+    Vec3 normal;  ///< Its length is a third of the area, so that distances become volumes.
+    double d;
+    double volume_to(const Vec3& p) const { return normal.dot(p) + d; }
+  };
+
+  /// Points outside the hull with the volume that each would add (V_i of the paper).
+  struct Outside {
+    std::vector<std::uint32_t> index;
+    std::vector<double> x, y, z, gain;
+
+    /// Adds (or takes away, by sign) the tetrahedra that a face spans with the points that see it.
+    void add(const Face& face, double sign) {
+      const double nx = face.normal.x(), ny = face.normal.y(), nz = face.normal.z(), d = face.d;
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        const double volume = nx * x[i] + ny * y[i] + nz * z[i] + d;
+        gain[i] += sign * (volume > 0 ? volume : 0);
+      }
+    }
+
+    /// Forgets what is inside the hull for good.
+    void drop_below(double least) {
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < gain.size(); ++i) {
+        if (!(gain[i] > least)) continue;
+        index[kept] = index[i];
+        x[kept] = x[i];
+        y[kept] = y[i];
+        z[kept] = z[i];
+        gain[kept++] = gain[i];
+      }
+      index.resize(kept);
+      for (auto* column : {&x, &y, &z, &gain}) column->resize(kept);
+    }
+  };
+
+  Face face_of(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+    const Vec3 a = points_[i] - origin_, b = points_[j] - origin_, c = points_[k] - origin_;
+    const Vec3 normal = (b - a).cross(c - a) / 6;
+    return {{i, j, k}, normal, -normal.dot(a)};
+  }
+
+  std::span<const Vec3> points_;
+  Vec3 origin_;
+  double nothing_ = 0;
+  ApproximateHull hull_;
+  std::vector<Face> faces_;
+  Outside outside_;
+};
+
+std::array<Vec3, 26> make_dop_directions() {
+  constexpr int kAxes[13][3] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1}, {1, 1, 1},  {-1, 1, 1},
+                                {1, -1, 1}, {1, 1, -1}, {0, 1, 1}, {0, -1, 1}, {1, 0, 1},
+                                {1, 0, -1}, {1, 1, 0},  {-1, 1, 0}};
+  std::array<Vec3, 26> directions;
+  for (std::size_t i = 0; i < 13; ++i) {
+    directions[2 * i] = Vec3(kAxes[i][0], kAxes[i][1], kAxes[i][2]).normalized();
+    directions[2 * i + 1] = -directions[2 * i];
+  }
+  return directions;
+}
+
+}  // namespace
+
+std::span<const Vec3> dop_directions() {
+  static const std::array<Vec3, 26> directions = make_dop_directions();
+  return directions;
+}
+
+ApproximateHull approximate_hull(std::span<const Vec3> points, std::size_t vertex_count) {
+  if (points.size() < 4) return {};
+  GrowingHull hull(points);
+  if (hull.flat()) return {};
+  for (std::size_t n = 4; n < vertex_count && !hull.done(); ++n) hull.grow();
+  return std::move(hull).result();
+}
+
+std::vector<Vec3> fit_directions(std::span<const Vec3> points, const Fit& fit) {
+  const std::span<const Vec3> dop = dop_directions();
+  std::size_t count = 26;
+  if (fit.kind == Fit::Kind::kAabb) count = 6;
+  if (fit.kind == Fit::Kind::k14Dop) count = 14;
+  if (fit.kind == Fit::Kind::kHull) {
+    ApproximateHull hull = approximate_hull(points, fit.vertex_count);
+    if (!hull.directions.empty()) return std::move(hull.directions);
+  }
+  return {dop.begin(), dop.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+std::vector<Plane> touching_planes(std::span<const Vec3> points, std::span<const Vec3> directions) {
+  std::vector<Plane> planes;
+  planes.reserve(directions.size());
+  for (const Vec3& direction : directions) {
+    double most = -1e300;
+    for (const Vec3& p : points) most = std::max(most, direction.dot(p));
+    planes.push_back({direction, -most});
+  }
+  return planes;
+}
+
+ConvexPolyhedron clip_all(const ConvexPolyhedron& convex, std::span<const Plane> planes,
+                          std::span<const PlaneId> ids, double tolerance_m) {
+  ConvexPolyhedron kept = convex, next;
+  ClipScratch scratch;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    if (clip(kept, planes[i], ids[i], tolerance_m, next, scratch) == PlaneSide::kCut) {
+      std::swap(kept, next);
+    }
+  }
+  return kept;
+}
+
+ConvexPolyhedron fitted_hull(std::span<const Vec3> points, const Fit& fit) {
+  Box box;
+  for (const Vec3& p : points) box.extend(p);
+  if (box.empty()) return {};
+  const double size = box.extent().maxCoeff();
+  const double reach = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
+  const double thin = 1e-9 * size + 1e-12 * reach + 1e-30;
+  const Vec3 thick = (box.extent().array() > thin).select(Vec3::Zero(), Vec3::Constant(thin));
+  const std::vector<Plane> planes = touching_planes(points, fit_directions(points, fit));
+  const std::vector<PlaneId> ids(planes.size());
+  return clip_all(make_box(box.min - thick, box.max + thick), planes, ids, 1e-12 * size);
+}
+
+}  // namespace sunder

@@ -1,0 +1,130 @@
+// Approximate hulls: they enclose, they tighten, and they end at the true hull (paper 4.2).
+#include "engine/geometry/approximate_hull.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/random.h"
+#include "engine/io/mesh_reader.h"
+#include "tests/mesh/meshes.h"
+
+namespace sunder {
+namespace {
+
+std::vector<Vec3> ball_points(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Vec3> points(count);
+  for (Vec3& p : points) p = random.uniform(0.5, 1) * random.direction() + Vec3(3, 0, 0);
+  return points;
+}
+
+double volume(const ConvexPolyhedron& convex) { return mass_properties(convex).volume_m3; }
+
+void expect_encloses(const ConvexPolyhedron& hull, std::span<const Vec3> points) {
+  EXPECT_TRUE(is_closed(hull));
+  const double tolerance = 2e-12 * bounds(hull).extent().maxCoeff();
+  for (const ConvexPolyhedron::Face& face : hull.faces) {
+    for (const Vec3& p : points) ASSERT_LE(face.plane.distance(p), tolerance);
+  }
+}
+
+TEST(ApproximateHull, EveryFitEnclosesEveryPoint) {
+  const std::vector<Vec3> points = ball_points(500, 1);
+  for (const Fit& fit : {Fit{Fit::Kind::kAabb}, Fit{Fit::Kind::k14Dop}, Fit{Fit::Kind::k26Dop},
+                         Fit{Fit::Kind::kHull, 4}, Fit{Fit::Kind::kHull, 40}}) {
+    expect_encloses(fitted_hull(points, fit), points);
+  }
+}
+
+TEST(ApproximateHull, MoreDirectionsAreNeverLooser) {
+  const std::vector<Vec3> points = ball_points(500, 2);
+  const double box = volume(fitted_hull(points, {Fit::Kind::kAabb}));
+  const double dop14 = volume(fitted_hull(points, {Fit::Kind::k14Dop}));
+  const double dop26 = volume(fitted_hull(points, {Fit::Kind::k26Dop}));
+  EXPECT_LT(dop14, box);
+  EXPECT_LT(dop26, dop14);
+}
+
+TEST(ApproximateHull, VolumeGrowsToTheTrueHullsFromBelowAndTheFitShrinksToItFromAbove) {
+  const std::vector<Vec3> points = ball_points(300, 3);
+  const double truth = volume(make_hull(points));
+  double before = 0;
+  for (const std::size_t n : {4u, 8u, 16u, 32u, 64u, 128u}) {
+    const double inner = approximate_hull(points, n).volume_m3;
+    EXPECT_GT(inner, before);
+    EXPECT_LE(inner, truth * (1 + 1e-12));
+    before = inner;
+  }
+  const ApproximateHull whole = approximate_hull(points, points.size());
+  EXPECT_NEAR(whole.volume_m3 / truth, 1, 1e-10);
+  EXPECT_EQ(whole.vertices.size(), make_hull(points).vertices.size());
+  EXPECT_NEAR(volume(fitted_hull(points, {Fit::Kind::kHull, 300})) / truth, 1, 1e-9);
+}
+
+TEST(ApproximateHull, EachVertexIsTheOneThatAddsMost) {
+  const std::vector<Vec3> points = ball_points(60, 4);
+  const ApproximateHull hull = approximate_hull(points, 10);
+  std::vector<Vec3> chosen;
+  for (const std::uint32_t v : hull.vertices) {
+    if (chosen.size() >= 4) {
+      std::vector<double> volumes;
+      for (const Vec3& p : points) {
+        chosen.push_back(p);
+        volumes.push_back(volume(make_hull(chosen)));
+        chosen.pop_back();
+      }
+      EXPECT_NEAR(volumes[v], *std::max_element(volumes.begin(), volumes.end()), 1e-12);
+    }
+    chosen.push_back(points[v]);
+  }
+}
+
+TEST(ApproximateHull, ABoxOfManyPointsIsABox) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 1000; ++i) points.emplace_back(i / 100, i / 10 % 10, i % 10);
+  const ApproximateHull hull = approximate_hull(points, 64);
+  EXPECT_EQ(hull.vertices.size(), 8u);
+  EXPECT_NEAR(volume(fitted_hull(points, {Fit::Kind::kHull, 64})), 729, 1e-9);
+}
+
+TEST(ApproximateHull, FlatAndFewPointsHaveNoHullButAFit) {
+  EXPECT_TRUE(approximate_hull(std::vector<Vec3>(3, Vec3::Zero()), 8).directions.empty());
+  std::vector<Vec3> flat;
+  for (int i = 0; i < 50; ++i) flat.emplace_back(i % 7, 0.5 * (i % 7), i / 7);
+  EXPECT_TRUE(approximate_hull(flat, 8).directions.empty());
+  expect_encloses(fitted_hull(flat, {Fit::Kind::kHull, 8}), flat);
+  expect_encloses(fitted_hull(std::vector<Vec3>(5, Vec3::Ones()), {Fit::Kind::kAabb}), {});
+  EXPECT_TRUE(fitted_hull({}, {}).empty());
+}
+
+TEST(ApproximateHull, AClippedConvexKeepsItsOtherFacesAndTheirNames) {
+  ConvexPolyhedron cell = make_box(Vec3::Constant(-1), Vec3::Constant(1));
+  for (std::size_t f = 0; f < 6; ++f) cell.faces[f].id.value = 100 + 2 * f;
+  const std::vector<Vec3> points = {Vec3(0.5, 1, 1), Vec3(-1, -1, -1), Vec3(0, 0, 1)};
+  const std::vector<Plane> planes = touching_planes(points, dop_directions().first(6));
+  std::vector<PlaneId> ids(6);
+  for (std::size_t i = 0; i < 6; ++i) ids[i].value = 200 + 2 * i;
+  const ConvexPolyhedron fitted = clip_all(cell, planes, ids, 1e-12);
+  ASSERT_EQ(fitted.faces.size(), 6u);
+  EXPECT_EQ(fitted.faces.back().id.value, 200u);
+  EXPECT_NEAR(volume(fitted), 1.5 * 2 * 2, 1e-12);
+}
+
+TEST(ApproximateHull, Figure13) {
+  SUNDER_NEEDS_MESHES();
+  const RawMesh bunny = read_mesh(test::meshes_folder() / "good" / "bunny_12k.off");
+  const double truth = volume(make_hull(bunny.vertices));
+  const auto ratio = [&](const Fit& fit) {
+    const ConvexPolyhedron hull = fitted_hull(bunny.vertices, fit);
+    expect_encloses(hull, bunny.vertices);
+    return volume(hull) / truth;
+  };
+  EXPECT_LE(ratio({Fit::Kind::kHull, 6}), 1.01 * ratio({Fit::Kind::k26Dop}));
+  EXPECT_LE(ratio({Fit::Kind::kHull, 20}), 1.065);
+  EXPECT_LE(ratio({Fit::Kind::kHull, 24}), 1.05);
+  EXPECT_LE(ratio({Fit::Kind::kHull, 64}), 1.012);
+}
+
+}  // namespace
+}  // namespace sunder
