@@ -1,0 +1,38 @@
+// Numbers on a box of cubic cells and their faces, stored with a rim of zeros so that stencils
+// need no special case at the edge.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/base/types.h"
+
+namespace sunder::solver {
+
+using Vec3i = Eigen::Vector3i;
+using Field = std::vector<float>;
+
+/// Cells (i, j, k) run from 1 to counts; face (i, j, k) of an axis is the cell's lower one, so
+/// faces run one further along their axis.
+struct Lattice {
+  Vec3i counts = Vec3i::Zero();
+
+  std::ptrdiff_t stride(int axis) const {
+    const std::ptrdiff_t row = counts.x() + 3;
+    return axis == 0 ? 1 : axis == 1 ? row : row * (counts.y() + 3);
+  }
+  std::size_t index(int i, int j, int k) const {
+    return static_cast<std::size_t>(i + j * stride(1) + k * stride(2));
+  }
+  std::size_t size() const {
+    return static_cast<std::size_t>(stride(2)) * static_cast<std::size_t>(counts.z() + 3);
+  }
+  std::size_t cells() const { return static_cast<std::size_t>(counts.prod()); }
+  /// Layers of cells that are worth a thread's while; depends on nothing but the lattice.
+  std::size_t layers_a_chunk() const {
+    const auto layer = static_cast<std::size_t>(counts.x() * counts.y());
+    return std::max<std::size_t>(1, (1 << 14) / layer);
+  }
+};
+
+}  // namespace sunder::solver

@@ -1,0 +1,283 @@
+// Read first: solve(), then cycle(). Every kernel runs along rows of cells, which the compiler
+// vectorises; sums are kept per layer and lane, so that they do not depend on threads.
+#include "solver/particles/pressure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/check.h"
+#include "engine/base/parallel.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr int kMostIterations = 16;
+constexpr int kCoarsestSweeps = 8;
+constexpr int kLanes = 8;
+
+/// Calls work(j, k) for every row of cells of each layer, layers in parallel.
+template <class Work>
+void for_rows(const Lattice& lattice, const Work& work) {
+  for_chunks(static_cast<std::size_t>(lattice.counts.z()), lattice.layers_a_chunk(),
+             [&](std::size_t begin, std::size_t end, std::size_t) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 for (int j = 1; j <= lattice.counts.y(); ++j) work(j, static_cast<int>(k) + 1);
+               }
+             });
+}
+
+/// A row of the linear system: pointers to its first cell.
+struct Row {
+  const float *ax, *ay, *az;
+  std::ptrdiff_t sy, sz;
+
+  /// Σ a · neighbour at cell i.
+  float neighbours(const float* x, int i) const {
+    return ax[i] * x[i - 1] + ax[i + 1] * x[i + 1] + ay[i] * x[i - sy] + ay[i + sy] * x[i + sy] +
+           az[i] * x[i - sz] + az[i + sz] * x[i + sz];
+  }
+  float diagonal(int i) const {
+    return ax[i] + ax[i + 1] + ay[i] + ay[i + sy] + az[i] + az[i + sz];
+  }
+};
+
+Row row_of(const Lattice& lattice, const std::array<Field, 3>& a, std::size_t at) {
+  return {&a[0][at], &a[1][at], &a[2][at], lattice.stride(1), lattice.stride(2)};
+}
+
+/// Sums the layers' parts in order; work(row's first index) gives a row's part.
+template <class Work>
+double sum_rows(const Lattice& lattice, std::vector<double>& partial, const Work& work) {
+  std::fill(partial.begin(), partial.end(), 0.0);
+  for_rows(lattice, [&](int j, int k) {
+    partial[static_cast<std::size_t>(k) - 1] += work(lattice.index(1, j, k));
+  });
+  double sum = 0;
+  for (const double part : partial) sum += part;
+  return sum;
+}
+
+/// Of two rows, lane by lane.
+double dot_row(const float* x, const float* y, int count) {
+  float lanes[kLanes] = {};
+  for (int i = 0; i < count; i += kLanes) {
+    for (int l = 0; l < kLanes; ++l) lanes[l] += x[i + l] * y[i + l];
+  }
+  double sum = 0;
+  for (const float lane : lanes) sum += double{lane};
+  return sum;
+}
+
+float largest_row(const float* x, int count) {
+  float lanes[kLanes] = {};
+  for (int i = 0; i < count; i += kLanes) {
+    for (int l = 0; l < kLanes; ++l) {
+      const float size = std::abs(x[i + l]);
+      lanes[l] = lanes[l] > size ? lanes[l] : size;
+    }
+  }
+  return *std::max_element(lanes, lanes + kLanes);
+}
+
+}  // namespace
+
+PressureSolver::PressureSolver(const Vec3i& counts) {
+  for (Vec3i size = counts; size.minCoeff() >= 4; size /= 2) {
+    SUNDER_CHECK(size.x() % kLanes == 0 && size.x() <= kLongestRow);
+    Level& level = levels_.emplace_back();
+    level.lattice = {size};
+    const std::size_t cells = level.lattice.size();
+    for (Field& a : level.a) a.assign(cells, 0);
+    for (Field* field : {&level.inverse_diagonal, &level.rest, &level.correction}) {
+      field->assign(cells, 0);
+    }
+    if (size.x() % (2 * kLanes) != 0 || size.y() % 2 != 0 || size.z() % 2 != 0) break;
+  }
+  SUNDER_CHECK(!levels_.empty());
+  for (Field* field : {&pressure_, &direction_, &image_}) {
+    field->assign(levels_[0].lattice.size(), 0);
+  }
+  partial_.resize(static_cast<std::size_t>(counts.z()));
+}
+
+void PressureSolver::find_diagonal(Level& level) {
+  for_rows(level.lattice, [&](int j, int k) {
+    const std::size_t at = level.lattice.index(1, j, k);
+    const Row row = row_of(level.lattice, level.a, at);
+    float* inverse = &level.inverse_diagonal[at];
+    for (int i = 0; i < level.lattice.counts.x(); ++i) {
+      const float diagonal = row.diagonal(i);
+      inverse[i] = diagonal > 0 ? 1 / diagonal : 0;
+    }
+  });
+}
+
+/// Four fine faces make a coarse one, over twice the distance.
+void PressureSolver::coarsen(const Level& fine, Level& coarse) {
+  const Vec3i& counts = coarse.lattice.counts;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::ptrdiff_t side = fine.lattice.stride((axis + 1) % 3);
+    const std::ptrdiff_t up = fine.lattice.stride((axis + 2) % 3);
+    const Vec3i last = counts + Vec3i::Unit(axis);
+    for (int k = 1; k <= last.z(); ++k) {
+      for (int j = 1; j <= last.y(); ++j) {
+        for (int i = 1; i <= last.x(); ++i) {
+          const float* a = &fine.a[static_cast<std::size_t>(axis)]
+                                  [fine.lattice.index(2 * i - 1, 2 * j - 1, 2 * k - 1)];
+          coarse.a[static_cast<std::size_t>(axis)][coarse.lattice.index(i, j, k)] =
+              0.5f * (a[0] + a[side] + a[up] + a[side + up]);
+        }
+      }
+    }
+  }
+}
+
+/// Gauss-Seidel over rows of one colour of the checkerboard (j + k), Jacobi along the row.
+void PressureSolver::smooth_colour(Level& level, int colour) {
+  for_rows(level.lattice, [&](int j, int k) {
+    if (((j + k) & 1) != colour) return;
+    const std::size_t at = level.lattice.index(1, j, k);
+    const Row row = row_of(level.lattice, level.a, at);
+    const float* rest = &level.rest[at];
+    const float* inverse = &level.inverse_diagonal[at];
+    float* x = &level.correction[at];
+    const int count = level.lattice.counts.x();
+    float changed[kLongestRow];
+    for (int i = 0; i < count; ++i) changed[i] = (rest[i] + row.neighbours(x, i)) * inverse[i];
+    std::copy_n(changed, count, x);
+  });
+}
+
+/// Backward is the transpose of forward, so that a cycle of both is symmetric.
+void PressureSolver::smooth(Level& level, Order order) {
+  smooth_colour(level, order == Order::kForward ? 0 : 1);
+  smooth_colour(level, order == Order::kForward ? 1 : 0);
+}
+
+/// Sums what is left to solve over eight fine cells each.
+void PressureSolver::restrict_rest(const Level& fine, Level& coarse) {
+  for_rows(coarse.lattice, [&](int j, int k) {
+    const int count = fine.lattice.counts.x();
+    float sum[kLongestRow] = {};
+    for (const int fine_k : {2 * k - 1, 2 * k}) {
+      for (const int fine_j : {2 * j - 1, 2 * j}) {
+        const std::size_t at = fine.lattice.index(1, fine_j, fine_k);
+        const Row row = row_of(fine.lattice, fine.a, at);
+        const float* rest = &fine.rest[at];
+        const float* x = &fine.correction[at];
+        for (int i = 0; i < count; ++i) {
+          sum[i] += rest[i] + row.neighbours(x, i) - row.diagonal(i) * x[i];
+        }
+      }
+    }
+    float* out = &coarse.rest[coarse.lattice.index(1, j, k)];
+    for (int i = 0; i < count / 2; ++i) out[i] = sum[2 * i] + sum[2 * i + 1];
+  });
+}
+
+void PressureSolver::prolong(const Level& coarse, Level& fine) {
+  for_rows(fine.lattice, [&](int j, int k) {
+    const float* from = &coarse.correction[coarse.lattice.index(1, (j + 1) / 2, (k + 1) / 2)];
+    float* x = &fine.correction[fine.lattice.index(1, j, k)];
+    for (int i = 0; i < coarse.lattice.counts.x(); ++i) {
+      x[2 * i] += from[i];
+      x[2 * i + 1] += from[i];
+    }
+  });
+}
+
+/// One V-cycle on level's `rest`, from zero.
+void PressureSolver::cycle(std::size_t at) {
+  Level& level = levels_[at];
+  std::fill(level.correction.begin(), level.correction.end(), 0.0f);
+  if (at + 1 == levels_.size()) {
+    for (int i = 0; i < kCoarsestSweeps; ++i) smooth(level, Order::kForward);
+    for (int i = 0; i < kCoarsestSweeps; ++i) smooth(level, Order::kBackward);
+    return;
+  }
+  smooth(level, Order::kForward);
+  restrict_rest(level, levels_[at + 1]);
+  cycle(at + 1);
+  prolong(levels_[at + 1], level);
+  smooth(level, Order::kBackward);
+}
+
+/// The matrix times direction_, to image_; returns their product.
+double PressureSolver::apply_and_dot() {
+  const Lattice& lattice = levels_[0].lattice;
+  const int count = lattice.counts.x();
+  return sum_rows(lattice, partial_, [&](std::size_t at) {
+    const Row row = row_of(lattice, levels_[0].a, at);
+    const float* x = &direction_[at];
+    float* image = &image_[at];
+    for (int i = 0; i < count; ++i) image[i] = row.diagonal(i) * x[i] - row.neighbours(x, i);
+    return dot_row(x, image, count);
+  });
+}
+
+double PressureSolver::dot(const Field& x, const Field& y) {
+  const Lattice& lattice = levels_[0].lattice;
+  return sum_rows(lattice, partial_,
+                  [&](std::size_t at) { return dot_row(&x[at], &y[at], lattice.counts.x()); });
+}
+
+/// direction = correction + beta · direction.
+void PressureSolver::turn(float beta) {
+  const Lattice& lattice = levels_[0].lattice;
+  for_rows(lattice, [&](int j, int k) {
+    const std::size_t at = lattice.index(1, j, k);
+    float* direction = &direction_[at];
+    const float* correction = &levels_[0].correction[at];
+    for (int i = 0; i < lattice.counts.x(); ++i) {
+      direction[i] = correction[i] + beta * direction[i];
+    }
+  });
+}
+
+/// pressure += alpha · direction, rest −= alpha · image; returns the largest rest.
+float PressureSolver::step(float alpha) {
+  const Lattice& lattice = levels_[0].lattice;
+  const int count = lattice.counts.x();
+  std::fill(partial_.begin(), partial_.end(), 0.0);
+  for_rows(lattice, [&](int j, int k) {
+    const std::size_t at = lattice.index(1, j, k);
+    float* p = &pressure_[at];
+    float* rest = &levels_[0].rest[at];
+    const float* direction = &direction_[at];
+    const float* image = &image_[at];
+    for (int i = 0; i < count; ++i) {
+      p[i] += alpha * direction[i];
+      rest[i] -= alpha * image[i];
+    }
+    double& largest = partial_[static_cast<std::size_t>(k) - 1];
+    largest = std::max(largest, double{largest_row(rest, count)});
+  });
+  return static_cast<float>(*std::max_element(partial_.begin(), partial_.end()));
+}
+
+int PressureSolver::solve(float tolerance) {
+  find_diagonal(levels_[0]);
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
+    coarsen(levels_[level - 1], levels_[level]);
+    find_diagonal(levels_[level]);
+  }
+  // The pressure of last time is the first direction, gone the whole way.
+  std::swap(direction_, pressure_);
+  std::fill(pressure_.begin(), pressure_.end(), 0.0f);
+  apply_and_dot();
+  float largest = step(1);
+  double before = 0;
+  int iterations = 0;
+  for (; largest > tolerance && iterations < kMostIterations; ++iterations) {
+    cycle(0);
+    const double now = dot(levels_[0].rest, levels_[0].correction);
+    turn(before > 0 ? static_cast<float>(now / before) : 0);
+    before = now;
+    const double curvature = apply_and_dot();
+    if (!(curvature > 0)) break;
+    largest = step(static_cast<float>(now / curvature));
+  }
+  return iterations;
+}
+
+}  // namespace sunder::solver

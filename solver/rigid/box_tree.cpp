@@ -1,0 +1,104 @@
+// Building and refitting of the implicit tree.
+#include "solver/rigid/box_tree.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/parallel.h"
+
+namespace sunder::solver {
+namespace {
+
+/// Spreads the low 10 bits, two zeros between each.
+std::uint32_t spread(std::uint32_t x) {
+  x = (x | x << 16) & 0x030000ff;
+  x = (x | x << 8) & 0x0300f00f;
+  x = (x | x << 4) & 0x030c30c3;
+  return (x | x << 2) & 0x09249249;
+}
+
+/// Orders (key, item) by key, stably: radix sort in three passes of 10 bits.
+void sort_by_key(std::vector<std::pair<std::uint32_t, std::uint32_t>>& items) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> other(items.size());
+  for (int shift = 0; shift < 30; shift += 10) {
+    std::uint32_t start[1025] = {};
+    for (const auto& item : items) ++start[((item.first >> shift) & 1023) + 1];
+    for (int i = 0; i < 1024; ++i) start[i + 1] += start[i];
+    for (const auto& item : items) other[start[(item.first >> shift) & 1023]++] = item;
+    items.swap(other);
+  }
+}
+
+float reduce_min(Wide v) {
+  float least = v[0];
+  for (std::uint32_t i = 1; i < kLanes; ++i) least = v[i] < least ? v[i] : least;
+  return least;
+}
+float reduce_max(Wide v) { return -reduce_min(-v); }
+
+}  // namespace
+
+void BoxTree::build(std::span<const FloatBox> boxes, std::span<const std::uint32_t> items) {
+  FloatBox all;
+  for (const std::uint32_t item : items) {
+    const Vec3f center = 0.5f * (boxes[item].min + boxes[item].max);
+    all.min = all.min.cwiseMin(center);
+    all.max = all.max.cwiseMax(center);
+  }
+  const float extent = std::max(1e-6f, items.empty() ? 0.f : (all.max - all.min).maxCoeff());
+  const float scale = 1023.f / extent;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const FloatBox& box = boxes[items[i]];
+    const Vec3f at = (0.5f * (box.min + box.max) - all.min) * scale;
+    auto code = [&](int k) { return spread(static_cast<std::uint32_t>(at[k])); };
+    keyed[i] = {code(0) | code(1) << 1 | code(2) << 2, items[i]};
+  }
+  sort_by_key(keyed);
+  items_.resize(items.size());
+  for (std::size_t i = 0; i < keyed.size(); ++i) items_[i] = keyed[i].second;
+
+  levels_.clear();
+  std::uint32_t count = static_cast<std::uint32_t>(items_.size());
+  do {
+    count = wide_count(count);
+    levels_.emplace_back(count);
+  } while (count > 1);
+  refit(boxes);
+}
+
+void BoxTree::refit(std::span<const FloatBox> boxes) {
+  if (items_.empty()) return;
+  for_chunks(levels_[0].size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t c = begin; c < end; ++c) {
+      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+        const std::size_t i = c * kLanes + lane;
+        const FloatBox box = i < items_.size() ? boxes[items_[i]] : FloatBox();
+        Chunk& chunk = levels_[0][c];
+        chunk.min.x[lane] = box.min.x(), chunk.max.x[lane] = box.max.x();
+        chunk.min.y[lane] = box.min.y(), chunk.max.y[lane] = box.max.y();
+        chunk.min.z[lane] = box.min.z(), chunk.max.z[lane] = box.max.z();
+      }
+    }
+  });
+  fit_inner_levels();
+}
+
+void BoxTree::fit_inner_levels() {
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
+    const std::vector<Chunk>& below = levels_[level - 1];
+    for (std::size_t i = 0; i < levels_[level].size() * kLanes; ++i) {
+      Chunk& chunk = levels_[level][i / kLanes];
+      const std::size_t lane = i % kLanes;
+      const bool full = i < below.size();
+      chunk.min.x[lane] = full ? reduce_min(below[i].min.x) : 1e30f;
+      chunk.min.y[lane] = full ? reduce_min(below[i].min.y) : 1e30f;
+      chunk.min.z[lane] = full ? reduce_min(below[i].min.z) : 1e30f;
+      chunk.max.x[lane] = full ? reduce_max(below[i].max.x) : -1e30f;
+      chunk.max.y[lane] = full ? reduce_max(below[i].max.y) : -1e30f;
+      chunk.max.z[lane] = full ? reduce_max(below[i].max.z) : -1e30f;
+    }
+  }
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,194 @@
+// Boxes, trees and new pairs.
+#include "solver/rigid/broad_phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/parallel.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr std::size_t kChunk = 128;
+constexpr int kRefitsPerBuild = 12;
+
+/// Bounds of a hull turned by R, about the body's centre.
+FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
+  Vec3f low, high;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Wide3 row = {splat(R(axis, 0)), splat(R(axis, 1)), splat(R(axis, 2))};
+    Wide least = splat(1e30f), most = splat(-1e30f);
+    for (const Wide3& vertices : hull.vertices()) {
+      const Wide along = dot(row, vertices);
+      least = min(least, along);
+      most = max(most, along);
+    }
+    low[axis] = least[0], high[axis] = most[0];
+    for (std::uint32_t i = 1; i < kLanes; ++i) {
+      low[axis] = std::min(low[axis], least[i]);
+      high[axis] = std::max(high[axis], most[i]);
+    }
+  }
+  return {low, high};
+}
+
+FloatBox swept_box(const Shape& shape, const Bodies& bodies, const Vec3& gravity_W, double dt_s) {
+  const std::uint32_t body = shape.body;
+  FloatBox box;
+  if (shape.kind == ShapeDesc::Kind::kHull) {
+    box = turned_bounds(shape.hull, bodies.rotation_f[body]);
+  } else {
+    const Vec3f center = bodies.rotation_f[body] * shape.center;
+    box = {center.array() - shape.radius_m, center.array() + shape.radius_m};
+  }
+  float grow = 0.05f * shape.inner_radius_m;
+  if (bodies.awake(body)) {
+    const Vec3f shift = (bodies.velocity[body] * dt_s + gravity_W * (dt_s * dt_s)).cast<float>();
+    box.min += shift.cwiseMin(0.f);
+    box.max += shift.cwiseMax(0.f);
+    const double turn = std::min(2.0, bodies.angular_velocity[body].norm() * dt_s);
+    grow += static_cast<float>(turn) * shape.reach_m;
+  }
+  const Vec3f at = bodies.position[body].cast<float>();
+  grow += 4e-7f * (at.cwiseAbs().maxCoeff() + shape.reach_m);
+  return {at + box.min - Vec3f::Constant(grow), at + box.max + Vec3f::Constant(grow)};
+}
+
+/// Room for a few steps of the same motion.
+FloatBox fattened(const FloatBox& swept, const Shape& shape, const Bodies& bodies, double dt_s) {
+  FloatBox box = swept;
+  if (!bodies.dynamic(shape.body)) return box;
+  const Vec3f shift = (2 * dt_s * bodies.velocity[shape.body]).cast<float>();
+  const Vec3f grow = Vec3f::Constant(0.15f * shape.inner_radius_m);
+  box.min += shift.cwiseMin(0.f) - grow;
+  box.max += shift.cwiseMax(0.f) + grow;
+  return box;
+}
+
+}  // namespace
+
+void BroadPhase::shapes_changed(std::span<const std::uint32_t> added, const Shapes& shapes,
+                                const Bodies& bodies) {
+  swept_.resize(shapes.size());
+  fat_.resize(shapes.size());
+  moved_.resize(shapes.size());
+  half_space_of_.resize(shapes.size(), -1);
+  for (const std::uint32_t s : added) {
+    fat_[s] = FloatBox();
+    look_again_ = look_again_ || shapes[s].kind == ShapeDesc::Kind::kHalfSpace;
+  }
+  half_spaces_.clear();
+  for (std::uint32_t s = 0; s < shapes.size(); ++s) {
+    half_space_of_[s] = -1;
+    if (!shapes[s].present || shapes[s].kind != ShapeDesc::Kind::kHalfSpace) continue;
+    half_space_of_[s] = static_cast<std::int32_t>(half_spaces_.size());
+    const std::uint32_t body = shapes[s].body;
+    const Vec3 normal_W = (bodies.rotation[body] * shapes[s].normal.cast<double>()).normalized();
+    const Vec3 point_W =
+        bodies.position[body] + bodies.rotation[body] * shapes[s].center.cast<double>();
+    half_spaces_.push_back({s, normal_W.cast<float>(), static_cast<float>(-normal_W.dot(point_W))});
+  }
+  sets_changed_ = true;
+}
+
+void BroadPhase::update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,
+                              double dt_s) {
+  for_chunks(shapes.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const Shape& shape = shapes.items[s];
+      const bool boxed = shape.present && half_space_of_[s] < 0;
+      moved_[s] = boxed && look_again_;
+      if (!boxed || !bodies.changed[shape.body]) continue;
+      swept_[s] = swept_box(shape, bodies, gravity_W, dt_s);
+      if (fat_[s].contains(swept_[s])) continue;
+      fat_[s] = fattened(swept_[s], shape, bodies, dt_s);
+      moved_[s] = 1;
+    }
+  });
+  look_again_ = false;
+  moved_list_.clear();
+  for (std::uint32_t s = 0; s < shapes.size(); ++s)
+    if (moved_[s]) moved_list_.push_back(s);
+}
+
+void BroadPhase::update_trees(const Shapes& shapes, const Bodies& bodies) {
+  if (sets_changed_) {
+    movers_.clear();
+    statics_.clear();
+    for (std::uint32_t s = 0; s < shapes.size(); ++s) {
+      if (!shapes[s].present || half_space_of_[s] >= 0) continue;
+      (bodies.dynamic(shapes[s].body) ? movers_ : statics_).push_back(s);
+    }
+    static_tree_.build(fat_, statics_);
+  } else if (moved_list_.empty()) {
+    return;
+  }
+  if (sets_changed_ || ++refits_ >= kRefitsPerBuild) {
+    mover_tree_.build(fat_, movers_);
+    refits_ = 0;
+  } else {
+    mover_tree_.refit(fat_);
+  }
+  sets_changed_ = false;
+}
+
+void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
+                            const KeySet& keys, std::vector<Pair>& found) const {
+  const Shape& mine = shapes[shape];
+  const bool mover = bodies.dynamic(mine.body);
+  auto consider = [&](std::uint32_t other) {
+    const Shape& theirs = shapes[other];
+    if (theirs.body == mine.body || (moved_[other] && other < shape)) return;
+    if (!mover && !bodies.dynamic(theirs.body)) return;
+    Pair pair;
+    const bool swap = mine.kind != theirs.kind
+                          ? mine.kind == ShapeDesc::Kind::kSphere ||
+                                theirs.kind == ShapeDesc::Kind::kHalfSpace
+                          : other < shape;
+    pair.shape_a = swap ? other : shape;
+    pair.shape_b = swap ? shape : other;
+    pair.body_a = shapes[pair.shape_a].body;
+    pair.body_b = shapes[pair.shape_b].body;
+    pair.sibling = bodies.group[mine.body] != 0 &&
+                   bodies.group[mine.body] == bodies.group[theirs.body];
+    if (!keys.contains(pair.key())) found.push_back(pair);
+  };
+  mover_tree_.overlaps(fat_[shape], consider);
+  if (!mover) return;
+  static_tree_.overlaps(fat_[shape], consider);
+  for (const HalfSpace& plane : half_spaces_) {
+    Pair pair;
+    pair.shape_a = plane.shape, pair.shape_b = shape;
+    if (overlaps(pair, fat_)) consider(plane.shape);
+  }
+}
+
+void BroadPhase::update(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,
+                        double dt_s, Contacts& contacts) {
+  update_boxes(shapes, bodies, gravity_W, dt_s);
+  update_trees(shapes, bodies);
+  std::vector<std::vector<Pair>> found((moved_list_.size() + kChunk - 1) / kChunk);
+  for_chunks(moved_list_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    for (std::size_t i = begin; i < end; ++i)
+      find_pairs(moved_list_[i], shapes, bodies, contacts.keys, found[c]);
+  });
+  std::vector<Pair> all;
+  for (const auto& chunk : found) all.insert(all.end(), chunk.begin(), chunk.end());
+  std::sort(all.begin(), all.end(), [](const Pair& a, const Pair& b) { return a.key() < b.key(); });
+  for (const Pair& pair : all) contacts.add(pair);
+}
+
+bool BroadPhase::overlaps(const Pair& pair, const std::vector<FloatBox>& boxes) const {
+  const std::int32_t plane = half_space_of_[pair.shape_a];
+  if (plane < 0) return boxes[pair.shape_a].overlaps(boxes[pair.shape_b]);
+  const HalfSpace& half = half_spaces_[static_cast<std::size_t>(plane)];
+  const FloatBox& box = boxes[pair.shape_b];
+  const Vec3f center = 0.5f * (box.min + box.max), extent = 0.5f * (box.max - box.min);
+  return half.normal_W.dot(center) + half.d <= half.normal_W.cwiseAbs().dot(extent);
+}
+
+bool BroadPhase::near(const Pair& pair) const { return overlaps(pair, swept_); }
+
+bool BroadPhase::keep(const Pair& pair) const { return overlaps(pair, fat_); }
+
+}  // namespace sunder::solver

@@ -1,0 +1,47 @@
+// Solves the contacts of a step: coloured projected Gauss-Seidel in soft substeps.
+// Read first: ContactSolver::solve(), the list of stages.
+#pragma once
+
+#include <vector>
+
+#include "solver/rigid/bodies.h"
+#include "solver/rigid/constraint_block.h"
+#include "solver/rigid/contacts.h"
+#include "solver/rigid/prepare.h"
+#include "solver/rigid/stage_runner.h"
+
+namespace sunder::solver {
+
+/// What a solve did to bodies in contact.
+struct ContactSolveReport {
+  Vec3 outside_impulse_Ns = Vec3::Zero();  ///< On bodies, from what cannot move.
+  std::uint32_t manifolds = 0;
+  std::uint32_t points = 0;
+};
+
+class ContactSolver {
+ public:
+  /// Moves every awake body by dt_s: those in contact by substeps, the others by free flight.
+  ContactSolveReport solve(double dt_s, int substeps, const Vec3& gravity_W, Bodies& bodies,
+                           Contacts& contacts);
+
+ private:
+  void collect_blocks(const Bodies& bodies, const Contacts& contacts);
+  void collect_bodies(const Bodies& bodies);
+  std::vector<Stage> plan(int substeps) const;
+  void begin_body(std::uint32_t body, double dt_s, Bodies& bodies);
+  void finish_body(std::uint32_t body, Bodies& bodies) const;
+  ContactSolveReport report() const;
+
+  std::vector<ConstraintBlock> blocks_;
+  std::vector<Stage> colors_;            ///< Where each colour's blocks are; the overflow last.
+  std::vector<std::uint32_t> touching_;  ///< Manifolds to solve, by colour and point count.
+  std::vector<std::uint32_t> active_;    ///< Awake bodies in contact.
+  std::vector<std::uint32_t> flying_;    ///< Awake bodies that touch nothing.
+  std::vector<std::uint8_t> in_contact_;
+  std::vector<BodyRow> rows_;  ///< By body slot + 1; row 0 stays still.
+  std::vector<Mat3f> root_W_;
+  double last_h_s_ = 0;
+};
+
+}  // namespace sunder::solver

@@ -1,0 +1,105 @@
+// Pairs of shapes that are near each other, and the manifolds of those that touch. Both live as
+// long as the pair stays near, at the same index.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/types.h"
+#include "solver/rigid/bodies.h"
+
+namespace sunder::solver {
+
+inline constexpr std::uint8_t kNoColor = 0xff;
+
+/// Two shapes whose fat boxes overlap. If their kinds differ, a is the half-space, or the hull.
+struct Pair {
+  std::uint32_t shape_a = kNone, shape_b = kNone;  ///< kNone: a free slot.
+  std::uint32_t body_a = kNone, body_b = kNone;
+  float clearance_m = -1;  ///< Lower bound on the distance when last looked at closely.
+  float travelled_m = 0;   ///< Of both bodies at that time.
+  Vec3f axis_A = Vec3f::Zero();  ///< Last axis that parted them, in A; zero if none.
+  /// Siblings of a break: overlap they were born with, not pushed apart. Negative: not known yet.
+  float slack_m = -1;
+  bool sibling = false;
+
+  bool present() const { return shape_a != kNone; }
+  std::uint64_t key() const { return std::uint64_t{shape_a} << 32 | shape_b; }
+};
+
+struct ManifoldPoint {
+  Vec3f anchor_A = Vec3f::Zero(), anchor_B = Vec3f::Zero();  ///< Fixed to the bodies.
+  Vec3f arm_A = Vec3f::Zero(), arm_B = Vec3f::Zero();        ///< From the centres of mass, in W.
+  float separation_m = 0;
+  float impulse_Ns = 0;  ///< Of the last substep, along the normal.
+  std::uint32_t feature = 0;
+};
+
+/// Up to four points on one normal. Friction acts at their middle, with twist about the normal.
+struct Manifold {
+  std::uint32_t body_a = kNone, body_b = kNone;
+  std::uint8_t count = 0;  ///< 0: not touching.
+  std::uint8_t color = kNoColor;
+  bool normal_on_b = false;  ///< The normal is fixed to B instead of A.
+  bool reusable = false;     ///< Points may be carried along while the pair barely moves.
+  bool sticking = false;     ///< The friction anchors hold since the last rebuild.
+  float friction = 0;
+  float restitution = 0;
+  float size_m = 0;                   ///< Yardstick: inner radius of the smaller shape.
+  Vec3f normal_W = Vec3f::UnitY();    ///< From a to b.
+  Vec3f normal_body = Vec3f::UnitY();
+  Vec3f built_position = Vec3f::Zero();  ///< Of B in A when the points were made.
+  Quatf built_rotation = Quatf::Identity();
+  Vec3f friction_anchor_A = Vec3f::Zero(), friction_anchor_B = Vec3f::Zero();
+  Vec3f friction_arm_A = Vec3f::Zero(), friction_arm_B = Vec3f::Zero();
+  Vec3f drift_W = Vec3f::Zero();  ///< Of the friction anchors, b from a, since they were set.
+  Vec3f friction_impulse_W = Vec3f::Zero();
+  float twist_impulse = 0;
+  std::array<ManifoldPoint, 4> points;
+
+  float least_separation() const {
+    float least = 1e30f;
+    for (int i = 0; i < count; ++i) least = std::min(least, points[i].separation_m);
+    return least;
+  }
+  float normal_impulse() const {
+    float sum = 0;
+    for (int i = 0; i < count; ++i) sum += points[i].impulse_Ns;
+    return sum;
+  }
+};
+
+/// The set of pair keys, by open addressing.
+class KeySet {
+ public:
+  bool contains(std::uint64_t key) const;
+  void insert(std::uint64_t key);  ///< The key must not be in it.
+  void erase(std::uint64_t key);   ///< The key must be in it.
+
+ private:
+  std::size_t home(std::uint64_t key) const;
+  void grow();
+  static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
+  std::vector<std::uint64_t> slots_;
+  std::size_t count_ = 0;
+};
+
+/// All pairs, with their manifolds at the same index, and the colours bodies have in use.
+struct Contacts {
+  std::vector<Pair> pairs;
+  std::vector<Manifold> manifolds;
+  std::vector<std::uint32_t> free_slots;
+  std::vector<std::uint64_t> body_colors;  ///< Bit c: a manifold of colour c touches the body.
+  KeySet keys;
+
+  std::uint32_t add(const Pair& pair);
+  void remove(std::uint32_t slot);
+  /// Gives a touching manifold the least colour neither body has, takes it from one that no
+  /// longer touches. `kMaxColors` is the overflow: no colour was free.
+  void recolor(std::uint32_t slot, const Bodies& bodies);
+};
+
+inline constexpr std::uint8_t kMaxColors = 64;
+
+}  // namespace sunder::solver

@@ -1,0 +1,97 @@
+// Layout of a hull. Topology comes from the polyhedron: no hull is computed here.
+#include "solver/rigid/hull.h"
+
+#include <algorithm>
+
+#include "engine/base/check.h"
+
+namespace sunder::solver {
+namespace {
+
+void set_lane(Wide3& chunk, std::uint32_t lane, const Vec3f& v) {
+  chunk.x[lane] = v.x();
+  chunk.y[lane] = v.y();
+  chunk.z[lane] = v.z();
+}
+
+}  // namespace
+
+Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
+  SUNDER_CHECK(!convex.empty() && convex.vertices.size() < 0xffff && convex.corners.size() < 0xffff);
+  vertex_count_ = static_cast<std::uint32_t>(convex.vertices.size());
+  vertices_.resize(wide_count(vertex_count_));
+  Vec3 sum = Vec3::Zero();
+  for (std::uint32_t i = 0; i < vertices_.size() * kLanes; ++i) {
+    const Vec3 v = convex.vertices[std::min(i, vertex_count_ - 1)] - com_R;
+    set_lane(vertices_[i / kLanes], i % kLanes, v.cast<float>());
+    if (i >= vertex_count_) continue;
+    sum += v;
+    reach_ = std::max(reach_, static_cast<float>(v.norm()));
+  }
+  center_ = (sum / vertex_count_).cast<float>();
+
+  const auto faces = static_cast<std::uint32_t>(convex.faces.size());
+  planes_.resize(wide_count(faces));
+  inner_radius_ = reach_ + center_.norm();
+  for (std::uint32_t i = 0; i < planes_.size() * kLanes; ++i) {
+    const Plane& plane = convex.faces[std::min(i, faces - 1)].plane;
+    PlaneChunk& chunk = planes_[i / kLanes];
+    set_lane(chunk.normal, i % kLanes, plane.normal.cast<float>());
+    chunk.d[i % kLanes] = static_cast<float>(plane.distance(com_R));
+    const auto to_center = static_cast<float>(-plane.distance(com_R + center_.cast<double>()));
+    inner_radius_ = std::min(inner_radius_, to_center);
+  }
+  inner_radius_ = std::max(inner_radius_, 0.02f * reach_);
+
+  corners_.reserve(convex.corners.size());
+  face_first_.reserve(faces + 1);
+  for (std::uint32_t f = 0; f < faces; ++f) {
+    face_first_.push_back(static_cast<std::uint16_t>(corners_.size()));
+    for (const std::uint32_t corner : convex.face_corners(f))
+      corners_.push_back(static_cast<std::uint16_t>(corner));
+  }
+  face_first_.push_back(static_cast<std::uint16_t>(corners_.size()));
+  add_edges();
+}
+
+void Hull::add_edges() {
+  struct HalfEdge {
+    std::uint32_t key;  // smaller vertex, larger vertex
+    std::uint16_t face;
+    bool forward;
+  };
+  std::vector<HalfEdge> halves;
+  halves.reserve(corners_.size());
+  for (std::uint32_t f = 0; f < face_count(); ++f) {
+    const auto loop = face_corners(f);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t from = loop[i], to = loop[i + 1 < loop.size() ? i + 1 : 0];
+      halves.push_back({std::min(from, to) << 16 | std::max(from, to),
+                        static_cast<std::uint16_t>(f), from < to});
+    }
+  }
+  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    return a.key != b.key ? a.key < b.key : a.forward > b.forward;
+  });
+  edge_vertices_.reserve(halves.size() / 2);
+  edges_.resize(wide_count(static_cast<std::uint32_t>(halves.size() / 2)));
+  std::uint32_t count = 0;
+  auto put = [&](std::uint32_t slot, const HalfEdge& left, const HalfEdge& right) {
+    const Vec3f from = vertex(left.key >> 16), to = vertex(left.key & 0xffff);
+    EdgeChunk& chunk = edges_[slot / kLanes];
+    set_lane(chunk.point, slot % kLanes, from);
+    set_lane(chunk.direction, slot % kLanes, to - from);
+    set_lane(chunk.normal_left, slot % kLanes, normal(left.face));
+    set_lane(chunk.normal_right, slot % kLanes, normal(right.face));
+  };
+  for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {
+    SUNDER_CHECK(halves[i].key == halves[i + 1].key);
+    put(count++, halves[i], halves[i + 1]);
+    edge_vertices_.emplace_back(static_cast<std::uint16_t>(halves[i].key >> 16),
+                                static_cast<std::uint16_t>(halves[i].key & 0xffff));
+  }
+  for (std::uint32_t i = count; i < edges_.size() * kLanes; ++i)
+    put(i, halves[halves.size() - 2], halves[halves.size() - 1]);
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,92 @@
+// Free flight: torque-free rotation by the implicit midpoint rule with Cayley updates.
+#include "solver/rigid/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/trigonometry.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr double kGyroscopicTurn = 0.02;  // rad in a step; slower, the term is left out
+constexpr double kLargestTurn = 0.1;      // rad in one midpoint step
+constexpr int kMidpointRounds = 12;
+
+struct Spin {
+  Quat rotation;
+  Vec3 angular_velocity_W;
+};
+
+/// One midpoint step: w1 = w0 + h I⁻¹((I wm) × wm), wm = (w0 + w1)/2, then R1 = R0 Cay(h wm).
+void midpoint_step(const Mat3& inertia_B, const Mat3& inverse_B, double h, Quat& rotation,
+                   Vec3& w_B) {
+  const Vec3 w0 = w_B;
+  Vec3 w1 = w0;
+  for (int round = 0; round < kMidpointRounds; ++round) {
+    const Vec3 wm = 0.5 * (w0 + w1);
+    const Vec3 next = w0 + h * (inverse_B * (inertia_B * wm).cross(wm));
+    const double change = (next - w1).cwiseAbs().maxCoeff();
+    w1 = next;
+    if (change <= 1e-16 * w0.cwiseAbs().maxCoeff()) break;
+  }
+  const Vec3 half = 0.25 * h * (w0 + w1);
+  rotation = (rotation * Quat(1, half.x(), half.y(), half.z())).normalized();
+  w_B = w1;
+}
+
+Spin spun_freely(const Bodies& bodies, std::uint32_t body, double dt_s) {
+  Spin spin{bodies.rotation[body], bodies.angular_velocity[body]};
+  const double turn = spin.angular_velocity_W.norm() * dt_s;
+  const int parts = std::clamp(static_cast<int>(std::ceil(turn / kLargestTurn)), 1, 1000);
+  const Mat3& inertia_B = bodies.inertia_B[body];
+  const Mat3 inverse_B = inertia_B.inverse();
+  Vec3 w_B = spin.rotation.conjugate() * spin.angular_velocity_W;
+  for (int i = 0; i < parts; ++i)
+    midpoint_step(inertia_B, inverse_B, dt_s / parts, spin.rotation, w_B);
+  spin.angular_velocity_W = spin.rotation * w_B;
+  return spin;
+}
+
+bool wobbles(const Bodies& bodies, std::uint32_t body, double dt_s) {
+  return bodies.spins_freely[body] != 0 &&
+         bodies.angular_velocity[body].norm() * dt_s >= kGyroscopicTurn;
+}
+
+}  // namespace
+
+Quat turn_by(const Vec3& angle_W) {
+  const double angle = angle_W.norm();
+  if (angle < 1e-3) {  // sin(x/2)/x to 1e-15
+    const double square = angle * angle;
+    const Vec3 v = (0.5 - square / 48) * angle_W;
+    return Quat(1 - square / 8, v.x(), v.y(), v.z()).normalized();
+  }
+  const SinCos half = sin_cos(0.5 * angle);
+  const Vec3 v = (half.sin / angle) * angle_W;
+  return Quat(half.cos, v.x(), v.y(), v.z());
+}
+
+void fly(Bodies& bodies, std::uint32_t body, const Vec3& gravity_W, double dt_s) {
+  const Vec3 way = dt_s * (bodies.velocity[body] + 0.5 * dt_s * gravity_W);
+  bodies.velocity[body] += dt_s * gravity_W;
+  const Vec3 angle_W = dt_s * bodies.angular_velocity[body];
+  Quat rotation;
+  if (wobbles(bodies, body, dt_s)) {
+    const Spin spin = spun_freely(bodies, body, dt_s);
+    rotation = spin.rotation;
+    bodies.angular_velocity[body] = spin.angular_velocity_W;
+  } else {
+    rotation = turn_by(angle_W) * bodies.rotation[body];
+  }
+  bodies.place(body, bodies.position[body] + way, rotation);
+  bodies.travelled_m[body] +=
+      static_cast<float>(way.norm() + 1.1 * angle_W.norm() * bodies.reach_m[body]);
+}
+
+Vec3 gyroscopic_change(const Bodies& bodies, std::uint32_t body, double dt_s) {
+  if (!wobbles(bodies, body, dt_s)) return Vec3::Zero();
+  return spun_freely(bodies, body, dt_s).angular_velocity_W - bodies.angular_velocity[body];
+}
+
+}  // namespace sunder::solver

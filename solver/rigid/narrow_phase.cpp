@@ -1,0 +1,215 @@
+// Dispatch over shape kinds, reuse, and time of impact.
+#include "solver/rigid/narrow_phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunder::solver {
+namespace {
+
+constexpr float kMargin = 0.05f;         // of the smaller inner radius: contact before touch
+constexpr float kAxisTolerance = 0.01f;  // of it: how much better another axis must be
+constexpr int kImpactRounds = 24;
+
+using Kind = ShapeDesc::Kind;
+
+/// Two shapes at a relative pose that may be moved along.
+struct Probe {
+  const Shape& a;
+  const Shape& b;
+  float tolerance_m;
+  NarrowScratch& scratch;
+
+  SeparatingAxis axis(const RelativePose& pose, float reach_m) const {
+    if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
+      place_in_each_other(a.hull, b.hull, pose, scratch.hulls);
+      return separating_axis(a.hull, b.hull, pose, reach_m, tolerance_m, scratch.hulls);
+    }
+    const Vec3f center_b = pose.R * b.center + pose.p;
+    SeparatingAxis axis;
+    if (a.kind == Kind::kHull) {
+      const HullDistance d = distance_to_hull(a.hull, center_b);
+      axis.normal_A = d.normal, axis.separation_m = d.distance_m - b.radius_m;
+    } else {
+      const Vec3f gap = center_b - a.center;
+      const float distance = gap.norm();
+      if (distance > 0) axis.normal_A = gap / distance;
+      axis.separation_m = distance - a.radius_m - b.radius_m;
+    }
+    return axis;
+  }
+
+  void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m) const {
+    scratch.points.clear();
+    if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
+      make_patch(a.hull, b.hull, pose, axis, reach_m, scratch.hulls, scratch.patch, scratch.points);
+      reduce_patch(axis.normal_A, scratch.points);
+    } else {
+      const Vec3f on_b = pose.R * b.center + pose.p - b.radius_m * axis.normal_A;
+      scratch.points.push_back(
+          {on_b - axis.separation_m * axis.normal_A, on_b, axis.separation_m, 0});
+    }
+  }
+};
+
+/// Time until the shapes come within `target_m`, moving straight; negative: not within dt_s.
+/// Advancing by the gap along a separating axis never oversteps.
+float time_of_impact(const Probe& probe, const PairMotion& motion, const Vec3f& velocity_A,
+                     float target_m, float dt_s) {
+  RelativePose pose = motion.pose;
+  float time = 0;
+  for (int round = 0; round < kImpactRounds; ++round) {
+    const SeparatingAxis axis = probe.axis(pose, 1e30f);
+    if (axis.separation_m <= target_m) return time;
+    const float closing = -axis.normal_A.dot(velocity_A);
+    if (closing <= 0) return -1;
+    time += (axis.separation_m - 0.5f * target_m) / closing;
+    if (time > dt_s) return -1;
+    pose.p = motion.pose.p + time * velocity_A;
+  }
+  return time;
+}
+
+void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
+                        const PairMotion& motion, float reach_m, Manifold& m,
+                        NarrowScratch& scratch) {
+  const Quat& q_a = bodies.rotation[pair.body_a];
+  const Vec3 normal_W = q_a * a.normal.cast<double>();
+  const Vec3 surface_W = bodies.position[pair.body_a] + q_a * a.center.cast<double>();
+  const auto height =
+      static_cast<float>(normal_W.dot(bodies.position[pair.body_b] - surface_W));
+  const Vec3f normal_B = bodies.rotation_f[pair.body_b].transpose() * normal_W.cast<float>();
+  auto& points = scratch.points;
+  points.clear();
+  auto add = [&](const Vec3f& point_B, std::uint32_t feature) {
+    const float separation = height + normal_B.dot(point_B);
+    if (separation > reach_m) return;
+    const Vec3f on_b = motion.pose.R * point_B + motion.pose.p;
+    points.push_back({on_b - separation * a.normal, on_b, separation, feature});
+  };
+  if (b.kind == Kind::kHull) {
+    for (std::uint32_t v = 0; v < b.hull.vertex_count(); ++v) add(b.hull.vertex(v), v);
+    reduce_patch(a.normal, points);
+  } else {
+    add(b.center - b.radius_m * normal_B, 0);
+  }
+  build_manifold(pair, bodies, motion, a.normal, points, Vec3f::Zero(), m);
+}
+
+struct Reach {
+  float margin_m;  ///< Always.
+  float spin_m;    ///< What turning may add within the step.
+  float way_m;     ///< What moving may add within the step.
+};
+
+Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
+               const PairMotion& motion, const NarrowStep& step, float size_m) {
+  const auto dt = static_cast<float>(step.dt_s);
+  auto turn = [&](std::uint32_t body, float reach_m) {
+    const auto spin = static_cast<float>(bodies.angular_velocity[body].norm());
+    return std::min(1.f, spin * dt) * reach_m;
+  };
+  return {kMargin * size_m + step.fall_m,
+          turn(pair.body_a, a.reach_m) + turn(pair.body_b, b.reach_m),
+          dt * motion.velocity_W.norm()};
+}
+
+void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const PairMotion& motion,
+                  const Reach& reach, double dt_s, Pair& pair, Manifold& m,
+                  NarrowScratch& scratch) {
+  const Probe probe{a, b, kAxisTolerance * m.size_m, scratch};
+  const bool fast = reach.way_m > 0.5f * m.size_m;
+  const Vec3f velocity_A = bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W;
+  RelativePose pose = motion.pose;
+  float limit = reach.margin_m + reach.spin_m + (fast ? 0 : reach.way_m);
+  float time = 0;
+  if (fast) {
+    time = time_of_impact(probe, motion, velocity_A, limit, static_cast<float>(dt_s));
+    pose.p += std::max(0.f, time) * velocity_A;
+  }
+  SeparatingAxis axis;
+  if (time >= 0) axis = probe.axis(pose, limit);
+  scratch.points.clear();
+  if (time >= 0 && axis.separation_m <= limit) probe.points(pose, axis, limit);
+  pair.clearance_m = time == 0 && scratch.points.empty() ? axis.separation_m : -1;
+  pair.axis_A = pair.clearance_m > 0 ? axis.normal_A : Vec3f(Vec3f::Zero());
+  m.normal_on_b = axis.kind == SeparatingAxis::Kind::kFaceB;
+  m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && time == 0;
+  build_manifold(pair, bodies, motion, axis.normal_A, scratch.points,
+                 std::max(0.f, time) * motion.velocity_W, m);
+}
+
+/// Whether the axis that parted the pair last still does, and by how much.
+bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, float reach_m,
+                  float travelled_m, Pair& pair, NarrowScratch& scratch) {
+  if (pair.axis_A.isZero(0) || b.kind != Kind::kHull || a.kind != Kind::kHull) return false;
+  place_in_each_other(a.hull, b.hull, motion.pose, scratch.hulls);
+  const float separation_m = separation_along(pair.axis_A, a.hull, scratch.hulls);
+  if (separation_m <= reach_m) return false;
+  pair.clearance_m = separation_m;
+  pair.travelled_m = travelled_m;
+  return true;
+}
+
+}  // namespace
+
+void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep& step, Pair& pair,
+                    Manifold& m, NarrowScratch& scratch) {
+  const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
+  const PairMotion motion = pair_motion(pair, bodies);
+  const float size_m = std::min(a.inner_radius_m, b.inner_radius_m);
+  const Reach reach = reach_of(a, b, pair, bodies, motion, step, size_m);
+  const float limit = reach.margin_m + reach.spin_m + reach.way_m;
+  const float travelled = bodies.travelled_m[pair.body_a] + bodies.travelled_m[pair.body_b];
+  if (m.count == 0 && pair.clearance_m - (travelled - pair.travelled_m) > limit) return;
+  if (m.count > 0 && m.reusable && barely_moved(m, bodies, motion)) {
+    refresh_manifold(bodies, motion, m);
+    forgive_overlap(pair, m);
+    return;
+  }
+  if (m.count == 0 && still_parted(a, b, motion, limit, travelled, pair, scratch)) return;
+  pair.travelled_m = travelled;
+  m.size_m = size_m;
+  m.friction = std::sqrt(a.friction * b.friction);
+  m.restitution = std::max(a.restitution, b.restitution);
+  if (a.kind == Kind::kHalfSpace) {
+    m.normal_on_b = false;
+    m.reusable = b.kind == Kind::kHull;
+    half_space_contact(a, b, pair, bodies, motion, limit, m, scratch);
+  } else {
+    make_contact(a, b, bodies, motion, reach, step.dt_s, pair, m, scratch);
+  }
+  forgive_overlap(pair, m);
+}
+
+HullDistance distance_to_hull(const Hull& hull, const Vec3f& point) {
+  std::uint32_t nearest_face = 0;
+  float most = -1e30f;
+  for (std::uint32_t f = 0; f < hull.face_count(); ++f) {
+    const float distance = hull.normal(f).dot(point) + hull.plane_d(f);
+    if (distance > most) most = distance, nearest_face = f;
+    if (distance <= 0) continue;
+    const auto corners = hull.face_corners(f);
+    bool above = true;
+    for (std::size_t i = 0; i < corners.size() && above; ++i) {
+      const Vec3f from = hull.vertex(corners[i]);
+      const Vec3f to = hull.vertex(corners[i + 1 < corners.size() ? i + 1 : 0]);
+      above = (to - from).cross(hull.normal(f)).dot(point - from) <= 0;
+    }
+    if (above) return {hull.normal(f), distance};
+  }
+  if (most <= 0) return {hull.normal(nearest_face), most};
+  Vec3f gap = Vec3f::Zero();
+  float least = 1e30f;
+  for (std::uint32_t e = 0; e < hull.edge_count(); ++e) {
+    const auto [from, to] = hull.edge_vertices(e);
+    const Vec3f start = hull.vertex(from), along = hull.vertex(to) - start;
+    const float t = std::clamp((point - start).dot(along) / along.squaredNorm(), 0.f, 1.f);
+    const Vec3f apart = point - (start + t * along);
+    if (const float square = apart.squaredNorm(); square < least) least = square, gap = apart;
+  }
+  const float distance = std::sqrt(least);
+  return {distance > 0 ? Vec3f(gap / distance) : hull.normal(nearest_face), distance};
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,35 @@
+// What two near shapes do: nothing, touch, or will touch within the step.
+#pragma once
+
+#include "solver/rigid/bodies.h"
+#include "solver/rigid/contacts.h"
+#include "solver/rigid/manifold_build.h"
+
+namespace sunder::solver {
+
+struct NarrowScratch {
+  HullScratch hulls;
+  PatchScratch patch;
+  std::vector<PatchPoint> points;
+};
+
+struct NarrowStep {
+  double dt_s = 0;
+  float fall_m = 0;  ///< What gravity adds to a body's way within the step.
+};
+
+/// Brings the manifold of a pair up to date: carried along while the pair barely moves, otherwise
+/// made anew. Pairs that close fast are moved to the time of impact first, so that the normal is
+/// that of the feature that will be hit.
+void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep& step, Pair& pair,
+                    Manifold& m, NarrowScratch& scratch);
+
+/// The point of the hull's surface closest to `point` (hull frame): `normal` away from the hull,
+/// the distance negative inside.
+struct HullDistance {
+  Vec3f normal = Vec3f::UnitY();
+  float distance_m = 0;
+};
+HullDistance distance_to_hull(const Hull& hull, const Vec3f& point);
+
+}  // namespace sunder::solver

@@ -1,0 +1,219 @@
+// The rigid solver behind the seam. Read first: collide() and solve(), the lists of their stages.
+#include "solver/rigid/rigid_physics.h"
+
+#include <algorithm>
+
+#include "engine/base/check.h"
+#include "engine/base/parallel.h"
+#include "engine/base/trace.h"
+#include "solver/rigid/approach.h"
+#include "solver/rigid/bodies.h"
+#include "solver/rigid/broad_phase.h"
+#include "solver/rigid/contact_solver.h"
+#include "solver/rigid/contacts.h"
+#include "solver/rigid/islands.h"
+#include "solver/rigid/narrow_phase.h"
+
+namespace sunder::solver {
+namespace {
+
+class RigidPhysics final : public Physics {
+ public:
+  explicit RigidPhysics(const RigidOptions& options) : options_(options) {}
+
+  std::vector<BodyId> replace(std::span<const BodyId> remove,
+                              std::span<const BodyDesc> add) override;
+  void collide(double dt_s) override;
+  std::span<const Approach> approaches() const override { return approaches_; }
+  void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
+  SolveReport solve(double dt_s, int substeps) override;
+  BodyState state(BodyId body) const override;
+  std::vector<float> penetrations() const override;
+  std::vector<std::pair<const char*, double>> take_timings_ms() override;
+
+ private:
+  void remove_bodies(std::span<const BodyId> ids);
+  void update_contacts(double dt_s);
+  Vec3 freeze_broken();
+
+  RigidOptions options_;
+  Bodies bodies_;
+  Shapes shapes_;
+  Contacts contacts_;
+  BroadPhase broad_phase_;
+  Islands islands_;
+  ContactSolver contact_solver_;
+  std::vector<Approach> approaches_;
+  std::uint32_t frozen_ = 0;  ///< Since the last solve began.
+  std::vector<std::pair<const char*, double>> timings_ms_ = {
+      {"broad phase", 0}, {"narrow phase", 0}, {"contacts", 0}, {"islands", 0}};
+};
+
+std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
+                                          std::span<const BodyDesc> add) {
+  remove_bodies(remove);
+  std::vector<std::uint32_t> slots;
+  std::vector<BodyId> ids;
+  for (const BodyDesc& desc : add) {
+    slots.push_back(bodies_.add(desc));
+    ids.push_back(bodies_.id(slots.back()));
+  }
+  contacts_.body_colors.resize(bodies_.size());
+  const std::vector<std::uint32_t> added = shapes_.add(add, slots, bodies_);
+  if (!remove.empty() || !add.empty()) broad_phase_.shapes_changed(added, shapes_, bodies_);
+  return ids;
+}
+
+void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
+  if (ids.empty()) return;
+  std::vector<std::uint8_t> goes(bodies_.size(), 0);
+  for (const BodyId id : ids) {
+    SUNDER_CHECK(bodies_.holds(id) && !goes[id.slot]);
+    goes[id.slot] = 1;
+  }
+  for (std::uint32_t i = 0; i < contacts_.pairs.size(); ++i) {
+    const Pair pair = contacts_.pairs[i];
+    if (!pair.present() || (!goes[pair.body_a] && !goes[pair.body_b])) continue;
+    if (contacts_.manifolds[i].count > 0) {
+      bodies_.wake(pair.body_a);
+      bodies_.wake(pair.body_b);
+    }
+    contacts_.remove(i);
+  }
+  for (const BodyId id : ids) {
+    shapes_.remove_of_body(id.slot, bodies_);
+    bodies_.remove(id.slot);
+    contacts_.body_colors[id.slot] = 0;
+  }
+}
+
+void RigidPhysics::collide(double dt_s) {
+  Stopwatch watch;
+  freeze_broken();
+  broad_phase_.update(shapes_, bodies_, options_.gravity_W, dt_s, contacts_);
+  timings_ms_[0].second += watch.lap_ms();
+  update_contacts(dt_s);
+  islands_.wake_touched(contacts_, dt_s, bodies_);
+  approaches_ = find_approaches(contacts_, bodies_, shapes_, dt_s);
+  timings_ms_[1].second += watch.lap_ms();
+}
+
+/// Narrow phase over pairs of which a body changed; then, in order of slots, what came to touch
+/// gets a colour and what drifted apart goes.
+void RigidPhysics::update_contacts(double dt_s) {
+  constexpr std::size_t kChunk = 64;
+  struct Changes {
+    std::vector<std::uint32_t> recolor, gone;
+  };
+  auto& pairs = contacts_.pairs;
+  std::vector<Changes> changes((pairs.size() + kChunk - 1) / kChunk);
+  const NarrowStep step{dt_s,
+                        static_cast<float>(options_.gravity_W.norm() * dt_s * dt_s)};
+  for_chunks(pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    NarrowScratch scratch;
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+      Pair& pair = pairs[i];
+      if (!pair.present()) continue;
+      if (!bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b]) continue;
+      Manifold& m = contacts_.manifolds[i];
+      const bool touched = m.count > 0;
+      if (broad_phase_.near(pair)) {
+        update_contact(shapes_, bodies_, step, pair, m, scratch);
+      } else {
+        m.count = 0;
+        if (!broad_phase_.keep(pair)) changes[c].gone.push_back(i);
+      }
+      if (touched != (m.count > 0)) changes[c].recolor.push_back(i);
+    }
+  });
+  for (const Changes& chunk : changes)
+    for (const std::uint32_t i : chunk.recolor) contacts_.recolor(i, bodies_);
+  for (const Changes& chunk : changes)
+    for (const std::uint32_t i : chunk.gone) contacts_.remove(i);
+  std::fill(bodies_.changed.begin(), bodies_.changed.end(), std::uint8_t{0});
+}
+
+Vec3 RigidPhysics::freeze_broken() {
+  Vec3 taken = Vec3::Zero();
+  for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
+    if (!bodies_.awake(body) || bodies_.finite(body)) continue;
+    if (!bodies_.position[body].allFinite() || !bodies_.rotation[body].coeffs().allFinite())
+      bodies_.place(body, Vec3::Zero(), Quat::Identity());
+    taken -= bodies_.freeze(body);
+    ++frozen_;
+  }
+  return taken;
+}
+
+void RigidPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) {
+  SUNDER_CHECK(bodies_.holds(id));
+  const std::uint32_t body = id.slot;
+  if (!bodies_.dynamic(body)) return;
+  bodies_.wake(body);
+  const Quat& q = bodies_.rotation[body];
+  const Vec3 turn_B = q.conjugate() * (point_W - bodies_.position[body]).cross(impulse_W);
+  bodies_.velocity[body] += impulse_W / bodies_.mass_kg[body];
+  bodies_.angular_velocity[body] += q * Vec3(bodies_.inertia_B[body].inverse() * turn_B);
+  bodies_.changed[body] = 1;
+  bodies_.slow_s[body] = 0;
+}
+
+SolveReport RigidPhysics::solve(double dt_s, int substeps) {
+  SUNDER_CHECK(dt_s > 0 && substeps > 0);
+  Stopwatch watch;
+  SolveReport report;
+  report.external_impulse_Ns = freeze_broken();
+  double awake_mass = 0;
+  for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
+    if (!bodies_.awake(body)) continue;
+    awake_mass += bodies_.mass_kg[body];
+    bodies_.changed[body] = 1;
+  }
+  const ContactSolveReport solved =
+      contact_solver_.solve(dt_s, substeps, options_.gravity_W, bodies_, contacts_);
+  report.external_impulse_Ns +=
+      solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
+  report.external_impulse_Ns += freeze_broken();
+  timings_ms_[2].second += watch.lap_ms();
+  if (options_.sleeping)
+    report.external_impulse_Ns += islands_.put_to_sleep(contacts_, dt_s, bodies_);
+  timings_ms_[3].second += watch.lap_ms();
+  approaches_.clear();
+  report.contacts = solved.manifolds;
+  report.contact_points = solved.points;
+  for (std::uint32_t body = 0; body < bodies_.size(); ++body) report.awake += bodies_.awake(body);
+  report.frozen = frozen_;
+  frozen_ = 0;
+  return report;
+}
+
+BodyState RigidPhysics::state(BodyId id) const {
+  SUNDER_CHECK(bodies_.holds(id));
+  return {{bodies_.position[id.slot], bodies_.rotation[id.slot]},
+          bodies_.velocity[id.slot],
+          bodies_.angular_velocity[id.slot],
+          bodies_.motion[id.slot] == Motion::kAsleep};
+}
+
+std::vector<float> RigidPhysics::penetrations() const {
+  std::vector<float> depths;
+  for (const Manifold& m : contacts_.manifolds)
+    for (std::size_t i = 0; i < m.count; ++i)
+      if (m.points[i].impulse_Ns > 0)
+        depths.push_back(std::max(0.f, -m.points[i].separation_m));
+  return depths;
+}
+
+std::vector<std::pair<const char*, double>> RigidPhysics::take_timings_ms() {
+  auto taken = timings_ms_;
+  for (auto& timing : timings_ms_) timing.second = 0;
+  return taken;
+}
+
+}  // namespace
+
+std::unique_ptr<Physics> make_rigid_physics(const RigidOptions& options) {
+  return std::make_unique<RigidPhysics>(options);
+}
+
+}  // namespace sunder::solver

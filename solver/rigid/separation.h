@@ -1,0 +1,44 @@
+// The axis along which two hulls are furthest apart, or overlap least (separating-axis test).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/rigid/hull.h"
+
+namespace sunder::solver {
+
+/// B in A, in floats: point_A = R * point_B + p.
+struct RelativePose {
+  Mat3f R;
+  Vec3f p;
+};
+
+/// Vertices of each hull in the other's frame; reused memory.
+struct HullScratch {
+  std::vector<Wide3> b_in_A, a_in_B;
+
+  Vec3f vertex_b(std::uint32_t i) const { return Hull::lane(b_in_A[i / kLanes], i % kLanes); }
+};
+
+struct SeparatingAxis {
+  enum class Kind : std::uint8_t { kFaceA, kFaceB, kEdges };
+  Kind kind = Kind::kFaceA;
+  Vec3f normal_A = Vec3f::UnitY();  ///< Unit, in A, from a to b.
+  float separation_m = -1e30f;      ///< Distance of the supporting planes; negative: overlap.
+  std::uint32_t index_a = 0;        ///< Face or edge of a.
+  std::uint32_t index_b = 0;        ///< Face or edge of b.
+};
+
+/// Fills the scratch; to be called before separating_axis().
+void place_in_each_other(const Hull& a, const Hull& b, const RelativePose& pose,
+                         HullScratch& scratch);
+/// The best axis over face normals and edge cross products. As soon as one parts the hulls by more
+/// than `reach_m`, that one. A face is preferred to an edge unless the edge is better by
+/// `tolerance_m`, and a's faces to b's, so that the choice stays put from step to step.
+SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose& pose,
+                               float reach_m, float tolerance_m, const HullScratch& scratch);
+/// Distance of the supporting planes along an axis given in A; the scratch must be filled.
+float separation_along(const Vec3f& axis_A, const Hull& a, const HullScratch& scratch);
+
+}  // namespace sunder::solver

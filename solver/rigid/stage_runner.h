@@ -1,0 +1,63 @@
+// Runs a list of stages inside one parallel region. Any thread claims blocks of the current stage;
+// a stage begins when all blocks of the one before are done (not when all threads have arrived, so
+// that a thread that lost its processor holds up nobody unless it holds a block).
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <thread>
+
+#include <omp.h>
+
+#include "engine/base/parallel.h"
+
+namespace sunder::solver {
+
+/// `count` items starting at `first`, handed out `grain` at a time. What a grain is does not depend
+/// on the number of threads.
+struct Stage {
+  int kind = 0;
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+  std::uint32_t grain = 1;
+
+  std::uint32_t blocks() const { return (count + grain - 1) / grain; }
+};
+
+/// Calls work(kind, begin, end) for every grain of every stage, stage after stage. `work` must not
+/// throw.
+template <class Work>
+void run_stages(std::span<const Stage> stages, const Work& work) {
+  std::uint32_t widest = 0;
+  for (const Stage& stage : stages) widest = std::max(widest, stage.blocks());
+  auto run = [&](const Stage& stage, std::uint32_t block) {
+    const std::uint32_t begin = block * stage.grain;
+    work(stage.kind, stage.first + begin,
+         stage.first + std::min(stage.count, begin + stage.grain));
+  };
+  if (widest < 2 || threads() == 1 || omp_in_parallel()) {
+    for (const Stage& stage : stages)
+      for (std::uint32_t block = 0; block < stage.blocks(); ++block) run(stage, block);
+    return;
+  }
+  struct alignas(64) Progress {
+    std::atomic<std::uint32_t> next{0};
+    std::atomic<std::uint32_t> done{0};
+  };
+  const std::unique_ptr<Progress[]> progress(new Progress[stages.size()]);
+#pragma omp parallel num_threads(threads())
+  for (std::size_t s = 0; s < stages.size(); ++s) {
+    const std::uint32_t blocks = stages[s].blocks();
+    Progress& p = progress[s];
+    for (std::uint32_t block; (block = p.next.fetch_add(1, std::memory_order_relaxed)) < blocks;) {
+      run(stages[s], block);
+      p.done.fetch_add(1, std::memory_order_release);
+    }
+    for (int spins = 0; p.done.load(std::memory_order_acquire) < blocks; ++spins)
+      if (spins > 200) std::this_thread::yield();
+  }
+}
+
+}  // namespace sunder::solver

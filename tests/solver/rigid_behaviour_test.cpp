@@ -1,0 +1,212 @@
+// What the rigid solver promises besides closed forms: momentum, no tunnelling, sleep, determinism.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/base/parallel.h"
+#include "tests/solver/rigid_world.h"
+
+namespace sunder::solver {
+namespace {
+
+using W = RigidWorld;
+
+RigidOptions weightless() {
+  RigidOptions options;
+  options.gravity_W = Vec3::Zero();
+  options.sleeping = false;
+  return options;
+}
+
+ConvexPolyhedron rubble_hull(Random& random, double size_m) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 12; ++i) points.push_back(0.5 * size_m * random.direction());
+  return make_hull(points);
+}
+
+void add_pile(RigidWorld& world, int count, std::uint64_t seed) {
+  Random random(seed);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 at(0.45 * (i % 4) + random.uniform(0, 0.1), 0.3 + 0.4 * (i / 16),
+                  0.45 * (i / 4 % 4) + random.uniform(0, 0.1));
+    world.add(W::hull(rubble_hull(random, random.uniform(0.2, 0.5)), at, 2000));
+  }
+}
+
+TEST(RigidPhysics, KeepsMomentumInAPileWithoutGravity) {
+  RigidWorld world(weightless());
+  Random random(3);
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 at = 0.5 * Vec3(i % 4, i / 4 % 4, i / 16);
+    BodyDesc desc = W::hull(rubble_hull(random, 0.4), at);
+    desc.velocity_W = 2 * (Vec3(0.75, 0.75, 0.75) - at);  // towards the middle
+    world.add(desc);
+  }
+  const Vec3 p = world.momentum(), l = world.angular_momentum();
+  double momentum_scale = 0;
+  for (std::size_t i = 0; i < world.size(); ++i)
+    momentum_scale += 30 * world.state(world.id(i)).velocity_W.norm();
+  const double energy = world.kinetic_energy();
+  world.run(2, 1.0 / 120, 2);
+  EXPECT_LT(world.kinetic_energy(), energy);
+  EXPECT_LT((world.momentum() - p).norm(), 1e-6 * momentum_scale);
+  EXPECT_LT((world.angular_momentum() - l).norm(), 1e-2 * momentum_scale);
+}
+
+TEST(RigidPhysics, ReportsTheImpulsesThatCameFromOutside) {
+  RigidWorld world;
+  world.add(W::ground());
+  add_pile(world, 40, 5);
+  for (int i = 0; i < 120; ++i) {
+    const Vec3 before = world.momentum();
+    const SolveReport report = world.step(1.0 / 60, 2);
+    const Vec3 residual = world.momentum() - before - report.external_impulse_Ns;
+    EXPECT_LT(residual.norm(), 1e-3) << "step " << i;  // of some 5,000 Ns that change hands
+  }
+}
+
+/// x of a ball shot at a wall that stands at 0, after a tenth of a second.
+double shot_at_wall(double speed, double thickness, bool fixed) {
+  RigidWorld world(weightless());
+  BodyDesc wall = W::box(Vec3(thickness, 2, 2), Vec3(0, 0, 0), 8000);
+  world.add(fixed ? W::fixed(wall) : wall);
+  BodyDesc ball = W::sphere(0.1, Vec3(-3.3, 0.1, 0.05));
+  ball.velocity_W = Vec3(speed, 0, 0);
+  const BodyId id = world.add(ball);
+  world.run(0.1, 1.0 / 60, 2);
+  const double wall_x = world.state(world.id(0)).X_WB.position.x();
+  return world.state(id).X_WB.position.x() - wall_x;
+}
+
+TEST(RigidPhysics, NothingTunnelsThroughAThinWall) {
+  for (const double speed : {25.0, 200.0, 1000.0})
+    for (const double thickness : {0.1, 0.05, 0.01})
+      for (const bool fixed : {true, false})
+        EXPECT_LT(shot_at_wall(speed, thickness, fixed), -0.5 * thickness - 0.09)
+            << speed << " m/s, " << thickness << " m, " << (fixed ? "fixed" : "free");
+}
+
+TEST(RigidPhysics, AFastBallMissesWhatItOnlyPassesBy) {
+  RigidWorld world(weightless());
+  world.add(W::fixed(W::box(Vec3(0.2, 2, 2), Vec3(0, 0, 0))));
+  BodyDesc ball = W::sphere(0.1, Vec3(-3.3, 1.12, 0));
+  ball.velocity_W = Vec3(200, 0, 0);
+  const BodyId id = world.add(ball);
+  world.run(0.1, 1.0 / 60, 2);
+  EXPECT_NEAR(world.state(id).velocity_W.x(), 200, 1e-3);
+}
+
+TEST(RigidPhysics, GivesTheSameBitsForAnyNumberOfThreads) {
+  std::vector<std::vector<std::uint64_t>> hashes;
+  for (const int count : {1, 2, 4}) {
+    set_threads(count);
+    RigidWorld world;
+    world.add(W::ground());
+    add_pile(world, 200, 9);
+    BodyDesc ball = W::sphere(0.4, Vec3(-6, 1, 0.7), 7000);
+    ball.velocity_W = Vec3(20, 0, 0);
+    world.add(ball);
+    std::vector<std::uint64_t>& mine = hashes.emplace_back();
+    for (int i = 0; i < 300; ++i) {
+      world.step(1.0 / 120, 2);
+      mine.push_back(world.hash());
+    }
+  }
+  set_threads(0);
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(RigidPhysics, APileFallsAsleepAndStaysSo) {
+  RigidWorld world;
+  world.add(W::ground());
+  add_pile(world, 100, 11);
+  SolveReport report;
+  double slept_s = 0;
+  for (int i = 0; i < 60 * 12; ++i) {
+    report = world.step(1.0 / 60, 4);
+    if (report.awake == 0) slept_s += 1.0 / 60;
+  }
+  EXPECT_EQ(report.awake, 0u);
+  EXPECT_GT(slept_s, 2);
+  std::vector<float> depths = world.physics().penetrations();
+  ASSERT_FALSE(depths.empty());
+  std::sort(depths.begin(), depths.end());
+  EXPECT_LT(depths[depths.size() * 99 / 100], 0.005f);
+}
+
+TEST(RigidPhysics, ASleepingBodyWakesWhenTouchedPushedOrLeftWithoutSupport) {
+  for (const char* how : {"touch", "push", "support"}) {
+    RigidWorld world;
+    world.add(W::ground());
+    const BodyId low = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+    const BodyId high = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 1.5, 0)));
+    world.run(4, 1.0 / 60, 4);
+    ASSERT_TRUE(world.state(high).asleep) << how;
+    if (how[0] == 't') {
+      BodyDesc ball = W::sphere(0.2, Vec3(-2, 1.5, 0));
+      ball.velocity_W = Vec3(10, 0, 0);
+      world.add(ball);
+    } else if (how[0] == 'p') {
+      world.physics().apply_impulse(low, Vec3(500, 0, 0), Vec3(0, 0.5, 0));
+    } else {
+      world.remove(low);
+    }
+    world.run(0.5, 1.0 / 60, 4);
+    const Vec3 moved = world.state(high).X_WB.position - Vec3(0, 1.5, 0);
+    EXPECT_GT(moved.norm(), 0.01) << how;
+  }
+}
+
+TEST(RigidPhysics, SiblingsOfABreakPartWithoutGainingEnergy) {
+  RigidWorld world(weightless());
+  for (int i = 0; i < 216; ++i) {  // a cube of touching, slightly overlapping cubes
+    BodyDesc desc = W::box(Vec3(0.101, 0.101, 0.101), 0.1 * Vec3(i % 6, i / 6 % 6, i / 36));
+    desc.group = 7;
+    desc.velocity_W = Vec3(1, 0, 0);
+    world.add(desc);
+  }
+  const double energy = world.kinetic_energy();
+  for (int i = 0; i < 120; ++i) {
+    world.step(1.0 / 60, 2);
+    EXPECT_LT(world.kinetic_energy(), energy * (1 + 1e-4));
+  }
+  EXPECT_NEAR(world.kinetic_energy(), energy, 1e-3 * energy);
+}
+
+TEST(RigidPhysics, ANotFiniteBodyIsFrozenAndCounted) {
+  RigidWorld world;
+  world.add(W::ground());
+  add_pile(world, 20, 2);
+  BodyDesc broken = W::box(Vec3(0.3, 0.3, 0.3), Vec3(0.5, 0.6, 0.5));
+  broken.velocity_W = Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  const BodyId id = world.add(broken);
+  EXPECT_EQ(world.step(1.0 / 60, 2).frozen, 1u);
+  EXPECT_EQ(world.run(1, 1.0 / 60, 2).frozen, 0u);
+  EXPECT_TRUE(world.state(id).velocity_W.isZero());
+  for (std::size_t i = 1; i < world.size(); ++i)
+    EXPECT_TRUE(world.state(world.id(i)).X_WB.position.allFinite());
+}
+
+TEST(RigidPhysics, ReportsApproachesToBreakableBodiesBeforeTheyTouch) {
+  RigidWorld world(weightless());
+  BodyDesc wall = W::fixed(W::box(Vec3(0.1, 2, 2), Vec3::Zero()));
+  wall.breakable = true;
+  wall.tag = 4;
+  world.add(wall);
+  BodyDesc ball = W::sphere(0.2, Vec3(-0.5, 0.3, 0), 7800);
+  ball.velocity_W = Vec3(20, 0, 0);
+  world.add(ball);
+  world.physics().collide(1.0 / 60);
+  ASSERT_EQ(world.physics().approaches().size(), 1u);
+  const Approach& approach = world.physics().approaches()[0];
+  EXPECT_NEAR(approach.speed_m_s, 20, 1e-4);
+  EXPECT_NEAR(approach.effective_mass_kg, ball.mass_kg, 1e-3 * ball.mass_kg);
+  EXPECT_NEAR(approach.separation_m, 0.25, 1e-5);
+  EXPECT_EQ(approach.body_tag_a + approach.body_tag_b, 4u);
+  EXPECT_LT((approach.point_W - Vec3(-0.05, 0.3, 0)).norm(), 1e-4);
+}
+
+}  // namespace
+}  // namespace sunder::solver

@@ -1,0 +1,154 @@
+// Motion against closed forms (notes: truths 1, 2, 4, 6, 8, 15).
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "engine/base/trigonometry.h"
+#include "tests/solver/rigid_world.h"
+
+namespace sunder::solver {
+namespace {
+
+using W = RigidWorld;
+constexpr double kG = 9.81;
+
+TEST(RigidTruth, FreeFallFollowsTheParabolaAtAnyStep) {
+  for (const double dt : {1.0 / 30, 1.0 / 120, 1.0 / 500}) {
+    RigidWorld world;
+    BodyDesc desc = W::box(Vec3(1, 1, 1), Vec3(0, 100, 0));
+    desc.velocity_W = Vec3(3, 5, 0);
+    const BodyId body = world.add(desc);
+    world.run(2, dt, 2);
+    const BodyState end = world.state(body);
+    EXPECT_NEAR(end.X_WB.position.x(), 6, 1e-9);
+    EXPECT_NEAR(end.X_WB.position.y(), 100 + 5 * 2 - 0.5 * kG * 4, 1e-9);
+    EXPECT_NEAR(end.velocity_W.y(), 5 - kG * 2, 1e-9);
+  }
+}
+
+/// Angles in degrees; the way slid in two seconds.
+double slide_on_incline(double angle_deg, double friction) {
+  const SinCos a = sin_cos(angle_deg * 3.14159265358979 / 180);
+  RigidOptions options;
+  options.gravity_W = kG * Vec3(a.sin, -a.cos, 0);  // the incline is level, gravity leans
+  options.sleeping = false;
+  RigidWorld world(options);
+  world.add(W::with_friction(W::ground(), friction));
+  const BodyId body =
+      world.add(W::with_friction(W::box(Vec3(1, 0.4, 1), Vec3(0, 0.2, 0)), friction));
+  world.run(0.5, 1.0 / 240, 4);  // settles into the ground
+  const double start = world.state(body).X_WB.position.x();
+  world.run(2, 1.0 / 240, 4);
+  return world.state(body).X_WB.position.x() - start;
+}
+
+TEST(RigidTruth, ABlockSlidesOnAnInclineOnlyBeyondTheFrictionAngle) {
+  const double friction = 0.5, threshold_deg = 26.565051;
+  EXPECT_LT(std::abs(slide_on_incline(threshold_deg - 0.1, friction)), 2e-4);
+  EXPECT_GT(slide_on_incline(threshold_deg + 0.1, friction), 5e-3);
+}
+
+TEST(RigidTruth, ASlidingBlockStopsAfterItsBrakingDistance) {
+  RigidWorld world;
+  const double friction = 0.4, speed = 3;
+  world.add(W::with_friction(W::ground(), friction));
+  const BodyId body =
+      world.add(W::with_friction(W::box(Vec3(1, 0.2, 1), Vec3(0, 0.1, 0)), friction));
+  world.run(0.25, 1.0 / 240, 4);
+  const double mass = 200;
+  world.physics().apply_impulse(body, Vec3(speed * mass, 0, 0), world.state(body).X_WB.position);
+  world.run(2, 1.0 / 240, 4);
+  const double way = world.state(body).X_WB.position.x(), truth = speed * speed / (2 * friction * kG);
+  std::printf("braking distance %.5f m, truth %.5f m\n", way, truth);
+  EXPECT_NEAR(way / truth, 1, 0.005);
+}
+
+TEST(RigidTruth, ABallReboundsToTheSquareOfItsRestitution) {
+  for (const double e : {0.5, 0.8}) {
+    RigidWorld world;
+    world.add(W::with_friction(W::ground(), 0.5, e));
+    const BodyId ball = world.add(W::with_friction(W::sphere(0.1, Vec3(0, 1.1, 0)), 0.5, e));
+    double apex = 0;
+    bool rising = false;
+    for (int i = 0; i < 480 * 2; ++i) {
+      world.step(1.0 / 480, 4);
+      const BodyState s = world.state(ball);
+      rising = rising || s.velocity_W.y() > 1;
+      if (!rising) continue;
+      if (s.velocity_W.y() < 0) break;
+      apex = std::max(apex, s.X_WB.position.y() - 0.1);
+    }
+    std::printf("e %.1f: apex %.5f m, truth %.5f m\n", e, apex, e * e);
+    EXPECT_NEAR(apex / (e * e), 1, 0.01);
+  }
+}
+
+TEST(RigidTruth, AFreeSpinnerKeepsEnergyAndAngularMomentum) {
+  RigidOptions options;
+  options.gravity_W = Vec3::Zero();
+  RigidWorld world(options);
+  BodyDesc desc = W::box(Vec3(1, 0.6, 0.2), Vec3::Zero());
+  desc.angular_velocity_W = Vec3(0.01, 10, 0.01);  // about the middle axis: it tumbles over
+  world.add(desc);
+  const double energy = world.kinetic_energy();
+  const Vec3 momentum = world.angular_momentum();
+  bool turned_over = false;
+  for (int i = 0; i < 60 * 60; ++i) {
+    world.step(1.0 / 60, 2);
+    const Vec3 w_B =
+        world.state(world.id(0)).X_WB.rotation.conjugate() * world.state(world.id(0)).angular_velocity_W;
+    turned_over = turned_over || w_B.y() < -5;
+  }
+  EXPECT_TRUE(turned_over);
+  EXPECT_NEAR(world.kinetic_energy() / energy, 1, 1e-6);
+  EXPECT_LT((world.angular_momentum() - momentum).norm() / momentum.norm(), 1e-6);
+}
+
+TEST(RigidTruth, ATwoBodyImpactLosesTheEnergyOfItsRestitution) {
+  for (const double e : {0.0, 0.5, 1.0}) {
+    RigidOptions options;
+    options.gravity_W = Vec3::Zero();
+    RigidWorld world(options);
+    BodyDesc a = W::with_friction(W::sphere(0.1, Vec3(-1, 0, 0)), 0, e);
+    a.velocity_W = Vec3(5, 0, 0);
+    BodyDesc b = W::with_friction(W::sphere(0.15, Vec3(0.1, 0, 0)), 0, e);
+    b.velocity_W = Vec3(-1, 0, 0);
+    world.add(a);
+    world.add(b);
+    const double before = world.kinetic_energy();
+    const Vec3 momentum = world.momentum();
+    world.run(0.5, 1.0 / 240, 4);
+    const double reduced = a.mass_kg * b.mass_kg / (a.mass_kg + b.mass_kg);
+    const double lost = 0.5 * reduced * (1 - e * e) * 36;
+    EXPECT_NEAR(before - world.kinetic_energy(), lost, 0.005 * before);
+    EXPECT_LT((world.momentum() - momentum).norm(), 1e-6 * a.mass_kg * 5);
+  }
+}
+
+void expect_stack_rests(double dt, int substeps) {
+  RigidOptions options;
+  options.sleeping = false;
+  RigidWorld world(options);
+  world.add(W::ground());
+  for (int i = 0; i < 10; ++i) world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5 + i, 0)));
+  world.run(10, dt, substeps);
+  for (std::size_t i = 1; i <= 10; ++i) {
+    const BodyState s = world.state(world.id(i));
+    const Vec3 home(0, static_cast<double>(i) - 0.5, 0);
+    EXPECT_LT((s.X_WB.position - home).norm(), 0.02) << "box " << i;
+    EXPECT_LT(s.velocity_W.norm(), 5e-3);
+  }
+  const BodyState top = world.state(world.id(10));
+  std::printf("stack of 10, dt 1/%.0f x %d: top sinks %.3f mm, drifts %.4f mm, speed %.1e m/s\n",
+              1 / dt, substeps, 1e3 * (9.5 - top.X_WB.position.y()),
+              1e3 * std::hypot(top.X_WB.position.x(), top.X_WB.position.z()),
+              top.velocity_W.norm());
+}
+
+TEST(RigidTruth, AStackOfTenRestsForTenSeconds) {
+  expect_stack_rests(1.0 / 60, 4);
+  expect_stack_rests(1.0 / 120, 2);
+}
+
+}  // namespace
+}  // namespace sunder::solver

@@ -1,0 +1,165 @@
+// Bodies for solver tests, made in one line each, and the books of momentum and energy.
+#pragma once
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "engine/base/hash.h"
+#include "engine/base/random.h"
+#include "engine/geometry/convex_polyhedron.h"
+#include "solver/rigid/rigid_physics.h"
+
+namespace sunder::solver {
+
+/// A physics world with the descriptions of what was put in.
+class RigidWorld {
+ public:
+  explicit RigidWorld(const RigidOptions& options = {}) : physics_(make_rigid_physics(options)) {}
+
+  static BodyDesc box(const Vec3& size, const Vec3& center_W, double density = 1000) {
+    BodyDesc desc;
+    desc.X_WB.position = center_W;
+    desc.mass_kg = density * size.prod();
+    const Vec3 s = size.cwiseAbs2();
+    desc.inertia_B =
+        Vec3(s.y() + s.z(), s.x() + s.z(), s.x() + s.y()).asDiagonal() * (desc.mass_kg / 12);
+    return with_hull(desc, make_box(-0.5 * size, 0.5 * size));
+  }
+  /// Any convex; its centre of mass comes to `center_W`.
+  static BodyDesc hull(const ConvexPolyhedron& convex, const Vec3& center_W,
+                       double density = 1000) {
+    BodyDesc desc;
+    const MassProperties solid = mass_properties(convex);
+    desc.com_R = solid.centroid;
+    desc.X_WB.position = center_W;
+    desc.mass_kg = density * solid.volume_m3;
+    desc.inertia_B = density * solid.inertia();
+    return with_hull(desc, convex);
+  }
+  static BodyDesc sphere(double radius_m, const Vec3& center_W, double density = 1000) {
+    BodyDesc desc;
+    desc.X_WB.position = center_W;
+    desc.mass_kg = density * 4 / 3 * 3.14159265358979 * radius_m * radius_m * radius_m;
+    desc.inertia_B = Mat3::Identity() * (0.4 * desc.mass_kg * radius_m * radius_m);
+    ShapeDesc shape;
+    shape.kind = ShapeDesc::Kind::kSphere;
+    shape.radius_m = radius_m;
+    desc.shapes = {shape};
+    return desc;
+  }
+  static BodyDesc ground(const Vec3& normal_W = Vec3::UnitY()) {
+    BodyDesc desc;
+    desc.is_static = true;
+    ShapeDesc shape;
+    shape.kind = ShapeDesc::Kind::kHalfSpace;
+    shape.normal_R = normal_W;
+    desc.shapes = {shape};
+    return desc;
+  }
+  static BodyDesc fixed(BodyDesc desc) {
+    desc.is_static = true;
+    return desc;
+  }
+  static BodyDesc with_friction(BodyDesc desc, double friction, double restitution = 0) {
+    for (ShapeDesc& shape : desc.shapes)
+      shape.friction = friction, shape.restitution = restitution;
+    return desc;
+  }
+
+  BodyId add(const BodyDesc& desc) {
+    ids_.push_back(physics_->replace({}, std::span(&desc, 1)).front());
+    masses_.push_back(desc.is_static ? 0 : desc.mass_kg);
+    inertias_.push_back(desc.inertia_B);
+    return ids_.back();
+  }
+  void remove(BodyId id) {
+    physics_->replace(std::span(&id, 1), {});
+    for (std::size_t i = 0; i < ids_.size(); ++i)
+      if (ids_[i] == id) masses_[i] = -1;
+  }
+  SolveReport step(double dt_s, int substeps) {
+    physics_->collide(dt_s);
+    return physics_->solve(dt_s, substeps);
+  }
+  SolveReport run(double time_s, double dt_s, int substeps) {
+    SolveReport report;
+    const auto steps = static_cast<int>(std::lround(time_s / dt_s));
+    for (int i = 0; i < steps; ++i) report = step(dt_s, substeps);
+    return report;
+  }
+
+  Physics& physics() { return *physics_; }
+  BodyState state(BodyId id) const { return physics_->state(id); }
+  std::size_t size() const { return ids_.size(); }
+  BodyId id(std::size_t i) const { return ids_[i]; }
+
+  Vec3 momentum() const {
+    Vec3 sum = Vec3::Zero();
+    for_dynamic([&](const BodyState& s, double m, const Mat3&) { sum += m * s.velocity_W; });
+    return sum;
+  }
+  Vec3 angular_momentum() const {
+    Vec3 sum = Vec3::Zero();
+    for_dynamic([&](const BodyState& s, double m, const Mat3& inertia_B) {
+      const Mat3 R = s.X_WB.rotation.toRotationMatrix();
+      sum += m * s.X_WB.position.cross(s.velocity_W) +
+             R * inertia_B * R.transpose() * s.angular_velocity_W;
+    });
+    return sum;
+  }
+  double kinetic_energy() const {
+    double sum = 0;
+    for_dynamic([&](const BodyState& s, double m, const Mat3& inertia_B) {
+      const Vec3 w_B = s.X_WB.rotation.conjugate() * s.angular_velocity_W;
+      sum += 0.5 * m * s.velocity_W.squaredNorm() + 0.5 * w_B.dot(inertia_B * w_B);
+    });
+    return sum;
+  }
+  /// Of every bit of every pose and velocity.
+  std::uint64_t hash() const {
+    std::uint64_t h = 0;
+    for_dynamic([&](const BodyState& s, double, const Mat3&) {
+      const double values[] = {
+          s.X_WB.position.x(),  s.X_WB.position.y(),  s.X_WB.position.z(),
+          s.X_WB.rotation.x(),  s.X_WB.rotation.y(),  s.X_WB.rotation.z(),
+          s.X_WB.rotation.w(),  s.velocity_W.x(),     s.velocity_W.y(),
+          s.velocity_W.z(),     s.angular_velocity_W.x(), s.angular_velocity_W.y(),
+          s.angular_velocity_W.z()};
+      for (const double value : values) {
+        std::uint64_t word;
+        std::memcpy(&word, &value, sizeof word);
+        h = combine(h, word);
+      }
+    });
+    return h;
+  }
+
+ private:
+  static BodyDesc with_hull(BodyDesc desc, const ConvexPolyhedron& convex) {
+    auto kept = std::make_shared<ConvexPolyhedron>(convex);
+    hulls().push_back(kept);
+    ShapeDesc shape;
+    shape.hull = kept.get();
+    desc.shapes = {shape};
+    return desc;
+  }
+  /// Hulls must live until the description is used.
+  static std::vector<std::shared_ptr<ConvexPolyhedron>>& hulls() {
+    static std::vector<std::shared_ptr<ConvexPolyhedron>> kept;
+    return kept;
+  }
+  template <class Visit>
+  void for_dynamic(const Visit& visit) const {
+    for (std::size_t i = 0; i < ids_.size(); ++i)
+      if (masses_[i] > 0) visit(state(ids_[i]), masses_[i], inertias_[i]);
+  }
+
+  std::unique_ptr<Physics> physics_;
+  std::vector<BodyId> ids_;
+  std::vector<double> masses_;
+  std::vector<Mat3> inertias_;
+};
+
+}  // namespace sunder::solver
