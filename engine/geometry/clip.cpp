@@ -6,12 +6,12 @@
 // that may fail to give one sphere; then the cut is made again with no vertex on the plane, which
 // always closes: each new vertex has one cap edge in and one out.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "engine/base/check.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/cut_edge.h"
 
 namespace sunder {
 namespace {
@@ -27,19 +27,6 @@ struct Corner {
   std::uint32_t vertex = kNone;
   Place place = Place::kIn;
 };
-
-bool lexicographically_less(const Vec3& a, const Vec3& b) {
-  if (a.x() != b.x()) return a.x() < b.x();
-  if (a.y() != b.y()) return a.y() < b.y();
-  return a.z() < b.z();
-}
-
-Vec3f blend(const Vec3f& a, const Vec3f& b, double t, const Vec3& fallback) {
-  if (a == b) return a;
-  const Vec3f sum = a + static_cast<float>(t) * (b - a);
-  const float square = sum.squaredNorm();
-  return square > 1e-12f ? Vec3f(sum / std::sqrt(square)) : Vec3f(fallback.cast<float>());
-}
 
 /// 2 for every part of a closed surface.
 std::ptrdiff_t euler_characteristic(const ConvexPolyhedron& convex) {

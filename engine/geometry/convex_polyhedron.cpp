@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/geometry/moments.h"
 
 namespace sunder {
 namespace {
@@ -59,13 +60,10 @@ double face_area(const ConvexPolyhedron& convex, std::size_t face) {
 }
 
 MassProperties mass_properties(const ConvexPolyhedron& convex) {
-  MassProperties solid;
-  if (convex.empty()) return solid;
-  // Tetrahedra between one vertex and the faces' fans: all of one sign, so nothing cancels.
+  if (convex.empty()) return {};
+  // About a vertex, all tetrahedra have one sign.
   const Vec3 origin = convex.vertices[convex.corners[0]];
-  double volume6 = 0;
-  Vec3 first = Vec3::Zero();   // 24 times the first moment
-  Mat3 second = Mat3::Zero();  // 120 times the second moment; lower triangle
+  Moments moments(origin);
   for (const ConvexPolyhedron::Face& face : convex.faces) {
     const std::uint32_t* corner = convex.corners.data() + face.first_corner;
     const Vec3 a = convex.vertices[corner[0]] - origin;
@@ -73,29 +71,10 @@ MassProperties mass_properties(const ConvexPolyhedron& convex) {
     for (std::uint32_t i = 2; i < face.corner_count; ++i) {
       const Vec3 b = c;
       c = convex.vertices[corner[i]] - origin;
-      const double det = a.dot(b.cross(c));
-      const Vec3 sum = a + b + c;
-      volume6 += det;
-      first += det * sum;
-      for (int row = 0; row < 3; ++row) {
-        for (int col = 0; col <= row; ++col) {
-          second(row, col) +=
-              det * (a[row] * a[col] + b[row] * b[col] + c[row] * c[col] + sum[row] * sum[col]);
-        }
-      }
+      moments.add(a, b, c);
     }
   }
-  solid.volume_m3 = volume6 / 6;
-  const Vec3 offset = volume6 > 0 ? Vec3(first / (4 * volume6)) : Vec3::Zero();
-  solid.centroid = origin + offset;
-  for (int row = 0; row < 3; ++row) {
-    for (int col = 0; col <= row; ++col) {
-      const double about_centroid =
-          second(row, col) / 120 - solid.volume_m3 * offset[row] * offset[col];
-      solid.second_moment(row, col) = solid.second_moment(col, row) = about_centroid;
-    }
-  }
-  return solid;
+  return moments.sum();
 }
 
 ConvexPolyhedron make_box(const Vec3& min, const Vec3& max) {

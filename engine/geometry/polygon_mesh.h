@@ -46,6 +46,8 @@ struct PolygonMesh {
   }
 };
 
+/// The surface of a convex.
+PolygonMesh polygon_mesh(const ConvexPolyhedron& convex);
 Box bounds(const PolygonMesh& mesh);
 /// Of the enclosed solid (divergence theorem); meaningful only if the mesh is watertight.
 MassProperties mass_properties(const PolygonMesh& mesh);

@@ -1,0 +1,275 @@
+// Every vertex is inside or outside, none on the plane. An edge that changes side gets one vertex.
+// Where a face's contours leave the inside, the k-th place along the cut line is joined to the k-th
+// place where they come back: for a valid polygon that is the even-odd rule, and whatever rounding
+// did to it, each crossing still has one way in and one way out. So contours close, and the joins,
+// reversed, close to the contours of the cap.
+#include "engine/geometry/clip_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/check.h"
+#include "engine/geometry/cut_edge.h"
+
+namespace sunder {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// Rest-space coordinates along the plane's two flattest axes, in metres.
+Vec2f planar_uv(const Vec3& point, const Vec3& normal) {
+  int steepest;
+  normal.cwiseAbs().maxCoeff(&steepest);
+  const Vec3f p = point.cast<float>();
+  return {p[(steepest + 1) % 3], p[(steepest + 2) % 3]};
+}
+
+class MeshCut {
+ public:
+  MeshCut(const PolygonMesh& mesh, const Plane& plane, double tolerance, PolygonMesh& result,
+          MeshClipScratch& scratch)
+      : mesh_(mesh), plane_(plane), tolerance_(tolerance), result_(result), scratch_(scratch) {}
+
+  void make(PlaneId id);
+
+ private:
+  using Run = MeshClipScratch::Run;
+  using Crossing = MeshClipScratch::Crossing;
+
+  void cut_face(const PolygonMesh::Face& face);
+  void keep_contour(std::uint32_t contour);
+  void find_runs(std::uint32_t contour, std::uint32_t start);
+  void join_runs(const Vec3& face_normal);
+  void add_joined_contours(const PolygonMesh::Face& face);
+  void add_run(const Run& run, const PolygonMesh::Face& face);
+  void add_crossing_corner(const PolygonMesh::Face& face, std::uint32_t crossing,
+                           std::uint32_t inside, std::uint32_t outside);
+  void copy_corner(std::uint32_t corner);
+  std::uint32_t crossing(std::uint32_t inside, std::uint32_t outside);
+  void add_cap(PlaneId id);
+  std::uint32_t end_contour(std::uint32_t first_corner);
+
+  const PolygonMesh& mesh_;
+  const Plane& plane_;
+  const double tolerance_;
+  PolygonMesh& result_;
+  MeshClipScratch& scratch_;
+};
+
+void MeshCut::make(PlaneId id) {
+  result_.vertices.clear();
+  result_.faces.clear();
+  result_.contours.clear();
+  result_.corners.clear();
+  result_.corner_normals.clear();
+  result_.corner_uvs.clear();
+  scratch_.new_of_old.assign(mesh_.vertices.size(), kNone);
+  scratch_.first_crossing.assign(mesh_.vertices.size(), kNone);
+  scratch_.crossings.clear();
+  scratch_.cap_next.clear();
+  for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+    if (scratch_.outside[v]) continue;
+    scratch_.new_of_old[v] = static_cast<std::uint32_t>(result_.vertices.size());
+    result_.vertices.push_back(mesh_.vertices[v]);
+  }
+  for (const PolygonMesh::Face& face : mesh_.faces) cut_face(face);
+  add_cap(id);
+}
+
+void MeshCut::cut_face(const PolygonMesh::Face& face) {
+  PolygonMesh::Face kept = face;
+  kept.first_contour = static_cast<std::uint32_t>(result_.contours.size());
+  scratch_.runs.clear();
+  for (std::uint32_t c = face.first_contour; c < face.first_contour + face.contour_count; ++c) {
+    const auto corners = mesh_.contour_corners(c);
+    const std::uint8_t side = scratch_.outside[corners[0]];
+    std::uint32_t same = 1;
+    while (same < corners.size() && scratch_.outside[corners[same]] == side) ++same;
+    if (same < corners.size()) {
+      find_runs(c, same);
+    } else if (!side) {
+      keep_contour(c);
+    }
+  }
+  if (!scratch_.runs.empty()) {
+    join_runs(face.plane.normal);
+    add_joined_contours(face);
+  }
+  kept.contour_count = static_cast<std::uint32_t>(result_.contours.size()) - kept.first_contour;
+  if (kept.contour_count > 0) result_.faces.push_back(kept);
+}
+
+void MeshCut::keep_contour(std::uint32_t contour) {
+  const auto first = static_cast<std::uint32_t>(result_.corners.size());
+  const PolygonMesh::Contour& old = mesh_.contours[contour];
+  for (std::uint32_t c = old.first_corner; c < old.first_corner + old.corner_count; ++c) {
+    copy_corner(c);
+  }
+  end_contour(first);
+}
+
+void MeshCut::copy_corner(std::uint32_t corner) {
+  result_.corners.push_back(scratch_.new_of_old[mesh_.corners[corner]]);
+  result_.corner_normals.push_back(mesh_.corner_normals[corner]);
+  if (!mesh_.corner_uvs.empty()) result_.corner_uvs.push_back(mesh_.corner_uvs[corner]);
+}
+
+std::uint32_t MeshCut::end_contour(std::uint32_t first_corner) {
+  const auto count = static_cast<std::uint32_t>(result_.corners.size()) - first_corner;
+  result_.contours.push_back({first_corner, count});
+  return count;
+}
+
+/// Appends the runs of a contour that has both sides; `start` is where the side of its first
+/// corner ends.
+void MeshCut::find_runs(std::uint32_t contour, std::uint32_t start) {
+  const auto corners = mesh_.contour_corners(contour);
+  const auto n = static_cast<std::uint32_t>(corners.size());
+  const auto at = [&](std::uint32_t i) { return corners[i % n]; };
+  while (scratch_.outside[at(start)]) ++start;
+  for (std::uint32_t i = start; i < start + n;) {
+    Run run{contour, i % n, 0, crossing(at(i), at(i + n - 1)), kNone, kNone};
+    while (!scratch_.outside[at(i)]) ++i, ++run.count;
+    run.exit = crossing(at(i - 1), at(i));
+    scratch_.runs.push_back(run);
+    while (i < start + n && scratch_.outside[at(i)]) ++i;
+  }
+}
+
+/// Decides, for each run of a face, which run the cut leads on to.
+void MeshCut::join_runs(const Vec3& face_normal) {
+  auto& runs = scratch_.runs;
+  const auto n = static_cast<std::uint32_t>(runs.size());
+  if (n == 1) {
+    runs[0].after = 0;
+  } else {
+    // Along the cut line with the inside on the left, ways out and ways back in alternate.
+    const Vec3 line = face_normal.cross(plane_.normal);
+    const auto sort_along = [&](std::uint32_t Run::*end) {
+      scratch_.along.clear();
+      for (std::uint32_t r = 0; r < n; ++r) {
+        const std::uint32_t vertex = scratch_.crossings[runs[r].*end].vertex;
+        scratch_.along.emplace_back(line.dot(result_.vertices[vertex]), r);
+      }
+      std::sort(scratch_.along.begin(), scratch_.along.end());
+    };
+    sort_along(&Run::entry);
+    scratch_.entry_order.clear();
+    for (const auto& [place, run] : scratch_.along) scratch_.entry_order.push_back(run);
+    sort_along(&Run::exit);
+    for (std::uint32_t k = 0; k < n; ++k) {
+      runs[scratch_.along[k].second].after = scratch_.entry_order[k];
+    }
+  }
+  for (const Run& run : runs) scratch_.cap_next[runs[run.after].entry] = run.exit;
+}
+
+void MeshCut::add_joined_contours(const PolygonMesh::Face& face) {
+  auto& runs = scratch_.runs;
+  for (Run& start : runs) {
+    const auto first = static_cast<std::uint32_t>(result_.corners.size());
+    for (Run* run = &start; run->count > 0; run = &runs[run->after]) {
+      add_run(*run, face);
+      run->count = 0;  // taken
+    }
+    if (result_.corners.size() > first) end_contour(first);
+  }
+}
+
+void MeshCut::add_run(const Run& run, const PolygonMesh::Face& face) {
+  const PolygonMesh::Contour& contour = mesh_.contours[run.contour];
+  const auto corner = [&](std::uint32_t i) {
+    return contour.first_corner + (run.first + i) % contour.corner_count;
+  };
+  add_crossing_corner(face, run.entry, corner(0), corner(contour.corner_count - 1));
+  for (std::uint32_t i = 0; i < run.count; ++i) copy_corner(corner(i));
+  add_crossing_corner(face, run.exit, corner(run.count - 1), corner(run.count));
+}
+
+void MeshCut::add_crossing_corner(const PolygonMesh::Face& face, std::uint32_t crossing,
+                                  std::uint32_t inside, std::uint32_t outside) {
+  const Crossing& cut = scratch_.crossings[crossing];
+  const std::uint32_t a = cut.inside_first ? inside : outside;
+  const std::uint32_t b = cut.inside_first ? outside : inside;
+  result_.corners.push_back(cut.vertex);
+  result_.corner_normals.push_back(
+      blend(mesh_.corner_normals[a], mesh_.corner_normals[b], cut.t, face.plane.normal));
+  if (mesh_.corner_uvs.empty()) return;
+  const Vec2f start = mesh_.corner_uvs[a], end = mesh_.corner_uvs[b];
+  result_.corner_uvs.push_back(start + static_cast<float>(cut.t) * (end - start));
+}
+
+std::uint32_t MeshCut::crossing(std::uint32_t inside, std::uint32_t outside) {
+  std::uint32_t& head = scratch_.first_crossing[inside];
+  for (std::uint32_t c = head; c != kNone; c = scratch_.crossings[c].next) {
+    if (scratch_.crossings[c].outside == outside) return c;
+  }
+  const bool inside_first = lexicographically_less(mesh_.vertices[inside], mesh_.vertices[outside]);
+  const std::uint32_t a = inside_first ? inside : outside, b = inside_first ? outside : inside;
+  const double distance_a = scratch_.distances[a], distance_b = scratch_.distances[b];
+  // An end within tolerance of the plane is where the edge is cut.
+  const double t = std::abs(distance_a) <= tolerance_   ? 0
+                   : std::abs(distance_b) <= tolerance_ ? 1
+                                                        : distance_a / (distance_a - distance_b);
+  const Vec3 start = mesh_.vertices[a], end = mesh_.vertices[b];
+  const auto vertex = static_cast<std::uint32_t>(result_.vertices.size());
+  result_.vertices.push_back(t == 1 ? end : Vec3(start + t * (end - start)));
+  const auto index = static_cast<std::uint32_t>(scratch_.crossings.size());
+  scratch_.crossings.push_back({outside, vertex, head, t, inside_first});
+  scratch_.cap_next.push_back(kNone);
+  head = index;
+  return index;
+}
+
+void MeshCut::add_cap(PlaneId id) {
+  PolygonMesh::Face cap{plane_, id, static_cast<std::uint32_t>(result_.contours.size()), 0,
+                        FaceKind::kInterior};
+  const Vec3f normal = plane_.normal.cast<float>();
+  for (std::uint32_t start = 0; start < scratch_.crossings.size(); ++start) {
+    const auto first = static_cast<std::uint32_t>(result_.corners.size());
+    for (std::uint32_t c = start, next; (next = scratch_.cap_next[c]) != kNone; c = next) {
+      result_.corners.push_back(scratch_.crossings[c].vertex);
+      scratch_.cap_next[c] = kNone;
+    }
+    if (result_.corners.size() - first > 2) {
+      end_contour(first);
+    } else {
+      result_.corners.resize(first);  // the two faces cut there meet in that edge
+    }
+  }
+  cap.contour_count = static_cast<std::uint32_t>(result_.contours.size()) - cap.first_contour;
+  result_.corner_normals.resize(result_.corners.size(), normal);
+  if (!mesh_.corner_uvs.empty()) {
+    for (std::size_t c = result_.corner_uvs.size(); c < result_.corners.size(); ++c) {
+      result_.corner_uvs.push_back(planar_uv(result_.vertices[result_.corners[c]], plane_.normal));
+    }
+  }
+  if (cap.contour_count > 0) result_.faces.push_back(cap);
+}
+
+}  // namespace
+
+PlaneSide clip(const PolygonMesh& mesh, const Plane& plane, PlaneId id, double tolerance_m,
+               PolygonMesh& result, MeshClipScratch& scratch) {
+  SUNDER_CHECK(&mesh != &result);
+  const double limit = id.value & 1 ? -tolerance_m : tolerance_m;
+  const auto is_outside = [&](double distance) {
+    return id.value & 1 ? distance >= limit : distance > limit;
+  };
+  scratch.distances.resize(mesh.vertices.size());
+  scratch.outside.resize(mesh.vertices.size());
+  std::size_t outside = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const double distance = plane.distance(mesh.vertices[v]);
+    scratch.distances[v] = distance;
+    scratch.outside[v] = is_outside(distance);
+    outside += scratch.outside[v];
+  }
+  if (outside == 0) return PlaneSide::kInside;
+  if (outside == mesh.vertices.size()) return PlaneSide::kOutside;
+  MeshCut(mesh, plane, tolerance_m, result, scratch).make(id);
+  return PlaneSide::kCut;
+}
+
+}  // namespace sunder

@@ -1,0 +1,67 @@
+#include "engine/geometry/polygon_mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/geometry/moments.h"
+
+namespace sunder {
+
+PolygonMesh polygon_mesh(const ConvexPolyhedron& convex) {
+  PolygonMesh mesh;
+  mesh.vertices = convex.vertices;
+  mesh.corners = convex.corners;
+  mesh.corner_normals = convex.corner_normals;
+  for (const ConvexPolyhedron::Face& face : convex.faces) {
+    const auto contour = static_cast<std::uint32_t>(mesh.contours.size());
+    mesh.contours.push_back({face.first_corner, face.corner_count});
+    mesh.faces.push_back({face.plane, face.id, contour, 1, face.kind});
+  }
+  return mesh;
+}
+
+Box bounds(const PolygonMesh& mesh) {
+  Box box;
+  for (const Vec3& v : mesh.vertices) box.extend(v);
+  return box;
+}
+
+MassProperties mass_properties(const PolygonMesh& mesh) {
+  if (mesh.empty()) return {};
+  const Vec3 origin = mesh.vertices[mesh.corners[0]];
+  Moments moments(origin);
+  // A hole runs clockwise: its fan counts negative by itself.
+  for (std::size_t k = 0; k < mesh.contours.size(); ++k) {
+    const auto corners = mesh.contour_corners(k);
+    const Vec3 a = mesh.vertices[corners[0]] - origin;
+    Vec3 c = mesh.vertices[corners[1]] - origin;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const Vec3 b = c;
+      c = mesh.vertices[corners[i]] - origin;
+      moments.add(a, b, c);
+    }
+  }
+  return moments.sum();
+}
+
+std::size_t open_edges(const PolygonMesh& mesh) {
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  std::vector<Edge> edges;
+  edges.reserve(mesh.corners.size());
+  for (std::size_t k = 0; k < mesh.contours.size(); ++k) {
+    const auto corners = mesh.contour_corners(k);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      edges.emplace_back(corners[i], corners[i + 1 < corners.size() ? i + 1 : 0]);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::size_t open = 0;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const bool repeated = e > 0 && edges[e] == edges[e - 1];
+    const Edge opposite(edges[e].second, edges[e].first);
+    open += repeated || !std::binary_search(edges.begin(), edges.end(), opposite);
+  }
+  return open;
+}
+
+}  // namespace sunder
