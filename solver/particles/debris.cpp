@@ -63,7 +63,7 @@ void Debris::add(const DebrisBirth& birth) {
   position_W_.push_back(birth.position_W);
   velocity_W_.push_back(birth.velocity_W);
   angular_velocity_W_.push_back(birth.angular_velocity_W);
-  rotation_WD_.push_back(Quatf::Identity());
+  rotation_WD_.push_back(birth.rotation_WD);
   radius_m_.push_back(birth.radius_m);
   drawn_radius_m_.push_back(birth.radius_m);
   still_s_.push_back(0);

@@ -14,6 +14,7 @@ struct DebrisBirth {
   Vec3f position_W = Vec3f::Zero();
   Vec3f velocity_W = Vec3f::Zero();
   Vec3f angular_velocity_W = Vec3f::Zero();
+  Quatf rotation_WD = Quatf::Identity();
   float radius_m = 0;
   std::uint8_t variant = 0;
   MaterialIndex material;

@@ -12,6 +12,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr int kMostIterations = 16;
+constexpr int kSweeps = 2;  // before and after a coarser level
 constexpr int kCoarsestSweeps = 8;
 constexpr int kLanes = 8;
 
@@ -190,16 +191,15 @@ void PressureSolver::prolong(const Level& coarse, Level& fine) {
 void PressureSolver::cycle(std::size_t at) {
   Level& level = levels_[at];
   std::fill(level.correction.begin(), level.correction.end(), 0.0f);
-  if (at + 1 == levels_.size()) {
-    for (int i = 0; i < kCoarsestSweeps; ++i) smooth(level, Order::kForward);
-    for (int i = 0; i < kCoarsestSweeps; ++i) smooth(level, Order::kBackward);
-    return;
+  const bool coarsest = at + 1 == levels_.size();
+  const int sweeps = coarsest ? kCoarsestSweeps : kSweeps;
+  for (int i = 0; i < sweeps; ++i) smooth(level, Order::kForward);
+  if (!coarsest) {
+    restrict_rest(level, levels_[at + 1]);
+    cycle(at + 1);
+    prolong(levels_[at + 1], level);
   }
-  smooth(level, Order::kForward);
-  restrict_rest(level, levels_[at + 1]);
-  cycle(at + 1);
-  prolong(levels_[at + 1], level);
-  smooth(level, Order::kBackward);
+  for (int i = 0; i < sweeps; ++i) smooth(level, Order::kBackward);
 }
 
 /// The matrix times direction_, to image_; returns their product.

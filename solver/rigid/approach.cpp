@@ -38,8 +38,8 @@ bool closing_middle(const Manifold& m, const Bodies& bodies, double dt_s, Vec3f&
   return true;
 }
 
-bool make_approach(const Pair& pair, const Manifold& m, const Bodies& bodies,
-                   const Shapes& shapes, double dt_s, Approach& approach) {
+bool make_approach(const Pair& pair, const Manifold& m, const Bodies& bodies, const Shapes& shapes,
+                   double dt_s, Approach& approach) {
   Vec3f arm_A, arm_B;
   float separation = 0;
   if (!closing_middle(m, bodies, dt_s, arm_A, arm_B, separation)) return false;
@@ -74,7 +74,7 @@ double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A
 
 std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
                                       const Shapes& shapes, double dt_s) {
-  constexpr std::size_t kChunk = 1024;
+  constexpr std::size_t kChunk = 4096;
   using Keyed = std::pair<std::uint64_t, Approach>;
   std::vector<std::vector<Keyed>> found((contacts.pairs.size() + kChunk - 1) / kChunk);
   for_chunks(contacts.pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {

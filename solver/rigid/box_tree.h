@@ -43,7 +43,7 @@ class BoxTree {
   };
   void fit_inner_levels();
 
-  std::vector<std::uint32_t> items_;         ///< In leaf order.
+  std::vector<std::uint32_t> items_;        ///< In leaf order.
   std::vector<std::vector<Chunk>> levels_;  ///< Level 0 holds leaves; the last has one chunk.
 };
 
@@ -60,9 +60,8 @@ void BoxTree::overlaps(const FloatBox& query, const Hit& hit) const {
     const Visit visit = stack[--depth];
     const Chunk& c = levels_[visit.level][visit.chunk];
     std::uint32_t inside =
-        bits((c.min.x <= query.max.x()) & (c.max.x >= query.min.x()) &
-             (c.min.y <= query.max.y()) & (c.max.y >= query.min.y()) &
-             (c.min.z <= query.max.z()) & (c.max.z >= query.min.z()));
+        bits((c.min.x <= query.max.x()) & (c.max.x >= query.min.x()) & (c.min.y <= query.max.y()) &
+             (c.max.y >= query.min.y()) & (c.min.z <= query.max.z()) & (c.max.z >= query.min.z()));
     for (; inside != 0; inside &= inside - 1) {
       const std::uint32_t child =
           visit.chunk * kLanes + static_cast<std::uint32_t>(__builtin_ctz(inside));

@@ -9,7 +9,7 @@
 namespace sunder::solver {
 namespace {
 
-constexpr std::size_t kChunk = 128;
+constexpr std::size_t kChunk = 512;
 constexpr int kRefitsPerBuild = 12;
 
 /// Bounds of a hull turned by R, about the body's centre.
@@ -141,16 +141,15 @@ void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bod
     if (theirs.body == mine.body || (moved_[other] && other < shape)) return;
     if (!mover && !bodies.dynamic(theirs.body)) return;
     Pair pair;
-    const bool swap = mine.kind != theirs.kind
-                          ? mine.kind == ShapeDesc::Kind::kSphere ||
-                                theirs.kind == ShapeDesc::Kind::kHalfSpace
-                          : other < shape;
+    const bool swap = mine.kind != theirs.kind ? mine.kind == ShapeDesc::Kind::kSphere ||
+                                                     theirs.kind == ShapeDesc::Kind::kHalfSpace
+                                               : other < shape;
     pair.shape_a = swap ? other : shape;
     pair.shape_b = swap ? shape : other;
     pair.body_a = shapes[pair.shape_a].body;
     pair.body_b = shapes[pair.shape_b].body;
-    pair.sibling = bodies.group[mine.body] != 0 &&
-                   bodies.group[mine.body] == bodies.group[theirs.body];
+    pair.sibling =
+        bodies.group[mine.body] != 0 && bodies.group[mine.body] == bodies.group[theirs.body];
     if (!keys.contains(pair.key())) found.push_back(pair);
   };
   mover_tree_.overlaps(fat_[shape], consider);

@@ -31,8 +31,7 @@ class BroadPhase {
     Vec3f normal_W;
     float d;
   };
-  void update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,
-                    double dt_s);
+  void update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W, double dt_s);
   void update_trees(const Shapes& shapes, const Bodies& bodies);
   void find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
                   const KeySet& keys, std::vector<Pair>& found) const;

@@ -25,8 +25,8 @@ struct PointLanes {
   Wide separation;       ///< When the step began.
   Wide mass;             ///< Effective; 0 where the lane has no such point.
   Wide impulse;
-  Wide arm;          ///< From the friction point: the lever of twist.
-  Wide rebound;      ///< Restitution: velocity to leave with; 0: none.
+  Wide arm;           ///< From the friction point: the lever of twist.
+  Wide rebound;       ///< Restitution: velocity to leave with; 0: none.
   Wide most_impulse;  ///< Restitution: largest impulse of a substep.
 };
 
@@ -53,11 +53,11 @@ struct ConstraintBlock {
 
 /// A spring and damper in the form of a soft constraint (Catto 2011, "Soft Constraints").
 struct Softness {
-  float rate = 0;           ///< Of correction, 1/s.
+  float rate = 0;  ///< Of correction, 1/s.
   float mass_scale = 1;
   float impulse_scale = 0;
-  float inverse_h = 0;      ///< 1/s, of the substep.
-  float push_m_s = 0;       ///< Fastest correction.
+  float inverse_h = 0;  ///< 1/s, of the substep.
+  float push_m_s = 0;   ///< Fastest correction.
 };
 
 }  // namespace sunder::solver

@@ -16,14 +16,26 @@ constexpr double kDamping = 5;       // ratio to critical
 constexpr double kPush_m_s = 4;      // fastest correction of an overlap
 constexpr double kPi = 3.14159265358979323846;
 
-enum StageKind { kFly, kBegin, kPrepare, kWarmStart, kFirstKick, kKick, kBiased, kMove, kRelaxed,
-                 kBounce, kStore, kFinish };
+enum StageKind {
+  kFly,
+  kBegin,
+  kPrepare,
+  kWarmStart,
+  kFirstKick,
+  kKick,
+  kBiased,
+  kMove,
+  kRelaxed,
+  kBounce,
+  kStore,
+  kFinish
+};
 
 Softness softness(double h) {
   const double omega_h = 2 * kPi * kStiffness;
   const double a1 = 2 * kDamping + omega_h, a2 = omega_h * a1, a3 = 1 / (1 + a2);
-  return {static_cast<float>(omega_h / h / a1), static_cast<float>(a2 * a3),
-          static_cast<float>(a3), static_cast<float>(1 / h), static_cast<float>(kPush_m_s)};
+  return {static_cast<float>(omega_h / h / a1), static_cast<float>(a2 * a3), static_cast<float>(a3),
+          static_cast<float>(1 / h), static_cast<float>(kPush_m_s)};
 }
 
 Vec3f linear(Wide v) { return {v[0], v[1], v[2]}; }
@@ -49,10 +61,18 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
   auto work = [&](int kind, std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) {
       switch (kind) {
-        case kFly: fly(bodies, flying_[i], gravity_W, dt_s); break;
-        case kBegin: begin_body(active_[i], dt_s, bodies); break;
-        case kPrepare: prepare_block(contacts, bodies, root_W_, rows, step, blocks_[i]); break;
-        case kWarmStart: warm_start(blocks_[i], rows); break;
+        case kFly:
+          fly(bodies, flying_[i], gravity_W, dt_s);
+          break;
+        case kBegin:
+          begin_body(active_[i], dt_s, bodies);
+          break;
+        case kPrepare:
+          prepare_block(contacts, bodies, root_W_, rows, step, blocks_[i]);
+          break;
+        case kWarmStart:
+          warm_start(blocks_[i], rows);
+          break;
         case kFirstKick: {
           BodyRow& row = rows[active_[i] + 1];
           row.velocity = row.base = row.velocity + gravity;
@@ -67,14 +87,24 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
           row.velocity = row.base + impulses;
           break;
         }
-        case kBiased: sweep_biased(blocks_[i], rows, soft); break;
-        case kMove: rows[active_[i] + 1].position += h_f * rows[active_[i] + 1].velocity; break;
-        case kRelaxed: sweep_relaxed(blocks_[i], rows, soft); break;
+        case kBiased:
+          sweep_biased(blocks_[i], rows, soft);
+          break;
+        case kMove:
+          rows[active_[i] + 1].position += h_f * rows[active_[i] + 1].velocity;
+          break;
+        case kRelaxed:
+          sweep_relaxed(blocks_[i], rows, soft);
+          break;
         case kBounce:
           if (blocks_[i].bouncy) bounce(blocks_[i], rows);
           break;
-        case kStore: store_block(blocks_[i], rows, contacts); break;
-        case kFinish: finish_body(active_[i], bodies); break;
+        case kStore:
+          store_block(blocks_[i], rows, contacts);
+          break;
+        case kFinish:
+          finish_body(active_[i], bodies);
+          break;
       }
     }
   };
@@ -187,7 +217,8 @@ void ContactSolver::finish_body(std::uint32_t body, Bodies& bodies) const {
   const Vec3f turn = root_W_[body] * angular(row.position);
   bodies.place(body, bodies.position[body] + way.cast<double>(),
                turn_by(turn.cast<double>()) * bodies.rotation[body]);
-  bodies.travelled_m[body] += way.norm() + 1.1f * turn.norm() * static_cast<float>(bodies.reach_m[body]);
+  bodies.travelled_m[body] +=
+      way.norm() + 1.1f * turn.norm() * static_cast<float>(bodies.reach_m[body]);
 }
 
 ContactSolveReport ContactSolver::report() const {

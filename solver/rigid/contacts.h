@@ -17,8 +17,8 @@ inline constexpr std::uint8_t kNoColor = 0xff;
 struct Pair {
   std::uint32_t shape_a = kNone, shape_b = kNone;  ///< kNone: a free slot.
   std::uint32_t body_a = kNone, body_b = kNone;
-  float clearance_m = -1;  ///< Lower bound on the distance when last looked at closely.
-  float travelled_m = 0;   ///< Of both bodies at that time.
+  float clearance_m = -1;        ///< Lower bound on the distance when last looked at closely.
+  float travelled_m = 0;         ///< Of both bodies at that time.
   Vec3f axis_A = Vec3f::Zero();  ///< Last axis that parted them, in A; zero if none.
   /// Siblings of a break: overlap they were born with, not pushed apart. Negative: not known yet.
   float slack_m = -1;
@@ -46,8 +46,8 @@ struct Manifold {
   bool sticking = false;     ///< The friction anchors hold since the last rebuild.
   float friction = 0;
   float restitution = 0;
-  float size_m = 0;                   ///< Yardstick: inner radius of the smaller shape.
-  Vec3f normal_W = Vec3f::UnitY();    ///< From a to b.
+  float size_m = 0;                 ///< Yardstick: inner radius of the smaller shape.
+  Vec3f normal_W = Vec3f::UnitY();  ///< From a to b.
   Vec3f normal_body = Vec3f::UnitY();
   Vec3f built_position = Vec3f::Zero();  ///< Of B in A when the points were made.
   Quatf built_rotation = Quatf::Identity();

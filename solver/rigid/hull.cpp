@@ -17,7 +17,8 @@ void set_lane(Wide3& chunk, std::uint32_t lane, const Vec3f& v) {
 }  // namespace
 
 Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
-  SUNDER_CHECK(!convex.empty() && convex.vertices.size() < 0xffff && convex.corners.size() < 0xffff);
+  SUNDER_CHECK(!convex.empty() && convex.vertices.size() < 0xffff &&
+               convex.corners.size() < 0xffff);
   vertex_count_ = static_cast<std::uint32_t>(convex.vertices.size());
   vertices_.resize(wide_count(vertex_count_));
   Vec3 sum = Vec3::Zero();

@@ -20,7 +20,7 @@ class Islands {
   std::uint32_t root(std::uint32_t body);
 
   std::vector<std::uint32_t> parent_;
-  std::vector<float> least_slow_s_;        ///< Of an island, at its root.
+  std::vector<float> least_slow_s_;         ///< Of an island, at its root.
   std::vector<std::uint32_t> last_asleep_;  ///< Of an island, while its ring is made.
 };
 

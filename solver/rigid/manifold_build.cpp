@@ -55,8 +55,8 @@ PairMotion pair_motion(const Pair& pair, const Bodies& bodies) {
 }
 
 void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& motion,
-                    const Vec3f& normal_A, std::span<const PatchPoint> points,
-                    const Vec3f& shift_W, Manifold& m) {
+                    const Vec3f& normal_A, std::span<const PatchPoint> points, const Vec3f& shift_W,
+                    Manifold& m) {
   const Mat3f &R_WA = bodies.rotation_f[pair.body_a], &R_WB = bodies.rotation_f[pair.body_b];
   const std::array<ManifoldPoint, 4> old = m.points;
   const std::size_t old_count = m.count;

@@ -20,8 +20,8 @@ PairMotion pair_motion(const Pair& pair, const Bodies& bodies);
 /// Fills `m` from `points` (in A, at `pose` shifted by `shift_W` from now), keeping impulses of
 /// points that were there before.
 void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& motion,
-                    const Vec3f& normal_A, std::span<const PatchPoint> points,
-                    const Vec3f& shift_W, Manifold& m);
+                    const Vec3f& normal_A, std::span<const PatchPoint> points, const Vec3f& shift_W,
+                    Manifold& m);
 /// Whether the pair has barely moved since the points were made.
 bool barely_moved(const Manifold& m, const Bodies& bodies, const PairMotion& motion);
 /// Points, normal and drift at today's poses.

@@ -76,8 +76,7 @@ void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const 
   const Quat& q_a = bodies.rotation[pair.body_a];
   const Vec3 normal_W = q_a * a.normal.cast<double>();
   const Vec3 surface_W = bodies.position[pair.body_a] + q_a * a.center.cast<double>();
-  const auto height =
-      static_cast<float>(normal_W.dot(bodies.position[pair.body_b] - surface_W));
+  const auto height = static_cast<float>(normal_W.dot(bodies.position[pair.body_b] - surface_W));
   const Vec3f normal_B = bodies.rotation_f[pair.body_b].transpose() * normal_W.cast<float>();
   auto& points = scratch.points;
   points.clear();

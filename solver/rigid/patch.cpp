@@ -47,7 +47,9 @@ void face_patch(const Hull& a, const Hull& b, const RelativePose& pose, const Se
   const Vec3f normal = on_a ? axis.normal_A : Vec3f(-axis.normal_A);  // out of the reference
   const std::uint32_t other =
       incident_face(incident, on_a ? Vec3f(pose.R.transpose() * normal) : normal);
-  auto position = [&](bool of_a, std::uint32_t v) { return of_a ? a.vertex(v) : hulls.vertex_b(v); };
+  auto position = [&](bool of_a, std::uint32_t v) {
+    return of_a ? a.vertex(v) : hulls.vertex_b(v);
+  };
   scratch.polygon.clear();
   for (const std::uint16_t v : incident.face_corners(other))
     scratch.polygon.push_back({position(!on_a, v), v});

@@ -66,7 +66,9 @@ void gather(const Contacts& contacts, const Bodies& bodies, std::span<const Mat3
   }
 }
 
-Wide reciprocal(Wide x) { return x > splat(0) ? splat(1) / (x > splat(0) ? x : splat(1)) : splat(0); }
+Wide reciprocal(Wide x) {
+  return x > splat(0) ? splat(1) / (x > splat(0) ? x : splat(1)) : splat(0);
+}
 
 void set_tangents(ConstraintBlock& c) {
   const Wide zero = splat(0), one = splat(1);
@@ -131,8 +133,8 @@ void prepare_block(const Contacts& contacts, const Bodies& bodies, std::span<con
     PointLanes& p = c.point[static_cast<std::size_t>(i)];
     p.turn_a = g.root_a.to_root(cross(g.arm_a[i], c.normal));
     p.turn_b = g.root_b.to_root(cross(g.arm_b[i], c.normal));
-    p.mass = g.exists[i] *
-             reciprocal(inverse_mass + dot(p.turn_a, p.turn_a) + dot(p.turn_b, p.turn_b));
+    p.mass =
+        g.exists[i] * reciprocal(inverse_mass + dot(p.turn_a, p.turn_a) + dot(p.turn_b, p.turn_b));
     const Wide3 off = g.arm_b[i] - g.friction_arm_b;
     const Wide3 lever = off - c.normal * dot(off, c.normal);
     p.arm = g.exists[i] * sqrt(dot(lever, lever));

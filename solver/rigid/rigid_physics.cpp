@@ -101,14 +101,13 @@ void RigidPhysics::collide(double dt_s) {
 /// Narrow phase over pairs of which a body changed; then, in order of slots, what came to touch
 /// gets a colour and what drifted apart goes.
 void RigidPhysics::update_contacts(double dt_s) {
-  constexpr std::size_t kChunk = 64;
+  constexpr std::size_t kChunk = 1024;
   struct Changes {
     std::vector<std::uint32_t> recolor, gone;
   };
   auto& pairs = contacts_.pairs;
   std::vector<Changes> changes((pairs.size() + kChunk - 1) / kChunk);
-  const NarrowStep step{dt_s,
-                        static_cast<float>(options_.gravity_W.norm() * dt_s * dt_s)};
+  const NarrowStep step{dt_s, static_cast<float>(options_.gravity_W.norm() * dt_s * dt_s)};
   for_chunks(pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
     NarrowScratch scratch;
     for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
@@ -171,8 +170,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   }
   const ContactSolveReport solved =
       contact_solver_.solve(dt_s, substeps, options_.gravity_W, bodies_, contacts_);
-  report.external_impulse_Ns +=
-      solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
+  report.external_impulse_Ns += solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
   timings_ms_[2].second += watch.lap_ms();
   if (options_.sleeping)
@@ -199,8 +197,7 @@ std::vector<float> RigidPhysics::penetrations() const {
   std::vector<float> depths;
   for (const Manifold& m : contacts_.manifolds)
     for (std::size_t i = 0; i < m.count; ++i)
-      if (m.points[i].impulse_Ns > 0)
-        depths.push_back(std::max(0.f, -m.points[i].separation_m));
+      if (m.points[i].impulse_Ns > 0) depths.push_back(std::max(0.f, -m.points[i].separation_m));
   return depths;
 }
 

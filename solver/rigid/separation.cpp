@@ -30,8 +30,8 @@ FaceAnswer best_face(const Hull& hull, std::uint32_t vertex_count,
     for (std::uint32_t i = 0; i < vertex_count; ++i) {
       const Wide3& v = vertices[i / kLanes];
       const std::uint32_t k = i % kLanes;
-      least = min(least, plane.normal.x * v.x[k] + plane.normal.y * v.y[k] +
-                             plane.normal.z * v.z[k]);
+      least =
+          min(least, plane.normal.x * v.x[k] + plane.normal.y * v.y[k] + plane.normal.z * v.z[k]);
     }
     least += plane.d;
     for (std::uint32_t k = 0; k < kLanes; ++k)
@@ -42,8 +42,8 @@ FaceAnswer best_face(const Hull& hull, std::uint32_t vertex_count,
 
 /// Edge e of a against eight edges of b, already in A; keeps the better of `best` and the result.
 /// Only pairs whose arcs cross on the Gauss map are faces of the Minkowski difference.
-void try_edges(const Hull& a, std::uint32_t e, const Hull::EdgeChunk& edges_b, std::uint32_t first_b,
-               std::uint32_t count_b, SeparatingAxis& best) {
+void try_edges(const Hull& a, std::uint32_t e, const Hull::EdgeChunk& edges_b,
+               std::uint32_t first_b, std::uint32_t count_b, SeparatingAxis& best) {
   const Hull::EdgeChunk& chunk = a.edges()[e / kLanes];
   const std::uint32_t k = e % kLanes;
   const Vec3f direction = Hull::lane(chunk.direction, k);
@@ -64,8 +64,7 @@ void try_edges(const Hull& a, std::uint32_t e, const Hull::EdgeChunk& edges_b, s
     axis /= std::sqrt(square);
     const Vec3f outward = Hull::lane(chunk.normal_left, k) + Hull::lane(chunk.normal_right, k);
     if (axis.dot(outward) < 0) axis = -axis;
-    const float separation =
-        axis.dot(Hull::lane(edges_b.point, lane) - Hull::lane(chunk.point, k));
+    const float separation = axis.dot(Hull::lane(edges_b.point, lane) - Hull::lane(chunk.point, k));
     if (separation > best.separation_m)
       best = {SeparatingAxis::Kind::kEdges, axis, separation, e, first_b + lane};
   }

@@ -26,6 +26,9 @@ struct Stage {
   std::uint32_t blocks() const { return (count + grain - 1) / grain; }
 };
 
+/// Below so many grains in the widest stage, one thread is as fast as many.
+inline constexpr std::uint32_t kLeastParallelGrains = 16;
+
 /// Calls work(kind, begin, end) for every grain of every stage, stage after stage. `work` must not
 /// throw.
 template <class Work>
@@ -34,10 +37,9 @@ void run_stages(std::span<const Stage> stages, const Work& work) {
   for (const Stage& stage : stages) widest = std::max(widest, stage.blocks());
   auto run = [&](const Stage& stage, std::uint32_t block) {
     const std::uint32_t begin = block * stage.grain;
-    work(stage.kind, stage.first + begin,
-         stage.first + std::min(stage.count, begin + stage.grain));
+    work(stage.kind, stage.first + begin, stage.first + std::min(stage.count, begin + stage.grain));
   };
-  if (widest < 2 || threads() == 1 || omp_in_parallel()) {
+  if (widest < kLeastParallelGrains || threads() == 1 || omp_in_parallel()) {
     for (const Stage& stage : stages)
       for (std::uint32_t block = 0; block < stage.blocks(); ++block) run(stage, block);
     return;

@@ -1,7 +1,7 @@
 // Motion against closed forms (notes: truths 1, 2, 4, 6, 8, 15).
-#include <gtest/gtest.h>
-
 #include <cstdio>
+
+#include <gtest/gtest.h>
 
 #include "engine/base/trigonometry.h"
 #include "tests/solver/rigid_world.h"
@@ -58,7 +58,8 @@ TEST(RigidTruth, ASlidingBlockStopsAfterItsBrakingDistance) {
   const double mass = 200;
   world.physics().apply_impulse(body, Vec3(speed * mass, 0, 0), world.state(body).X_WB.position);
   world.run(2, 1.0 / 240, 4);
-  const double way = world.state(body).X_WB.position.x(), truth = speed * speed / (2 * friction * kG);
+  const double way = world.state(body).X_WB.position.x(),
+               truth = speed * speed / (2 * friction * kG);
   std::printf("braking distance %.5f m, truth %.5f m\n", way, truth);
   EXPECT_NEAR(way / truth, 1, 0.005);
 }
@@ -95,8 +96,8 @@ TEST(RigidTruth, AFreeSpinnerKeepsEnergyAndAngularMomentum) {
   bool turned_over = false;
   for (int i = 0; i < 60 * 60; ++i) {
     world.step(1.0 / 60, 2);
-    const Vec3 w_B =
-        world.state(world.id(0)).X_WB.rotation.conjugate() * world.state(world.id(0)).angular_velocity_W;
+    const Vec3 w_B = world.state(world.id(0)).X_WB.rotation.conjugate() *
+                     world.state(world.id(0)).angular_velocity_W;
     turned_over = turned_over || w_B.y() < -5;
   }
   EXPECT_TRUE(turned_over);

@@ -63,8 +63,7 @@ class RigidWorld {
     return desc;
   }
   static BodyDesc with_friction(BodyDesc desc, double friction, double restitution = 0) {
-    for (ShapeDesc& shape : desc.shapes)
-      shape.friction = friction, shape.restitution = restitution;
+    for (ShapeDesc& shape : desc.shapes) shape.friction = friction, shape.restitution = restitution;
     return desc;
   }
 
@@ -122,10 +121,10 @@ class RigidWorld {
     std::uint64_t h = 0;
     for_dynamic([&](const BodyState& s, double, const Mat3&) {
       const double values[] = {
-          s.X_WB.position.x(),  s.X_WB.position.y(),  s.X_WB.position.z(),
-          s.X_WB.rotation.x(),  s.X_WB.rotation.y(),  s.X_WB.rotation.z(),
-          s.X_WB.rotation.w(),  s.velocity_W.x(),     s.velocity_W.y(),
-          s.velocity_W.z(),     s.angular_velocity_W.x(), s.angular_velocity_W.y(),
+          s.X_WB.position.x(),     s.X_WB.position.y(),      s.X_WB.position.z(),
+          s.X_WB.rotation.x(),     s.X_WB.rotation.y(),      s.X_WB.rotation.z(),
+          s.X_WB.rotation.w(),     s.velocity_W.x(),         s.velocity_W.y(),
+          s.velocity_W.z(),        s.angular_velocity_W.x(), s.angular_velocity_W.y(),
           s.angular_velocity_W.z()};
       for (const double value : values) {
         std::uint64_t word;

@@ -1,0 +1,274 @@
+// Read first: advance(), the list of a step's stages.
+#include "solver/particles/air.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/parallel.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr float kAir_kg_m3 = 1.2f;
+constexpr float kTolerance = 5e-4f;  // of the fastest flow, in net outflow of a cell
+// Least open part of a face: a little leaks everywhere, so that closed rooms have a pressure, too.
+constexpr float kLeak = 0.02f;
+
+/// Calls work(first index, faces of the row, j, k) for every row of an axis' faces.
+template <class Work>
+void for_faces(const Lattice& lattice, int axis, const Work& work) {
+  const Vec3i last = lattice.counts + Vec3i::Unit(axis);
+  for_chunks(static_cast<std::size_t>(last.z()), lattice.layers_a_chunk(),
+             [&](std::size_t begin, std::size_t end, std::size_t) {
+               for (int k = static_cast<int>(begin) + 1; k <= static_cast<int>(end); ++k) {
+                 for (int j = 1; j <= last.y(); ++j) {
+                   work(lattice.index(1, j, k), last.x(), j, k);
+                 }
+               }
+             });
+}
+
+/// Calls work(first index, cells of the row, j, k) for every row of cells.
+template <class Work>
+void for_cells(const Lattice& lattice, const Work& work) {
+  for_chunks(static_cast<std::size_t>(lattice.counts.z()), lattice.layers_a_chunk(),
+             [&](std::size_t begin, std::size_t end, std::size_t) {
+               for (int k = static_cast<int>(begin) + 1; k <= static_cast<int>(end); ++k) {
+                 for (int j = 1; j <= lattice.counts.y(); ++j) {
+                   work(lattice.index(1, j, k), lattice.counts.x(), j, k);
+                 }
+               }
+             });
+}
+
+constexpr int kLongestRow = 136;
+
+/// Where the air at a row of faces comes from, in cells, no farther than one.
+struct Origins {
+  float x[kLongestRow], y[kLongestRow], z[kLongestRow];
+  float* operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+};
+
+float within_one(float x) {
+  x = x < -1 ? -1 : x;
+  return x > 1 ? 1 : x;
+}
+
+/// Quadratic interpolation of q at `origins` upstream, kept between the values around.
+void advect_row(const float* q, std::ptrdiff_t sy, std::ptrdiff_t sz, const Origins& origins,
+                int count, float* __restrict out) {
+  const float* rows[9];
+  for (int r = 0; r < 9; ++r) rows[r] = q + (r % 3 - 1) * sy + (r / 3 - 1) * sz;
+  for (int i = 0; i < count; ++i) {
+    const float x = origins.x[i], y = origins.y[i], z = origins.z[i];
+    const float xl = 0.5f * x * (x + 1), xm = 1 - x * x, xh = 0.5f * x * (x - 1);
+    const float yl = 0.5f * y * (y + 1), ym = 1 - y * y, yh = 0.5f * y * (y - 1);
+    const float zl = 0.5f * z * (z + 1), zm = 1 - z * z, zh = 0.5f * z * (z - 1);
+    float low = rows[4][i], high = low;
+    float along[9];
+#pragma GCC unroll 9
+    for (int r = 0; r < 9; ++r) {
+      const float a = rows[r][i - 1], b = rows[r][i], c = rows[r][i + 1];
+      along[r] = xl * a + xm * b + xh * c;
+      low = a < low ? a : low;
+      low = b < low ? b : low;
+      low = c < low ? c : low;
+      high = a > high ? a : high;
+      high = b > high ? b : high;
+      high = c > high ? c : high;
+    }
+    float value = zl * (yl * along[0] + ym * along[1] + yh * along[2]) +
+                  zm * (yl * along[3] + ym * along[4] + yh * along[5]) +
+                  zh * (yl * along[6] + ym * along[7] + yh * along[8]);
+    value = value < low ? low : value;
+    out[i] = value > high ? high : value;
+  }
+}
+
+}  // namespace
+
+Air::Air(const Vec3i& counts) : solver_(counts) {
+  grid_.lattice = {counts};
+  const std::size_t size = grid_.lattice.size();
+  for (auto* fields : {&velocity_, &advected_, &thrown_Ns_}) {
+    for (Field& field : *fields) field.assign(size, 0);
+  }
+  for (Field* field : {&dust_kg_, &thrown_kg_}) field->assign(size, 0);
+}
+
+void Air::advance(double dt_s, const Vec3& gravity_W, const Obstacles& obstacles) {
+  solids_.rasterize(grid_, obstacles);
+  advect(static_cast<float>(dt_s));
+  load(static_cast<float>(dt_s), gravity_W.cast<float>());
+  couple();
+  project();
+}
+
+void Air::clear_loads() {
+  for (const std::size_t cell : loaded_) {
+    dust_kg_[cell] = thrown_kg_[cell] = 0;
+    for (Field& thrown : thrown_Ns_) thrown[cell] = 0;
+  }
+  loaded_.clear();
+}
+
+void Air::add_dust(std::size_t cell, float mass_kg) {
+  if (dust_kg_[cell] == 0) loaded_.push_back(cell);
+  dust_kg_[cell] += mass_kg;
+}
+
+void Air::add_momentum(std::size_t cell, float mass_kg, const Vec3f& velocity_W) {
+  thrown_kg_[cell] += mass_kg;
+  for (int axis = 0; axis < 3; ++axis) of(thrown_Ns_, axis)[cell] += mass_kg * velocity_W[axis];
+}
+
+void Air::advect(float dt_s) {
+  const Lattice& lattice = grid_.lattice;
+  const float cells_per_speed = dt_s / static_cast<float>(grid_.cell_m);
+  const std::ptrdiff_t strides[] = {1, lattice.stride(1), lattice.stride(2)};
+  for (int axis = 0; axis < 3; ++axis) {
+    for_faces(lattice, axis, [&](std::size_t at, int count, int, int) {
+      Origins origins;
+      for (int other = 0; other < 3; ++other) {
+        const float* u = &of(velocity_, other)[at];
+        float* origin = origins[other];
+        if (other == axis) {
+          for (int i = 0; i < count; ++i) origin[i] = within_one(cells_per_speed * u[i]);
+          continue;
+        }
+        // The four faces around this one.
+        const std::ptrdiff_t back = -strides[axis], up = strides[other];
+        for (int i = 0; i < count; ++i) {
+          const float sum = u[i] + u[i + back] + (u[i + up] + u[i + up + back]);
+          origin[i] = within_one(0.25f * cells_per_speed * sum);
+        }
+      }
+      advect_row(&of(velocity_, axis)[at], strides[1], strides[2], origins, count,
+                 &of(advected_, axis)[at]);
+    });
+  }
+  std::swap(velocity_, advected_);
+}
+
+/// Dust pulls the air down and gives it the momentum that it was thrown with.
+void Air::load(float dt_s, const Vec3f& gravity_W) {
+  const auto volume = static_cast<float>(grid_.cell_m * grid_.cell_m * grid_.cell_m);
+  const float air_kg = kAir_kg_m3 * volume;
+  const auto push = [&](int axis, std::size_t face) {
+    const std::size_t below = face - static_cast<std::size_t>(grid_.lattice.stride(axis));
+    const float dust_kg = 0.5f * (dust_kg_[below] + dust_kg_[face]);
+    const float thrown_kg = 0.5f * (thrown_kg_[below] + thrown_kg_[face]);
+    const Field& thrown_Ns = of(thrown_Ns_, axis);
+    const float momentum = 0.5f * (thrown_Ns[below] + thrown_Ns[face]);
+    float& u = of(velocity_, axis)[face];
+    u = (air_kg * u + momentum) / (air_kg + thrown_kg);
+    u += dt_s * gravity_W[axis] * dust_kg / (air_kg + dust_kg);
+  };
+  for (const std::size_t cell : loaded_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      push(axis, cell);
+      const std::size_t above = cell + static_cast<std::size_t>(grid_.lattice.stride(axis));
+      if (dust_kg_[above] == 0) push(axis, above);
+    }
+  }
+}
+
+/// Faces move with the solid that covers them, as far as it does.
+void Air::couple() {
+  const Lattice& lattice = grid_.lattice;
+  const Vec3i& counts = lattice.counts;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::ptrdiff_t below = -lattice.stride(axis);
+    for_faces(lattice, axis, [&](std::size_t at, int count, int j, int k) {
+      const float* fraction = &solids_.fraction[at];
+      const float* momentum = &of(solids_.momentum, axis)[at];
+      float* u = &of(velocity_, axis)[at];
+      float* a = &of(solver_.coefficients(), axis)[at];
+      const bool rim =
+          (axis == 1 && (j == 1 || j > counts.y())) || (axis == 2 && (k == 1 || k > counts.z()));
+      const bool closed = axis == 1 && j == 1 && grid_.on_ground;
+      const float most = closed ? 0.0f : rim ? 2.0f : 1.0f;
+      for (int i = 0; i < count; ++i) {
+        const float solid = fraction[i] + fraction[i + below];
+        const float covered = solid < 1 ? solid : 1;
+        const float moved = (momentum[i] + momentum[i + below]) / (solid > 1 ? solid : 1);
+        u[i] = closed ? 0 : (1 - covered) * u[i] + moved;
+        a[i] = most * (1 - covered > kLeak ? 1 - covered : kLeak);
+      }
+      if (axis == 0) {
+        a[0] *= 2;
+        a[count - 1] *= 2;
+      }
+    });
+  }
+}
+
+void Air::project() {
+  const Lattice& lattice = grid_.lattice;
+  const std::ptrdiff_t sy = lattice.stride(1), sz = lattice.stride(2);
+  for_cells(lattice, [&](std::size_t at, int count, int, int) {
+    const float *u = &velocity_[0][at], *v = &velocity_[1][at], *w = &velocity_[2][at];
+    float* inflow = &solver_.inflow()[at];
+    for (int i = 0; i < count; ++i) {
+      inflow[i] = u[i] - u[i + 1] + (v[i] - v[i + sy]) + (w[i] - w[i + sz]);
+    }
+  });
+  iterations_ = solver_.solve(kTolerance * fastest());
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::ptrdiff_t below = -lattice.stride(axis);
+    for_faces(lattice, axis, [&](std::size_t at, int count, int, int) {
+      const float* p = &solver_.pressure()[at];
+      const float* a = &of(solver_.coefficients(), axis)[at];
+      float* u = &of(velocity_, axis)[at];
+      for (int i = 0; i < count; ++i) u[i] -= a[i] * (p[i] - p[i + below]);
+    });
+  }
+  if (grid_.on_ground) slip_on_ground();
+}
+
+/// Below a closed floor, as above it.
+void Air::slip_on_ground() {
+  const Lattice& lattice = grid_.lattice;
+  for (const int axis : {0, 2}) {
+    Field& u = of(velocity_, axis);
+    for (int k = 1; k <= lattice.counts.z() + 1; ++k) {
+      const std::size_t at = lattice.index(1, 0, k);
+      const auto row = u.begin() + static_cast<std::ptrdiff_t>(at) + lattice.stride(1);
+      std::copy_n(row, lattice.counts.x() + 1, u.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+  }
+}
+
+float Air::fastest() const {
+  std::vector<float> layers(static_cast<std::size_t>(grid_.lattice.counts.z()));
+  for (const Field& field : velocity_) {
+    for_cells(grid_.lattice, [&](std::size_t at, int count, int, int k) {
+      float& layer = layers[static_cast<std::size_t>(k) - 1];
+      for (int i = 0; i <= count; ++i)
+        layer = std::max(layer, std::abs(field[at + static_cast<std::size_t>(i)]));
+    });
+  }
+  return *std::max_element(layers.begin(), layers.end());
+}
+
+float Air::divergence() const {
+  const Lattice& lattice = grid_.lattice;
+  const auto sy = static_cast<std::size_t>(lattice.stride(1));
+  const auto sz = static_cast<std::size_t>(lattice.stride(2));
+  const float speed = fastest();
+  float largest = 0;
+  for (int k = 1; k <= lattice.counts.z(); ++k) {
+    for (int j = 1; j <= lattice.counts.y(); ++j) {
+      for (int i = 1; i <= lattice.counts.x(); ++i) {
+        const std::size_t at = lattice.index(i, j, k);
+        const float outflow = velocity_[0][at + 1] - velocity_[0][at] +
+                              (velocity_[1][at + sy] - velocity_[1][at]) +
+                              (velocity_[2][at + sz] - velocity_[2][at]);
+        largest = std::max(largest, std::abs(outflow));
+      }
+    }
+  }
+  return speed > 0 ? largest / speed : 0;
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,99 @@
+#include "solver/particles/crumble.h"
+
+#include <cmath>
+
+namespace sunder::solver {
+namespace {
+
+constexpr double kSpall_m_s = 0.6;  // at most, with which chips leave their face
+constexpr double kSpin_s = 15;
+constexpr double kPuff_m = 0.06;  // least radius of dust; at most twice that
+
+double area(const Emission& face) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t c = 2; c < face.corners_W.size(); ++c) {
+    const Vec3& apex = face.corners_W[0];
+    sum += (face.corners_W[c - 1] - apex).cross(face.corners_W[c] - apex);
+  }
+  return 0.5 * sum.norm();
+}
+
+/// Uniform on the polygon: a triangle of its fan by area, then a point of it.
+Vec3 point_on(const Emission& face, double face_area_m2, Random& random) {
+  double left_m2 = random.uniform() * face_area_m2;
+  const Vec3& apex = face.corners_W[0];
+  std::size_t c = 2;
+  for (;; ++c) {
+    const Vec3 cross = (face.corners_W[c - 1] - apex).cross(face.corners_W[c] - apex);
+    left_m2 -= 0.5 * cross.norm();
+    if (left_m2 <= 0 || c + 1 == face.corners_W.size()) break;
+  }
+  double u = random.uniform(), v = random.uniform();
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  return apex + u * (face.corners_W[c - 1] - apex) + v * (face.corners_W[c] - apex);
+}
+
+/// A power law between two sizes: N(> r) ~ r^-2.
+double power_law(double smallest, double largest, Random& random) {
+  const double ratio = smallest / largest;
+  return smallest / std::sqrt(1 - random.uniform() * (1 - ratio * ratio));
+}
+
+/// Uniform over all rotations.
+Quatf any_rotation(Random& random) {
+  for (;;) {
+    const Eigen::Vector4d q(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+                            random.uniform(-1, 1));
+    const double square = q.squaredNorm();
+    if (square > 1e-4 && square <= 1) {
+      return Quatf(Eigen::Vector4f((q / std::sqrt(square)).cast<float>()));
+    }
+  }
+}
+
+std::uint8_t any_variant(Random& random) {
+  return static_cast<std::uint8_t>(random.below(kDebrisVariants));
+}
+
+}  // namespace
+
+void crumble(const Emission& face, Random& random, Debris& debris, Dust& dust) {
+  const Crumbling& crumbling = face.crumbling;
+  if (face.corners_W.size() < 3 || !(crumbling.particles_per_m2 > 0)) return;
+  const double area_m2 = area(face);
+  const auto count =
+      static_cast<std::uint64_t>(crumbling.particles_per_m2 * area_m2 + random.uniform());
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const Vec3 point = point_on(face, area_m2, random);
+    const Vec3 spall = kSpall_m_s * random.uniform() * (face.normal_W + random.direction());
+    const Vec3 velocity = face.motion(point) + spall;
+    if (random.uniform() < crumbling.debris_ratio) {
+      const double radius =
+          power_law(crumbling.debris_smallest_m, crumbling.debris_largest_m, random);
+      const Vec3 center = point + radius * face.normal_W;
+      const Vec3 spin = kSpin_s * random.uniform() * random.direction();
+      debris.add({center.cast<float>(), velocity.cast<float>(), spin.cast<float>(),
+                  any_rotation(random), static_cast<float>(radius), any_variant(random),
+                  face.material});
+    } else {
+      // All the dust of the face, shared out.
+      const double mass_kg =
+          crumbling.dust_kg_m2 / (crumbling.particles_per_m2 * (1 - crumbling.debris_ratio));
+      const double settling = crumbling.dust_settling_m_s * random.uniform(0.5, 1.5);
+      dust.add({point.cast<float>(), velocity.cast<float>(), any_rotation(random),
+                static_cast<float>(mass_kg), static_cast<float>(settling),
+                static_cast<float>(kPuff_m * random.uniform(1, 2)), face.material});
+    }
+  }
+}
+
+void add_chip(const Chip& chip, Random& random, Debris& debris) {
+  debris.add({chip.center_W.cast<float>(), chip.velocity_W.cast<float>(),
+              chip.angular_velocity_W.cast<float>(), any_rotation(random),
+              static_cast<float>(chip.radius_m), any_variant(random), chip.material});
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,21 @@
+// Fresh cracks crumble: debris and dust, uniformly on each face that a break laid bare.
+#pragma once
+
+#include <vector>
+
+#include "engine/base/random.h"
+#include "engine/world/particles.h"
+#include "solver/particles/debris.h"
+#include "solver/particles/dust.h"
+
+namespace sunder::solver {
+
+/// Adds what comes off a face (paper section 5: "uniformly on those faces with a user specified
+/// sampling density and ratio"). The count is the density times the area, rounded up or down at
+/// random, so that many small faces give as much as a large one.
+void crumble(const Emission& face, Random& random, Debris& debris, Dust& dust);
+
+/// A chip that was a body turns up as it was, in a random shape.
+void add_chip(const Chip& chip, Random& random, Debris& debris);
+
+}  // namespace sunder::solver

@@ -1,0 +1,64 @@
+#include "solver/particles/debris_and_dust.h"
+
+#include "engine/base/random.h"
+#include "solver/particles/crumble.h"
+#include "solver/particles/debris.h"
+#include "solver/particles/dust.h"
+
+namespace sunder::solver {
+namespace {
+
+class DebrisAndDust final : public Particles {
+ public:
+  explicit DebrisAndDust(const DebrisAndDustOptions& options)
+      : seed_(options.seed),
+        debris_(options.limits.debris, options.gravity_W),
+        dust_(options.limits.dust, options.gravity_W, options.air_cells) {}
+
+  void emit(std::span<const Emission> faces) override {
+    for (const Emission& face : faces) {
+      Random random(seed_, next_stream_++);
+      crumble(face, random, debris_, dust_);
+    }
+  }
+
+  void emit(std::span<const Chip> chips) override {
+    for (const Chip& chip : chips) {
+      Random random(seed_, next_stream_++);
+      add_chip(chip, random, debris_);
+    }
+  }
+
+  void advance(double dt_s, const Obstacles& obstacles) override {
+    debris_.advance(dt_s, obstacles);
+    dust_.advance(dt_s, obstacles);
+  }
+
+  DebrisView debris() const override { return debris_.view(); }
+  DustView dust() const override { return dust_.view(); }
+
+  ParticleReport report() const override {
+    ParticleReport report;
+    report.debris = debris_.books();
+    report.dust = dust_.books();
+    if (const Air* air = dust_.air()) {
+      report.air_cells = static_cast<std::uint32_t>(air->grid().lattice.cells());
+      report.air_iterations = static_cast<std::uint32_t>(air->iterations());
+    }
+    return report;
+  }
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t next_stream_ = 0;  ///< One a face or chip: what one draws changes no other.
+  Debris debris_;
+  Dust dust_;
+};
+
+}  // namespace
+
+std::unique_ptr<Particles> make_debris_and_dust(const DebrisAndDustOptions& options) {
+  return std::make_unique<DebrisAndDust>(options);
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,69 @@
+// Dust: puffs that the air carries, oriented particles that stir it where the grid is too coarse.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/world/particles.h"
+#include "solver/particles/air.h"
+#include "solver/particles/swirl.h"
+
+namespace sunder::solver {
+
+/// A puff as it comes into the world.
+struct DustBirth {
+  Vec3f position_W = Vec3f::Zero();
+  Vec3f velocity_W = Vec3f::Zero();
+  Quatf rotation_WD = Quatf::Identity();
+  float mass_kg = 0;
+  float settling_m_s = 0;
+  float radius_m = 0.1f;
+  MaterialIndex material;
+};
+
+/// All dust, and the air while there is any.
+class Dust {
+ public:
+  Dust(std::uint32_t limit, const Vec3& gravity_W, const Vec3i& air_cells);
+
+  /// Ignored, and counted so, at the limit.
+  void add(const DustBirth& birth);
+  void advance(double dt_s, const Obstacles& obstacles);
+  DustView view() const;
+  ParticleBooks books() const;
+  /// Null without dust.
+  const Air* air() const { return flow_ ? &flow_->air : nullptr; }
+
+ private:
+  /// What exists only while there is dust.
+  struct Flow {
+    Air air;
+    Swirl swirl;
+  };
+
+  void place_air(double ground_m);
+  void load_air();
+  void move(std::size_t begin, std::size_t end, float dt_s, float ground_m);
+  void settle(std::size_t puff, float dt_s, float solid, float ground_m);
+  void remove_settled();
+
+  std::uint32_t limit_;
+  Vec3 gravity_W_;
+  Vec3f down_W_;
+  Vec3i air_cells_;
+  ParticleBooks books_;
+  std::optional<Flow> flow_;
+
+  // In order of birth.
+  std::vector<Vec3f> position_W_;
+  std::vector<Vec3f> slip_W_;  ///< Velocity relative to the air, from being thrown.
+  std::vector<Quatf> rotation_WD_;
+  std::vector<float> mass_kg_, settling_m_s_;
+  std::vector<float> turbulence_m_s_;  ///< Square root of turbulent energy per mass.
+  std::vector<float> first_radius_m_, radius_m_, opacity_, age_s_;
+  std::vector<float> settled_s_;  ///< How long it has lain somewhere.
+  std::vector<MaterialIndex> material_;
+};
+
+}  // namespace sunder::solver

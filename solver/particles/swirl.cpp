@@ -1,0 +1,73 @@
+#include "solver/particles/swirl.h"
+
+#include <cmath>
+
+namespace sunder::solver {
+namespace {
+
+constexpr float kProduction = 0.1f;   // C_k
+constexpr float kDissipation = 1.0f;  // C_epsilon
+// Of the vortex' profile q (1 − q²)², whose greatest value becomes 1.
+constexpr float kProfile = 3.4939f;
+
+}  // namespace
+
+Swirl::Swirl(const Lattice& lattice) : lattice_(lattice), vortex_of_cell_(lattice.size(), -1) {}
+
+void Swirl::clear() {
+  for (const Vortex& vortex : vortices_) vortex_of_cell_[vortex.cell] = -1;
+  vortices_.clear();
+}
+
+void Swirl::add(std::size_t cell, const Vec3f& at, const Vec3f& axis, float speed_m_s) {
+  std::int32_t& index = vortex_of_cell_[cell];
+  if (index < 0) {
+    index = static_cast<std::int32_t>(vortices_.size());
+    vortices_.emplace_back().cell = cell;
+  }
+  Vortex& vortex = vortices_[static_cast<std::size_t>(index)];
+  vortex.at += at;
+  vortex.turn += speed_m_s * axis;
+  vortex.energy += speed_m_s * speed_m_s;
+  ++vortex.count;
+}
+
+void Swirl::finish() {
+  for (Vortex& vortex : vortices_) {
+    vortex.at /= vortex.count;
+    const float length = vortex.turn.norm();
+    // Of three directions the vortex moves the air in two.
+    const float speed = std::sqrt(2.0f / 3 * vortex.energy / vortex.count);
+    if (length > 0) vortex.turn *= speed / length;
+  }
+}
+
+Vec3f Swirl::velocity(std::size_t cell, const Vec3f& at) const {
+  Vec3f velocity = Vec3f::Zero();
+  const auto center = static_cast<std::ptrdiff_t>(cell);
+  for (int k = -1; k <= 1; ++k) {
+    for (int j = -1; j <= 1; ++j) {
+      const std::ptrdiff_t row = center + j * lattice_.stride(1) + k * lattice_.stride(2);
+      for (std::ptrdiff_t c = row - 1; c <= row + 1; ++c) {
+        const std::int32_t index = vortex_of_cell_[static_cast<std::size_t>(c)];
+        if (index < 0) continue;
+        const Vortex& vortex = vortices_[static_cast<std::size_t>(index)];
+        const Vec3f arm = at - vortex.at;
+        const float inside = 1 - arm.squaredNorm();
+        if (inside > 0) velocity += kProfile * inside * inside * vortex.turn.cross(arm);
+      }
+    }
+  }
+  return velocity;
+}
+
+float grow_turbulence(float speed_m_s, const Mat3f& strain_s, float cell_m, float dt_s) {
+  const float grown = speed_m_s + dt_s * kProduction * cell_m * strain_s.squaredNorm();
+  return grown / (1 + dt_s * 0.5f * kDissipation * speed_m_s / cell_m);
+}
+
+Vec3f rod_spin(const Vec3f& axis, const Vec3f& vorticity_s, const Mat3f& strain_s) {
+  return 0.5f * vorticity_s + axis.cross(strain_s * axis);
+}
+
+}  // namespace sunder::solver
