@@ -68,21 +68,20 @@ struct Blend {
   int share = 0;
 };
 
-/// How far the edge between `at` and `at + across` runs along `step`, and the change of mean
-/// brightness where it ends.
+/// How far the edge between a pixel and its neighbour across runs, and how its mean brightness
+/// changes where it ends.
 struct End {
   int distance;
-  int change;
+  int change;  ///< 0 if it goes on out of reach.
 };
 
 End follow(const std::uint8_t* at, int across, int step, int room, int mean2, int least2) {
   const int reach = std::min(kReach, room);
-  int change = 0;
   for (int i = 1; i <= reach; ++i) {
-    change = at[i * step] + at[i * step + across] - mean2;
+    const int change = at[i * step] + at[i * step + across] - mean2;
     if (std::abs(change) >= least2) return {i, change};
   }
-  return {reach + 1, change};
+  return {reach + 1, 0};
 }
 
 Blend blend_at(const Luma& luma, int x, int y, int width, int height) {
@@ -112,7 +111,7 @@ Blend blend_at(const Luma& luma, int x, int y, int width, int height) {
   const End ahead = follow(l, across, along, level ? width - 1 - x : height - 1 - y, mean2, least2);
   const End& nearer = back.distance < ahead.distance ? back : ahead;
   int share = 0;
-  if ((nearer.change < 0) != (2 * m - mean2 < 0)) {
+  if (nearer.change != 0 && (nearer.change < 0) != (2 * m - mean2 < 0)) {
     share = 128 - 256 * nearer.distance / (back.distance + ahead.distance);
   }
 

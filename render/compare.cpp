@@ -14,8 +14,8 @@ namespace {
 constexpr int kWindow = 32;
 constexpr int kLevels = 8;
 
-/// The most pixels that differ by more than kLevels in any window of kWindow x kWindow.
-int worst_window(const Image& a, const Image& b) {
+/// Finds the window of kWindow x kWindow with the most pixels that differ by more than kLevels.
+void find_worst_window(const Image& a, const Image& b, Difference& difference) {
   // sums(x, y) counts the differing pixels left of x and above y.
   const auto stride = static_cast<std::size_t>(a.width) + 1;
   std::vector<int> sums(stride * (static_cast<std::size_t>(a.height) + 1));
@@ -31,15 +31,17 @@ int worst_window(const Image& a, const Image& b) {
       sum(x + 1, y + 1) = sum(x, y + 1) + sum(x + 1, y) - sum(x, y) + (differs ? 1 : 0);
     }
   }
-  int worst = 0;
   for (int y = 0; y < std::max(1, a.height - kWindow + 1); ++y) {
     for (int x = 0; x < std::max(1, a.width - kWindow + 1); ++x) {
       const int right = std::min(a.width, x + kWindow);
       const int bottom = std::min(a.height, y + kWindow);
-      worst = std::max(worst, sum(right, bottom) - sum(x, bottom) - sum(right, y) + sum(x, y));
+      const int pixels = sum(right, bottom) - sum(x, bottom) - sum(right, y) + sum(x, y);
+      if (pixels <= difference.worst_window_pixels) continue;
+      difference.worst_window_pixels = pixels;
+      difference.worst_window_x = x;
+      difference.worst_window_y = y;
     }
   }
-  return worst;
 }
 
 /// Black through red and yellow to white, so that faint errors are still seen.
@@ -69,7 +71,7 @@ Difference compare(const Image& reference, const Image& actual) {
   double sum = 0;
   for (const float error : errors) sum += static_cast<double>(error);
   difference.flip_mean = sum / static_cast<double>(errors.size());
-  difference.worst_window_pixels = worst_window(reference, actual);
+  find_worst_window(reference, actual, difference);
   difference.heat_map = heat_map(reference, errors);
   return difference;
 }

@@ -15,6 +15,8 @@ struct Difference {
   bool same_size = false;
   double flip_mean = 0;  ///< FLIP (Andersson et al. 2020), LDR, mean error.
   int worst_window_pixels = 0;
+  int worst_window_x = 0;  ///< Its left and top.
+  int worst_window_y = 0;
   Image heat_map;  ///< Of the FLIP error; empty if same_bytes or not same_size.
 
   bool passes(const Thresholds& thresholds) const {

@@ -73,6 +73,7 @@ class ImagesSink final : public FrameSink {
     for (const auto& image : std::filesystem::directory_iterator(partial_)) {
       replace_file(image.path(), folder_ / image.path().filename());
     }
+    std::filesystem::remove_all(partial_);
   }
 
  private:

@@ -55,16 +55,14 @@ void GlContext::adopt_table(const char* missing) {
   GLint minor = 0;
   gl_.GetIntegerv(GL_MAJOR_VERSION, &major);
   gl_.GetIntegerv(GL_MINOR_VERSION, &minor);
-  if (major * 10 + minor >= 33) return;
-  throw InputError(kind_ + ": OpenGL " + std::to_string(major) + "." + std::to_string(minor) +
-                   ", but 3.3 is needed");
-}
-
-std::string GlContext::description() const {
+  if (major * 10 + minor < 33) {
+    throw InputError(kind_ + ": OpenGL " + std::to_string(major) + "." + std::to_string(minor) +
+                     ", but 3.3 is needed");
+  }
   const auto text = [&](GLenum name) {
     return std::string(reinterpret_cast<const char*>(gl_.GetString(name)));
   };
-  return kind_ + ": " + text(GL_RENDERER) + ", " + text(GL_VERSION);
+  description_ = kind_ + ": " + text(GL_RENDERER) + ", " + text(GL_VERSION);
 }
 
 std::unique_ptr<GlContext> make_context(const std::string& wanted) {

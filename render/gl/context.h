@@ -20,7 +20,7 @@ class GlContext {
 
   const GlTable& gl() const { return gl_; }
   /// How it was had, and the driver's own words, e.g. "egl-surfaceless: llvmpipe (...), 4.5 ...".
-  std::string description() const;
+  const std::string& description() const { return description_; }
 
  protected:
   /// Fills the function table and checks the version; throws InputError if it will not do.
@@ -34,6 +34,7 @@ class GlContext {
   void adopt_table(const char* missing);
 
   std::string kind_;
+  std::string description_;
   GlTable gl_;
 };
 

@@ -1,0 +1,210 @@
+// What pictures promise: the same bytes, lit faces, shadows, precision far from the origin.
+#include "render/renderer.h"
+
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "render/compare.h"
+#include "tests/render/synthetic_frame.h"
+
+namespace sunder::render {
+namespace {
+
+RenderOptions small(const std::string& gl = "auto") {
+  return {.width = 320, .height = 180, .gl = gl};
+}
+
+Renderer& renderer() {
+  static Renderer shared(small());
+  return shared;
+}
+
+Vec3f pixel(const Image& image, int x, int y) {
+  const auto i = 3 * static_cast<std::size_t>(y * image.width + x);
+  return Vec3f(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]);
+}
+
+float brightness(const Vec3f& rgb) { return rgb.mean(); }
+
+TEST(Renderer, TheSameFrameGivesTheSameBytesWhateverWasDrawnBefore) {
+  const Frame frame = house_frame(200);
+  const Image first = renderer().draw(frame);
+  EXPECT_EQ(renderer().draw(frame), first) << "drawn twice in a row";
+  renderer().draw(house_frame(2500));  // outgrows the buffers
+  EXPECT_EQ(renderer().draw(frame), first) << "after another frame";
+  Renderer fresh(small());
+  EXPECT_EQ(fresh.draw(frame), first) << "in a new context";
+}
+
+TEST(Renderer, EveryKindOfContextGivesTheSameBytes) {
+  const Frame frame = house_frame(200);
+  std::optional<Image> first;
+  std::string first_kind;
+  std::string absent;
+  int kinds = 0;
+  for (const char* gl : {"egl-surfaceless", "egl-device:0", "osmesa"}) {
+    try {
+      Renderer other(small(gl));
+      // Hardware rounds differently; only software drivers promise the same bytes.
+      if (other.description().find("llvmpipe") == std::string::npos) continue;
+      const Image image = other.draw(frame);
+      if (!first) {
+        first = image;
+        first_kind = gl;
+      }
+      EXPECT_TRUE(image == *first) << gl << " against " << first_kind;
+      ++kinds;
+    } catch (const InputError& error) {
+      absent += std::string("\n") + error.what();
+    }
+  }
+  if (kinds < 2) GTEST_SKIP() << "fewer than two software contexts here:" << absent;
+}
+
+TEST(Renderer, AnUnknownContextIsRefusedWithWhatIsAllowed) {
+  for (const char* gl : {"", "vulkan", "egl-device:", "egl-device:x", "egl-device:-1"}) {
+    try {
+      Renderer other(small(gl));
+      ADD_FAILURE() << gl << " was accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("egl-surfaceless"), std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_THROW(Renderer(small("egl-device:99")), InputError);
+}
+
+TEST(Renderer, ADescriptionNamesTheContextAndTheDriver) {
+  const std::string text = renderer().description();
+  EXPECT_NE(text.find(':'), std::string::npos) << text;
+  EXPECT_GT(text.size(), 20u) << text;
+}
+
+/// The picture of one thing, its sun behind the camera.
+Image lit_from(const Vec3& eye, const SyntheticFrame& synthetic) {
+  Frame frame = synthetic.frame;
+  frame.view.eye_W = eye + Vec3(0, 3, 0);
+  frame.view.target_W = Vec3(0, 3, 0);
+  frame.view.to_sun_W = eye + Vec3(0, 0.5, 0);
+  frame.view.fov_rad = 0.35;
+  return renderer().draw(frame);
+}
+
+TEST(Renderer, FacesThatTheSunShinesOnAreLitFromEverySide) {
+  Random random(11);
+  for (int shape = 0; shape < 5; ++shape) {
+    SyntheticFrame s;
+    if (shape == 0) s.add_box({-1, 2, -1}, {1, 4, 1}, Stuff::kConcrete);
+    if (shape == 1) s.add_ball({0, 3, 0}, 1, Stuff::kPlaster);
+    if (shape >= 2) s.add_chunk({0, 3, 0}, 2.5, Stuff::kConcrete, random);
+    for (int side = 0; side < 12; ++side) {
+      Vec3 eye = random.direction();
+      eye.y() = 0.4 * std::abs(eye.y());
+      const Image image = lit_from(9 * eye.normalized(), s);
+      for (int y = 80; y <= 100; y += 5) {
+        for (int x = 150; x <= 170; x += 5) {
+          ASSERT_GT(brightness(pixel(image, x, y)), 50)
+              << "shape " << shape << ", side " << side << ", pixel " << x << " " << y;
+        }
+      }
+    }
+  }
+}
+
+TEST(Renderer, ABoxThrowsAShadowOnTheGroundThatIsDarkerAndCooler) {
+  SyntheticFrame s;
+  s.add_box({-1, 2, -1}, {1, 2.4, 1}, Stuff::kConcrete);
+  s.frame.view.eye_W = Vec3(0, 4, 9);
+  s.frame.view.target_W = Vec3(0, 0, 0);
+  s.frame.view.to_sun_W = Vec3(0.001, 1, 0);
+  const Image image = renderer().draw(s.frame);
+  const Vec3f shaded = pixel(image, 160, 90);
+  const Vec3f sunlit = pixel(image, 40, 90);
+  EXPECT_LT(brightness(shaded), 0.75f * brightness(sunlit));
+  EXPECT_GT(shaded.z() / shaded.x(), sunlit.z() / sunlit.x());
+}
+
+TEST(Renderer, AFloatingPlateIsNotStripedByItsOwnShadow) {
+  SyntheticFrame s;
+  s.add_box({-4, 0, -4}, {4, 1, 4}, Stuff::kPlaster);
+  s.frame.view.eye_W = Vec3(0, 7, 7);
+  s.frame.view.target_W = Vec3(0, 1, 0);
+  s.frame.view.to_sun_W = Vec3(0.9, 0.25, 0.2);  // grazing
+  const Image image = renderer().draw(s.frame);
+  const float middle = brightness(pixel(image, 160, 90));
+  for (int x = 120; x < 200; ++x) {
+    EXPECT_GT(brightness(pixel(image, x, 90)), 0.75f * middle) << "at " << x;
+  }
+}
+
+TEST(Renderer, AMeshSharedByManyBodiesIsDrawnForEach) {
+  SyntheticFrame s;
+  s.add_box({-0.3, 0, -0.3}, {0.3, 0.6, 0.3}, Stuff::kSteel);
+  s.frame.view.eye_W = Vec3(0, 2, 9);
+  const Image one = renderer().draw(s.frame);
+  for (const double x : {-2.0, -1.0, 1.0, 2.0}) {
+    FrameBody body = s.frame.bodies[0];
+    body.X_WB.position.x() = x;
+    body.key = s.frame.bodies.size();
+    s.frame.instances.push_back({MeshIndex(0), static_cast<std::uint32_t>(s.frame.bodies.size())});
+    s.frame.bodies.push_back(body);
+  }
+  const Image five = renderer().draw(s.frame);
+  const auto changed = [&](int x) {
+    return !(pixel(one, x, 104) - pixel(five, x, 104)).isZero(16);
+  };
+  EXPECT_TRUE(changed(160 - 47) && changed(160 - 23) && changed(160 + 23) && changed(160 + 47));
+  EXPECT_FALSE(changed(160));
+}
+
+TEST(Renderer, AWallIsSeenThroughAPane) {
+  SyntheticFrame s;
+  s.add_box({-3, 0, -1}, {3, 4, -0.8}, Stuff::kConcrete);
+  s.frame.view.eye_W = Vec3(0, 1.5, 6);
+  s.frame.view.target_W = Vec3(0, 1.5, 0);
+  const Vec3f bare = pixel(renderer().draw(s.frame), 160, 90);
+  s.add_box({-1, 0.5, 0}, {1, 2.5, 0.02}, Stuff::kGlass);
+  const Vec3f covered = pixel(renderer().draw(s.frame), 160, 90);
+  EXPECT_NE(bare, covered);
+  EXPECT_LT((bare - covered).cwiseAbs().maxCoeff(), 60);
+}
+
+TEST(Renderer, TenKilometresFromTheOriginThePictureIsTheSame) {
+  Frame frame = house_frame(100);
+  const Image here = renderer().draw(frame);
+  const Vec3 away(9600, 0, -9600);  // whole periods of the ground's texture
+  for (FrameBody& body : frame.bodies) body.X_WB.position += away;
+  frame.view.eye_W += away;
+  frame.view.target_W += away;
+  const Difference difference = compare(here, renderer().draw(frame));
+  EXPECT_TRUE(difference.passes({}))
+      << difference.flip_mean << " " << difference.worst_window_pixels;
+}
+
+TEST(Renderer, AnEmptyWorldIsGroundUnderSky) {
+  SyntheticFrame s;
+  s.frame.view.eye_W = Vec3(0, 2, 8);
+  s.frame.view.target_W = Vec3(0, 2, 0);
+  const Image image = renderer().draw(s.frame);
+  const Vec3f sky = pixel(image, 160, 5);
+  const Vec3f ground = pixel(image, 160, 175);
+  EXPECT_GT(sky.z(), sky.x());
+  EXPECT_GT(ground.x(), ground.z());
+}
+
+TEST(Renderer, TheHudIsWrittenInTheCornerOnly) {
+  SyntheticFrame s;
+  RenderOptions options = small();
+  options.hud = true;
+  const Image with = Renderer(options).draw(s.frame);
+  const Image without = renderer().draw(s.frame);
+  EXPECT_NE(with, without);
+  for (int y = 72; y < 180; y += 7) {
+    for (int x = 0; x < 320; x += 7) ASSERT_EQ(pixel(with, x, y), pixel(without, x, y));
+  }
+}
+
+}  // namespace
+}  // namespace sunder::render
