@@ -1,4 +1,5 @@
 // A dry wall in running bond: every brick a body of its own.
+#include "engine/base/random.h"
 #include "scenes/structures/structure.h"
 
 namespace sunder::scenes {
@@ -9,6 +10,8 @@ struct BrickWall {
   int bricks = 25;
   int courses = 20;
   MaterialRef material{"clay", {}};
+  MaterialRef second{"clay", {}};
+  double second_share = 0;
 };
 
 /// A course is full bricks and one half, at the left end and at the right end by turns: so all
@@ -17,6 +20,7 @@ std::vector<Piece> build_brick_wall(const BrickWall& wall) {
   const Vec3& brick = wall.brick_m;
   const double length = (wall.bricks - 0.5) * brick.x();
   std::vector<Piece> pieces;
+  Random random(1);
   for (int course = 0; course < wall.courses; ++course) {
     const bool half_first = course % 2 == 1;
     for (int i = 0; i < wall.bricks; ++i) {
@@ -41,7 +45,9 @@ Structure brick_wall_structure() {
        key<&BrickWall::bricks>("bricks", "", Range{2, 1000},
                                "Bricks in a course, one of them a half."),
        key<&BrickWall::courses>("courses", "", Range{1, 1000}, "Courses."),
-       key<&BrickWall::material>("material", "What the bricks are made of.")});
+       key<&BrickWall::material>("material", "What the bricks are made of."),
+       key<&BrickWall::second>("second", "What some bricks are made of instead."),
+       key<&BrickWall::second_share>("second_share", "", Range{0, 1}, "How many of them.")});
 }
 
 }  // namespace sunder::scenes
