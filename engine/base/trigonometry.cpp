@@ -52,4 +52,24 @@ SinCos sin_cos(double angle_rad) {
   }
 }
 
+double arc_tangent(double y, double x) {
+  constexpr double kPi = 3.14159265358979323846;
+  const double across = std::abs(y), along = std::abs(x);
+  if (!(across > 0) && !(along > 0)) return 0;
+  const bool steep = across > along;
+  // Halving the angle twice leaves |t| < 0.2, where the series is short.
+  double t = steep ? along / across : across / along;
+  t = t / (1 + std::sqrt(1 + t * t));
+  t = t / (1 + std::sqrt(1 + t * t));
+  const double z = t * t;
+  constexpr double kSeries[] = {1.0 / 21, 1.0 / 19, 1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11,
+                                1.0 / 9,  1.0 / 7,  1.0 / 5,  1.0 / 3,  1.0};
+  double sum = 1.0 / 23;
+  for (const double term : kSeries) sum = term - z * sum;
+  const double angle = 4 * t * sum;
+  const double first_quadrant = steep ? kPi / 2 - angle : angle;
+  const double upper = x < 0 ? kPi - first_quadrant : first_quadrant;
+  return y < 0 ? -upper : upper;
+}
+
 }  // namespace sunder

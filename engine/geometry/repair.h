@@ -24,6 +24,7 @@ struct RepairOptions {
 struct Repair {
   std::string name;
   std::size_t count = 0;
+  bool harmless = false;  ///< The same surface, written otherwise: done even where repair is off.
 };
 
 struct RepairedMesh {

@@ -206,7 +206,7 @@ std::size_t join_close(RawMesh& mesh, std::span<const std::uint32_t> vertices, d
     for (int neighbor = 0; neighbor < 27; ++neighbor) {
       const Cell other{cell[0] + neighbor % 3 - 1, cell[1] + neighbor / 3 % 3 - 1,
                        cell[2] + neighbor / 9 - 1};
-      // The first in a cell stands for all of it: a cell is no wider than the tolerance.
+      // Only with the first in a cell, so that a crowd costs no more than its number.
       const auto found = std::lower_bound(cells.begin(), cells.end(), std::pair(other, 0u));
       if (found == cells.end() || found->first != other || found->second == v) continue;
       if ((mesh.vertices[found->second] - mesh.vertices[v]).norm() > tolerance_m) continue;
@@ -262,6 +262,25 @@ std::size_t drop_duplicates(RawMesh& mesh) {
   return before - mesh.polygons.size();
 }
 
+void insert_in_edges(RawMesh& mesh, const std::vector<Insertion>& sorted) {
+  // The corners are rewritten as copies of the edge's start, then get their own vertices.
+  std::vector<std::uint32_t> vertices;
+  rewrite_polygons(mesh, [&](std::size_t, std::vector<std::uint32_t>& corners) {
+    const std::vector<std::uint32_t> old = corners;
+    corners.clear();
+    for (const std::uint32_t c : old) {
+      corners.push_back(c);
+      vertices.push_back(mesh.corners[c]);
+      auto it = std::lower_bound(sorted.begin(), sorted.end(), Insertion{c, -1, 0});
+      for (; it != sorted.end() && it->half_edge == c; ++it) {
+        corners.push_back(c);
+        vertices.push_back(it->vertex);
+      }
+    }
+  });
+  mesh.corners = std::move(vertices);
+}
+
 std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_half_edges,
                              double tolerance_m) {
   constexpr std::size_t kMostTried = 10'000'000;
@@ -283,7 +302,7 @@ std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_
   open_vertices.erase(std::unique(open_vertices.begin(), open_vertices.end()), open_vertices.end());
 
   const Bvh bvh(boxes);
-  std::vector<std::tuple<std::uint32_t, double, std::uint32_t>> found;  // half-edge, place, vertex
+  std::vector<Insertion> found;
   std::vector<std::uint32_t> hits;
   std::size_t tried = 0;
   for (const std::uint32_t v : open_vertices) {
@@ -297,30 +316,12 @@ std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_
       const Vec3 ab = mesh.vertices[mesh.corners[next[c]]] - a, ap = mesh.vertices[v] - a;
       const double length = ab.norm(), along = ab.dot(ap) / length;
       if (!(along > tolerance_m && along < length - tolerance_m)) continue;
-      if ((ap - along / length * ab).norm() <= tolerance_m) found.emplace_back(c, along, v);
+      if ((ap - along / length * ab).norm() <= tolerance_m) found.push_back({c, along, v});
     }
   }
   std::sort(found.begin(), found.end());
 
-  RawMesh cut = mesh;
-  std::vector<std::uint32_t> cut_vertex = mesh.corners;
-  // New corners get their vertex after the rewrite copied an attribute from the edge's start.
-  std::vector<std::uint32_t> vertices;
-  rewrite_polygons(cut, [&](std::size_t, std::vector<std::uint32_t>& corners) {
-    const std::vector<std::uint32_t> old = corners;
-    corners.clear();
-    for (const std::uint32_t c : old) {
-      corners.push_back(c);
-      vertices.push_back(mesh.corners[c]);
-      auto it = std::lower_bound(found.begin(), found.end(), std::tuple(c, -1.0, 0u));
-      for (; it != found.end() && std::get<0>(*it) == c; ++it) {
-        corners.push_back(c);
-        vertices.push_back(std::get<2>(*it));
-      }
-    }
-  });
-  cut.corners = std::move(vertices);
-  mesh = std::move(cut);
+  insert_in_edges(mesh, found);
   return found.size();
 }
 

@@ -1,6 +1,7 @@
 // The first tier of repair: vertices that are one, and faces that are none.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -30,11 +31,19 @@ std::size_t join_identical(RawMesh& mesh);
 std::size_t join_close(RawMesh& mesh, std::span<const std::uint32_t> vertices, double tolerance_m);
 /// Drops repeated corners, spikes and polygons without area; returns how many polygons went.
 std::size_t drop_degenerate(RawMesh& mesh);
-/// Drops polygons that repeat another's vertices, with the same sense; of opposite sense only if the
-/// mesh is double-sided throughout (else they are two solids that touch).
+/// Drops polygons that repeat another's vertices, with the same sense; of opposite sense only if
+/// the mesh is double-sided throughout (else they are two solids that touch).
 std::size_t drop_duplicates(RawMesh& mesh);
-/// Puts open vertices that lie on open edges into those edges; returns how many were put. Half-edge
-/// c goes from corner c to the next.
+/// A vertex to be put into an edge. Half-edge c goes from corner c to the next.
+struct Insertion {
+  std::uint32_t half_edge;
+  double along;  ///< From the half-edge's start, in any unit.
+  std::uint32_t vertex;
+  auto operator<=>(const Insertion&) const = default;
+};
+/// Puts vertices into edges; texture coordinates and normals are those of the edge's start.
+void insert_in_edges(RawMesh& mesh, const std::vector<Insertion>& sorted);
+/// Puts open vertices that lie on open edges into those edges; returns how many were put.
 std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_half_edges,
                              double tolerance_m);
 

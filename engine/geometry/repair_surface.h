@@ -46,10 +46,13 @@ std::size_t orient(RawMesh& mesh);
 Surface pair_edges(RawMesh mesh);
 /// Gives each fan of polygons around a vertex a vertex of its own; returns how many were added.
 std::size_t split_vertices(Surface& surface);
+/// Puts a new vertex into edges that a surface passes more than once, so that every edge is told by
+/// its ends; returns how many. The edges are paired afterwards.
+std::size_t part_edges(Surface& surface);
 /// The number of each polygon's shell (what hangs together by edges), in the order of polygons.
 std::vector<std::uint32_t> shells_of(const Surface& surface, std::uint32_t& count);
-/// Six times the signed volume that polygons [0, n) enclose with `origin`, summed by their `part`.
-std::vector<double> volumes6(const RawMesh& mesh, const std::vector<std::uint32_t>& part,
-                             std::uint32_t count);
+/// The signed volume that the polygons of each part enclose; meaningful where a part is closed.
+std::vector<double> volumes(const RawMesh& mesh, const std::vector<std::uint32_t>& part,
+                            std::uint32_t count);
 
 }  // namespace sunder

@@ -1,0 +1,172 @@
+// Marching tetrahedra: each cube of the grid is six tetrahedra around a diagonal, which meet those
+// of the next cube exactly, so the surface closes by itself.
+#include "engine/geometry/repair_shell.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/geometry/repair_clean.h"
+#include "engine/geometry/repair_triangulate.h"
+#include "engine/geometry/repair_winding.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kCellsAlong = 40;  ///< The longest side.
+/// Inside is what the mesh encloses by more than this. Beside a lone triangle it is one half.
+constexpr double kEnclosed = 0.6;
+constexpr int kHalvings = 4;  ///< Of a grid edge, to find where the surface crosses it.
+
+using GridEdge = std::pair<std::uint32_t, std::uint32_t>;  ///< From inside to outside.
+
+std::vector<std::array<Vec3, 3>> triangles_of(const RawMesh& mesh) {
+  std::vector<std::array<Vec3, 3>> triangles;
+  std::vector<Vec3> contour;
+  for (std::size_t p = 0; p < mesh.polygons.size(); ++p) {
+    contour.clear();
+    for (const std::uint32_t v : mesh.polygon_corners(p)) contour.push_back(mesh.vertices[v]);
+    for (const Triangle& t : triangulate(contour)) {
+      triangles.push_back({contour[t[0]], contour[t[1]], contour[t[2]]});
+    }
+  }
+  return triangles;
+}
+
+class WindingGrid {
+ public:
+  explicit WindingGrid(const RawMesh& mesh) : field_(triangles_of(mesh)) {
+    Box box;
+    for (const std::uint32_t v : mesh.corners) box.extend(mesh.vertices[v]);
+    cell_ = box.extent().maxCoeff() / kCellsAlong;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      size_[k] = static_cast<std::uint32_t>(std::ceil(box.extent()[axis] / cell_)) + 4;
+    }
+    const Vec3 span = cell_ * Vec3(size_[0] - 1, size_[1] - 1, size_[2] - 1);
+    origin_ = box.center() - 0.5 * span;
+    sample();
+  }
+
+  RawMesh surface() {
+    for (std::uint32_t z = 0; z + 1 < size_[2]; ++z) {
+      for (std::uint32_t y = 0; y + 1 < size_[1]; ++y) {
+        for (std::uint32_t x = 0; x + 1 < size_[0]; ++x) march(x, y, z);
+      }
+    }
+    return build();
+  }
+
+ private:
+  std::uint32_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+    return (z * size_[1] + y) * size_[0] + x;
+  }
+  Vec3 place(std::uint32_t i) const {
+    return origin_ + cell_ * Vec3(i % size_[0], i / size_[0] % size_[1], i / size_[0] / size_[1]);
+  }
+  bool encloses(const Vec3& point) const { return std::abs(field_.at(point)) > kEnclosed; }
+
+  void sample() {
+    inside_.assign(std::size_t{size_[0]} * size_[1] * size_[2], 0);
+    for_chunks(inside_.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto n = static_cast<std::uint32_t>(i);
+        const std::uint32_t x = n % size_[0], y = n / size_[0] % size_[1],
+                            z = n / size_[0] / size_[1];
+        const bool rim = x == 0 || y == 0 || z == 0 || x + 1 == size_[0] || y + 1 == size_[1] ||
+                         z + 1 == size_[2];
+        inside_[i] = !rim && encloses(place(n)) ? 1 : 0;
+      }
+    });
+  }
+
+  void march(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    std::array<std::uint32_t, 8> cube;
+    unsigned count = 0;
+    for (std::uint32_t k = 0; k < 8; ++k) {
+      cube[k] = index(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
+      count += inside_[cube[k]];
+    }
+    if (count == 0 || count == 8) return;
+    // From corner 0 to corner 7 along three axes, in each of their orders; all right-handed.
+    constexpr std::uint32_t kTetrahedra[6][4] = {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 4, 5, 7},
+                                                 {0, 6, 4, 7}, {0, 2, 6, 7}, {0, 3, 2, 7}};
+    for (const auto& t : kTetrahedra) tetrahedron({cube[t[0]], cube[t[1]], cube[t[2]], cube[t[3]]});
+  }
+
+  void tetrahedron(std::array<std::uint32_t, 4> t) {
+    // Inside corners first, by an even permutation, which keeps the handedness.
+    std::array<std::uint32_t, 4> sorted = t;
+    std::stable_partition(sorted.begin(), sorted.end(),
+                          [&](std::uint32_t i) { return inside_[i] != 0; });
+    int swaps = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto at =
+          static_cast<std::size_t>(std::find(t.begin(), t.end(), sorted[i]) - t.begin());
+      if (at == i) continue;
+      std::swap(t[i], t[at]);
+      ++swaps;
+    }
+    const auto [a, b, c, d] = sorted;
+    const unsigned count = inside_[a] + inside_[b] + inside_[c] + inside_[d];
+    const bool even = swaps % 2 == 0;
+    if (count == 1) {
+      add({GridEdge{a, b}, {a, c}, {a, d}}, even);
+    } else if (count == 2) {
+      add({GridEdge{a, c}, {a, d}, {b, d}}, even);
+      add({GridEdge{a, c}, {b, d}, {b, c}}, even);
+    } else if (count == 3) {
+      add({GridEdge{a, d}, {c, d}, {b, d}}, !even);
+    }
+  }
+
+  void add(std::array<GridEdge, 3> triangle, bool even) {
+    if (!even) std::swap(triangle[1], triangle[2]);
+    for (const GridEdge& edge : triangle) corners_.push_back(edge);
+  }
+
+  RawMesh build() {
+    std::vector<GridEdge> edges = corners_;
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    RawMesh mesh;
+    mesh.vertices.resize(edges.size());
+    for_chunks(edges.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t e = begin; e < end; ++e) mesh.vertices[e] = crossing(edges[e]);
+    });
+    for (std::size_t c = 0; c < corners_.size(); c += 3) {
+      std::array<std::uint32_t, 3> vertices;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto at = std::lower_bound(edges.begin(), edges.end(), corners_[c + k]);
+        vertices[k] = static_cast<std::uint32_t>(at - edges.begin());
+      }
+      append_polygon(mesh, vertices, 0);
+    }
+    return mesh;
+  }
+
+  Vec3 crossing(const GridEdge& edge) const {
+    const Vec3 from = place(edge.first), to = place(edge.second);
+    double low = 0, high = 1;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (encloses(from + middle * (to - from)) ? low : high) = middle;
+    }
+    return from + 0.5 * (low + high) * (to - from);
+  }
+
+  WindingField field_;
+  Vec3 origin_;
+  double cell_ = 0;
+  std::array<std::uint32_t, 3> size_{};
+  std::vector<std::uint8_t> inside_;
+  std::vector<GridEdge> corners_;  ///< Of triangles, three by three.
+};
+
+}  // namespace
+
+RawMesh winding_shell(const RawMesh& mesh) { return WindingGrid(mesh).surface(); }
+
+}  // namespace sunder

@@ -1,0 +1,98 @@
+#include "engine/geometry/repair_winding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/trigonometry.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::uint32_t kLeafSize = 8;
+/// A node farther away than this many radii acts as one dipole.
+constexpr double kFar = 2.2;
+
+Vec3 centroid(const std::array<Vec3, 3>& t) { return (t[0] + t[1] + t[2]) / 3; }
+
+/// The signed solid angle of a triangle (van Oosterom and Strackee 1983).
+double solid_angle(const std::array<Vec3, 3>& t, const Vec3& point) {
+  const Vec3 a = t[0] - point, b = t[1] - point, c = t[2] - point;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  const double across = a.dot(b.cross(c));
+  const double along = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+  return 2 * arc_tangent(across, along);
+}
+
+}  // namespace
+
+WindingField::WindingField(std::vector<std::array<Vec3, 3>> triangles)
+    : triangles_(std::move(triangles)) {
+  if (!triangles_.empty()) build(0, static_cast<std::uint32_t>(triangles_.size()));
+}
+
+void WindingField::build(std::uint32_t first, std::uint32_t count) {
+  const std::size_t index = nodes_.size();
+  Node node;
+  node.first = first;
+  node.count = count;
+  node.leaf = count <= kLeafSize;
+  summarise(node);
+  nodes_.push_back(node);
+  if (!node.leaf) {
+    Box box;
+    for (std::uint32_t i = first; i < first + count; ++i) box.extend(centroid(triangles_[i]));
+    Eigen::Index axis = 0;
+    box.extent().maxCoeff(&axis);
+    const auto begin = triangles_.begin() + first;
+    const std::uint32_t half = count / 2;
+    std::nth_element(begin, begin + half, begin + count, [axis](const auto& a, const auto& b) {
+      return centroid(a)[axis] < centroid(b)[axis];
+    });
+    build(first, half);
+    build(first + half, count - half);
+  }
+  nodes_[index].next = static_cast<std::uint32_t>(nodes_.size());
+}
+
+void WindingField::summarise(Node& node) const {
+  double total = 0;
+  Vec3 mean = Vec3::Zero();
+  for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+    const auto& t = triangles_[i];
+    const Vec3 area = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]);
+    node.area += area;
+    node.center += area.norm() * centroid(t);
+    mean += centroid(t) / node.count;
+    total += area.norm();
+  }
+  node.center = total > 0 ? Vec3(node.center / total) : mean;
+  for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+    for (const Vec3& p : triangles_[i]) {
+      node.radius = std::max(node.radius, (p - node.center).norm());
+    }
+  }
+}
+
+double WindingField::at(const Vec3& point) const {
+  double angle = 0;
+  for (std::size_t n = 0; n < nodes_.size();) {
+    const Node& node = nodes_[n];
+    const Vec3 away = node.center - point;
+    const double square = away.squaredNorm(), far = kFar * node.radius;
+    if (square > far * far) {
+      angle += away.dot(node.area) / (square * std::sqrt(square));
+      n = node.next;
+    } else if (node.leaf) {
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        angle += solid_angle(triangles_[i], point);
+      }
+      n = node.next;
+    } else {
+      ++n;
+    }
+  }
+  return angle / (4 * kPi);
+}
+
+}  // namespace sunder

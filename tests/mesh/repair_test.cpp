@@ -1,0 +1,343 @@
+// Repair: what is broken is mended and named, what is sound is left alone, and everything ends.
+#include "engine/geometry/repair.h"
+
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "engine/base/random.h"
+#include "engine/base/trigonometry.h"
+#include "engine/geometry/repair_clean.h"
+#include "engine/geometry/repair_triangulate.h"
+#include "engine/geometry/repair_winding.h"
+#include "engine/io/mesh_reader.h"
+#include "tests/mesh/meshes.h"
+
+namespace sunder {
+namespace {
+
+/// Appends a box of six quads; some of its faces (-x +x -y +y -z +z) may be left out.
+void add_box(RawMesh& mesh, const Vec3& min, const Vec3& max, std::set<int> without = {},
+             bool inside_out = false) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.emplace_back(i & 1 ? max.x() : min.x(), i & 2 ? max.y() : min.y(),
+                               i & 4 ? max.z() : min.z());
+  }
+  constexpr std::uint32_t kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                          {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for (int f = 0; f < 6; ++f) {
+    if (without.contains(f)) continue;
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t v : kFaces[f]) corners.push_back(first + v);
+    if (inside_out) std::reverse(corners.begin(), corners.end());
+    append_polygon(mesh, corners, 0);
+  }
+}
+
+RawMesh box(std::set<int> without = {}) {
+  RawMesh mesh;
+  add_box(mesh, Vec3::Zero(), Vec3(1, 2, 3), std::move(without));
+  return mesh;
+}
+
+double total_volume(const RepairedMesh& repaired) {
+  double sum = 0;
+  for (const PolygonMesh& shell : repaired.shells) {
+    EXPECT_EQ(open_edges(shell), 0u);
+    EXPECT_GT(mass_properties(shell).volume_m3, 0);
+    sum += mass_properties(shell).volume_m3;
+  }
+  return sum;
+}
+
+std::size_t count_of(const RepairedMesh& repaired, const std::string& name) {
+  std::size_t count = 0;
+  for (const Repair& repair : repaired.repairs) {
+    if (repair.name == name) count += repair.count;
+  }
+  return count;
+}
+
+TEST(Repair, ASoundMeshIsLeftAlone) {
+  const RepairedMesh repaired = repair_mesh(box(), "box", {.repair = false});
+  EXPECT_TRUE(repaired.closed);
+  EXPECT_TRUE(repaired.repairs.empty());
+  ASSERT_EQ(repaired.shells.size(), 1u);
+  EXPECT_EQ(repaired.shells[0].faces.size(), 6u);
+  EXPECT_EQ(total_volume(repaired), 6);
+  for (std::size_t c = 0; c < 24; ++c) {  // the edges of a box are creases
+    EXPECT_EQ(repaired.shells[0].corner_normals[c].cwiseAbs().sum(), 1);
+  }
+}
+
+TEST(Repair, AHoleIsClosedByOnePolygon) {
+  const RepairedMesh repaired = repair_mesh(box({2}), "box");
+  EXPECT_FALSE(repaired.closed);
+  EXPECT_EQ(count_of(repaired, "planar holes closed"), 1u);
+  EXPECT_EQ(repaired.shells[0].faces.size(), 6u);
+  EXPECT_EQ(total_volume(repaired), 6);
+}
+
+TEST(Repair, WhatNeedsRepairIsRefusedWhereRepairIsOff) {
+  try {
+    repair_mesh(box({2}), "box.obj", {.repair = false});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "box.obj: repairs are off, and the mesh needs them: planar holes closed (1); mend "
+                 "it, or allow repairs");
+  }
+}
+
+TEST(Repair, SeparateFacesAreJoined) {
+  RawMesh apart;
+  const RawMesh whole = box();
+  Random random(1);
+  for (std::size_t p = 0; p < whole.polygons.size(); ++p) {
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t v : whole.polygon_corners(p)) {
+      corners.push_back(static_cast<std::uint32_t>(apart.vertices.size()));
+      apart.vertices.push_back(whole.vertices[v] + 1e-7 * random.direction());
+    }
+    append_polygon(apart, corners, 0);
+  }
+  const RepairedMesh repaired = repair_mesh(apart, "box");
+  EXPECT_EQ(count_of(repaired, "close vertices joined"), 16u);
+  EXPECT_EQ(repaired.shells.size(), 1u);
+  EXPECT_NEAR(total_volume(repaired), 6, 1e-5);
+}
+
+TEST(Repair, FacesAreTurnedToAgreeAndOutward) {
+  RawMesh mesh = box();
+  reverse_polygon(mesh, 0);
+  reverse_polygon(mesh, 3);
+  const RepairedMesh repaired = repair_mesh(mesh, "box");
+  EXPECT_EQ(count_of(repaired, "faces turned to agree with their neighbours"), 2u);
+  EXPECT_EQ(total_volume(repaired), 6);
+  RawMesh inside_out;
+  add_box(inside_out, Vec3::Zero(), Vec3(1, 2, 3), {}, true);
+  EXPECT_EQ(total_volume(repair_mesh(inside_out, "box")), 6);
+}
+
+TEST(Repair, DegenerateAndDuplicateFacesAreDropped) {
+  RawMesh mesh = box();
+  append_polygon(mesh, std::array{0u, 0u, 1u}, 0);
+  append_polygon(mesh, std::array{0u, 1u, 0u, 2u}, 0);
+  append_polygon(mesh, std::array{6u, 2u, 0u, 4u}, 0);  // the first face from another corner
+  const RepairedMesh repaired = repair_mesh(mesh, "box");
+  EXPECT_EQ(count_of(repaired, "degenerate faces dropped"), 2u);
+  EXPECT_EQ(count_of(repaired, "duplicate faces dropped"), 1u);
+  EXPECT_EQ(total_volume(repaired), 6);
+}
+
+TEST(Repair, ADoubleSidedMeshBecomesOneSided) {
+  RawMesh mesh = box();
+  add_box(mesh, Vec3::Zero(), Vec3(1, 2, 3), {}, true);
+  const RepairedMesh repaired = repair_mesh(mesh, "box");
+  EXPECT_EQ(count_of(repaired, "duplicate faces dropped"), 6u);
+  EXPECT_EQ(total_volume(repaired), 6);
+}
+
+TEST(Repair, VerticesOnEdgesArePutIntoThem) {
+  RawMesh mesh = box({4});
+  mesh.vertices.emplace_back(0.4, 0, 0);  // the -z face in two, which the -y face does not know of
+  mesh.vertices.emplace_back(0.4, 2, 0);
+  append_polygon(mesh, std::array{0u, 2u, 9u, 8u}, 0);
+  append_polygon(mesh, std::array{8u, 9u, 3u, 1u}, 0);
+  const RepairedMesh repaired = repair_mesh(mesh, "box");
+  EXPECT_EQ(count_of(repaired, "vertices put into the edges they lie on"), 2u);
+  EXPECT_EQ(repaired.shells[0].faces.size(), 7u);
+  EXPECT_EQ(total_volume(repaired), 6);
+}
+
+TEST(Repair, SolidsThatTouchComeApart) {
+  RawMesh mesh = box();
+  add_box(mesh, Vec3(1, 2, 0), Vec3(2, 3, 3));     // by an edge
+  add_box(mesh, Vec3(0, 0, 3), Vec3(1, 2, 4));     // by a face
+  add_box(mesh, Vec3(-1, -1, -1), Vec3(0, 0, 0));  // by a vertex
+  const RepairedMesh repaired = repair_mesh(mesh, "boxes");
+  EXPECT_EQ(repaired.shells.size(), 4u);
+  EXPECT_EQ(total_volume(repaired), 6 + 3 + 2 + 1);
+}
+
+TEST(Repair, ACavityStaysWithTheShellAroundIt) {
+  RawMesh mesh = box();
+  add_box(mesh, Vec3::Constant(0.25), Vec3::Constant(0.75), {}, true);
+  add_box(mesh, Vec3(5, 0, 0), Vec3(6, 1, 1), {}, true);
+  const RepairedMesh repaired = repair_mesh(mesh, "boxes");
+  ASSERT_EQ(repaired.shells.size(), 2u);
+  EXPECT_EQ(mass_properties(repaired.shells[0]).volume_m3, 6 - 0.125);
+  EXPECT_EQ(total_volume(repaired), 6 - 0.125 + 1);
+}
+
+TEST(Repair, WallsThatMeetNowhereAreEnclosed) {
+  RawMesh mesh;  // six sheets, each too small to meet the others
+  for (int f = 0; f < 6; ++f) {
+    std::set<int> others = {0, 1, 2, 3, 4, 5};
+    others.erase(f);
+    RawMesh sheet;
+    add_box(sheet, Vec3::Zero(), Vec3::Ones(), others);
+    const Vec3 center =
+        0.25 * (sheet.vertices[sheet.corners[0]] + sheet.vertices[sheet.corners[1]] +
+                sheet.vertices[sheet.corners[2]] + sheet.vertices[sheet.corners[3]]);
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t v : sheet.corners) {
+      corners.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back(center + 0.95 * (sheet.vertices[v] - center));
+    }
+    append_polygon(mesh, corners, 0);
+  }
+  const RepairedMesh repaired = repair_mesh(mesh, "sheets");
+  EXPECT_EQ(count_of(repaired, "faces enclosed in a winding-number shell"), 6u);
+  EXPECT_EQ(repaired.shells.size(), 1u);
+  EXPECT_NEAR(total_volume(repaired), 1, 0.05);
+}
+
+TEST(Repair, ASheetEnclosesNothing) {
+  EXPECT_THROW(repair_mesh(box({0, 1, 2, 3, 4}), "sheet"), InputError);
+  EXPECT_THROW(repair_mesh(RawMesh(), "nothing"), InputError);
+}
+
+TEST(Repair, PolygonsThatAreNotPlanarBecomeTriangles) {
+  RawMesh mesh = box();
+  mesh.vertices[7] += Vec3(0.1, 0.2, 0.3);
+  const RepairedMesh repaired = repair_mesh(mesh, "box", {.repair = false});
+  EXPECT_EQ(count_of(repaired, "faces triangulated because they are not planar"), 3u);
+  EXPECT_EQ(repaired.shells[0].faces.size(), 9u);
+  total_volume(repaired);
+}
+
+TEST(Repair, SmoothNormalsStopAtCreases) {
+  RawMesh prism;  // a column of 24 sides: round sides, sharp rims
+  constexpr std::uint32_t kSides = 24;
+  std::vector<std::uint32_t> bottom, top;
+  for (std::uint32_t i = 0; i < kSides; ++i) {
+    const SinCos at = sin_cos(2 * 3.14159265358979 * i / kSides);
+    prism.vertices.emplace_back(at.cos, at.sin, 0);
+    prism.vertices.emplace_back(at.cos, at.sin, 1);
+    bottom.insert(bottom.begin(), 2 * i);
+    top.push_back(2 * i + 1);
+    const std::uint32_t next = (i + 1) % kSides;
+    append_polygon(prism, std::array{2 * i, 2 * next, 2 * next + 1, 2 * i + 1}, 0);
+  }
+  append_polygon(prism, bottom, 0);
+  append_polygon(prism, top, 0);
+  const RepairedMesh repaired = repair_mesh(prism, "column");
+  const PolygonMesh& mesh = repaired.shells[0];
+  for (const PolygonMesh::Face& face : mesh.faces) {
+    const bool side = std::abs(face.plane.normal.z()) < 0.5;
+    const PolygonMesh::Contour& contour = mesh.contours[face.first_contour];
+    for (std::uint32_t i = 0; i < contour.corner_count; ++i) {
+      const std::uint32_t c = contour.first_corner + i;
+      Vec3 expected = mesh.vertices[mesh.corners[c]];
+      expected.z() = 0;
+      if (!side) expected = face.plane.normal;
+      EXPECT_NEAR((mesh.corner_normals[c].cast<double>() - expected).norm(), 0, 1e-6);
+    }
+  }
+}
+
+TEST(Repair, TheFilesNormalsAreKeptAndTurnedWithTheirFaces) {
+  RawMesh mesh;
+  add_box(mesh, Vec3::Zero(), Vec3::Ones(), {}, true);
+  for (const RawMesh::Polygon& polygon : mesh.polygons) {
+    const auto face = static_cast<std::size_t>(&polygon - mesh.polygons.data());
+    const Vec3 normal = (double_area(mesh, face).normalized() + Vec3(0.1, 0, 0)).normalized();
+    for (int i = 0; i < 4; ++i) mesh.corner_normals.push_back(normal.cast<float>());
+  }
+  const std::vector<Vec3f> given = mesh.corner_normals;
+  const RepairedMesh repaired = repair_mesh(mesh, "box");
+  for (std::size_t c = 0; c < given.size(); ++c) {
+    EXPECT_NEAR((repaired.shells[0].corner_normals[c] + given[c]).norm(), 0, 1e-6);
+  }
+}
+
+TEST(Triangulate, CoversConcaveContoursOnce) {
+  Random random(3);
+  for (const std::size_t n : {5u, 40u, 128u, 129u, 400u}) {
+    std::vector<Vec3> star;
+    double area = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const SinCos at =
+          sin_cos(2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(n));
+      star.push_back(random.uniform(0.3, 1) * Vec3(at.cos, at.sin, 0));
+    }
+    for (std::size_t i = 0; i < n; ++i) area += 0.5 * star[i].cross(star[(i + 1) % n]).z();
+    const std::vector<Triangle> triangles = triangulate(star);
+    EXPECT_EQ(triangles.size(), n - 2);
+    double sum = 0;
+    for (const Triangle& t : triangles) {
+      const double one = 0.5 * (star[t[1]] - star[t[0]]).cross(star[t[2]] - star[t[0]]).z();
+      EXPECT_GE(one, -1e-12);
+      sum += one;
+    }
+    EXPECT_NEAR(sum, area, 1e-12);
+  }
+}
+
+TEST(Winding, IsOneInsideAndNoughtOutside) {
+  std::vector<std::array<Vec3, 3>> triangles;
+  const RawMesh mesh = box();
+  for (std::size_t p = 0; p < 6; ++p) {
+    const auto c = mesh.polygon_corners(p);
+    triangles.push_back({mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]});
+    triangles.push_back({mesh.vertices[c[0]], mesh.vertices[c[2]], mesh.vertices[c[3]]});
+  }
+  const WindingField field(triangles);
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p(random.uniform(-4, 5), random.uniform(-4, 5), random.uniform(-4, 5));
+    const bool inside = (p.array() > 0).all() && (p.array() < Eigen::Array3d(1, 2, 3)).all();
+    EXPECT_NEAR(field.at(p), inside ? 1 : 0, 0.02);
+  }
+}
+
+TEST(Winding, ArcTangentIsExact) {
+  for (double angle = -3.1415; angle < 3.1415; angle += 0.001) {
+    EXPECT_NEAR(arc_tangent(3 * std::sin(angle), 3 * std::cos(angle)), angle, 2e-15);
+  }
+  EXPECT_EQ(arc_tangent(0, 0), 0);
+  EXPECT_EQ(arc_tangent(0, 2), 0);
+  EXPECT_NEAR(arc_tangent(0, -2), 3.14159265358979323846, 1e-15);
+  EXPECT_NEAR(arc_tangent(-1e-300, 0), -1.57079632679489661923, 1e-15);
+}
+
+TEST(RealMeshes, GoodOnesNeedNoRepair) {
+  SUNDER_NEEDS_MESHES();
+  for (const auto& file : test::meshes("good")) {
+    const std::string name = file.filename().string();
+    const RepairedMesh repaired = repair_mesh(read_mesh(file), name, {.repair = false});
+    EXPECT_TRUE(repaired.closed) << name;
+    EXPECT_EQ(repaired.shells.size(), 1u) << name;
+    EXPECT_GT(total_volume(repaired), 0) << name;
+  }
+}
+
+TEST(RealMeshes, NastyOnesEndInSolidsOrInOneClearLine) {
+  SUNDER_NEEDS_MESHES();
+  std::set<std::string> refused;
+  for (const auto& file : test::meshes("nasty")) {
+    const std::string name = file.filename().string();
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      const RepairedMesh repaired = repair_mesh(read_mesh(file), name);
+      EXPECT_GT(total_volume(repaired), 0) << name;
+      EXPECT_TRUE(repaired.closed || !repaired.repairs.empty()) << name;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+      refused.insert(name);
+    }
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(took.count(), 5) << name;
+  }
+  const std::set<std::string> enclose_nothing = {"concave_polygon.obj", "empty.obj",   "fan3.obj",
+                                                 "malformed.obj",       "moebius.obj", "soup.stl"};
+  for (const std::string& name : refused) EXPECT_TRUE(enclose_nothing.contains(name)) << name;
+}
+
+}  // namespace
+}  // namespace sunder
