@@ -16,7 +16,6 @@ struct FlatFace {
   std::uint32_t first_point = 0;
   std::uint32_t point_count = 0;
   Vec2 min, max;
-  double area = 0;
 };
 
 /// Finds the contacts within one plane.
@@ -64,12 +63,9 @@ class PlaneSweep {
     for (std::uint32_t i = 0; i < entries.size(); ++i) {
       const ConvexPolyhedron& polyhedron = convexes_[entries[i].convex]->polyhedron;
       const auto corners = polyhedron.face_corners(entries[i].face);
-      FlatFace flat{i,
-                    static_cast<std::uint32_t>(points_.size()),
-                    static_cast<std::uint32_t>(corners.size()),
-                    Vec2::Constant(1e300),
-                    Vec2::Constant(-1e300),
-                    0};
+      FlatFace flat{i, static_cast<std::uint32_t>(points_.size()),
+                    static_cast<std::uint32_t>(corners.size()), Vec2::Constant(1e300),
+                    Vec2::Constant(-1e300)};
       const bool same_side = entries[i].id == entries[0].id;
       for (std::size_t k = 0; k < corners.size(); ++k) {
         const std::size_t at = same_side != mirrored ? k : corners.size() - 1 - k;
@@ -78,7 +74,6 @@ class PlaneSweep {
         flat.min = flat.min.cwiseMin(points_.back());
         flat.max = flat.max.cwiseMax(points_.back());
       }
-      flat.area = polygon_area(points_of(flat));
       faces_.push_back(flat);
     }
   }
@@ -95,7 +90,9 @@ class PlaneSweep {
     if (entry_a.convex == entry_b.convex) return;
     if (a.max.y() <= b.min.y() || b.max.y() <= a.min.y()) return;
     const double area = overlap_area(points_of(a), points_of(b), scratch_);
-    if (area <= kLeastOverlap * std::min(a.area, b.area)) return;
+    if (area * scale_ <= least_overlap(*convexes_[entry_a.convex], *convexes_[entry_b.convex])) {
+      return;
+    }
     const bool in_order = entry_a.convex < entry_b.convex;
     const FaceEntry& low = in_order ? entry_a : entry_b;
     const FaceEntry& high = in_order ? entry_b : entry_a;
@@ -121,6 +118,12 @@ std::vector<std::size_t> plane_starts(const std::vector<FaceEntry>& faces) {
 }
 
 }  // namespace
+
+double least_overlap(const Convex& a, const Convex& b) {
+  constexpr double kLeastOverlap = 1e-10;
+  const double size = std::min(a.box.extent().maxCoeff(), b.box.extent().maxCoeff());
+  return kLeastOverlap * size * size;
+}
 
 void sort_bonds(std::vector<Bond>& bonds) {
   std::sort(bonds.begin(), bonds.end(), [](const Bond& x, const Bond& y) {

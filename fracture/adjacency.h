@@ -22,8 +22,8 @@ struct FaceEntry {
   bool known = false;  ///< Its contacts with other known faces are known already: leave them out.
 };
 
-/// Faces that overlap by less than this share of the smaller one do not touch.
-inline constexpr double kLeastOverlap = 1e-9;
+/// Convexes that overlap by no more do not touch: so small an area is rounding.
+double least_overlap(const Convex& a, const Convex& b);
 
 /// Puts bonds in the order of Compound::bonds.
 void sort_bonds(std::vector<Bond>& bonds);

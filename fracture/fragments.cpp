@@ -57,7 +57,7 @@ void weld_cells(const AlignedPattern& pattern, Fragments& fragments) {
                     all.begin() + static_cast<std::ptrdiff_t>(end));
     }
   }
-  std::sort(result.begin(), result.end(), [](const Fragment& a, const Fragment& b) {
+  std::stable_sort(result.begin(), result.end(), [](const Fragment& a, const Fragment& b) {
     return std::tie(a.source, a.cell) < std::tie(b.source, b.cell);
   });
   all = std::move(result);

@@ -13,20 +13,18 @@ namespace {
 
 constexpr double kVolumeError = 1e-12;  // relative; more than this is a failure
 
-/// Distances that rounding cannot tell from zero.
-double tolerance_of(const Convex& convex) {
-  const double far =
-      std::max(convex.box.min.cwiseAbs().maxCoeff(), convex.box.max.cwiseAbs().maxCoeff());
-  return 1e-13 * convex.box.extent().maxCoeff() + 2e-15 * far;
+double farthest_coordinate(const Convex& convex) {
+  return std::max(convex.box.min.cwiseAbs().maxCoeff(), convex.box.max.cwiseAbs().maxCoeff());
 }
+
+/// Distances that rounding cannot tell from zero.
+double tolerance_of(const Convex& convex) { return 4e-15 * farthest_coordinate(convex); }
 
 /// Volume that rounding of vertices may add or take, besides the relative error.
 double volume_noise(const Convex& convex) {
   const Vec3 extent = convex.box.extent();
-  const double far =
-      std::max(convex.box.min.cwiseAbs().maxCoeff(), convex.box.max.cwiseAbs().maxCoeff());
   const double area = extent.x() * extent.y() + extent.y() * extent.z() + extent.z() * extent.x();
-  return 4e-16 * far * area;
+  return 4e-16 * farthest_coordinate(convex) * area;
 }
 
 /// A part under way: its region of the pattern is the intersection of half-spaces.
@@ -48,6 +46,7 @@ class Cutter {
     pattern_.overlapping(parent_->box, cells);
     for (const std::uint32_t cell : cells) cut_cell(cell);
     settle_slivers();
+    if (!adds_up()) cut_in_turn(cells);
     return finish();
   }
 
@@ -128,7 +127,8 @@ class Cutter {
   }
 
   void settle_slivers() {
-    const double floor = kVolumeFloor * parent_->solid.volume_m3;
+    const double unit = pattern_.placement.linear.determinant();
+    const double floor = kVolumeFloor * std::min(parent_->solid.volume_m3, unit);
     for (std::size_t i = 0; i < drafts_.size();) {
       const double volume = drafts_[i].convex->solid.volume_m3;
       if (volume >= floor || drafts_.size() == 1) {
@@ -172,40 +172,118 @@ class Cutter {
     return area;
   }
 
-  /// Whether drafts without their cuts towards a sliver are exactly themselves and it; if so, they
-  /// become that.
+  /// Lets drafts grow beyond their cuts towards a sliver, if what they gain is all of it, no more,
+  /// and none of it twice.
   bool take_over(std::span<const std::pair<double, std::size_t>> takers,
                  const std::vector<PlaneId>& cuts, const Draft& sliver) {
     std::vector<Draft> grown;
-    double surplus = -sliver.convex->solid.volume_m3;
+    double missing = sliver.convex->solid.volume_m3;
     for (const auto& [area, taker] : takers) {
-      grown.push_back(drafts_[taker]);
-      std::erase(grown.back().region, cuts[taker]);
-      grown.back().convex = clip_by(grown.back().region);
-      if (!grown.back().convex) return false;
-      surplus += grown.back().convex->solid.volume_m3 - drafts_[taker].convex->solid.volume_m3;
+      Draft draft = drafts_[taker];
+      std::replace(draft.region.begin(), draft.region.end(), cuts[taker], cuts[taker].opposite());
+      const ConvexPtr gain = clip_by(draft.region);
+      if (gain && !lies_within(*gain, sliver.region)) return false;
+      for (const Draft& other : grown) {
+        if (!are_apart(draft.region, other.region)) return false;
+      }
+      missing -= gain ? gain->solid.volume_m3 : 0;
+      std::erase(draft.region, cuts[taker].opposite());
+      draft.convex = clip_by(draft.region);
+      grown.push_back(std::move(draft));
     }
     const double allowed = 0.1 * (kVolumeError * parent_->solid.volume_m3 + noise_);
-    if (std::abs(surplus) > allowed) return false;
+    if (std::abs(missing) > allowed) return false;
     for (std::size_t i = 0; i < takers.size(); ++i) drafts_[takers[i].second] = std::move(grown[i]);
+    return true;
+  }
+
+  bool lies_within(const Convex& convex, const std::vector<PlaneId>& region) const {
+    for (const PlaneId id : region) {
+      const Plane plane = pattern_.plane(id);
+      for (const Vec3& vertex : convex.polyhedron.vertices) {
+        if (plane.distance(vertex) > 4 * tolerance_) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether some plane keeps two regions apart.
+  static bool are_apart(const std::vector<PlaneId>& a, const std::vector<PlaneId>& b) {
+    return std::any_of(a.begin(), a.end(), [&](PlaneId id) {
+      return std::find(b.begin(), b.end(), id.opposite()) != b.end();
+    });
+  }
+
+  bool adds_up() const {
+    double sum = debris_;
+    for (const Draft& draft : drafts_) sum += draft.convex->solid.volume_m3;
+    const double allowed = kVolumeError * parent_->solid.volume_m3 + noise_;
+    return !drafts_.empty() && std::abs(sum - parent_->solid.volume_m3) <= allowed;
+  }
+
+  /// For cells that do not quite tile (rounded files): each takes its part of what those before it
+  /// left, so that every cut has two sides and nothing is lost. Cuts go right through what is left,
+  /// which makes more parts than there are cells.
+  void cut_in_turn(const std::vector<std::uint32_t>& cells) {
+    drafts_.clear();
+    debris_ = 0;
+    std::vector<ConvexPolyhedron> left{parent_->polyhedron}, beyond;
+    for (const std::uint32_t index : cells) {
+      const AlignedPattern::Cell& cell = pattern_.cells[index];
+      beyond.clear();
+      for (ConvexPolyhedron& solid : left) {
+        if (take_part(solid, pattern_.pattern->cells[cell.index].polyhedron, beyond)) {
+          drafts_.push_back({index, {}, make_convex(std::move(solid), parent_->material)});
+        }
+      }
+      std::swap(left, beyond);
+    }
+    for (ConvexPolyhedron& solid : left) {
+      drafts_.push_back({CellPart::kFarCell, {}, make_convex(std::move(solid), parent_->material)});
+    }
+    settle_slivers();
+  }
+
+  /// Cuts `solid` down to what lies in a cell; the rest goes `beyond`. False if nothing does.
+  bool take_part(ConvexPolyhedron& solid, const ConvexPolyhedron& cell,
+                 std::vector<ConvexPolyhedron>& beyond) {
+    const std::size_t before = beyond.size();
+    current_ = solid;
+    for (const ConvexPolyhedron::Face& face : cell.faces) {
+      const Plane plane = pattern_.plane(face.id);
+      const PlaneId name = pattern_.name(face.id);
+      const PlaneSide side = clip(current_, plane, name, tolerance_, next_, scratch_);
+      if (side == PlaneSide::kInside) continue;
+      if (side == PlaneSide::kOutside) {
+        beyond.resize(before);
+        beyond.push_back(std::move(solid));
+        return false;
+      }
+      ConvexPolyhedron outside;
+      clip(current_, plane.flipped(), name.opposite(), tolerance_, outside, scratch_);
+      beyond.push_back(std::move(outside));
+      std::swap(current_, next_);
+    }
+    solid = current_;
     return true;
   }
 
   Intersection finish() {
     Intersection result;
-    double sum = debris_;
-    std::size_t largest = 0;
-    for (std::size_t i = 0; i < drafts_.size(); ++i) {
-      const double volume = drafts_[i].convex->solid.volume_m3;
-      sum += volume;
-      if (volume > drafts_[largest].convex->solid.volume_m3) largest = i;
-      result.parts.push_back({drafts_[i].cell, drafts_[i].convex});
+    if (!adds_up()) {
+      std::uint32_t cell = CellPart::kFarCell;
+      double largest = 0;
+      for (const Draft& draft : drafts_) {
+        if (draft.convex->solid.volume_m3 <= largest) continue;
+        largest = draft.convex->solid.volume_m3;
+        cell = draft.cell;
+      }
+      result.parts.push_back({cell, parent_});
+      result.failed = true;
+      return result;
     }
     result.debris_volume_m3 = debris_;
-    const double error = std::abs(sum - parent_->solid.volume_m3);
-    if (drafts_.empty() || !(error <= kVolumeError * parent_->solid.volume_m3 + noise_)) {
-      result = {{{drafts_.empty() ? CellPart::kFarCell : drafts_[largest].cell, parent_}}, 0, true};
-    }
+    for (const Draft& draft : drafts_) result.parts.push_back({draft.cell, draft.convex});
     return result;
   }
 

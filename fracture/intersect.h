@@ -24,8 +24,8 @@ struct Intersection {
   bool failed = false;          ///< The volumes did not add up, so the convex was left whole.
 };
 
-/// Parts smaller than this share of their convex stay with a neighbour: the cut that would leave
-/// them is not made.
+/// Parts smaller than this share of their convex, or of the cube of the pattern's unit, stay with a
+/// neighbour: the cut that would leave them is not made.
 inline constexpr double kVolumeFloor = 1e-6;
 
 /// Cuts `convex` by all cells. Depends on nothing but its arguments; any thread may call it.

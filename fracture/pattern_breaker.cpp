@@ -26,8 +26,8 @@ Quat turned_onto(const Vec3& axis, double turn_rad) {
   return Quat(rotation).normalized();
 }
 
-/// The axis of a pattern: through a pane across it, otherwise along the blow.
-Vec3 pattern_axis(const Convex& convex, const Vec3& direction_R) {
+/// The direction across a pane; otherwise that of the blow.
+Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
   double least = std::numeric_limits<double>::infinity();
   Vec3 thin = direction_R;
   for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces) {
@@ -44,6 +44,29 @@ Vec3 pattern_axis(const Convex& convex, const Vec3& direction_R) {
   return thin.dot(direction_R) < 0 ? Vec3(-thin) : thin;
 }
 
+/// How a pattern lies: Voronoi cells any way round, masonry as it was built, wood along the
+/// longest side of the convex, webs across a pane or the blow.
+Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direction_R,
+                 Random& random) {
+  const double turn = random.uniform(0, 2 * std::numbers::pi);
+  int longest = 0;
+  convex.box.extent().maxCoeff(&longest);
+  switch (kind) {
+    case PatternSpec::Kind::kVoronoi:
+      return turned_onto(random.direction(), turn);
+    case PatternSpec::Kind::kWeb:
+    case PatternSpec::Kind::kRadial:
+      return turned_onto(axis_across(convex, direction_R), turn);
+    case PatternSpec::Kind::kSlabs: {
+      Mat3 rotation;
+      rotation << Vec3::Unit(longest), Vec3::Unit((longest + 1) % 3), Vec3::Unit((longest + 2) % 3);
+      return Quat(rotation);
+    }
+    default:
+      return Quat::Identity();
+  }
+}
+
 class PatternBreaker final : public Breaker {
  public:
   BreakCommand command(const Compound& compound, const Material& material, const Hit& hit,
@@ -54,17 +77,15 @@ class PatternBreaker final : public Breaker {
     command.seed = seed;
     command.pattern = material.pattern;
     command.radius_m = material.impact_radius_m;
-    const Vec3 axis = material.pattern.kind == PatternSpec::Kind::kVoronoi
-                          ? random.direction()
-                          : pattern_axis(*compound.convexes[hit.convex], hit.direction_R);
-    command.X_RP = {hit.point_R, turned_onto(axis, random.uniform(0, 2 * std::numbers::pi))};
+    command.X_RP = {hit.point_R, orientation(material.pattern.kind, *compound.convexes[hit.convex],
+                                             hit.direction_R, random)};
     return command;
   }
 
   BreakPlan plan(const Compound& compound, const BreakCommand& command) const override {
     const ImpactSphere sphere{command.X_RP.position, command.radius_m};
     const double unit = sphere.is_endless() ? reach(compound, sphere.center_R) : sphere.radius_m;
-    const auto pattern = library_.find(command.pattern, unit, command.seed);
+    const auto pattern = library_.find(command.pattern, {unit, sphere.is_endless()}, command.seed);
     const Placement placement{command.X_RP.rotation.toRotationMatrix() * (unit * command.stretch_P),
                               command.X_RP.position};
     return fracture(compound, *pattern, placement, sphere, command.event);

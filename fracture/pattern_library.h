@@ -1,9 +1,11 @@
 // Patterns made once and kept.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <tuple>
 
 #include "fracture/pattern.h"
@@ -16,10 +18,12 @@ class PatternLibrary {
   /// Variants of a pattern that are kept; the seed chooses among them.
   static constexpr std::uint64_t kVariants = 8;
 
-  std::shared_ptr<const Pattern> find(const PatternSpec& spec, double radius_m, std::uint64_t seed);
+  std::shared_ptr<const Pattern> find(const PatternSpec& spec, const PatternScale& scale,
+                                      std::uint64_t seed);
 
  private:
-  using Key = std::tuple<PatternSpec::Kind, int, double, int, int, double, std::uint64_t>;
+  using Key = std::tuple<PatternSpec::Kind, int, double, int, int, double, std::array<double, 3>,
+                         std::string, int, bool, std::uint64_t>;
   static constexpr std::size_t kMostPatterns = 256;
 
   std::mutex mutex_;

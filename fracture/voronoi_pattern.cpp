@@ -57,15 +57,17 @@ Pattern voronoi_pattern(const std::vector<Vec3>& sites) {
   return pattern;
 }
 
-Pattern voronoi_pattern(int count, double falloff, std::uint64_t seed) {
+Pattern voronoi_pattern(int count, double falloff, bool whole, std::uint64_t seed) {
   Random random(seed, 1);
   std::vector<Vec3> sites;
   for (int i = 0; i < count; ++i) {
     const Vec3 direction = random.direction();
     sites.push_back(power(random.uniform(), falloff / 3) * direction);
   }
-  const std::vector<Vec3> shell = shell_sites(random);
-  sites.insert(sites.end(), shell.begin(), shell.end());
+  if (!whole) {
+    const std::vector<Vec3> shell = shell_sites(random);
+    sites.insert(sites.end(), shell.begin(), shell.end());
+  }
   Pattern pattern = voronoi_pattern(sites);
   for (std::size_t i = static_cast<std::size_t>(count); i < pattern.cells.size(); ++i) {
     pattern.cells[i].outer = true;

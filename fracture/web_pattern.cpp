@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/base/check.h"
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
 #include "fracture/pattern.h"
@@ -39,24 +38,6 @@ Plane upright_plane(const Vec2& a, const Vec2& b) {
   return Plane::through(Vec3(a.x(), 0, a.y()), Vec3(along.y(), 0, -along.x()));
 }
 
-struct Cut {
-  std::uint32_t plane;
-  bool flipped;
-};
-
-ConvexPolyhedron cut_out(const std::vector<Plane>& planes, std::initializer_list<Cut> cuts) {
-  ConvexPolyhedron cell = pattern_box(), result;
-  ClipScratch scratch;
-  for (const Cut& cut : cuts) {
-    const Plane plane = cut.flipped ? planes[cut.plane].flipped() : planes[cut.plane];
-    const PlaneSide side = clip(cell, plane, pattern_plane(cut.plane, cut.flipped),
-                                1e-14 * Pattern::kHalfExtent, result, scratch);
-    SUNDER_CHECK(side != PlaneSide::kOutside);
-    if (side == PlaneSide::kCut) std::swap(cell, result);
-  }
-  return cell;
-}
-
 }  // namespace
 
 Pattern web_pattern(int rings, int spokes, double jitter, std::uint64_t seed) {
@@ -79,16 +60,11 @@ Pattern web_pattern(int rings, int spokes, double jitter, std::uint64_t seed) {
   };
   for (std::uint32_t r = 0; r <= ring_count; ++r) {
     for (std::uint32_t s = 0; s < spoke_count; ++s) {
-      const Cut from{first_spoke + s, false}, to{first_spoke + (s + 1) % spoke_count, true};
-      ConvexPolyhedron cell;
-      if (r == 0) {
-        cell = cut_out(pattern.planes, {from, to, {chord(0, s), false}});
-      } else if (r < ring_count) {
-        cell = cut_out(pattern.planes, {from, to, {chord(r - 1, s), true}, {chord(r, s), false}});
-      } else {
-        cell = cut_out(pattern.planes, {from, to, {chord(r - 1, s), true}});
-      }
-      pattern.cells.push_back({std::move(cell), 0, 0, r == ring_count});
+      std::vector<PlaneId> sides{pattern_plane(first_spoke + s, false),
+                                 pattern_plane(first_spoke + (s + 1) % spoke_count, true)};
+      if (r > 0) sides.push_back(pattern_plane(chord(r - 1, s), true));
+      if (r < ring_count) sides.push_back(pattern_plane(chord(r, s), false));
+      pattern.cells.push_back({cut_cell(pattern.planes, sides), 0, 0, r == ring_count});
     }
   }
   finish(pattern);

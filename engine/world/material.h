@@ -18,18 +18,35 @@ struct Look {
   Vec3f color = Vec3f(0.6f, 0.6f, 0.6f);  ///< Linear RGB albedo.
 };
 
+/// What comes off a square metre of new crack surface, for the eye (paper section 5). None by
+/// default.
+struct Crumbling {
+  double particles_per_m2 = 0;      ///< Debris and dust together.
+  double debris_ratio = 0.2;        ///< Part of them that is debris; the rest is dust.
+  double debris_smallest_m = 0.01;  ///< Radii follow a power law, N(> r) ~ r^-2, between these.
+  double debris_largest_m = 0.06;   ///< The size below which pieces are no rigid bodies.
+  double dust_kg_m2 = 0.02;         ///< Weighs on the air that carries it.
+  double dust_settling_m_s = 0.05;  ///< Speed of fall in still air.
+};
+
 /// How a material's cells are laid out; see fracture/pattern.h for what each does.
 struct PatternSpec {
-  enum class Kind : std::uint8_t { kNone, kVoronoi, kWeb };
+  enum class Kind : std::uint8_t { kNone, kVoronoi, kWeb, kRadial, kBrick, kSlabs, kGrid, kFile };
   Kind kind = Kind::kNone;
-  int cells = 50;       ///< Voronoi: sites.
+  int cells = 50;       ///< Voronoi: sites; radial: sectors; slabs: how many; grid: a side.
   double falloff = 2;   ///< Voronoi: 1 = uniform; larger packs sites towards the impact.
   int rings = 6;        ///< Web.
   int spokes = 12;      ///< Web.
-  double jitter = 0.3;  ///< Web: 0 = regular.
+  double jitter = 0.3;  ///< Web, radial, slabs: 0 = regular.
+  Vec3 brick_m = Vec3(0.24, 0.08, 0.12);  ///< Brick: its length, height and depth.
+  std::string file;                       ///< File: an .obj of convex cells, one a group.
+  int colors = 0;  ///< Cells are joined into this many pieces, 0: each its own.
 
   /// How many cells a pattern of this kind has, about: the unit that fracture budgets count.
-  int cell_count() const { return kind == Kind::kWeb ? rings * spokes : cells; }
+  int cell_count() const {
+    if (kind == Kind::kWeb) return rings * spokes;
+    return kind == Kind::kGrid ? cells * cells * cells : cells;
+  }
 };
 
 struct MaterialTag;
@@ -52,6 +69,7 @@ struct Material {
   double smallest_break_m3 = 1e-3;
   Look surface;
   Look interior;
+  Crumbling crumbling;
 
   bool breakable() const { return pattern.kind != PatternSpec::Kind::kNone; }
 };

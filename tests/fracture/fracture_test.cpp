@@ -48,7 +48,7 @@ TEST(Fracture, keeps_every_truth_when_a_box_breaks_whole) {
   const Compound box = box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1));
   const BreakPlan plan = breaker->plan(box, blow(voronoi(50), Vec3(0.2, 0.1, 0.3), kEndless));
   EXPECT_EQ(broken_truth(box, plan), "");
-  
+
   EXPECT_GT(plan.pieces.size(), 35u);
   EXPECT_EQ(plan.failed, 0u);
   EXPECT_EQ(plan.debris_volume_m3, 0);

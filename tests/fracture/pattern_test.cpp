@@ -2,6 +2,8 @@
 #include "fracture/pattern.h"
 
 #include <cmath>
+#include <set>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -33,7 +35,7 @@ void expect_tiling(const Pattern& pattern) {
 }
 
 TEST(Pattern, of_voronoi_cells_tiles_its_box) {
-  const Pattern pattern = voronoi_pattern(100, 2, 1);
+  const Pattern pattern = voronoi_pattern(100, 2, false, 1);
   EXPECT_GE(pattern.cells.size(), 100u);
   expect_tiling(pattern);
 }
@@ -44,8 +46,39 @@ TEST(Pattern, of_a_web_tiles_its_box) {
   expect_tiling(pattern);
 }
 
+TEST(Pattern, of_every_other_kind_tiles_its_box) {
+  const Pattern grid = grid_pattern(5);
+  EXPECT_EQ(grid.cells.size(), 125u + 6);
+  expect_tiling(grid);
+  const Pattern bricks = brick_pattern(Vec3(0.6, 0.2, 0.3));
+  expect_tiling(bricks);
+  const Pattern slabs = slab_pattern(20, 0.3, 1);
+  EXPECT_EQ(slabs.cells.size(), 20u + 6);
+  expect_tiling(slabs);
+  expect_tiling(web_pattern(1, 9, 0.3, 1));
+}
+
+TEST(Pattern, of_bricks_never_has_too_many) {
+  EXPECT_LE(brick_pattern(Vec3(0.01, 0.02, 0.01)).cells.size(), kMostBricks + 100u);
+  EXPECT_EQ(brick_pattern(Vec3(100, 1, 1)).cells.size(), 3u * (1 + 2 + 2) + 4);
+}
+
+TEST(Pattern, colors_join_cells) {
+  PatternSpec spec;
+  spec.kind = PatternSpec::Kind::kVoronoi;
+  spec.cells = 60;
+  spec.colors = 7;
+  const Pattern pattern = make_pattern(spec, {}, 1);
+  std::set<std::uint32_t> colors;
+  for (const Cell& cell : pattern.cells) {
+    if (!cell.outer) colors.insert(cell.color);
+  }
+  EXPECT_LE(colors.size(), 7u);
+  EXPECT_GE(colors.size(), 5u);
+}
+
 TEST(Pattern, has_smaller_cells_towards_the_impact) {
-  const Pattern pattern = voronoi_pattern(200, 2, 1);
+  const Pattern pattern = voronoi_pattern(200, 2, false, 1);
   double near = 0, far = 0;
   int near_count = 0, far_count = 0;
   for (const Cell& cell : pattern.cells) {

@@ -1,0 +1,153 @@
+// The truths, over thousands of random breaks of random solids; every failure names its seed.
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "fracture/pattern_breaker.h"
+#include "tests/fracture/solids.h"
+#include "tests/fracture/truths.h"
+
+namespace sunder::fracture {
+namespace {
+
+ConvexPolyhedron random_hull(Random& random, double size) {
+  for (;;) {
+    std::vector<Vec3> points;
+    const std::uint32_t count = 4 + random.below(12);
+    const Vec3 stretch(random.uniform(.05, 1), random.uniform(.05, 1), random.uniform(.05, 1));
+    for (std::uint32_t i = 0; i < count; ++i) {
+      points.push_back(size * random.direction().cwiseProduct(stretch));
+    }
+    ConvexPolyhedron hull = make_hull(points);
+    if (!hull.empty()) return hull;
+  }
+}
+
+Compound random_solid(Random& random, std::uint64_t seed) {
+  const double size = std::pow(10.0, random.uniform(-2, 2));
+  switch (random.below(5)) {
+    case 0:
+      return box_compound(Vec3::Zero(),
+                          size * Vec3(random.uniform(.01, 1), random.uniform(.01, 1), 1), 1);
+    case 1:
+      return make_compound({{random_hull(random, size), MaterialIndex(0u), 0}});
+    case 2:
+      return grid_compound(1 + static_cast<int>(random.below(4)), 3, 2,
+                           size * Vec3(.4, .2, random.uniform(.1, .3)), true);
+    case 3:
+      return ring_compound(3 + static_cast<int>(random.below(9)), .5 * size, size, .4 * size);
+    default:
+      return voronoi_compound(2 + static_cast<int>(random.below(12)), seed);
+  }
+}
+
+PatternSpec random_pattern(Random& random) {
+  using Kind = PatternSpec::Kind;
+  constexpr Kind kKinds[] = {Kind::kVoronoi, Kind::kVoronoi, Kind::kWeb, Kind::kRadial,
+                             Kind::kBrick,   Kind::kSlabs,   Kind::kGrid};
+  PatternSpec spec;
+  spec.kind = kKinds[random.below(7)];
+  spec.cells = spec.kind == Kind::kGrid ? 3 : 4 + static_cast<int>(random.below(2)) * 12;
+  spec.rings = 2;
+  spec.spokes = 5;
+  spec.colors = random.below(4) == 0 ? 3 : 0;
+  return spec;
+}
+
+/// Breaks of all kinds; a third of them snapped to the solid's corners, faces and axes, where
+/// planes of the pattern run through vertices and along faces.
+BreakCommand random_blow(Random& random, const Compound& solid, std::uint64_t event) {
+  BreakCommand command;
+  command.event = event;
+  command.seed = random.bits();
+  command.pattern = random_pattern(random);
+  const Box box = bounds(solid);
+  Vec3 place(random.uniform(-.1, 1.1), random.uniform(-.1, 1.1), random.uniform(-.1, 1.1));
+  const bool snapped = random.below(3) == 0;
+  if (snapped) place = (place * 2).array().round() / 2;
+  command.X_RP.position = box.min + place.cwiseProduct(box.extent());
+  const Vec3 axis = random.direction();
+  if (!snapped) {
+    command.X_RP.rotation = Quat(random.uniform(-1, 1), axis.x(), axis.y(), axis.z()).normalized();
+  }
+  const double size = box.extent().norm();
+  command.radius_m =
+      snapped ? box.extent().x() / (1 + random.below(4)) * 1.5 : size * random.uniform(.05, .8);
+  command.pattern.brick_m = Vec3(1, .5, .5) / 3 * command.radius_m;
+  if (random.below(5) == 0) command.radius_m = std::numeric_limits<double>::infinity();
+  if (random.below(4) == 0) {
+    command.stretch_P = Vec3(random.uniform(.3, 3), random.uniform(.3, 3), 1).asDiagonal();
+  }
+  return command;
+}
+
+TEST(Truths, hold_over_ten_thousand_random_breaks) {
+  constexpr std::size_t kBreaks = 10000;
+  const auto breaker = make_pattern_breaker();
+  std::vector<std::string> problems(kBreaks);
+  std::vector<std::uint32_t> pieces(kBreaks), failed(kBreaks);
+  std::vector<double> debris(kBreaks);
+  for_chunks(kBreaks, 50, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t seed = begin; seed < end; ++seed) {
+      Random random(seed, 11);
+      const Compound solid = random_solid(random, seed);
+      const BreakCommand command = random_blow(random, solid, seed + 1);
+      const BreakPlan plan = breaker->plan(solid, command);
+      problems[seed] = broken_truth(solid, plan);
+      pieces[seed] = static_cast<std::uint32_t>(plan.pieces.size());
+      failed[seed] = plan.failed;
+      debris[seed] = plan.debris_volume_m3 / volume(solid);
+    }
+  });
+  std::size_t total = 0, failures = 0;
+  double most_debris = 0;
+  for (std::size_t seed = 0; seed < kBreaks; ++seed) {
+    EXPECT_EQ(problems[seed], "") << "seed " << seed;
+    total += pieces[seed];
+    failures += failed[seed];
+    most_debris = std::max(most_debris, debris[seed]);
+  }
+  EXPECT_GT(total, 5 * kBreaks);
+  EXPECT_EQ(failures, 0u);
+  EXPECT_LT(most_debris, 1e-5);
+  RecordProperty("pieces", static_cast<int>(total));
+  std::printf("%zu pieces, %zu convexes left whole, at most %.1e of a solid became debris\n", total,
+              failures, most_debris);
+}
+
+TEST(Truths, survive_torture_to_five_levels) {
+  const auto breaker = make_pattern_breaker();
+  std::vector<Compound> solids{box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1))};
+  double debris = 0;
+  std::uint64_t event = 0;
+  for (int level = 0; level < 5; ++level) {
+    std::vector<Compound> next;
+    for (const Compound& solid : solids) {
+      Random random(++event, 12);
+      BreakCommand command;
+      command.event = command.seed = event;
+      command.pattern.kind = PatternSpec::Kind::kVoronoi;
+      command.pattern.cells = 10;
+      command.pattern.falloff = 1;
+      command.X_RP.position = bounds(solid).center() + 1e-3 * random.direction();
+      command.radius_m = std::numeric_limits<double>::infinity();
+      const BreakPlan plan = breaker->plan(solid, command);
+      ASSERT_EQ(broken_truth(solid, plan), "") << "event " << event;
+      ASSERT_EQ(plan.failed, 0u) << "event " << event;
+      debris += plan.debris_volume_m3;
+      next.insert(next.end(), plan.pieces.begin(), plan.pieces.end());
+    }
+    solids = std::move(next);
+    if (solids.size() > 20000) break;
+  }
+  double sum = debris;
+  for (const Compound& solid : solids) sum += volume(solid);
+  EXPECT_NEAR(sum, 8, 8e-12);
+  EXPECT_GT(solids.size(), 5000u);
+  std::printf("%zu pieces, volume off by %.1e, debris %.1e\n", solids.size(), (sum - 8) / 8,
+              debris / 8);
+}
+
+}  // namespace
+}  // namespace sunder::fracture
