@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kAir_kg_m3 = 1.2f;
 constexpr float kTolerance = 5e-4f;  // of the fastest flow, in net outflow of a cell
+constexpr float kTight = 1.5f;       // a wall is tight from a thickness of 1 / kTight cells
 // Least open part of a face: a little leaks everywhere, so that closed rooms have a pressure, too.
 constexpr float kLeak = 0.02f;
 
@@ -49,10 +50,10 @@ struct Origins {
   float* operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
 };
 
-float within_one(float x) {
-  x = x < -1 ? -1 : x;
-  return x > 1 ? 1 : x;
-}
+// By value, unlike those of the standard library: these vectorise.
+float least(float a, float b) { return a < b ? a : b; }
+float most(float a, float b) { return a > b ? a : b; }
+float within_one(float x) { return least(most(x, -1), 1); }
 
 /// Quadratic interpolation of q at `origins` upstream, kept between the values around.
 void advect_row(const float* q, std::ptrdiff_t sy, std::ptrdiff_t sz, const Origins& origins,
@@ -70,18 +71,25 @@ void advect_row(const float* q, std::ptrdiff_t sy, std::ptrdiff_t sz, const Orig
     for (int r = 0; r < 9; ++r) {
       const float a = rows[r][i - 1], b = rows[r][i], c = rows[r][i + 1];
       along[r] = xl * a + xm * b + xh * c;
-      low = a < low ? a : low;
-      low = b < low ? b : low;
-      low = c < low ? c : low;
-      high = a > high ? a : high;
-      high = b > high ? b : high;
-      high = c > high ? c : high;
+      low = least(low, least(a, least(b, c)));
+      high = most(high, most(a, most(b, c)));
     }
-    float value = zl * (yl * along[0] + ym * along[1] + yh * along[2]) +
-                  zm * (yl * along[3] + ym * along[4] + yh * along[5]) +
-                  zh * (yl * along[6] + ym * along[7] + yh * along[8]);
-    value = value < low ? low : value;
-    out[i] = value > high ? high : value;
+    const float value = zl * (yl * along[0] + ym * along[1] + yh * along[2]) +
+                        zm * (yl * along[3] + ym * along[4] + yh * along[5]) +
+                        zh * (yl * along[6] + ym * along[7] + yh * along[8]);
+    out[i] = least(most(value, low), high);
+  }
+}
+
+/// Lets faces move with the solid that covers them, as far as it does; `open` is the rest.
+void cover_row(const float* fraction, const float* momentum, std::ptrdiff_t below, int count,
+               float* __restrict u, float* __restrict open) {
+  for (int i = 0; i < count; ++i) {
+    const float solid = fraction[i] + fraction[i + below];
+    const float covered = least(kTight * solid, 1);
+    const float mean = (momentum[i] + momentum[i + below]) / most(solid, 1e-6f);
+    u[i] += covered * (mean - u[i]);
+    open[i] = most(1 - kTight * solid, kLeak);
   }
 }
 
@@ -173,28 +181,20 @@ void Air::load(float dt_s, const Vec3f& gravity_W) {
   }
 }
 
-/// Faces move with the solid that covers them, as far as it does.
 void Air::couple() {
   const Lattice& lattice = grid_.lattice;
   const Vec3i& counts = lattice.counts;
   for (int axis = 0; axis < 3; ++axis) {
     const std::ptrdiff_t below = -lattice.stride(axis);
     for_faces(lattice, axis, [&](std::size_t at, int count, int j, int k) {
-      const float* fraction = &solids_.fraction[at];
-      const float* momentum = &of(solids_.momentum, axis)[at];
-      float* u = &of(velocity_, axis)[at];
-      float* a = &of(solver_.coefficients(), axis)[at];
+      const float *fraction = &solids_.fraction[at], *momentum = &of(solids_.momentum, axis)[at];
+      float *u = &of(velocity_, axis)[at], *a = &of(solver_.coefficients(), axis)[at];
       const bool rim =
           (axis == 1 && (j == 1 || j > counts.y())) || (axis == 2 && (k == 1 || k > counts.z()));
       const bool closed = axis == 1 && j == 1 && grid_.on_ground;
-      const float most = closed ? 0.0f : rim ? 2.0f : 1.0f;
-      for (int i = 0; i < count; ++i) {
-        const float solid = fraction[i] + fraction[i + below];
-        const float covered = solid < 1 ? solid : 1;
-        const float moved = (momentum[i] + momentum[i + below]) / (solid > 1 ? solid : 1);
-        u[i] = closed ? 0 : (1 - covered) * u[i] + moved;
-        a[i] = most * (1 - covered > kLeak ? 1 - covered : kLeak);
-      }
+      cover_row(fraction, momentum, below, count, u, a);
+      if (rim) std::transform(a, a + count, a, [&](float open) { return closed ? 0 : 2 * open; });
+      if (closed) std::fill_n(u, count, 0.0f);
       if (axis == 0) {
         a[0] *= 2;
         a[count - 1] *= 2;
@@ -244,8 +244,7 @@ float Air::fastest() const {
   for (const Field& field : velocity_) {
     for_cells(grid_.lattice, [&](std::size_t at, int count, int, int k) {
       float& layer = layers[static_cast<std::size_t>(k) - 1];
-      for (int i = 0; i <= count; ++i)
-        layer = std::max(layer, std::abs(field[at + static_cast<std::size_t>(i)]));
+      layer = std::max(layer, largest_in(&field[at], count + 1));
     });
   }
   return *std::max_element(layers.begin(), layers.end());

@@ -47,9 +47,14 @@ class Air {
   void advance(double dt_s, const Vec3& gravity_W, const Obstacles& obstacles);
 
   /// The cell that holds a point of the grid.
-  Vec3i cell_at(const Vec3f& point_W) const;
+  Vec3i cell_at(const Vec3f& point_W) const {
+    const Vec3f at = to_cells(point_W) + Vec3f::Ones();
+    return at.cwiseMax(1.0f).cwiseMin(grid_.lattice.counts.cast<float>()).cast<int>();
+  }
   /// From the grid's corner, in cells.
-  Vec3f to_cells(const Vec3f& point_W) const;
+  Vec3f to_cells(const Vec3f& point_W) const {
+    return (point_W - grid_.origin_W.cast<float>()) * static_cast<float>(1 / grid_.cell_m);
+  }
   Vec3f velocity(const Vec3f& point_W) const;
   AirGradient gradient(const Vec3i& cell) const;
   /// Solid part of a cell.

@@ -85,16 +85,6 @@ void Air::regrid(const Grid& grid) {
   std::fill(solver_.pressure().begin(), solver_.pressure().end(), 0.0f);
 }
 
-Vec3i Air::cell_at(const Vec3f& point_W) const {
-  const Vec3f at = to_cells(point_W) + Vec3f::Ones();
-  const Vec3f most = grid_.lattice.counts.cast<float>();
-  return at.cwiseMax(1.0f).cwiseMin(most).cast<int>();
-}
-
-Vec3f Air::to_cells(const Vec3f& point_W) const {
-  return (point_W - grid_.origin_W.cast<float>()) / static_cast<float>(grid_.cell_m);
-}
-
 Vec3f Air::velocity(const Vec3f& point_W) const {
   const Vec3f cells = to_cells(point_W);
   Vec3f velocity;

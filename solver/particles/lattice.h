@@ -2,6 +2,8 @@
 // need no special case at the edge.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -34,5 +36,20 @@ struct Lattice {
     return std::max<std::size_t>(1, (1 << 14) / layer);
   }
 };
+
+/// Largest magnitude in a row, lane by lane (the compiler may not reorder it by itself).
+inline float largest_in(const float* x, int count) {
+  constexpr int kLanes = 8;
+  float lanes[kLanes] = {};
+  int i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    for (int l = 0; l < kLanes; ++l) {
+      const float size = std::abs(x[i + l]);
+      lanes[l] = lanes[l] > size ? lanes[l] : size;
+    }
+  }
+  for (; i < count; ++i) lanes[0] = std::max(lanes[0], std::abs(x[i]));
+  return *std::max_element(lanes, lanes + kLanes);
+}
 
 }  // namespace sunder::solver

@@ -69,17 +69,6 @@ double dot_row(const float* x, const float* y, int count) {
   return sum;
 }
 
-float largest_row(const float* x, int count) {
-  float lanes[kLanes] = {};
-  for (int i = 0; i < count; i += kLanes) {
-    for (int l = 0; l < kLanes; ++l) {
-      const float size = std::abs(x[i + l]);
-      lanes[l] = lanes[l] > size ? lanes[l] : size;
-    }
-  }
-  return *std::max_element(lanes, lanes + kLanes);
-}
-
 }  // namespace
 
 PressureSolver::PressureSolver(const Vec3i& counts) {
@@ -250,7 +239,7 @@ float PressureSolver::step(float alpha) {
       rest[i] -= alpha * image[i];
     }
     double& largest = partial_[static_cast<std::size_t>(k) - 1];
-    largest = std::max(largest, double{largest_row(rest, count)});
+    largest = std::max(largest, double{largest_in(rest, count)});
   });
   return static_cast<float>(*std::max_element(partial_.begin(), partial_.end()));
 }

@@ -1,0 +1,160 @@
+// What debris promises: it falls, bounces, stays out of things, comes to rest, sleeps and fades.
+#include "solver/particles/debris.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/random.h"
+#include "tests/particles/particles_fixtures.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr double kDt = 1.0 / 120;
+const Vec3 kGravity(0, -9.81, 0);
+
+DebrisBirth chip_at(const Vec3f& position, const Vec3f& velocity = Vec3f::Zero()) {
+  DebrisBirth birth;
+  birth.position_W = position;
+  birth.velocity_W = velocity;
+  birth.radius_m = 0.02f;
+  return birth;
+}
+
+void run(Debris& debris, TestObstacles& obstacles, double seconds) {
+  for (int step = 0; step < seconds / kDt; ++step) {
+    obstacles.advance(kDt);
+    debris.advance(kDt, obstacles.view());
+  }
+}
+
+TEST(Debris, FallsAsGravityWill) {
+  Debris debris(10, kGravity);
+  TestObstacles obstacles;
+  debris.add(chip_at(Vec3f(0, 20, 0), Vec3f(3, 0, 0)));
+  run(debris, obstacles, 1);
+  const Vec3f at = debris.view().position_W[0];
+  EXPECT_NEAR(at.x(), 3, 1e-3);
+  EXPECT_NEAR(at.y(), 20 - 0.5 * 9.81, 0.5 * 9.81 * kDt + 1e-3);
+}
+
+TEST(Debris, NeverPassesTheGroundAndConservesItsCount) {
+  Debris debris(2000, kGravity);
+  TestObstacles obstacles;
+  obstacles.ground_m = -1.5;
+  Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    debris.add(chip_at(random.direction().cast<float>(),
+                       30 * random.direction().cast<float>() * float(random.uniform())));
+  }
+  for (int step = 0; step < 1200; ++step) {
+    debris.advance(kDt, obstacles.view());
+    const DebrisView view = debris.view();
+    for (const Vec3f& at : view.position_W) ASSERT_GE(at.y(), -1.5f + 0.02f - 1e-6f);
+    const ParticleBooks books = debris.books();
+    ASSERT_EQ(books.emitted, 2000u);
+    ASSERT_EQ(books.alive, books.emitted - books.gone);
+  }
+  EXPECT_EQ(debris.books().awake, 0u) << "all asleep after 10 s";
+}
+
+TEST(Debris, AtRestStaysWhereItIsBitForBit) {
+  Debris debris(10, kGravity);
+  TestObstacles obstacles;
+  debris.add(chip_at(Vec3f(0, 0.3f, 0), Vec3f(0.5f, 0, 0)));
+  run(debris, obstacles, 3);
+  ASSERT_EQ(debris.books().awake, 0u);
+  const Vec3f before = debris.view().position_W[0];
+  run(debris, obstacles, 3);
+  EXPECT_EQ(debris.view().position_W[0], before);
+}
+
+TEST(Debris, LiesOnATiltedBoxByFrictionAndWakesWhenItIsGone) {
+  Debris debris(10, kGravity);
+  TestObstacles obstacles;
+  const double half = 0.15;  // rad
+  obstacles.add_box(Vec3(0, 2, 0), Vec3(1, 0.1, 1), Quat(1, 0, 0, half / 2).normalized());
+  debris.add(chip_at(Vec3f(0, 2.2f, 0)));
+  run(debris, obstacles, 2);
+  ASSERT_EQ(debris.books().awake, 0u);
+  EXPECT_NEAR(debris.view().position_W[0].y(), 2.12, 0.03);
+  obstacles.bodies.clear();
+  obstacles.shapes.clear();
+  run(debris, obstacles, 0.3);
+  EXPECT_EQ(debris.books().awake, 1u);
+  EXPECT_LT(debris.view().position_W[0].y(), 2);
+  run(debris, obstacles, 3);
+  EXPECT_NEAR(debris.view().position_W[0].y(), 0.02, 1e-3);
+}
+
+TEST(Debris, DoesNotPassAThinPaneAtHighSpeed) {
+  Debris debris(500, kGravity);
+  TestObstacles obstacles;
+  obstacles.add_box(Vec3(0, 0, 0), Vec3(0.005, 50, 50), Quat(1, 0, 0.1, 0).normalized());
+  Random random(5);
+  for (int i = 0; i < 500; ++i) {
+    debris.add(chip_at(Vec3f(-2, 10 + float(random.uniform()), 0),
+                       Vec3f(20 + 100 * float(random.uniform()), 0, 0)));
+  }
+  run(debris, obstacles, 0.5);
+  const Vec3f normal = (Quat(1, 0, 0.1, 0).normalized() * Vec3::UnitX()).cast<float>();
+  for (const Vec3f& at : debris.view().position_W) ASSERT_LT(normal.dot(at), 0);
+}
+
+TEST(Debris, IsSweptAlongByAMovingBodyEvenAsleep) {
+  Debris debris(10, kGravity);
+  TestObstacles obstacles;
+  debris.add(chip_at(Vec3f(0, 0.1f, 0)));
+  run(debris, obstacles, 2);
+  ASSERT_EQ(debris.books().awake, 0u);
+  obstacles.set_velocity(obstacles.add_box(Vec3(-1, 0.5, 0), Vec3(0.2, 0.5, 0.5)), Vec3(2, 0, 0));
+  run(debris, obstacles, 1);
+  EXPECT_GT(debris.view().position_W[0].x(), 1.2f - 0.01f);
+}
+
+TEST(Debris, RidesOnALiftWithoutFallingThrough) {
+  Debris debris(10, kGravity);
+  TestObstacles obstacles;
+  obstacles.set_velocity(obstacles.add_box(Vec3(0, 0.5, 0), Vec3(1, 0.05, 1)), Vec3(0, 3, 0));
+  debris.add(chip_at(Vec3f(0, 0.65f, 0)));
+  run(debris, obstacles, 1);
+  const double top = obstacles.bodies[0].X_WB.position.y() + 0.05;
+  EXPECT_NEAR(debris.view().position_W[0].y(), top + 0.02, 0.02);
+}
+
+TEST(Debris, BouncesOffABall) {
+  Debris debris(10, Vec3::Zero());
+  TestObstacles obstacles;
+  obstacles.add_ball(Vec3(0, 5, 0), 0.5);
+  debris.add(chip_at(Vec3f(-2, 5, 0), Vec3f(4, 0, 0)));
+  run(debris, obstacles, 1);
+  const Vec3f at = debris.view().position_W[0];
+  EXPECT_LT(at.x(), -0.52f);
+  EXPECT_GT(at.x(), -2);
+}
+
+TEST(Debris, OverItsBudgetFadesTheOldestRestingAndIgnoresWhatIsOverItsLimit) {
+  Debris debris(160, kGravity);
+  TestObstacles obstacles;
+  for (int i = 0; i < 100; ++i) debris.add(chip_at(Vec3f(float(i), 0.05f, 0)));
+  run(debris, obstacles, 1);
+  ASSERT_EQ(debris.books().awake, 0u);
+  for (int i = 0; i < 70; ++i) debris.add(chip_at(Vec3f(float(i), 0.05f, 5)));
+  EXPECT_EQ(debris.books().alive, 160u);
+  EXPECT_EQ(debris.books().ignored, 10u);
+  run(debris, obstacles, 2);
+  const ParticleBooks books = debris.books();
+  EXPECT_EQ(books.alive, books.emitted - books.gone);
+  EXPECT_LE(books.alive, 150u) << "room for the next";
+  EXPECT_GE(books.alive, 130u) << "but no more than that";
+  for (const Vec3f& at : debris.view().position_W) {
+    if (at.z() > 4) continue;
+    EXPECT_GE(at.x(), 10) << "those that lay first have gone first";
+  }
+}
+
+}  // namespace
+}  // namespace sunder::solver

@@ -1,0 +1,174 @@
+// What debris and dust promise together, behind the seam.
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/hash.h"
+#include "engine/base/parallel.h"
+#include "engine/base/random.h"
+#include "solver/particles/debris_and_dust.h"
+#include "tests/particles/particles_fixtures.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr double kDt = 1.0 / 60;
+
+DebrisAndDustOptions small_options() {
+  DebrisAndDustOptions options;
+  options.air_cells = Eigen::Vector3i(32, 16, 32);
+  return options;
+}
+
+Crumbling crumbling_of(double particles_per_m2, double debris_ratio) {
+  Crumbling crumbling;
+  crumbling.particles_per_m2 = particles_per_m2;
+  crumbling.debris_ratio = debris_ratio;
+  return crumbling;
+}
+
+template <class T>
+std::uint64_t hash_of(std::span<const T> values) {
+  std::uint64_t hash = values.size();
+  const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+  for (std::size_t i = 0; i < values.size_bytes(); ++i) hash = combine(hash, bytes[i]);
+  return hash;
+}
+
+std::uint64_t hash_of(const Particles& particles) {
+  const DebrisView debris = particles.debris();
+  const DustView dust = particles.dust();
+  std::uint64_t hash = 0;
+  for (const std::uint64_t part :
+       {hash_of(debris.position_W), hash_of(debris.rotation_WD), hash_of(debris.radius_m),
+        hash_of(debris.variant), hash_of(dust.position_W), hash_of(dust.rotation_WD),
+        hash_of(dust.radius_m), hash_of(dust.opacity), hash_of(dust.age_s)}) {
+    hash = combine(hash, part);
+  }
+  return hash;
+}
+
+TEST(Particles, AreTheSameBitsForOneTwoAndFourThreads) {
+  const auto run = [](int count) {
+    set_threads(count);
+    auto particles = make_debris_and_dust(small_options());
+    TestObstacles obstacles;
+    Random random(11);
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 at = 2 * random.direction() + Vec3(0, 2, 0);
+      const Vec3 half(random.uniform(0.05, 0.4), random.uniform(0.05, 0.4), 0.2);
+      const Quat rotation = Quat(1, random.uniform(), random.uniform(), 0).normalized();
+      const std::size_t body = obstacles.add_box(at, half, rotation);
+      if (i % 3 == 0) obstacles.set_velocity(body, 2 * random.direction());
+    }
+    for (int step = 0; step < 60; ++step) {
+      if (step % 10 == 0) {
+        const TestFace face(Vec3(0.1 * step - 2, 2, 0));
+        const Emission emission = face.emission(crumbling_of(1500, 0.4));
+        particles->emit(std::span(&emission, 1));
+      }
+      obstacles.advance(kDt);
+      particles->advance(kDt, obstacles.view());
+    }
+    EXPECT_GT(particles->report().debris.alive, 2000u);
+    EXPECT_GT(particles->report().dust.alive, 3000u);
+    return hash_of(*particles);
+  };
+  const int before = threads();
+  const std::uint64_t one = run(1);
+  EXPECT_EQ(run(2), one);
+  EXPECT_EQ(run(4), one);
+  set_threads(before);
+}
+
+TEST(Particles, ComeFromAFaceByItsDensityAndRatio) {
+  auto particles = make_debris_and_dust(small_options());
+  const TestFace face(Vec3(0, 3, 0), 2);
+  const Emission emission = face.emission(crumbling_of(1000, 0.25));
+  particles->emit(std::span(&emission, 1));
+  const ParticleReport report = particles->report();
+  EXPECT_EQ(report.debris.alive + report.dust.alive, 4000u);
+  EXPECT_NEAR(report.debris.alive, 1000, 100);
+  Vec3f mean = Vec3f::Zero();
+  for (const Vec3f& at : particles->dust().position_W) {
+    ASSERT_NEAR(at.y(), 3, 1e-6);
+    ASSERT_LE(std::max(std::abs(at.x()), std::abs(at.z())), 1);
+    mean += at / float(report.dust.alive);
+  }
+  EXPECT_NEAR(mean.x(), 0, 0.05);
+  EXPECT_NEAR(mean.z(), 0, 0.05);
+}
+
+TEST(Particles, OfManySmallFacesAreAsManyAsOfOneLargeFace) {
+  auto particles = make_debris_and_dust(small_options());
+  const TestFace face(Vec3(0, 3, 0), 0.01);
+  const std::vector<Emission> faces(10000, face.emission(crumbling_of(1000, 0.5)));
+  particles->emit(faces);
+  const ParticleReport report = particles->report();
+  EXPECT_NEAR(report.debris.emitted + report.dust.emitted, 1000, 100);
+}
+
+TEST(Particles, DebrisSizesFollowAPowerLaw) {
+  auto particles = make_debris_and_dust(small_options());
+  Crumbling crumbling = crumbling_of(40000, 1);
+  crumbling.debris_smallest_m = 0.01;
+  crumbling.debris_largest_m = 0.1;
+  const TestFace face(Vec3(0, 3, 0));
+  const Emission emission = face.emission(crumbling);
+  particles->emit(std::span(&emission, 1));
+  int over_2cm = 0, over_4cm = 0;
+  for (const float radius : particles->debris().radius_m) {
+    ASSERT_GE(radius, 0.01f - 1e-7f);
+    ASSERT_LE(radius, 0.1f + 1e-7f);
+    over_2cm += radius > 0.02f;
+    over_4cm += radius > 0.04f;
+  }
+  // N(> r) = ((s/r)² − (s/l)²) / (1 − (s/l)²).
+  EXPECT_NEAR(over_2cm / 40000.0, (0.25 - 0.01) / 0.99, 0.01);
+  EXPECT_NEAR(over_4cm / 40000.0, (0.0625 - 0.01) / 0.99, 0.005);
+}
+
+TEST(Particles, InheritTheMotionOfTheirSolid) {
+  DebrisAndDustOptions options = small_options();
+  options.gravity_W.setZero();
+  auto particles = make_debris_and_dust(options);
+  const TestFace face(Vec3(10, 3, 0), 0.1);
+  Emission emission = face.emission(crumbling_of(10000, 1));
+  emission.motion = {Vec3(0, 3, 0), Vec3(0, 5, 0), Vec3(0, 0, 2)};
+  particles->emit(std::span(&emission, 1));
+  particles->advance(kDt, TestObstacles().view());
+  Vec3f mean = Vec3f::Zero();
+  for (const Vec3f& at : particles->debris().position_W) mean += at;
+  mean /= float(particles->report().debris.alive);
+  EXPECT_NEAR((double{mean.y()} - 3) / kDt, 5 + 2 * 10, 2.5);
+}
+
+TEST(Particles, AChipIsOnePieceOfDebrisThatMovesOn) {
+  auto particles = make_debris_and_dust(small_options());
+  Chip chip;
+  chip.center_W = Vec3(1, 5, 2);
+  chip.radius_m = 0.03;
+  chip.velocity_W = Vec3(0, 0, 6);
+  particles->emit(std::span(&chip, 1));
+  EXPECT_EQ(particles->report().debris.alive, 1u);
+  EXPECT_EQ(particles->debris().radius_m[0], 0.03f);
+  particles->advance(kDt, TestObstacles().view());
+  EXPECT_NEAR(particles->debris().position_W[0].z(), 2 + 6 * kDt, 1e-5);
+}
+
+TEST(Particles, WithoutDustHaveNoAir) {
+  auto particles = make_debris_and_dust(small_options());
+  const TestFace face(Vec3(0, 3, 0));
+  Emission emission = face.emission(crumbling_of(1000, 1));
+  particles->emit(std::span(&emission, 1));
+  particles->advance(kDt, TestObstacles().view());
+  EXPECT_EQ(particles->report().air_cells, 0u);
+  emission.crumbling.debris_ratio = 0;
+  particles->emit(std::span(&emission, 1));
+  particles->advance(kDt, TestObstacles().view());
+  EXPECT_EQ(particles->report().air_cells, 32u * 16 * 32);
+}
+
+}  // namespace
+}  // namespace sunder::solver
