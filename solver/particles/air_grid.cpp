@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "solver/particles/air.h"
 
@@ -25,6 +26,7 @@ double whole(double x, double unit) { return std::floor(x / unit + 0.5) * unit; 
 bool Air::place(const Box& dust, double ground_m) {
   const Vec3i& counts = grid_.lattice.counts;
   const Vec3 extent = dust.extent();
+  SUNDER_CHECK(extent.allFinite());
   const Vec3 margin = Vec3::Constant(kMargin * grid_.cell_m);
   const Vec3 over = dust.max + margin - grid_.origin_W - grid_.extent_m();
   const Vec3 under = dust.min - margin - grid_.origin_W;

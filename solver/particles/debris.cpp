@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "solver/particles/turn.h"
 
@@ -55,6 +56,7 @@ bool shifted(const Pose& before, const Pose& now) {
 Debris::Debris(std::uint32_t limit, const Vec3& gravity_W) : limit_(limit), gravity_W_(gravity_W) {}
 
 void Debris::add(const DebrisBirth& birth) {
+  SUNDER_CHECK(birth.radius_m > 0);
   if (position_W_.size() >= limit_) {
     ++books_.ignored;
     return;
@@ -188,7 +190,7 @@ Debris::Moved Debris::move(std::uint32_t chip, double dt_s, const Obstacles& obs
 
 void Debris::spin(std::uint32_t chip, float dt_s, bool touched) {
   Vec3f& spin = angular_velocity_W_[chip];
-  spin /= 1 + dt_s * (touched ? kTouchedDamping_s : kFlyingDamping_s);
+  spin *= 1 / (1 + dt_s * (touched ? kTouchedDamping_s : kFlyingDamping_s));
   turn(rotation_WD_[chip], spin, dt_s);
 }
 

@@ -90,6 +90,7 @@ void ObstacleGrid::choose_cells(const Box& region) {
   origin_W_ = used.min.cast<float>();
   const auto set_scale = [&] {
     cells_per_m_ = counts_.cast<float>().cwiseQuotient(extent.cast<float>());
+    last_cell_ = (counts_ - Cell::Ones()).cast<float>();
   };
   set_scale();
   const auto entries = [&] {
@@ -104,12 +105,6 @@ void ObstacleGrid::choose_cells(const Box& region) {
     counts_ = (counts_ / 2).cwiseMax(1);
     set_scale();
   }
-}
-
-ObstacleGrid::Cell ObstacleGrid::cell_of(const Vec3f& point_W) const {
-  const Vec3f scaled = (point_W - origin_W_).cwiseProduct(cells_per_m_);
-  const Vec3f last = (counts_ - Cell::Ones()).cast<float>();
-  return scaled.cwiseMax(0.0f).cwiseMin(last).cast<int>();
 }
 
 void ObstacleGrid::sort_into_cells() {
@@ -213,10 +208,7 @@ std::optional<Touch> ObstacleGrid::sweep(const Way& way) const {
         const auto cell = static_cast<std::size_t>((z * counts_.y() + y) * counts_.x() + x);
         for (std::uint32_t e = first_[cell]; e < first_[cell + 1]; ++e) {
           const Placed& placed = shapes_[entries_[e]];
-          if ((placed.min.array() <= high.array()).all() &&
-              (low.array() <= placed.max.array()).all()) {
-            meet(placed, way, first);
-          }
+          if (placed.reaches(low, high)) meet(placed, way, first);
         }
       }
     }

@@ -40,13 +40,21 @@ class ObstacleGrid {
   struct Placed {
     std::uint32_t shape = 0;
     Vec3f min, max;  ///< Swept, in W.
+
+    bool reaches(const Vec3f& low, const Vec3f& high) const {
+      return min.x() <= high.x() && low.x() <= max.x() && min.y() <= high.y() &&
+             low.y() <= max.y() && min.z() <= high.z() && low.z() <= max.z();
+    }
   };
   using Cell = Eigen::Vector3i;
 
   void place(std::size_t begin, std::size_t end, Box* boxes) const;
   void choose_cells(const Box& region);
   void sort_into_cells();
-  Cell cell_of(const Vec3f& point_W) const;
+  Cell cell_of(const Vec3f& point_W) const {
+    const Vec3f scaled = (point_W - origin_W_).cwiseProduct(cells_per_m_);
+    return scaled.cwiseMax(0.0f).cwiseMin(last_cell_).cast<int>();
+  }
   void meet(const Placed& placed, const Way& way, std::optional<Touch>& first) const;
 
   Obstacles obstacles_;
@@ -57,6 +65,7 @@ class ObstacleGrid {
   Vec3f origin_W_ = Vec3f::Zero();
   Vec3f cells_per_m_ = Vec3f::Ones();
   Cell counts_ = Cell::Ones();
+  Vec3f last_cell_ = Vec3f::Zero();
   std::vector<std::uint32_t> first_;    ///< Per cell, of entries_; one more at the end.
   std::vector<std::uint32_t> entries_;  ///< Indices in shapes_.
 };

@@ -179,7 +179,9 @@ void PressureSolver::prolong(const Level& coarse, Level& fine) {
 /// One V-cycle on level's `rest`, from zero.
 void PressureSolver::cycle(std::size_t at) {
   Level& level = levels_[at];
-  std::fill(level.correction.begin(), level.correction.end(), 0.0f);
+  for_rows(level.lattice, [&](int j, int k) {
+    std::fill_n(&level.correction[level.lattice.index(1, j, k)], level.lattice.counts.x(), 0.0f);
+  });
   const bool coarsest = at + 1 == levels_.size();
   const int sweeps = coarsest ? kCoarsestSweeps : kSweeps;
   for (int i = 0; i < sweeps; ++i) smooth(level, Order::kForward);

@@ -82,12 +82,16 @@ void Solids::add(const Grid& grid, const Block& block, int first_layer, int last
 }
 
 void Solids::rasterize(const Grid& grid, const Obstacles& obstacles) {
-  for (Field* field : {&fraction, &momentum[0], &momentum[1], &momentum[2]}) {
-    field->assign(grid.lattice.size(), 0);
-  }
+  const std::array<Field*, 4> fields = {&fraction, &momentum[0], &momentum[1], &momentum[2]};
+  for (Field* field : fields) field->resize(grid.lattice.size());
   place(grid, obstacles);
+  const std::ptrdiff_t layer = grid.lattice.stride(2);
   for_chunks(static_cast<std::size_t>(grid.lattice.counts.z()), grid.lattice.layers_a_chunk(),
              [&](std::size_t begin, std::size_t end, std::size_t) {
+               for (Field* field : fields) {
+                 float* first = &(*field)[grid.lattice.index(0, 0, static_cast<int>(begin) + 1)];
+                 std::fill_n(first, layer * static_cast<std::ptrdiff_t>(end - begin), 0.0f);
+               }
                for (const Block& block : blocks_) {
                  add(grid, block, static_cast<int>(begin) + 1, static_cast<int>(end));
                }

@@ -12,7 +12,7 @@ inline void turn(Quatf& rotation, const Vec3f& angular_velocity_W, float dt_s) {
   const Vec3f half = 0.5f * dt_s * angular_velocity_W;
   const Quatf change = Quatf(0, half.x(), half.y(), half.z()) * rotation;
   rotation.coeffs() += change.coeffs();
-  rotation.coeffs() /= std::sqrt(rotation.coeffs().squaredNorm());
+  rotation.coeffs() *= 1 / std::sqrt(rotation.coeffs().squaredNorm());
 }
 
 }  // namespace sunder::solver

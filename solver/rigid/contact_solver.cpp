@@ -214,11 +214,14 @@ void ContactSolver::finish_body(std::uint32_t body, Bodies& bodies) const {
   bodies.velocity[body] += linear(change).cast<double>();
   bodies.angular_velocity[body] += (root_W_[body] * angular(change)).cast<double>();
   const Vec3f way = linear(row.position);
-  const Vec3f turn = root_W_[body] * angular(row.position);
-  bodies.place(body, bodies.position[body] + way.cast<double>(),
-               turn_by(turn.cast<double>()) * bodies.rotation[body]);
+  const Vec3f angle = root_W_[body] * angular(row.position);
+  const Quat turn = turn_by(angle.cast<double>());
+  // Energy is that of the velocity as an uneven body sees it, so it turns with the body.
+  if (bodies.spins_freely[body])
+    bodies.angular_velocity[body] = turn * bodies.angular_velocity[body];
+  bodies.place(body, bodies.position[body] + way.cast<double>(), turn * bodies.rotation[body]);
   bodies.travelled_m[body] +=
-      way.norm() + 1.1f * turn.norm() * static_cast<float>(bodies.reach_m[body]);
+      way.norm() + 1.1f * angle.norm() * static_cast<float>(bodies.reach_m[body]);
 }
 
 ContactSolveReport ContactSolver::report() const {

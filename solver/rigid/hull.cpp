@@ -2,6 +2,7 @@
 #include "solver/rigid/hull.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/check.h"
 
@@ -33,16 +34,17 @@ Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
 
   const auto faces = static_cast<std::uint32_t>(convex.faces.size());
   planes_.resize(wide_count(faces));
-  inner_radius_ = reach_ + center_.norm();
+  core_radius_ = reach_ + center_.norm();
   for (std::uint32_t i = 0; i < planes_.size() * kLanes; ++i) {
     const Plane& plane = convex.faces[std::min(i, faces - 1)].plane;
     PlaneChunk& chunk = planes_[i / kLanes];
     set_lane(chunk.normal, i % kLanes, plane.normal.cast<float>());
     chunk.d[i % kLanes] = static_cast<float>(plane.distance(com_R));
     const auto to_center = static_cast<float>(-plane.distance(com_R + center_.cast<double>()));
-    inner_radius_ = std::min(inner_radius_, to_center);
+    core_radius_ = std::min(core_radius_, to_center);
   }
-  inner_radius_ = std::max(inner_radius_, 0.02f * reach_);
+  core_radius_ = std::max(core_radius_, 0.f);
+  inner_radius_ = std::max(core_radius_, 0.02f * reach_);
 
   corners_.reserve(convex.corners.size());
   face_first_.reserve(faces + 1);
@@ -84,6 +86,8 @@ void Hull::add_edges() {
     set_lane(chunk.direction, slot % kLanes, to - from);
     set_lane(chunk.normal_left, slot % kLanes, normal(left.face));
     set_lane(chunk.normal_right, slot % kLanes, normal(right.face));
+    const float cosine = normal(left.face).dot(normal(right.face));
+    chunk.bulge[slot % kLanes] = 1 / std::sqrt(std::max(1e-6f, 0.5f * (1 + cosine)));
   };
   for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {
     SUNDER_CHECK(halves[i].key == halves[i + 1].key);

@@ -24,9 +24,11 @@ class Hull {
     Wide3 normal;
     Wide d;
   };
-  /// Directions run counter-clockwise in the face of `normal_left`.
+  /// Directions run counter-clockwise in the face of `normal_left`. `bulge` bounds how much further
+  /// a unit normal between the two faces' may reach than the better of them.
   struct EdgeChunk {
     Wide3 point, direction, normal_left, normal_right;
+    Wide bulge;
   };
 
   std::uint32_t vertex_count() const { return vertex_count_; }
@@ -49,7 +51,10 @@ class Hull {
   const Vec3f& center() const { return center_; }
   /// Of a sphere about the origin (the centre of mass of the body) that holds the hull.
   float reach_m() const { return reach_; }
-  /// Least distance from the centre to a face: the yardstick of tolerances.
+  /// Of a ball about the centre that lies within.
+  float core_radius_m() const { return core_radius_; }
+  /// Least distance from the centre to a face, but not absurdly little: the yardstick of
+  /// tolerances.
   float inner_radius_m() const { return inner_radius_; }
 
   static Vec3f lane(const Wide3& v, std::uint32_t i) { return {v.x[i], v.y[i], v.z[i]}; }
@@ -66,6 +71,7 @@ class Hull {
   std::uint32_t vertex_count_ = 0;
   Vec3f center_ = Vec3f::Zero();
   float reach_ = 0;
+  float core_radius_ = 0;
   float inner_radius_ = 0;
 };
 

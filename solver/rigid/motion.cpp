@@ -15,7 +15,7 @@ constexpr int kMidpointRounds = 12;
 
 struct Spin {
   Quat rotation;
-  Vec3 angular_velocity_W;
+  Vec3 w_B;
 };
 
 /// One midpoint step: w1 = w0 + h I⁻¹((I wm) × wm), wm = (w0 + w1)/2, then R1 = R0 Cay(h wm).
@@ -36,15 +36,14 @@ void midpoint_step(const Mat3& inertia_B, const Mat3& inverse_B, double h, Quat&
 }
 
 Spin spun_freely(const Bodies& bodies, std::uint32_t body, double dt_s) {
-  Spin spin{bodies.rotation[body], bodies.angular_velocity[body]};
-  const double turn = spin.angular_velocity_W.norm() * dt_s;
+  Spin spin{bodies.rotation[body],
+            bodies.rotation[body].conjugate() * bodies.angular_velocity[body]};
+  const double turn = spin.w_B.norm() * dt_s;
   const int parts = std::clamp(static_cast<int>(std::ceil(turn / kLargestTurn)), 1, 1000);
   const Mat3& inertia_B = bodies.inertia_B[body];
   const Mat3 inverse_B = inertia_B.inverse();
-  Vec3 w_B = spin.rotation.conjugate() * spin.angular_velocity_W;
   for (int i = 0; i < parts; ++i)
-    midpoint_step(inertia_B, inverse_B, dt_s / parts, spin.rotation, w_B);
-  spin.angular_velocity_W = spin.rotation * w_B;
+    midpoint_step(inertia_B, inverse_B, dt_s / parts, spin.rotation, spin.w_B);
   return spin;
 }
 
@@ -75,7 +74,7 @@ void fly(Bodies& bodies, std::uint32_t body, const Vec3& gravity_W, double dt_s)
   if (wobbles(bodies, body, dt_s)) {
     const Spin spin = spun_freely(bodies, body, dt_s);
     rotation = spin.rotation;
-    bodies.angular_velocity[body] = spin.angular_velocity_W;
+    bodies.angular_velocity[body] = spin.rotation * spin.w_B;
   } else {
     rotation = turn_by(angle_W) * bodies.rotation[body];
   }
@@ -86,7 +85,8 @@ void fly(Bodies& bodies, std::uint32_t body, const Vec3& gravity_W, double dt_s)
 
 Vec3 gyroscopic_change(const Bodies& bodies, std::uint32_t body, double dt_s) {
   if (!wobbles(bodies, body, dt_s)) return Vec3::Zero();
-  return spun_freely(bodies, body, dt_s).angular_velocity_W - bodies.angular_velocity[body];
+  return bodies.rotation[body] * spun_freely(bodies, body, dt_s).w_B -
+         bodies.angular_velocity[body];
 }
 
 }  // namespace sunder::solver

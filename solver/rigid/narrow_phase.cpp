@@ -20,10 +20,10 @@ struct Probe {
   float tolerance_m;
   NarrowScratch& scratch;
 
-  SeparatingAxis axis(const RelativePose& pose, float reach_m) const {
+  SeparatingAxis axis(const RelativePose& pose, const AxisReach& reach) const {
     if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
       place_in_each_other(a.hull, b.hull, pose, scratch.hulls);
-      return separating_axis(a.hull, b.hull, pose, reach_m, tolerance_m, scratch.hulls);
+      return separating_axis(a.hull, b.hull, pose, reach, tolerance_m, scratch.hulls);
     }
     const Vec3f center_b = pose.R * b.center + pose.p;
     SeparatingAxis axis;
@@ -59,7 +59,7 @@ float time_of_impact(const Probe& probe, const PairMotion& motion, const Vec3f& 
   RelativePose pose = motion.pose;
   float time = 0;
   for (int round = 0; round < kImpactRounds; ++round) {
-    const SeparatingAxis axis = probe.axis(pose, 1e30f);
+    const SeparatingAxis axis = probe.axis(pose, {1e30f, Vec3f::Zero()});
     if (axis.separation_m <= target_m) return time;
     const float closing = -axis.normal_A.dot(velocity_A);
     if (closing <= 0) return -1;
@@ -118,16 +118,19 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
                   NarrowScratch& scratch) {
   const Probe probe{a, b, kAxisTolerance * m.size_m, scratch};
   const bool fast = reach.way_m > 0.5f * m.size_m;
+  const auto dt = static_cast<float>(dt_s);
   const Vec3f velocity_A = bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W;
+  const AxisReach axis_reach{reach.margin_m + reach.spin_m,
+                             fast ? Vec3f::Zero() : Vec3f(dt * velocity_A)};
   RelativePose pose = motion.pose;
-  float limit = reach.margin_m + reach.spin_m + (fast ? 0 : reach.way_m);
   float time = 0;
   if (fast) {
-    time = time_of_impact(probe, motion, velocity_A, limit, static_cast<float>(dt_s));
+    time = time_of_impact(probe, motion, velocity_A, axis_reach.margin_m, dt);
     pose.p += std::max(0.f, time) * velocity_A;
   }
   SeparatingAxis axis;
-  if (time >= 0) axis = probe.axis(pose, limit);
+  if (time >= 0) axis = probe.axis(pose, axis_reach);
+  const float limit = axis_reach.along(axis.normal_A);
   scratch.points.clear();
   if (time >= 0 && axis.separation_m <= limit) probe.points(pose, axis, limit);
   pair.clearance_m = time == 0 && scratch.points.empty() ? axis.separation_m : -1;
@@ -139,12 +142,12 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
 }
 
 /// Whether the axis that parted the pair last still does, and by how much.
-bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, float reach_m,
+bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, const AxisReach& reach,
                   float travelled_m, Pair& pair, NarrowScratch& scratch) {
   if (pair.axis_A.isZero(0) || b.kind != Kind::kHull || a.kind != Kind::kHull) return false;
   place_in_each_other(a.hull, b.hull, motion.pose, scratch.hulls);
   const float separation_m = separation_along(pair.axis_A, a.hull, scratch.hulls);
-  if (separation_m <= reach_m) return false;
+  if (separation_m <= reach.along(pair.axis_A)) return false;
   pair.clearance_m = separation_m;
   pair.travelled_m = travelled_m;
   return true;
@@ -166,7 +169,10 @@ void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep
     forgive_overlap(pair, m);
     return;
   }
-  if (m.count == 0 && still_parted(a, b, motion, limit, travelled, pair, scratch)) return;
+  const Vec3f way_A = static_cast<float>(step.dt_s) *
+                      (bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W);
+  const AxisReach axis_reach{reach.margin_m + reach.spin_m, way_A};
+  if (m.count == 0 && still_parted(a, b, motion, axis_reach, travelled, pair, scratch)) return;
   pair.travelled_m = travelled;
   m.size_m = size_m;
   m.friction = std::sqrt(a.friction * b.friction);

@@ -40,10 +40,47 @@ FaceAnswer best_face(const Hull& hull, std::uint32_t vertex_count,
   return best;
 }
 
-/// Edge e of a against eight edges of b, already in A; keeps the better of `best` and the result.
+/// Lists the edges of a hull with a normal between their faces' that may have n·toward above
+/// `least`. An axis n parts two hulls by no more than n·(distance of centres) less the balls
+/// within, so edges that do not face the other hull cannot give a better axis than one known
+/// already.
+void facing_edges(const Hull& hull, const Vec3f& toward, float least,
+                  std::vector<std::uint16_t>& facing) {
+  facing.clear();
+  const Wide3 direction = splat3(toward);
+  for (std::uint32_t c = 0; c < hull.edges().size(); ++c) {
+    const Hull::EdgeChunk& edges = hull.edges()[c];
+    const Wide most = max(dot(edges.normal_left, direction), dot(edges.normal_right, direction));
+    for (std::uint32_t set = bits(most * edges.bulge > splat(least)); set != 0; set &= set - 1) {
+      const std::uint32_t e = c * kLanes + static_cast<std::uint32_t>(__builtin_ctz(set));
+      if (e < hull.edge_count()) facing.push_back(static_cast<std::uint16_t>(e));
+    }
+  }
+}
+
+/// Up to eight of b's listed edges, in A.
+Hull::EdgeChunk edges_in_A(const Hull& b, const RelativePose& pose, const std::uint16_t* list,
+                           std::uint32_t count) {
+  Hull::EdgeChunk own{};
+  for (std::uint32_t i = 0; i < kLanes; ++i) {
+    const std::uint32_t e = list[std::min(i, count - 1)], k = e % kLanes;
+    const Hull::EdgeChunk& from = b.edges()[e / kLanes];
+    auto copy = [&](Wide3& to, const Wide3& v) {
+      to.x[i] = v.x[k], to.y[i] = v.y[k], to.z[i] = v.z[k];
+    };
+    copy(own.point, from.point);
+    copy(own.direction, from.direction);
+    copy(own.normal_left, from.normal_left);
+    copy(own.normal_right, from.normal_right);
+  }
+  return {turned(pose.R, own.point) + splat3(pose.p), turned(pose.R, own.direction),
+          turned(pose.R, own.normal_left), turned(pose.R, own.normal_right), own.bulge};
+}
+
+/// Edge e of a against `count` edges of b, already in A; keeps the better of `best` and the result.
 /// Only pairs whose arcs cross on the Gauss map are faces of the Minkowski difference.
-void try_edges(const Hull& a, std::uint32_t e, const Hull::EdgeChunk& edges_b,
-               std::uint32_t first_b, std::uint32_t count_b, SeparatingAxis& best) {
+void try_edges(const Hull& a, std::uint16_t e, const Hull::EdgeChunk& edges_b,
+               const std::uint16_t* list_b, std::uint32_t count, SeparatingAxis& best) {
   const Hull::EdgeChunk& chunk = a.edges()[e / kLanes];
   const std::uint32_t k = e % kLanes;
   const Vec3f direction = Hull::lane(chunk.direction, k);
@@ -54,7 +91,7 @@ void try_edges(const Hull& a, std::uint32_t e, const Hull::EdgeChunk& edges_b,
   const Wide zero = splat(0);
   std::uint32_t crossing =
       bits((b_left * b_right < zero) & (a_left * a_right < zero) & (b_left * a_right < zero));
-  if (first_b + kLanes > count_b) crossing &= (1u << (count_b - first_b)) - 1;
+  if (count < kLanes) crossing &= (1u << count) - 1;
   for (; crossing != 0; crossing &= crossing - 1) {
     const auto lane = static_cast<std::uint32_t>(__builtin_ctz(crossing));
     const Vec3f direction_b = Hull::lane(edges_b.direction, lane);
@@ -66,21 +103,28 @@ void try_edges(const Hull& a, std::uint32_t e, const Hull::EdgeChunk& edges_b,
     if (axis.dot(outward) < 0) axis = -axis;
     const float separation = axis.dot(Hull::lane(edges_b.point, lane) - Hull::lane(chunk.point, k));
     if (separation > best.separation_m)
-      best = {SeparatingAxis::Kind::kEdges, axis, separation, e, first_b + lane};
+      best = {SeparatingAxis::Kind::kEdges, axis, separation, e, list_b[lane]};
   }
 }
 
-SeparatingAxis best_edges(const Hull& a, const Hull& b, const RelativePose& pose, float reach_m) {
+/// The best pair of edges, if one is better than `least_m`.
+SeparatingAxis best_edges(const Hull& a, const Hull& b, const RelativePose& pose,
+                          const AxisReach& reach, float least_m, HullScratch& scratch) {
   SeparatingAxis best;
-  for (std::uint32_t c = 0; c < b.edges().size(); ++c) {
-    const Hull::EdgeChunk& own = b.edges()[c];
-    const Hull::EdgeChunk in_A = {turned(pose.R, own.point) + splat3(pose.p),
-                                  turned(pose.R, own.direction), turned(pose.R, own.normal_left),
-                                  turned(pose.R, own.normal_right)};
-    for (std::uint32_t e = 0; e < a.edge_count(); ++e) {
-      try_edges(a, e, in_A, c * kLanes, b.edge_count(), best);
-      if (best.separation_m > reach_m) return best;
-    }
+  best.separation_m = least_m;
+  const Vec3f toward = pose.R * b.center() + pose.p - a.center();
+  float least = least_m + a.core_radius_m() + b.core_radius_m();
+  if (least <= 0) least = -1e30f;
+  facing_edges(a, toward, least, scratch.edges_a);
+  if (scratch.edges_a.empty()) return best;
+  facing_edges(b, -(pose.R.transpose() * toward), least, scratch.edges_b);
+  for (std::size_t first = 0; first < scratch.edges_b.size(); first += kLanes) {
+    const auto count =
+        static_cast<std::uint32_t>(std::min<std::size_t>(kLanes, scratch.edges_b.size() - first));
+    const std::uint16_t* list = scratch.edges_b.data() + first;
+    const Hull::EdgeChunk edges_b = edges_in_A(b, pose, list, count);
+    for (const std::uint16_t e : scratch.edges_a) try_edges(a, e, edges_b, list, count, best);
+    if (best.separation_m > reach.along(best.normal_A)) return best;
   }
   return best;
 }
@@ -99,21 +143,23 @@ void place_in_each_other(const Hull& a, const Hull& b, const RelativePose& pose,
 }
 
 SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose& pose,
-                               float reach_m, float tolerance_m, const HullScratch& scratch) {
+                               const AxisReach& reach, float tolerance_m, HullScratch& scratch) {
   SeparatingAxis best;
   const FaceAnswer face_a = best_face(a, b.vertex_count(), scratch.b_in_A);
   best.index_a = std::min(face_a.face, a.face_count() - 1);
   best.normal_A = a.normal(best.index_a);
   best.separation_m = face_a.separation_m;
-  if (best.separation_m > reach_m) return best;
+  if (best.separation_m > reach.along(best.normal_A)) return best;
 
   const FaceAnswer face_b = best_face(b, a.vertex_count(), scratch.a_in_B);
-  if (face_b.separation_m > best.separation_m + tolerance_m || face_b.separation_m > reach_m) {
-    const std::uint32_t face = std::min(face_b.face, b.face_count() - 1);
-    best = {SeparatingAxis::Kind::kFaceB, -(pose.R * b.normal(face)), face_b.separation_m, 0, face};
-    if (best.separation_m > reach_m) return best;
-  }
-  const SeparatingAxis edges = best_edges(a, b, pose, reach_m);
+  const std::uint32_t face = std::min(face_b.face, b.face_count() - 1);
+  const Vec3f normal = -(pose.R * b.normal(face));
+  const bool parted = face_b.separation_m > reach.along(normal);
+  if (parted || face_b.separation_m > best.separation_m + tolerance_m)
+    best = {SeparatingAxis::Kind::kFaceB, normal, face_b.separation_m, 0, face};
+  if (parted) return best;
+  const SeparatingAxis edges =
+      best_edges(a, b, pose, reach, best.separation_m + tolerance_m, scratch);
   return edges.separation_m > best.separation_m + tolerance_m ? edges : best;
 }
 

@@ -14,9 +14,10 @@ struct RelativePose {
   Vec3f p;
 };
 
-/// Vertices of each hull in the other's frame; reused memory.
+/// Vertices of each hull in the other's frame, and edges that face the other; reused memory.
 struct HullScratch {
   std::vector<Wide3> b_in_A, a_in_B;
+  std::vector<std::uint16_t> edges_a, edges_b;
 
   Vec3f vertex_b(std::uint32_t i) const { return Hull::lane(b_in_A[i / kLanes], i % kLanes); }
 };
@@ -30,14 +31,22 @@ struct SeparatingAxis {
   std::uint32_t index_b = 0;        ///< Face or edge of b.
 };
 
-/// Fills the scratch; to be called before separating_axis().
+/// How far apart shapes may be and still matter: a margin, and what they may close along an axis.
+struct AxisReach {
+  float margin_m = 0;
+  Vec3f way_A = Vec3f::Zero();  ///< Of b from a within the step, in A.
+
+  float along(const Vec3f& axis_A) const { return margin_m + std::max(0.f, -axis_A.dot(way_A)); }
+};
+
+/// Fills the vertices of the scratch; to be called before separating_axis().
 void place_in_each_other(const Hull& a, const Hull& b, const RelativePose& pose,
                          HullScratch& scratch);
-/// The best axis over face normals and edge cross products. As soon as one parts the hulls by more
-/// than `reach_m`, that one. A face is preferred to an edge unless the edge is better by
+/// The best axis over face normals and edge cross products. As soon as one parts the hulls beyond
+/// `reach`, that one. A face is preferred to an edge unless the edge is better by
 /// `tolerance_m`, and a's faces to b's, so that the choice stays put from step to step.
 SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose& pose,
-                               float reach_m, float tolerance_m, const HullScratch& scratch);
+                               const AxisReach& reach, float tolerance_m, HullScratch& scratch);
 /// Distance of the supporting planes along an axis given in A; the scratch must be filled.
 float separation_along(const Vec3f& axis_A, const Hull& a, const HullScratch& scratch);
 
