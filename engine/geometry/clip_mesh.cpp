@@ -37,6 +37,10 @@ class MeshCut {
   using Run = MeshClipScratch::Run;
   using Crossing = MeshClipScratch::Crossing;
 
+  enum class Sides { kInside, kOutside, kBoth };
+
+  Sides sides_of(const PolygonMesh::Face& face) const;
+  void keep_faces(std::size_t first, std::size_t end);
   void cut_face(const PolygonMesh::Face& face);
   void keep_contour(std::uint32_t contour);
   void find_runs(std::uint32_t contour, std::uint32_t start);
@@ -64,6 +68,11 @@ void MeshCut::make(PlaneId id) {
   result_.corners.clear();
   result_.corner_normals.clear();
   result_.corner_uvs.clear();
+  result_.vertices.reserve(mesh_.vertices.size());
+  result_.faces.reserve(mesh_.faces.size());
+  result_.contours.reserve(mesh_.contours.size());
+  result_.corners.reserve(mesh_.corners.size());
+  result_.corner_normals.reserve(mesh_.corners.size());
   scratch_.new_of_old.assign(mesh_.vertices.size(), kNone);
   scratch_.first_crossing.assign(mesh_.vertices.size(), kNone);
   scratch_.crossings.clear();
@@ -73,8 +82,60 @@ void MeshCut::make(PlaneId id) {
     scratch_.new_of_old[v] = static_cast<std::uint32_t>(result_.vertices.size());
     result_.vertices.push_back(mesh_.vertices[v]);
   }
-  for (const PolygonMesh::Face& face : mesh_.faces) cut_face(face);
+  std::size_t f = 0;
+  while (f < mesh_.faces.size()) {
+    const std::size_t first = f;
+    Sides sides{};
+    while (f < mesh_.faces.size() && (sides = sides_of(mesh_.faces[f])) == Sides::kInside) ++f;
+    if (f > first) keep_faces(first, f);
+    if (f < mesh_.faces.size() && sides == Sides::kBoth) cut_face(mesh_.faces[f]);
+    ++f;
+  }
   add_cap(id);
+}
+
+MeshCut::Sides MeshCut::sides_of(const PolygonMesh::Face& face) const {
+  const PolygonMesh::Contour& last = mesh_.contours[face.first_contour + face.contour_count - 1];
+  std::uint8_t any = 0, all = 1;
+  for (std::uint32_t c = mesh_.contours[face.first_contour].first_corner,
+                     end = last.first_corner + last.corner_count;
+       c < end; ++c) {
+    const std::uint8_t outside = scratch_.outside[mesh_.corners[c]];
+    any |= outside;
+    all &= outside;
+  }
+  return all ? Sides::kOutside : any ? Sides::kBoth : Sides::kInside;
+}
+
+/// Copies faces [first, end), all inside: most of a large mesh, so in bulk.
+void MeshCut::keep_faces(std::size_t first, std::size_t end) {
+  const PolygonMesh::Face &from = mesh_.faces[first], &to = mesh_.faces[end - 1];
+  const std::uint32_t first_contour = from.first_contour;
+  const std::uint32_t end_contour = to.first_contour + to.contour_count;
+  const std::uint32_t first_corner = mesh_.contours[first_contour].first_corner;
+  const PolygonMesh::Contour& last = mesh_.contours[end_contour - 1];
+  const std::uint32_t end_corner = last.first_corner + last.corner_count;
+  const auto contour_shift = static_cast<std::uint32_t>(result_.contours.size()) - first_contour;
+  const auto corner_shift = static_cast<std::uint32_t>(result_.corners.size()) - first_corner;
+
+  const auto append = [](auto& all, const auto& old, std::size_t begin_old, std::size_t end_old) {
+    all.insert(all.end(), old.begin() + static_cast<std::ptrdiff_t>(begin_old),
+               old.begin() + static_cast<std::ptrdiff_t>(end_old));
+    return std::span(all).last(end_old - begin_old);
+  };
+  for (auto& face : append(result_.faces, mesh_.faces, first, end)) {
+    face.first_contour += contour_shift;
+  }
+  for (auto& contour : append(result_.contours, mesh_.contours, first_contour, end_contour)) {
+    contour.first_corner += corner_shift;
+  }
+  for (auto& corner : append(result_.corners, mesh_.corners, first_corner, end_corner)) {
+    corner = scratch_.new_of_old[corner];
+  }
+  append(result_.corner_normals, mesh_.corner_normals, first_corner, end_corner);
+  if (!mesh_.corner_uvs.empty()) {
+    append(result_.corner_uvs, mesh_.corner_uvs, first_corner, end_corner);
+  }
 }
 
 void MeshCut::cut_face(const PolygonMesh::Face& face) {

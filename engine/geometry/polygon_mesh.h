@@ -19,7 +19,8 @@ using Vec2f = Eigen::Vector2f;
 /// from outside, and any number of further contours (holes clockwise, islands counter-clockwise);
 /// what is inside follows from even-odd counting. Contours of face f are
 /// [first_contour, +contour_count) of `contours`; corners of a contour likewise of the corner
-/// arrays, which run in parallel.
+/// arrays, which run in parallel. All are in order without gaps: the contours of face after face,
+/// the corners of contour after contour.
 struct PolygonMesh {
   struct Contour {
     std::uint32_t first_corner = 0;
