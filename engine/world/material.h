@@ -19,7 +19,7 @@ struct Look {
 };
 
 /// What comes off a square metre of new crack surface, for the eye (paper section 5). None by
-/// default.
+/// default. 0 < debris_smallest_m <= debris_largest_m.
 struct Crumbling {
   double particles_per_m2 = 0;      ///< Debris and dust together.
   double debris_ratio = 0.2;        ///< Part of them that is debris; the rest is dust.
