@@ -1,0 +1,221 @@
+// Contours that share a vertex are of one shell. Then shells are joined: across faces, where one
+// contour is a hole in another, and through the solid, where one shell bounds a hollow in another.
+#include "engine/geometry/mesh_islands.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace sunder {
+namespace {
+
+/// Sets that are joined; each is known by its lowest member.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  std::uint32_t of(std::uint32_t member) {
+    while (parent_[member] != member) {
+      member = parent_[member] = parent_[parent_[member]];
+    }
+    return member;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = of(a), b = of(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Whether a polygon's edge passes the point's height, on its far side in u: +1 upwards, -1 down.
+int passes(double from_u, double from_v, double to_u, double to_v) {
+  if ((from_v <= 0) == (to_v <= 0)) return 0;
+  const double side = from_u * to_v - to_u * from_v;
+  return from_v <= 0 ? (side > 0 ? 1 : 0) : (side < 0 ? -1 : 0);
+}
+
+/// Twice the area of a contour seen along its face's normal; negative for a hole.
+double double_area(const PolygonMesh& mesh, std::uint32_t contour, const Vec3& normal) {
+  const auto corners = mesh.contour_corners(contour);
+  const Vec3& apex = mesh.vertices[corners[0]];
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    sum += (mesh.vertices[corners[i - 1]] - apex).cross(mesh.vertices[corners[i]] - apex);
+  }
+  return sum.dot(normal);
+}
+
+/// Whether a point of a face's plane lies within a contour of the face.
+bool surrounds(const PolygonMesh& mesh, std::uint32_t contour, const Vec3& normal,
+               const Vec3& point) {
+  int steepest;
+  normal.cwiseAbs().maxCoeff(&steepest);
+  const int u = (steepest + 1) % 3, v = (steepest + 2) % 3;
+  const auto corners = mesh.contour_corners(contour);
+  int turns = 0;
+  for (std::size_t i = 0, before = corners.size() - 1; i < corners.size(); before = i++) {
+    const Vec3 from = mesh.vertices[corners[before]] - point;
+    const Vec3 to = mesh.vertices[corners[i]] - point;
+    turns += passes(from[u], from[v], to[u], to[v]);
+  }
+  return turns != 0;
+}
+
+/// How often the contours wind around a point: surfaces that a ray along x leaves by, less those
+/// that it enters by.
+int winding(const PolygonMesh& mesh, std::span<const std::uint32_t> contours, const Vec3& point) {
+  int sum = 0;
+  for (const std::uint32_t contour : contours) {
+    const auto corners = mesh.contour_corners(contour);
+    const Vec3 a = mesh.vertices[corners[0]] - point;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const Vec3 b = mesh.vertices[corners[i - 1]] - point;
+      const Vec3 c = mesh.vertices[corners[i]] - point;
+      const int turns = passes(a.y(), a.z(), b.y(), b.z()) + passes(b.y(), b.z(), c.y(), c.z()) +
+                        passes(c.y(), c.z(), a.y(), a.z());
+      if (turns != 0 && turns * a.dot(b.cross(c)) > 0) sum += turns;
+    }
+  }
+  return sum;
+}
+
+double volume6(const PolygonMesh& mesh, std::span<const std::uint32_t> contours) {
+  const Vec3 origin = mesh.vertices[mesh.contour_corners(contours[0])[0]];
+  double sum = 0;
+  for (const std::uint32_t contour : contours) {
+    const auto corners = mesh.contour_corners(contour);
+    const Vec3 a = mesh.vertices[corners[0]] - origin;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      sum +=
+          a.dot((mesh.vertices[corners[i - 1]] - origin).cross(mesh.vertices[corners[i]] - origin));
+    }
+  }
+  return sum;
+}
+
+/// Sets of contours that share vertices.
+Sets shells(const PolygonMesh& mesh) {
+  Sets sets(mesh.contours.size());
+  constexpr std::uint32_t kNone = ~0u;
+  std::vector<std::uint32_t> contour_at(mesh.vertices.size(), kNone);
+  for (std::uint32_t k = 0; k < mesh.contours.size(); ++k) {
+    for (const std::uint32_t v : mesh.contour_corners(k)) {
+      if (contour_at[v] == kNone) contour_at[v] = k;
+      sets.join(contour_at[v], k);
+    }
+  }
+  return sets;
+}
+
+/// Joins each hole of a face with the smallest contour around it.
+void join_holes(const PolygonMesh& mesh, const PolygonMesh::Face& face, Sets& sets) {
+  const std::uint32_t begin = face.first_contour, end = begin + face.contour_count;
+  std::vector<double> area;
+  for (std::uint32_t k = begin; k < end; ++k) {
+    area.push_back(double_area(mesh, k, face.plane.normal));
+  }
+  for (std::uint32_t hole = begin; hole < end; ++hole) {
+    if (area[hole - begin] > 0) continue;
+    const Vec3& point = mesh.vertices[mesh.contour_corners(hole)[0]];
+    std::uint32_t around = hole;
+    for (std::uint32_t k = begin; k < end; ++k) {
+      if (area[k - begin] <= 0 || !surrounds(mesh, k, face.plane.normal, point)) continue;
+      if (around == hole || area[k - begin] < area[around - begin]) around = k;
+    }
+    sets.join(hole, around);
+  }
+}
+
+/// The contours of each set, by their first.
+std::vector<std::vector<std::uint32_t>> members(Sets& sets, std::size_t count) {
+  std::vector<std::vector<std::uint32_t>> result;
+  std::vector<std::size_t> index(count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t set = sets.of(k);
+    if (set == k) {
+      index[k] = result.size();
+      result.emplace_back();
+    }
+    result[index[set]].push_back(k);
+  }
+  return result;
+}
+
+/// Joins each shell that bounds a hollow with the smallest solid around it.
+void join_hollows(const PolygonMesh& mesh, Sets& sets) {
+  const auto parts = members(sets, mesh.contours.size());
+  std::vector<double> volume;
+  for (const auto& part : parts) volume.push_back(volume6(mesh, part));
+  for (std::size_t hollow = 0; hollow < parts.size(); ++hollow) {
+    if (volume[hollow] >= 0) continue;
+    const Vec3& point = mesh.vertices[mesh.contour_corners(parts[hollow][0])[0]];
+    std::size_t around = hollow;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      if (volume[p] <= 0 || winding(mesh, parts[p], point) <= 0) continue;
+      if (around == hollow || volume[p] < volume[around]) around = p;
+    }
+    sets.join(parts[hollow][0], parts[around][0]);
+  }
+}
+
+/// One mesh an island: contours go in order to their island's, and take their face with them.
+std::vector<PolygonMesh> separated(const PolygonMesh& mesh, Sets& sets) {
+  constexpr std::uint32_t kNone = ~0u;
+  std::vector<PolygonMesh> result;
+  std::vector<std::size_t> island(mesh.contours.size());
+  std::vector<std::uint32_t> new_of_old(mesh.vertices.size(), kNone);
+  for (std::uint32_t k = 0; k < mesh.contours.size(); ++k) {
+    const std::uint32_t set = sets.of(k);
+    if (set == k) result.emplace_back();
+    island[k] = set == k ? result.size() - 1 : island[set];
+  }
+  std::vector<std::size_t> last_face(result.size(), mesh.faces.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const PolygonMesh::Face& face = mesh.faces[f];
+    for (std::uint32_t k = face.first_contour; k < face.first_contour + face.contour_count; ++k) {
+      PolygonMesh& part = result[island[k]];
+      if (std::exchange(last_face[island[k]], f) != f) {
+        part.faces.push_back(face);
+        part.faces.back().first_contour = static_cast<std::uint32_t>(part.contours.size());
+        part.faces.back().contour_count = 0;
+      }
+      ++part.faces.back().contour_count;
+      const PolygonMesh::Contour& old = mesh.contours[k];
+      part.contours.push_back({static_cast<std::uint32_t>(part.corners.size()), old.corner_count});
+      for (std::uint32_t c = old.first_corner; c < old.first_corner + old.corner_count; ++c) {
+        std::uint32_t& vertex = new_of_old[mesh.corners[c]];
+        if (vertex == kNone) {
+          vertex = static_cast<std::uint32_t>(part.vertices.size());
+          part.vertices.push_back(mesh.vertices[mesh.corners[c]]);
+        }
+        part.corners.push_back(vertex);
+        part.corner_normals.push_back(mesh.corner_normals[c]);
+        if (!mesh.corner_uvs.empty()) part.corner_uvs.push_back(mesh.corner_uvs[c]);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<PolygonMesh> islands(PolygonMesh mesh) {
+  std::vector<PolygonMesh> result;
+  if (mesh.empty()) return result;
+  Sets sets = shells(mesh);
+  const auto in_parts = [&] { return members(sets, mesh.contours.size()).size() > 1; };
+  if (in_parts()) {
+    for (const PolygonMesh::Face& face : mesh.faces) {
+      if (face.contour_count > 1) join_holes(mesh, face, sets);
+    }
+    join_hollows(mesh, sets);
+  }
+  if (in_parts()) return separated(mesh, sets);
+  result.push_back(std::move(mesh));
+  return result;
+}
+
+}  // namespace sunder
