@@ -76,6 +76,7 @@ Programs make_programs(const GlTable& gl) {
   set_sampler(gl, p.occlusion, "zenith_map", kZenithUnit);
   set_sampler(gl, p.blur, "occlusion", kOpenUnit);
   set_sampler(gl, p.composite, "lights", kLightUnit);
+  set_sampler(gl, p.composite, "depths", kDepthUnit);
   set_sampler(gl, p.composite, "occlusion", kBlurUnit);
   return p;
 }
@@ -152,7 +153,7 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   const GLuint depth = make_texture(gl, GL_DEPTH_COMPONENT24, w, h, Filter::kNearest);
   const GLuint lights = make_texture(gl, GL_RGBA16F, w, h, Filter::kNearest);
   const GLuint occlusion = make_texture(gl, GL_RG16F, half_w, half_h, Filter::kNearest);
-  const GLuint smooth = make_texture(gl, GL_RG16F, half_w, half_h, Filter::kLinear);
+  const GLuint smooth = make_texture(gl, GL_RG16F, half_w, half_h, Filter::kNearest);
   const GLuint final = make_texture(gl, GL_RGBA8, w, h, Filter::kNearest);
   bind_texture(gl, kShadowUnit, shadow_map);
   bind_texture(gl, kZenithUnit, zenith_map);

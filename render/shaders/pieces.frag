@@ -64,8 +64,12 @@ void main() {
   shine *= shine;
   vec3 mirrored_sky = mix(ground_light(), mix(kHorizon, kZenith, max(dot(mirrored, up_rest), 0.0)),
                           smoothstep(-0.15, 0.15, dot(mirrored, up_rest)));
-  around = albedo * around + mirrored_sky * gloss * (0.2 + 0.8 * fresnel);
-  direct = direct * (albedo + gloss * 1.5 * shine);
+  // Metal has little colour of its own, but tints what it mirrors.
+  float metal = smoothstep(0.2, 0.5, gloss);
+  vec3 tint = mix(vec3(1.0), 1.7 * albedo, metal);
+  vec3 own = albedo * (1.0 - 0.75 * metal);
+  around = own * around + tint * mirrored_sky * gloss * (0.35 + 0.65 * fresnel + 0.6 * metal);
+  direct = direct * (own + tint * gloss * 3.0 * shine);
 
   vec3 light = direct + around;
   float ambient_share = dot(around, vec3(0.33)) / max(dot(light, vec3(0.33)), 1e-4);
