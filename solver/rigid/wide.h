@@ -48,23 +48,20 @@ inline Wide3 cross(const Wide3& a, const Wide3& b) {
 
 /// Rows become columns, in place.
 inline void transpose(Wide (&m)[8]) {
-  constexpr WideInt lo = {0, 8, 1, 9, 4, 12, 5, 13}, hi = {2, 10, 3, 11, 6, 14, 7, 15};
-  constexpr WideInt left = {0, 1, 8, 9, 4, 5, 12, 13}, right = {2, 3, 10, 11, 6, 7, 14, 15};
-  constexpr WideInt front = {0, 1, 2, 3, 8, 9, 10, 11}, back = {4, 5, 6, 7, 12, 13, 14, 15};
   Wide pairs[8], quads[8];
   for (int i = 0; i < 8; i += 2) {
-    pairs[i] = __builtin_shuffle(m[i], m[i + 1], lo);
-    pairs[i + 1] = __builtin_shuffle(m[i], m[i + 1], hi);
+    pairs[i] = __builtin_shufflevector(m[i], m[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+    pairs[i + 1] = __builtin_shufflevector(m[i], m[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
   }
   for (int i = 0; i < 8; i += 4) {
-    quads[i] = __builtin_shuffle(pairs[i], pairs[i + 2], left);
-    quads[i + 1] = __builtin_shuffle(pairs[i], pairs[i + 2], right);
-    quads[i + 2] = __builtin_shuffle(pairs[i + 1], pairs[i + 3], left);
-    quads[i + 3] = __builtin_shuffle(pairs[i + 1], pairs[i + 3], right);
+    quads[i] = __builtin_shufflevector(pairs[i], pairs[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+    quads[i + 1] = __builtin_shufflevector(pairs[i], pairs[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    quads[i + 2] = __builtin_shufflevector(pairs[i + 1], pairs[i + 3], 0, 1, 8, 9, 4, 5, 12, 13);
+    quads[i + 3] = __builtin_shufflevector(pairs[i + 1], pairs[i + 3], 2, 3, 10, 11, 6, 7, 14, 15);
   }
   for (int i = 0; i < 4; ++i) {
-    m[i] = __builtin_shuffle(quads[i], quads[i + 4], front);
-    m[i + 4] = __builtin_shuffle(quads[i], quads[i + 4], back);
+    m[i] = __builtin_shufflevector(quads[i], quads[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    m[i + 4] = __builtin_shufflevector(quads[i], quads[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
   }
 }
 
