@@ -58,34 +58,76 @@ std::uint8_t any_variant(Random& random) {
   return static_cast<std::uint8_t>(random.below(kDebrisVariants));
 }
 
+/// That of the solid, and a little of its own.
+Vec3 velocity_at(const Emission& face, const Vec3& point_W, Random& random) {
+  const Vec3 spall = kSpall_m_s * random.uniform() * (face.normal_W + random.direction());
+  return face.motion(point_W) + spall;
+}
+
+DebrisBirth chip_from(const Emission& face, double area_m2, Random& random) {
+  const Crumbling& crumbling = face.crumbling;
+  const Vec3 point = point_on(face, area_m2, random);
+  const Vec3 velocity = velocity_at(face, point, random);
+  const double radius = power_law(crumbling.debris_smallest_m, crumbling.debris_largest_m, random);
+  const Vec3 center = point + radius * face.normal_W;
+  const Vec3 spin = kSpin_s * random.uniform() * random.direction();
+  return {center.cast<float>(), velocity.cast<float>(),     spin.cast<float>(),
+          any_rotation(random), static_cast<float>(radius), any_variant(random),
+          face.material};
+}
+
+DustBirth puff_from(const Emission& face, double area_m2, Random& random) {
+  const Crumbling& crumbling = face.crumbling;
+  const Vec3 point = point_on(face, area_m2, random);
+  const Vec3 velocity = velocity_at(face, point, random);
+  // All the dust of the face, shared out.
+  const double mass_kg =
+      crumbling.dust_kg_m2 / (crumbling.particles_per_m2 * (1 - crumbling.debris_ratio));
+  const double settling = crumbling.dust_settling_m_s * random.uniform(0.5, 1.5);
+  return {point.cast<float>(),
+          velocity.cast<float>(),
+          any_rotation(random),
+          static_cast<float>(mass_kg),
+          static_cast<float>(settling),
+          static_cast<float>(kPuff_m * random.uniform(1, 2)),
+          face.material};
+}
+
 }  // namespace
 
-void crumble(const Emission& face, Random& random, Debris& debris, Dust& dust) {
+Shares shares(std::span<const Emission> faces, const Debris& debris, const Dust& dust) {
+  double expected_debris = 0, expected_dust = 0;
+  for (const Emission& face : faces) {
+    const double count = face.crumbling.particles_per_m2 * area(face);
+    expected_debris += count * face.crumbling.debris_ratio;
+    expected_dust += count * (1 - face.crumbling.debris_ratio);
+  }
+  const auto share = [](std::uint32_t room, double expected) {
+    return expected > room ? room / expected : 1;
+  };
+  return {share(debris.room(), expected_debris), share(dust.room(), expected_dust)};
+}
+
+void crumble(const Emission& face, const Shares& shares, Random& random, Debris& debris,
+             Dust& dust) {
   const Crumbling& crumbling = face.crumbling;
-  if (face.corners_W.size() < 3 || !(crumbling.particles_per_m2 > 0)) return;
+  if (!(crumbling.particles_per_m2 > 0)) return;
   const double area_m2 = area(face);
   const auto count =
       static_cast<std::uint64_t>(crumbling.particles_per_m2 * area_m2 + random.uniform());
   for (std::uint64_t i = 0; i < count; ++i) {
-    const Vec3 point = point_on(face, area_m2, random);
-    const Vec3 spall = kSpall_m_s * random.uniform() * (face.normal_W + random.direction());
-    const Vec3 velocity = face.motion(point) + spall;
     if (random.uniform() < crumbling.debris_ratio) {
-      const double radius =
-          power_law(crumbling.debris_smallest_m, crumbling.debris_largest_m, random);
-      const Vec3 center = point + radius * face.normal_W;
-      const Vec3 spin = kSpin_s * random.uniform() * random.direction();
-      debris.add({center.cast<float>(), velocity.cast<float>(), spin.cast<float>(),
-                  any_rotation(random), static_cast<float>(radius), any_variant(random),
-                  face.material});
+      if (random.uniform() < shares.debris) {
+        debris.add(chip_from(face, area_m2, random));
+      } else {
+        debris.ignore();
+      }
+    } else if (random.uniform() < shares.dust) {
+      DustBirth puff = puff_from(face, area_m2, random);
+      puff.mass_kg /= static_cast<float>(shares.dust);
+      dust.add(puff);
     } else {
-      // All the dust of the face, shared out.
-      const double mass_kg =
-          crumbling.dust_kg_m2 / (crumbling.particles_per_m2 * (1 - crumbling.debris_ratio));
-      const double settling = crumbling.dust_settling_m_s * random.uniform(0.5, 1.5);
-      dust.add({point.cast<float>(), velocity.cast<float>(), any_rotation(random),
-                static_cast<float>(mass_kg), static_cast<float>(settling),
-                static_cast<float>(kPuff_m * random.uniform(1, 2)), face.material});
+      dust.ignore();
     }
   }
 }

@@ -57,8 +57,8 @@ Debris::Debris(std::uint32_t limit, const Vec3& gravity_W) : limit_(limit), grav
 
 void Debris::add(const DebrisBirth& birth) {
   SUNDER_CHECK(birth.radius_m > 0);
-  if (position_W_.size() >= limit_) {
-    ++books_.ignored;
+  if (room() == 0) {
+    ignore();
     return;
   }
   ++books_.emitted;

@@ -28,6 +28,9 @@ class Debris {
 
   /// Ignored, and counted so, at the limit.
   void add(const DebrisBirth& birth);
+  void ignore() { ++books_.ignored; }
+  /// How many more fit.
+  std::uint32_t room() const { return limit_ - static_cast<std::uint32_t>(position_W_.size()); }
   void advance(double dt_s, const Obstacles& obstacles);
   DebrisView view() const;
   ParticleBooks books() const;

@@ -16,9 +16,10 @@ class DebrisAndDust final : public Particles {
         dust_(options.limits.dust, options.gravity_W, options.air_cells) {}
 
   void emit(std::span<const Emission> faces) override {
+    const Shares shares = solver::shares(faces, debris_, dust_);
     for (const Emission& face : faces) {
       Random random(seed_, next_stream_++);
-      crumble(face, random, debris_, dust_);
+      crumble(face, shares, random, debris_, dust_);
     }
   }
 

@@ -33,8 +33,8 @@ Dust::Dust(std::uint32_t limit, const Vec3& gravity_W, const Vec3i& air_cells)
 }
 
 void Dust::add(const DustBirth& birth) {
-  if (position_W_.size() >= limit_) {
-    ++books_.ignored;
+  if (room() == 0) {
+    ignore();
     return;
   }
   ++books_.emitted;

@@ -29,6 +29,9 @@ class Dust {
 
   /// Ignored, and counted so, at the limit.
   void add(const DustBirth& birth);
+  void ignore() { ++books_.ignored; }
+  /// How many more fit.
+  std::uint32_t room() const { return limit_ - static_cast<std::uint32_t>(position_W_.size()); }
   void advance(double dt_s, const Obstacles& obstacles);
   DustView view() const;
   ParticleBooks books() const;

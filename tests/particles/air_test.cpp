@@ -96,6 +96,42 @@ TEST(Air, SinksUnderTheWeightOfDust) {
   EXPECT_LT(air.velocity(Vec3f(0, 1, 0)).y(), -0.1f);
 }
 
+TEST(Air, LosesItsEnergyWithoutCause) {
+  const TestObstacles obstacles;
+  Air air = air_about(Vec3(0, 1, 0));
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3i cell = air.cell_at(Vec3f(0, 1, 0) + 0.5f * random.direction().cast<float>());
+    const std::size_t index = air.grid().lattice.index(cell.x(), cell.y(), cell.z());
+    air.add_dust(index, 1e-9f);
+    air.add_momentum(index, 2e-3f, 10 * random.direction().cast<float>());
+  }
+  const auto energy = [&air] {
+    double sum = 0;
+    for (int i = -15; i < 15; ++i) {
+      for (int k = -15; k < 15; ++k) {
+        for (int j = 0; j < 16; ++j) {
+          const Vec3f at = 0.125f * Vec3f(float(i), float(j), float(k));
+          sum += double{air.velocity(at).squaredNorm()};
+        }
+      }
+    }
+    return sum;
+  };
+  air.advance(kDt, Vec3::Zero(), obstacles.view());
+  air.clear_loads();
+  const double first = energy();
+  double last = first;
+  ASSERT_GT(first, 10);
+  for (int step = 1; step <= 600; ++step) {
+    air.advance(kDt, Vec3::Zero(), obstacles.view());
+    if (step % 20 != 0) continue;
+    EXPECT_LT(energy(), 1.01 * last) << "step " << step;
+    last = energy();
+  }
+  EXPECT_LT(last, 0.2 * first);
+}
+
 TEST(Air, StaysAsItIsWhenTheGridMovesOrCoarsens) {
   TestObstacles obstacles;
   obstacles.set_velocity(obstacles.add_box(Vec3(0, 1, 0), Vec3(0.3, 0.3, 0.3)), Vec3(2, 0, 1));

@@ -100,6 +100,25 @@ TEST(Particles, ComeFromAFaceByItsDensityAndRatio) {
   EXPECT_NEAR(mean.z(), 0, 0.05);
 }
 
+TEST(Particles, ComeFromEveryFaceEvenWhereRoomIsShort) {
+  DebrisAndDustOptions options = small_options();
+  options.limits = {500, 500};
+  auto particles = make_debris_and_dust(options);
+  const TestFace left(Vec3(-10, 3, 0)), right(Vec3(10, 3, 0));
+  const Emission faces[] = {left.emission(crumbling_of(2000, 0.5)),
+                            right.emission(crumbling_of(2000, 0.5))};
+  particles->emit(faces);
+  const ParticleReport report = particles->report();
+  EXPECT_LE(report.debris.alive, 500u);
+  EXPECT_GT(report.debris.alive, 400u);
+  EXPECT_EQ(
+      report.debris.emitted + report.debris.ignored + report.dust.emitted + report.dust.ignored,
+      4000u);
+  int on_right = 0;
+  for (const Vec3f& at : particles->dust().position_W) on_right += at.x() > 0;
+  EXPECT_NEAR(on_right, report.dust.alive / 2.0, 50);
+}
+
 TEST(Particles, OfManySmallFacesAreAsManyAsOfOneLargeFace) {
   auto particles = make_debris_and_dust(small_options());
   const TestFace face(Vec3(0, 3, 0), 0.01);
