@@ -110,7 +110,8 @@ std::vector<std::uint8_t> polygons_of_worth(const Surface& surface) {
 
 /// Tier 4: keeps the solids, and encloses what is left if that is much. Polygons from
 /// `given_count` on closed holes in vain.
-RawMesh enclose(const Surface& surface, std::size_t given_count, Repairs& repairs) {
+RawMesh enclose(const Surface& surface, std::size_t given_count, std::uint32_t cells_along,
+                Repairs& repairs) {
   const std::vector<std::uint8_t> solid = solid_polygons(surface);
   std::vector<std::uint8_t> rest(solid.size(), 0);
   double whole_area = 0, rest_area = 0;
@@ -124,7 +125,7 @@ RawMesh enclose(const Surface& surface, std::size_t given_count, Repairs& repair
   const auto count = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), 1));
   if (count == 0) return result;
   if (rest_area > kWorthEnclosing * whole_area) {
-    const Surface shell = pair_edges(winding_shell(extract(surface.mesh, rest)));
+    const Surface shell = pair_edges(winding_shell(extract(surface.mesh, rest), cells_along));
     if (!shell.mesh.polygons.empty()) {
       append(result, extract(shell.mesh, polygons_of_worth(shell)));
       repairs.note("faces enclosed in a winding-number shell", count);
@@ -162,7 +163,7 @@ RepairedMesh repair_mesh(RawMesh mesh, const std::string& name, const RepairOpti
   Surface surface = part(std::move(mesh), repairs);
   const std::size_t given_count = surface.mesh.polygons.size();
   surface = close(std::move(surface), repairs);
-  mesh = enclose(surface, given_count, repairs);
+  mesh = enclose(surface, given_count, options.shell_cells, repairs);
   if (mesh.polygons.empty()) {
     throw InputError(name + ": the mesh encloses no volume: give it thickness, or close it");
   }

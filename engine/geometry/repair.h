@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace sunder {
 struct RepairOptions {
   bool repair = true;  ///< If not, a mesh that needs it is refused.
   /// Where the file gives no normals, edges are smooth whose faces' normals meet at this or more.
-  double crease_cosine = 0.766;  // 40 degrees
+  double crease_cosine = 0.766;    // 40 degrees
+  std::uint32_t shell_cells = 32;  ///< Along the longest side of what the last tier encloses.
 };
 
 /// Something that was done to a mesh, and to how many of its parts.

@@ -15,7 +15,6 @@
 namespace sunder {
 namespace {
 
-constexpr double kCellsAlong = 40;  ///< The longest side.
 /// Inside is what the mesh encloses by more than this. Beside a lone triangle it is one half.
 constexpr double kEnclosed = 0.6;
 constexpr int kHalvings = 4;  ///< Of a grid edge, to find where the surface crosses it.
@@ -37,10 +36,10 @@ std::vector<std::array<Vec3, 3>> triangles_of(const RawMesh& mesh) {
 
 class WindingGrid {
  public:
-  explicit WindingGrid(const RawMesh& mesh) : field_(triangles_of(mesh)) {
+  WindingGrid(const RawMesh& mesh, std::uint32_t cells_along) : field_(triangles_of(mesh)) {
     Box box;
     for (const std::uint32_t v : mesh.corners) box.extend(mesh.vertices[v]);
-    cell_ = box.extent().maxCoeff() / kCellsAlong;
+    cell_ = box.extent().maxCoeff() / cells_along;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
       size_[k] = static_cast<std::uint32_t>(std::ceil(box.extent()[axis] / cell_)) + 4;
@@ -66,20 +65,28 @@ class WindingGrid {
   Vec3 place(std::uint32_t i) const {
     return origin_ + cell_ * Vec3(i % size_[0], i / size_[0] % size_[1], i / size_[0] / size_[1]);
   }
-  bool encloses(const Vec3& point) const { return std::abs(field_.at(point)) > kEnclosed; }
+  bool encloses(const Vec3& point) const { return sense_ * field_.at(point) > kEnclosed; }
+
+  bool on_rim(std::uint32_t i) const {
+    const std::uint32_t at[3] = {i % size_[0], i / size_[0] % size_[1], i / size_[0] / size_[1]};
+    bool rim = false;
+    for (std::size_t k = 0; k < 3; ++k) rim = rim || at[k] == 0 || at[k] + 1 == size_[k];
+    return rim;
+  }
 
   void sample() {
-    inside_.assign(std::size_t{size_[0]} * size_[1] * size_[2], 0);
-    for_chunks(inside_.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto n = static_cast<std::uint32_t>(i);
-        const std::uint32_t x = n % size_[0], y = n / size_[0] % size_[1],
-                            z = n / size_[0] / size_[1];
-        const bool rim = x == 0 || y == 0 || z == 0 || x + 1 == size_[0] || y + 1 == size_[1] ||
-                         z + 1 == size_[2];
-        inside_[i] = !rim && encloses(place(n)) ? 1 : 0;
+    std::vector<double> winding(std::size_t{size_[0]} * size_[1] * size_[2], 0);
+    for_chunks(winding.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+        if (!on_rim(i)) winding[i] = field_.at(place(i));
       }
     });
+    const auto beyond = [&](double sense) {
+      return std::count_if(winding.begin(), winding.end(),
+                           [sense](double w) { return sense * w > kEnclosed; });
+    };
+    sense_ = beyond(1) >= beyond(-1) ? 1 : -1;
+    for (const double w : winding) inside_.push_back(sense_ * w > kEnclosed ? 1 : 0);
   }
 
   void march(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
@@ -160,6 +167,7 @@ class WindingGrid {
   WindingField field_;
   Vec3 origin_;
   double cell_ = 0;
+  double sense_ = 1;  ///< -1 if the mesh is inside out.
   std::array<std::uint32_t, 3> size_{};
   std::vector<std::uint8_t> inside_;
   std::vector<GridEdge> corners_;  ///< Of triangles, three by three.
@@ -167,6 +175,8 @@ class WindingGrid {
 
 }  // namespace
 
-RawMesh winding_shell(const RawMesh& mesh) { return WindingGrid(mesh).surface(); }
+RawMesh winding_shell(const RawMesh& mesh, std::uint32_t cells_along) {
+  return WindingGrid(mesh, cells_along).surface();
+}
 
 }  // namespace sunder

@@ -63,7 +63,8 @@ void check(RawMesh& mesh, const MeshSource& source) {
     source.fail("there are no faces in it: export polygons, not points or curves");
   }
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (!(mesh.vertices[v].cwiseAbs().maxCoeff() <= kFarthest_m)) {
+    // (A maximum may lose what is not a number.)
+    if (!(mesh.vertices[v].array().abs() <= kFarthest_m).all()) {
       source.fail("vertex " + std::to_string(v + 1) +
                   " is not within 1e9 m of the origin: export the mesh again, or scale it");
     }

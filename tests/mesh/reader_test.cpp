@@ -1,5 +1,6 @@
 // Meshes from files: what is read is what was meant, and nothing a file says can do harm.
 #include <cstring>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -195,6 +196,9 @@ TEST(MeshReader, ErrorsNameTheFileAndTheLine) {
   EXPECT_NE(message("", MeshFormat::kObj).find("no faces"), std::string::npos);
   EXPECT_NE(message("v nan 0 0\n", MeshFormat::kObj).find("is not a number"), std::string::npos);
   EXPECT_NE(message("v 1e200 0 0\nf 1 1 1\n", MeshFormat::kObj).find("1e9 m"), std::string::npos);
+  std::string ply = binary_ply(false);
+  ply.replace(ply.find("end_header\n") + 15, 4, raw(std::numeric_limits<float>::quiet_NaN()));
+  EXPECT_NE(message(ply, MeshFormat::kPly).find("vertex 1 is not within"), std::string::npos);
   EXPECT_THROW(read_mesh("model.fbx"), InputError);
   EXPECT_THROW(read_mesh("missing.obj"), InputError);
 }
