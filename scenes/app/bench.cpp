@@ -1,7 +1,6 @@
 // sunder bench: frame timing of the benchmark scenes, gated by the state hash: a faster run that
 // simulates something else is no faster run.
 #include <cstdio>
-#include <memory>
 
 #include "engine/base/check.h"
 #include "engine/io/figures.h"
@@ -11,22 +10,14 @@
 namespace sunder::app {
 namespace {
 
-struct Options {
-  CommonOptions common;
-  std::vector<std::string> scenes = {"house", "brick_wall", "column_row", "glass"};
-  scenes::LoadOptions load;
-  int frames = -1;
-  std::string compare;
-};
-
 constexpr const char* kQuantiles[] = {"p50_ms", "p95_ms", "p99_ms", "max_ms"};
 
 /// The figures of one scene's run, without the leading place.
-Figures measure(const std::string& name, const Options& options) {
+Figures measure(const std::string& name, const BenchOptions& options) {
   Scene scene = scenes::load_scene(name, options.load);
   const int last = last_frame(scene, options.frames);
   Statistics statistics(run_info(scene, options.load));
-  Progress progress("bench " + scene.name, last, options.common.quiet);
+  Progress progress("bench " + scene.name, last, options.quiet);
   StateHash hash;
   const auto simulation = make_simulation(std::move(scene));
   FramesUntil frames(*simulation, last);
@@ -98,8 +89,10 @@ Comparison compare(const Figures& now, const std::string& at, const Figures& old
   return {line + (same ? "  same state\n" : "  OTHER STATE: it simulated something else\n"), same};
 }
 
-int bench(const Options& options) {
-  options.common.apply();
+}  // namespace
+
+int bench(const BenchOptions& options) {
+  options.apply();
   Figures old;
   if (!options.compare.empty()) {
     old = parse_figures(scenes::read_text(options.compare), options.compare);
@@ -121,25 +114,10 @@ int bench(const Options& options) {
       same = same && compared.same;
     }
   }
-  options.common.say(table + comparison);
-  options.common.write_json(format_figures(all));
+  options.say(table + comparison);
+  options.write_json(format_figures(all));
   if (!same) std::fprintf(stderr, "failed: the state differs from %s\n", options.compare.c_str());
   return same ? 0 : 1;
-}
-
-}  // namespace
-
-void add_bench(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("bench", "Frame timing of the benchmark scenes");
-  const auto options = std::make_shared<Options>();
-  command->add_option("SCENE", options->scenes, "Files or names of scenes")->capture_default_str();
-  command->add_option("--frames", options->frames, "Stop after this many frames of 1/60 s")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option("--compare", options->compare,
-                      "An earlier --json file: prints ratios, fails if the state differs");
-  add_changes(*command, options->load);
-  add_common(*command, options->common);
-  command->callback([&chosen, options] { chosen = [options] { return bench(*options); }; });
 }
 
 }  // namespace sunder::app

@@ -2,22 +2,14 @@
 #include "engine/base/check.h"
 
 #include <cstdio>
-#include <memory>
 
 #include "engine/io/figures.h"
-#include "scenes/app/options.h"
+#include "scenes/app/commands.h"
 
 namespace sunder::app {
-namespace {
 
-struct Options {
-  CommonOptions common;
-  std::vector<std::string> scenes;
-  scenes::LoadOptions load;
-};
-
-/// Every scene is looked at, also after one that is wrong.
-int check(const Options& options) {
+// Every scene is looked at, also after one that is wrong.
+int check(const CheckOptions& options) {
   Figures figures;
   int wrong = 0;
   for (std::size_t i = 0; i < options.scenes.size(); ++i) {
@@ -28,9 +20,9 @@ int check(const Options& options) {
       const Scene scene = scenes::load_scene(name, options.load);
       std::size_t convexes = 0;
       for (const Solid& solid : scene.solids) convexes += solid.compound.convexes.size();
-      options.common.say(name + ": good (" + std::to_string(scene.solids.size()) + " solids of " +
-                         std::to_string(convexes) + " convexes, " +
-                         std::to_string(scene.balls.size() + scene.shots.size()) + " balls)\n");
+      options.say(name + ": good (" + std::to_string(scene.solids.size()) + " solids of " +
+                  std::to_string(convexes) + " convexes, " +
+                  std::to_string(scene.balls.size() + scene.shots.size()) + " balls)\n");
       figures[at + "/good"] = true;
       figures[at + "/solids"] = static_cast<std::int64_t>(scene.solids.size());
       figures[at + "/convexes"] = static_cast<std::int64_t>(convexes);
@@ -41,19 +33,8 @@ int check(const Options& options) {
       ++wrong;
     }
   }
-  options.common.write_json(format_figures(figures));
+  options.write_json(format_figures(figures));
   return wrong == 0 ? 0 : 2;
-}
-
-}  // namespace
-
-void add_check(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("check", "Load and validate scenes, without running them");
-  const auto options = std::make_shared<Options>();
-  command->add_option("SCENE", options->scenes, "Files or names of scenes")->required();
-  add_changes(*command, options->load);
-  add_common(*command, options->common);
-  command->callback([&chosen, options] { chosen = [options] { return check(*options); }; });
 }
 
 }  // namespace sunder::app

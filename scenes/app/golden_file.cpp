@@ -7,7 +7,7 @@
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
 #include "engine/io/figures.h"
-#include "scenes/app/options.h"
+#include "scenes/app/commands.h"
 
 namespace sunder::app {
 namespace {

@@ -1,7 +1,6 @@
 // sunder render: a scene, or one stored frame, becomes a video or images.
 #include <cstdio>
 #include <limits>
-#include <memory>
 
 #include "engine/base/check.h"
 #include "engine/io/figures.h"
@@ -12,15 +11,6 @@
 
 namespace sunder::app {
 namespace {
-
-struct Options {
-  CommonOptions common;
-  SceneOptions scene;
-  std::string output;
-  std::string frames;
-  std::string size = "1280x720";
-  render::RenderOptions render;
-};
 
 struct Span {
   int first = 0;
@@ -57,19 +47,21 @@ class StoredFrame final : public FrameSource {
   FramePtr frame_;
 };
 
-int draw(const Options& options) {
-  options.common.apply();
+}  // namespace
+
+int render_scene(const RenderOptions& options) {
+  options.apply();
   const Span span = parse_frames(options.frames);
   render::RenderOptions render_options = options.render;
   parse_size(options.size, render_options);
 
   std::unique_ptr<FrameSource> source;
   Span drawn;
-  if (options.scene.scene.ends_with(".frame")) {
-    source = std::make_unique<StoredFrame>(options.scene.scene);
+  if (options.scene.ends_with(".frame")) {
+    source = std::make_unique<StoredFrame>(options.scene);
     drawn.last = 0;
   } else {
-    Scene scene = scenes::load_scene(options.scene.scene, options.scene.load);
+    Scene scene = scenes::load_scene(options.scene, options.load);
     drawn = {span.first, last_frame(scene, span.last)};
     if (drawn.first > drawn.last) {
       throw InputError("--frames " + options.frames + ": the scene ends with frame " +
@@ -78,47 +70,23 @@ int draw(const Options& options) {
     source = make_simulation(std::move(scene));
   }
   render::Renderer renderer(render_options);
-  options.common.say(renderer.description() + "\n");
+  options.say(renderer.description() + "\n");
   const auto pictures = render::make_picture_sink(options.output, renderer);
   FramesFrom shown(*pictures, static_cast<std::uint64_t>(drawn.first));
   FramesUntil frames(*source, drawn.last);
-  Progress progress("render " + options.scene.scene, drawn.last, options.common.quiet);
+  Progress progress("render " + options.scene, drawn.last, options.quiet);
   StateHash hash;
   FrameSink* const sinks[] = {&shown, &hash, &progress};
   pump(frames, sinks);
-  options.common.say("wrote " + options.output + "\n");
-  options.common.write_json(format_figures({{"/output", options.output},
-                                            {"/gl", renderer.description()},
-                                            {"/width", std::int64_t{render_options.width}},
-                                            {"/height", std::int64_t{render_options.height}},
-                                            {"/first_frame", std::int64_t{drawn.first}},
-                                            {"/last_frame", std::int64_t{drawn.last}},
-                                            {"/state_hash", hash.hex()}}));
+  options.say("wrote " + options.output + "\n");
+  options.write_json(format_figures({{"/output", options.output},
+                                     {"/gl", renderer.description()},
+                                     {"/width", std::int64_t{render_options.width}},
+                                     {"/height", std::int64_t{render_options.height}},
+                                     {"/first_frame", std::int64_t{drawn.first}},
+                                     {"/last_frame", std::int64_t{drawn.last}},
+                                     {"/state_hash", hash.hex()}}));
   return 0;
-}
-
-}  // namespace
-
-void add_render(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("render", "Off-screen video or images of a scene");
-  const auto options = std::make_shared<Options>();
-  command
-      ->add_option("SCENE", options->scene.scene,
-                   "File or name of a scene, or a stored .frame file")
-      ->required();
-  command
-      ->add_option("-o,--output", options->output,
-                   "X.mp4: video; X.png: the last frame; DIR/: a PNG a frame")
-      ->required();
-  command->add_option("--frames", options->frames, "Draw frames A to B, both included")
-      ->type_name("A:B");
-  command->add_option("--size", options->size, "Pixels")->type_name("WxH")->capture_default_str();
-  command->add_option("--gl", options->render.gl, "auto | egl-device:N | egl-surfaceless | osmesa")
-      ->capture_default_str();
-  command->add_flag("--hud", options->render.hud, "Frame number, time and counts in the corner");
-  add_changes(*command, options->scene.load);
-  add_common(*command, options->common);
-  command->callback([&chosen, options] { chosen = [options] { return draw(*options); }; });
 }
 
 }  // namespace sunder::app

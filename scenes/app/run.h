@@ -7,7 +7,7 @@
 
 #include "engine/io/statistics.h"
 #include "engine/world/simulation.h"
-#include "scenes/app/options.h"
+#include "scenes/app/commands.h"
 
 namespace sunder::app {
 

@@ -1,0 +1,157 @@
+// The flags of every command. The only file that knows CLI11.
+#include "scenes/app/command_line.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "scenes/app/commands.h"
+
+namespace sunder::app {
+namespace {
+
+using Command = std::function<int()>;
+constexpr int kMostFrames = 1000000;
+
+/// A subcommand with its options; `work` becomes `chosen` if the line names it.
+template <class Options>
+struct Subcommand {
+  CLI::App* app;
+  std::shared_ptr<Options> options = std::make_shared<Options>();
+
+  Subcommand(CLI::App& parent, const char* name, const char* help, int (*work)(const Options&),
+             Command& chosen)
+      : app(parent.add_subcommand(name, help)) {
+    app->add_option("--threads", options->threads, "Threads; 0 for one per processor")
+        ->check(CLI::Range(0, 1024));
+    app->add_flag("--quiet", options->quiet, "Print nothing but errors");
+    app->add_option("--json", options->json, "Write figures as JSON to a file, or - for stdout");
+    app->callback([&chosen, work, given = options] { chosen = [=] { return work(*given); }; });
+  }
+  /// Ways to change a scene without editing it.
+  void add_changes() {
+    app->add_option("--preset", options->load.preset, "Speed against accuracy: draft | realtime")
+        ->capture_default_str();
+    app->add_option("--set", options->load.set,
+                    "Change a key of the scene: key=value, as often as wanted")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->allow_extra_args(false);
+  }
+  void add_frames() {
+    app->add_option("--frames", options->frames, "Stop after this many frames of 1/60 s")
+        ->check(CLI::Range(1, kMostFrames));
+  }
+};
+
+void add_list(CLI::App& program, Command& chosen) {
+  Subcommand<ListOptions> command(program, "list", "The scenes, one line each", list, chosen);
+  command.app->add_flag("--keys", command.options->keys,
+                        "Every key of a scene file instead, as Markdown");
+}
+
+void add_check(CLI::App& program, Command& chosen) {
+  Subcommand<CheckOptions> command(program, "check",
+                                   "Load and validate scenes, without running them", check, chosen);
+  command.app->add_option("SCENE", command.options->scenes, "Files or names of scenes")->required();
+  command.add_changes();
+}
+
+void add_simulate(CLI::App& program, Command& chosen) {
+  Subcommand<SimulateOptions> command(program, "simulate", "Run a scene without pictures", simulate,
+                                      chosen);
+  command.app->add_option("SCENE", command.options->scene, "File or name of a scene")->required();
+  command.add_frames();
+  command.add_changes();
+}
+
+void add_render(CLI::App& program, Command& chosen) {
+  Subcommand<RenderOptions> command(program, "render", "Off-screen video or images of a scene",
+                                    render_scene, chosen);
+  RenderOptions& options = *command.options;
+  command.app
+      ->add_option("SCENE", options.scene, "File or name of a scene, or a stored .frame file")
+      ->required();
+  command.app
+      ->add_option("-o,--output", options.output,
+                   "X.mp4: video; X.png: the last frame; DIR/: a PNG a frame")
+      ->required();
+  command.app->add_option("--frames", options.frames, "Draw frames A to B, both included")
+      ->type_name("A:B");
+  command.app->add_option("--size", options.size, "Pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  command.app
+      ->add_option("--gl", options.render.gl, "auto | egl-device:N | egl-surfaceless | osmesa")
+      ->capture_default_str();
+  command.app->add_flag("--hud", options.render.hud, "Frame number, time and counts in the corner");
+  command.add_changes();
+}
+
+void add_bench(CLI::App& program, Command& chosen) {
+  Subcommand<BenchOptions> command(program, "bench", "Frame timing of the benchmark scenes", bench,
+                                   chosen);
+  command.app->add_option("SCENE", command.options->scenes, "Files or names of scenes")
+      ->capture_default_str();
+  command.app->add_option("--compare", command.options->compare,
+                          "An earlier --json file: prints ratios, fails if the state differs");
+  command.add_frames();
+  command.add_changes();
+}
+
+Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const char* name,
+                                     const char* help, int (*work)(const GoldenOptions&)) {
+  Subcommand<GoldenOptions> command(golden, name, help, work, chosen);
+  command.app->add_option("--folder", command.options->folder, "Where goldens lie")
+      ->capture_default_str();
+  command.app->add_option("--gl", command.options->gl, "As in sunder render")
+      ->capture_default_str();
+  return command;
+}
+
+void add_golden(CLI::App& program, Command& chosen) {
+  CLI::App* golden = program.add_subcommand("golden", "Golden-image regression");
+  golden->require_subcommand(1);
+  const auto add = [&](const char* name, const char* help, int (*work)(const GoldenOptions&)) {
+    return add_golden(*golden, chosen, name, help, work);
+  };
+  for (auto& command :
+       {add("test", "Draw the stored frames and compare with the baselines", golden_test),
+        add("report", "As test, and write report.html with all pictures", golden_report)}) {
+    command.app->add_option("NAME", command.options->names, "Goldens; all by default");
+    command.app->add_option("--out", command.options->out, "Where new files go")
+        ->capture_default_str();
+  }
+  const auto accept = add("accept", "Make what is drawn now the baseline", golden_accept);
+  accept.app->add_option("NAME", accept.options->names, "Goldens")->required();
+  auto record = add("record", "Store a frame of a scene as a golden's subject", golden_record);
+  record.app->add_option("NAME", record.options->names, "What to call it")->required()->expected(1);
+  record.app->add_option("SCENE", record.options->scene, "File or name of a scene")->required();
+  record.app->add_option("FRAME", record.options->frame, "Which frame")
+      ->required()
+      ->check(CLI::Range(0, kMostFrames));
+  record.add_changes();
+}
+
+}  // namespace
+
+Command parse_command_line(int argc, char** argv) {
+  CLI::App program("Simulates and renders destruction.", "sunder");
+  program.set_version_flag("--version", SUNDER_VERSION);
+  program.require_subcommand(1);
+  Command chosen;
+  add_list(program, chosen);
+  add_check(program, chosen);
+  add_simulate(program, chosen);
+  add_render(program, chosen);
+  add_bench(program, chosen);
+  add_golden(program, chosen);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return [code = program.exit(error) == 0 ? 0 : 2] { return code; };
+  }
+  return chosen;
+}
+
+}  // namespace sunder::app

@@ -1,0 +1,31 @@
+#include "scenes/app/commands.h"
+
+#include <cstdio>
+#include <cstring>
+
+#include "engine/base/parallel.h"
+#include "engine/io/bytes.h"
+
+namespace sunder::app {
+
+void CommonOptions::apply() const { set_threads(threads); }
+
+void CommonOptions::say(const std::string& text) const {
+  if (!quiet && json != "-") std::fputs(text.c_str(), stdout);
+}
+
+void CommonOptions::write_json(const std::string& text) const {
+  if (json == "-") {
+    std::fputs(text.c_str(), stdout);
+  } else if (!json.empty()) {
+    write_text(json, text);
+  }
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::vector<std::byte> bytes(text.size());
+  std::memcpy(bytes.data(), text.data(), text.size());
+  write_file(path, bytes);
+}
+
+}  // namespace sunder::app

@@ -1,0 +1,82 @@
+// The commands of the program and what each can be told. How a command line says it is in
+// command_line.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+#include "scenes/load.h"
+
+namespace sunder::app {
+
+/// Every command has these.
+struct CommonOptions {
+  int threads = 0;
+  bool quiet = false;
+  std::string json;
+
+  /// Sets the threads of the whole program.
+  void apply() const;
+  /// Text for people: on stdout, unless it is quiet or JSON goes there.
+  void say(const std::string& text) const;
+  /// To the file (under a temporary name first) or, for "-", to stdout; nothing without --json.
+  void write_json(const std::string& text) const;
+};
+
+struct ListOptions : CommonOptions {
+  bool keys = false;
+};
+
+struct CheckOptions : CommonOptions {
+  std::vector<std::string> scenes;
+  scenes::LoadOptions load;
+};
+
+struct SimulateOptions : CommonOptions {
+  std::string scene;
+  scenes::LoadOptions load;
+  int frames = -1;  ///< All.
+};
+
+struct RenderOptions : CommonOptions {
+  std::string scene;  ///< Or a stored frame.
+  scenes::LoadOptions load;
+  std::string output;
+  std::string frames;  ///< "A:B"
+  std::string size = "1280x720";
+  render::RenderOptions render;
+};
+
+struct BenchOptions : CommonOptions {
+  std::vector<std::string> scenes = {"house", "brick_wall", "column_row", "glass"};
+  scenes::LoadOptions load;
+  int frames = -1;  ///< All.
+  std::string compare;
+};
+
+struct GoldenOptions : CommonOptions {
+  std::vector<std::string> names;  ///< None: all.
+  std::string folder = SUNDER_GOLDENS_FOLDER;
+  std::string out = "out/golden";
+  std::string gl = "auto";
+  std::string scene;  ///< Of golden_record, as are:
+  scenes::LoadOptions load;
+  int frame = 0;
+};
+
+/// Each answers the program's exit code: 0 done, 1 failed; bad input is an InputError.
+int list(const ListOptions& options);
+int check(const CheckOptions& options);
+int simulate(const SimulateOptions& options);
+int render_scene(const RenderOptions& options);
+int bench(const BenchOptions& options);
+int golden_test(const GoldenOptions& options);
+int golden_report(const GoldenOptions& options);
+int golden_accept(const GoldenOptions& options);
+int golden_record(const GoldenOptions& options);
+
+/// Writes a text file under a temporary name and renames it. Throws InputError.
+void write_text(const std::string& path, const std::string& text);
+
+}  // namespace sunder::app
