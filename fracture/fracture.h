@@ -1,28 +1,27 @@
 // A fracture event, whole or partial (paper 3.1 and 3.2), as five steps:
 //
-//   align      (align.h)      the pattern is moved onto the impact
-//   intersect  (intersect.h)  convexes within reach are cut by its cells
-//   weld       (weld.h)       covered cells become one convex
-//   group      (fracture.cpp) what lies in one cell, or colour, goes together; the rest stays
-//   islands    (islands.h)    what no longer touches parts company
+//   align      (align.h)         the pattern is moved onto the impact
+//   intersect  (intersect.h)     convexes within reach are cut by its cells
+//   weld       (weld.h)          covered cells become one convex
+//   group      (fragments.h)     what lies in one cell, or colour, goes together; the rest stays
+//   islands    (connectivity.h)  what no longer touches parts company
+//
+// Read first: break_structure(). Its cost depends on what the sphere touches alone.
 #pragma once
 
 #include "engine/world/breaker.h"
 #include "fracture/align.h"
+#include "fracture/structure.h"
 
 namespace sunder::fracture {
 
-/// Where a fracture reaches: convexes outside stay as they are.
-struct ImpactSphere {
-  Vec3 center_R = Vec3::Zero();
-  double radius_m = 1;  ///< Infinity: everything breaks.
+/// What a pattern at its place does to a structure, which is left as it is.
+BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
+                          const Placement& placement, const ImpactSphere& sphere,
+                          std::uint64_t event);
 
-  bool is_endless() const;
-  bool touches(const Convex& convex) const;
-};
-
-/// Breaks `compound` by a pattern at its place. Gives the compound back as it was, if nothing came
-/// off.
+/// The same for a compound, as pieces: what is left of it first. Gives it back as it was, if
+/// nothing came off.
 BreakPlan fracture(const Compound& compound, const Pattern& pattern, const Placement& placement,
                    const ImpactSphere& sphere, std::uint64_t event);
 

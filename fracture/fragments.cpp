@@ -65,26 +65,33 @@ void weld_cells(const AlignedPattern& pattern, Fragments& fragments) {
 
 }  // namespace
 
-Fragments make_fragments(const Compound& compound, const std::vector<std::uint32_t>& touched,
+Fragments make_fragments(const Structure& structure, std::vector<std::uint32_t>& touched,
                          const AlignedPattern& pattern, const ImpactSphere& sphere) {
   std::vector<Intersection> cut(touched.size());
   for_chunks(touched.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
-      cut[i] = intersect(pattern, compound.convexes[touched[i]]);
+      cut[i] = intersect(pattern, structure.convex(touched[i]));
     }
   });
   Fragments fragments;
-  for (std::size_t i = 0; i < touched.size(); ++i) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cut.size(); ++i) {
     const std::uint32_t source = touched[i];
+    const Convex& parent = *structure.convex(source);
+    fragments.failed += cut[i].failed ? 1 : 0;
+    const CellPart& first = cut[i].parts[0];
+    if (first.convex.get() == &parent && group_of(first, pattern, sphere) == Fragment::kRest) {
+      continue;
+    }
+    touched[kept++] = source;
+    fragments.debris_volume_m3 += cut[i].debris_volume_m3;
     for (const CellPart& part : cut[i].parts) {
       fragments.all.push_back(
           {part.convex, source, part.cell, group_of(part, pattern, sphere),
-           inherited_anchors(compound.anchored[source], compound.convexes[source]->box,
-                             part.convex->box)});
+           inherited_anchors(structure.anchored(source), parent.box, part.convex->box)});
     }
-    fragments.debris_volume_m3 += cut[i].debris_volume_m3;
-    fragments.failed += cut[i].failed ? 1 : 0;
   }
+  touched.resize(kept);
   weld_cells(pattern, fragments);
   return fragments;
 }

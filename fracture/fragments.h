@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "fracture/fracture.h"
+#include "fracture/align.h"
+#include "fracture/structure.h"
 
 namespace sunder::fracture {
 
@@ -13,7 +14,7 @@ struct Fragment {
   static constexpr std::uint32_t kRest = 0xffffffff;
 
   ConvexPtr convex;
-  std::uint32_t source = 0;  ///< The convex of the parent compound that it came from.
+  std::uint32_t source = 0;  ///< The slot of the convex that it came from.
   std::uint32_t cell = 0;    ///< As in CellPart.
   std::uint32_t group = kRest;
   std::uint8_t anchored = 0;
@@ -26,9 +27,9 @@ struct Fragments {
   std::uint32_t failed = 0;
 };
 
-/// Cuts the convexes `touched` of a compound, welds full cells, and groups by colour what the
-/// sphere touches.
-Fragments make_fragments(const Compound& compound, const std::vector<std::uint32_t>& touched,
+/// Cuts the convexes in slots `touched`, welds full cells, and groups by colour what the sphere
+/// touches. Convexes that it turns out to leave whole and in place are taken out of `touched`.
+Fragments make_fragments(const Structure& structure, std::vector<std::uint32_t>& touched,
                          const AlignedPattern& pattern, const ImpactSphere& sphere);
 
 }  // namespace sunder::fracture
