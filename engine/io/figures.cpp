@@ -9,8 +9,9 @@ namespace sunder {
 Figures parse_figures(const std::string& text, const std::string& file) {
   const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
   if (document.is_discarded()) throw InputError(file + ": not a JSON document");
+  const nlohmann::json flat = document.flatten();
   Figures figures;
-  for (const auto& [place, value] : document.flatten().items()) {
+  for (const auto& [place, value] : flat.items()) {
     if (value.is_boolean()) figures[place] = value.get<bool>();
     if (value.is_number_integer()) figures[place] = value.get<std::int64_t>();
     if (value.is_number_float()) figures[place] = value.get<double>();

@@ -116,7 +116,7 @@ constexpr Fault kFaults[] = {
     {"[[solid]]\nstructure = \"box\"\nmaterial = \"stel\"",
      "bad.toml:5: unknown material 'stel'; "
      "did you mean 'steel'?; there are: "
-     "brick, clay, concrete"},
+     "brick, clay, "},
     {"[[solid]]\nstructure = \"box\"\nanchored = \"top\"",
      "bad.toml:5: anchored in [[solid]] is the "
      "string \"top\"; allowed: none | bottom"},
