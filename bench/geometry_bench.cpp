@@ -6,8 +6,12 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/base/random.h"
+#include "engine/base/trigonometry.h"
 #include "engine/geometry/bvh.h"
+#include "engine/geometry/clip_mesh.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/mesh_islands.h"
+#include "engine/geometry/split_mesh.h"
 
 namespace sunder {
 namespace {
@@ -125,6 +129,72 @@ void hull_of_points(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(make_hull(points));
 }
 BENCHMARK(hull_of_points)->Arg(30)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
+
+/// A torus of 2 * around * tube triangles, turned so that nothing lies along an axis.
+PolygonMesh torus(std::uint32_t around, std::uint32_t tube) {
+  PolygonMesh mesh;
+  const Quat turn = Quat(0.8, 0.2, 0.4, 0.4).normalized();
+  for (std::uint32_t i = 0; i < around * tube; ++i) {
+    const SinCos u = sin_cos(6.283185307179586 * (i / tube) / around);
+    const SinCos v = sin_cos(6.283185307179586 * (i % tube) / tube);
+    const double r = 0.7 + 0.3 * v.cos;
+    mesh.vertices.push_back(turn * Vec3(r * u.cos, 0.3 * v.sin, -r * u.sin));
+  }
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const Vec3& p = mesh.vertices[a];
+    const Vec3 normal = (mesh.vertices[b] - p).cross(mesh.vertices[c] - p).normalized();
+    const auto index = static_cast<std::uint32_t>(mesh.contours.size());
+    mesh.faces.push_back({Plane::through(p, normal), {}, index, 1, FaceKind::kSurface});
+    mesh.contours.push_back({3 * index, 3});
+    mesh.corners.insert(mesh.corners.end(), {a, b, c});
+    mesh.corner_normals.resize(mesh.corners.size(), normal.cast<float>());
+  };
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return i % around * tube + j % tube; };
+  for (std::uint32_t i = 0; i < around; ++i) {
+    for (std::uint32_t j = 0; j < tube; ++j) {
+      add(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      add(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+  return mesh;
+}
+
+void clip_torus(benchmark::State& state) {
+  const PolygonMesh mesh = torus(static_cast<std::uint32_t>(state.range(0)), 30);
+  const std::vector<Plane> planes = random_planes(0.3);
+  PolygonMesh result;
+  MeshClipScratch scratch;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(clip(mesh, planes[i++ % 256], {2}, 1e-12, result, scratch));
+  }
+  state.counters["faces"] = static_cast<double>(mesh.faces.size());
+}
+BENCHMARK(clip_torus)->Arg(20)->Arg(200)->Unit(benchmark::kMicrosecond);
+
+void voronoi_against_torus(benchmark::State& state) {
+  const PolygonMesh mesh = torus(200, 30);
+  const auto cells = voronoi_planes(static_cast<std::size_t>(state.range(0)));
+  const ConvexPolyhedron box = make_box(-Vec3::Ones(), Vec3::Ones());
+  std::vector<std::vector<NamedPlane>> planes(cells.size());
+  std::vector<MeshRegion> regions;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    ClipScratch scratch;
+    ConvexPolyhedron cell = box, next;
+    for (const Plane& plane : cells[c]) {
+      if (clip(cell, plane, {2}, 0, next, scratch) != PlaneSide::kCut) continue;
+      std::swap(cell, next);
+      planes[c].push_back({plane, {2}});
+    }
+    regions.push_back({bounds(cell), planes[c]});
+  }
+  for (auto _ : state) {
+    for (PolygonMesh& part : split(mesh, regions, 0)) {
+      benchmark::DoNotOptimize(islands(std::move(part)));
+    }
+  }
+}
+BENCHMARK(voronoi_against_torus)->Arg(20)->Arg(100)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 std::vector<Box> random_boxes(std::size_t count) {
   Random random(5);
