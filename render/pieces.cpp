@@ -25,6 +25,17 @@ GLsizeiptr bytes(std::size_t count, std::size_t size) {
 /// A buffer offset, in the form GL wants it.
 const void* offset(std::size_t byte) { return reinterpret_cast<const void*>(byte); }
 
+Pieces::Group group_of(const Material& material) {
+  switch (material.surface.texture) {
+    case Texture::kGlass:
+      return Pieces::Group::kGlass;
+    case Texture::kMetal:
+      return Pieces::Group::kShiny;
+    default:
+      return Pieces::Group::kMatte;
+  }
+}
+
 }  // namespace
 
 Pieces::Pieces(const GlTable& gl) : gl_(gl) {
@@ -145,9 +156,7 @@ void Pieces::upload_new() {
 void Pieces::place(const Frame& frame) {
   slot_texels_.resize(std::max<std::size_t>(1, slots_.size()) * kFloatsPerSlot);
   casters_.clear();
-  std::vector<Placed> opaque;
-  std::vector<Placed> large;
-  std::vector<Placed> glass;
+  std::array<std::vector<Placed>, kGroups> placed;
   const Vec3 forward = (frame.view.target_W - frame.view.eye_W).normalized();
   for (std::size_t i = 0; i < frame.instances.size(); ++i) {
     const FrameBody& body = frame.bodies[frame.instances[i].body];
@@ -166,19 +175,17 @@ void Pieces::place(const Frame& frame) {
 
     const Vec3f center = rotation * slot.center + translation;
     const float distance = center.dot(forward.cast<float>());
-    const Material& material = (*frame.materials)[slot.mesh->material.value];
-    const Placed placed{distance, static_cast<std::uint32_t>(i), s};
-    if (material.surface.texture == Texture::kGlass) {
-      glass.push_back(placed);
-      continue;
-    }
-    opaque.push_back(placed);
-    if (slot.radius > kLarge_m) large.push_back(placed);
-    casters_.push_back({center, slot.radius});
+    const Group group = group_of((*frame.materials)[slot.mesh->material.value]);
+    const auto add = [&](Group to) {
+      placed[static_cast<std::size_t>(to)].push_back({distance, static_cast<std::uint32_t>(i), s});
+    };
+    add(group);
+    if (group == Group::kMatte && slot.radius > kLarge_m) add(Group::kLarge);
+    if (group != Group::kGlass) casters_.push_back({center, slot.radius});
   }
-  opaque_ = ordered(opaque, true);
-  large_ = ordered(large, true);
-  glass_ = ordered(glass, false);
+  for (std::size_t g = 0; g < placed.size(); ++g) {
+    draws_[g] = ordered(placed[g], static_cast<Group>(g) != Group::kGlass);
+  }
   gl_.BindBuffer(GL_TEXTURE_BUFFER, slot_buffer_);
   gl_.BufferData(GL_TEXTURE_BUFFER, bytes(slot_texels_.size(), sizeof(float)), slot_texels_.data(),
                  GL_STREAM_DRAW);
@@ -198,23 +205,19 @@ Pieces::Draws Pieces::ordered(std::vector<Placed>& placed, bool near_first) cons
   return draws;
 }
 
-void Pieces::draw(const Draws& draws) const {
-  if (draws.counts.empty()) return;
+void Pieces::draw(Group group) const {
+  if (!has(group)) return;
+  const Draws& d = draws(group);
   gl_.BindVertexArray(vertex_array_);
-  gl_.MultiDrawElements(GL_TRIANGLES, draws.counts.data(), GL_UNSIGNED_INT, draws.offsets.data(),
-                        static_cast<GLsizei>(draws.counts.size()));
-}
-
-void Pieces::draw_opaque() const { draw(opaque_); }
-
-void Pieces::draw_large() const { draw(large_); }
-
-void Pieces::draw_glass() const {
-  gl_.BindVertexArray(vertex_array_);
-  for (std::size_t i = 0; i < glass_.counts.size(); ++i) {
+  if (group != Group::kGlass) {
+    gl_.MultiDrawElements(GL_TRIANGLES, d.counts.data(), GL_UNSIGNED_INT, d.offsets.data(),
+                          static_cast<GLsizei>(d.counts.size()));
+    return;
+  }
+  for (std::size_t i = 0; i < d.counts.size(); ++i) {
     for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
       gl_.CullFace(hidden);
-      gl_.DrawElements(GL_TRIANGLES, glass_.counts[i], GL_UNSIGNED_INT, glass_.offsets[i]);
+      gl_.DrawElements(GL_TRIANGLES, d.counts[i], GL_UNSIGNED_INT, d.offsets[i]);
     }
   }
 }

@@ -1,6 +1,7 @@
 // The frame's instances on the GPU: every mesh is uploaded once, every frame only where they are.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -19,13 +20,16 @@ class Pieces {
   void update(const Frame& frame);
   /// Balls around the opaque pieces, relative to the eye.
   const std::vector<Caster>& casters() const { return casters_; }
-  /// Nearest first.
-  void draw_opaque() const;
-  /// The opaque pieces that keep light from rooms: not the small ones.
-  void draw_large() const;
-  /// Farthest first; back faces, then front faces, of each.
-  void draw_glass() const;
-  bool has_glass() const { return !glass_.counts.empty(); }
+  /// The pieces with surfaces of a kind; opaque ones nearest first, glass farthest first.
+  enum class Group : std::uint8_t {
+    kMatte,
+    kShiny,
+    kGlass,  ///< For each piece its back faces, then its front faces.
+    kLarge,  ///< Of the matte ones again those that keep light from rooms.
+  };
+  static constexpr int kGroups = 4;
+  bool has(Group group) const { return !draws(group).counts.empty(); }
+  void draw(Group group) const;
 
   GLuint slot_texture() const { return slot_texture_; }
 
@@ -62,7 +66,7 @@ class Pieces {
   void forget(const Frame& frame);
   void upload_new();
   void place(const Frame& frame);
-  void draw(const Draws& draws) const;
+  const Draws& draws(Group group) const { return draws_[static_cast<std::size_t>(group)]; }
   Draws ordered(std::vector<Placed>& placed, bool near_first) const;
 
   const GlTable& gl_;
@@ -84,9 +88,7 @@ class Pieces {
   std::vector<std::uint32_t> slot_of_instance_;
   std::vector<float> slot_texels_;
   std::vector<Caster> casters_;
-  Draws opaque_;
-  Draws large_;
-  Draws glass_;
+  std::array<Draws, kGroups> draws_;
 };
 
 }  // namespace sunder::render

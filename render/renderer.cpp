@@ -32,7 +32,7 @@ enum Unit {
 };
 
 struct Programs {
-  GLuint shadow, zenith, pieces, glass, ground, sky, occlusion, blur, composite;
+  GLuint shadow, zenith, matte, shiny, glass, ground, sky, occlusion, blur, composite;
 };
 
 struct Target {
@@ -50,8 +50,10 @@ Programs make_programs(const GlTable& gl) {
   p.zenith = make_program(gl, "zenith",
                           {common_glsl, bodies_glsl, "#define LIGHT zenith_of_eye\n", shadow_vert},
                           {common_glsl, nothing_frag});
-  p.pieces = make_program(gl, "pieces", {common_glsl, bodies_glsl, pieces_vert},
-                          {common_glsl, shadow_glsl, pieces_frag});
+  p.matte = make_program(gl, "matte", {common_glsl, bodies_glsl, pieces_vert},
+                         {common_glsl, shadow_glsl, pieces_frag});
+  p.shiny = make_program(gl, "shiny", {common_glsl, bodies_glsl, pieces_vert},
+                         {common_glsl, shadow_glsl, "#define SHINY\n", pieces_frag});
   p.glass = make_program(gl, "glass", {common_glsl, bodies_glsl, pieces_vert},
                          {common_glsl, shadow_glsl, glass_frag});
   p.ground = make_program(gl, "ground", {common_glsl, ground_vert},
@@ -62,14 +64,15 @@ Programs make_programs(const GlTable& gl) {
   p.blur = make_program(gl, "blur", {common_glsl, screen_vert}, {common_glsl, blur_frag});
   p.composite =
       make_program(gl, "composite", {common_glsl, screen_vert}, {common_glsl, composite_frag});
-  for (const GLuint program : {p.pieces, p.glass, p.ground}) {
+  for (const GLuint program : {p.matte, p.shiny, p.glass, p.ground}) {
     set_sampler(gl, program, "shadow_map", kShadowUnit);
   }
-  for (const GLuint program : {p.shadow, p.zenith, p.pieces, p.glass}) {
+  for (const GLuint program : {p.shadow, p.zenith, p.matte, p.shiny, p.glass}) {
     set_sampler(gl, program, "slots", kSlotUnit);
   }
-  for (const GLuint program : {p.pieces, p.glass}) set_sampler(gl, program, "looks", kLookUnit);
-  for (const GLuint program : {p.pieces, p.ground, p.sky}) {
+  for (const GLuint program : {p.matte, p.shiny, p.glass})
+    set_sampler(gl, program, "looks", kLookUnit);
+  for (const GLuint program : {p.matte, p.shiny, p.ground, p.sky}) {
     set_sampler(gl, program, "tiles", kTileUnit);
   }
   set_sampler(gl, p.occlusion, "depths", kDepthUnit);
@@ -225,19 +228,22 @@ void Renderer::Impl::draw_shadows() {
   gl.PolygonOffset(1.5f, 2);
   begin(shadow, programs.shadow);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  pieces.draw_opaque();
+  pieces.draw(Pieces::Group::kMatte);
+  pieces.draw(Pieces::Group::kShiny);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   done("shadows");
   begin(zenith, programs.zenith);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  pieces.draw_large();
+  pieces.draw(Pieces::Group::kLarge);
   done("zenith");
 }
 
 void Renderer::Impl::draw_pieces() {
-  begin(light, programs.pieces);
+  begin(light, programs.matte);
   gl.Clear(GL_DEPTH_BUFFER_BIT);  // every pixel's colour is written by a piece, ground or sky
-  pieces.draw_opaque();
+  pieces.draw(Pieces::Group::kMatte);
+  begin(light, programs.shiny);
+  pieces.draw(Pieces::Group::kShiny);
 }
 
 void Renderer::Impl::draw_ground_and_sky() {
@@ -269,7 +275,7 @@ void Renderer::Impl::draw_glass() {
   gl.Enable(GL_BLEND);
   gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
   gl.DepthMask(GL_FALSE);
-  pieces.draw_glass();
+  pieces.draw(Pieces::Group::kGlass);
   gl.DepthMask(GL_TRUE);
   gl.Disable(GL_BLEND);
   gl.CullFace(GL_BACK);
@@ -310,7 +316,7 @@ Image Renderer::draw(const Frame& frame) {
   r.done("ground and sky");
   r.draw_occlusion();
   r.done("occlusion");
-  if (r.pieces.has_glass()) r.draw_glass();
+  if (r.pieces.has(Pieces::Group::kGlass)) r.draw_glass();
   r.done("glass");
   r.composite();
   r.done("composite");

@@ -6,7 +6,7 @@ flat in vec3 sun_rest;
 flat in vec3 up_rest;
 flat in vec3 eye_rest;
 flat in vec4 first_color;
-flat in vec4 finish;
+flat in vec3 finish;
 out vec4 color;
 
 void main() {

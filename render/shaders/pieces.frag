@@ -10,7 +10,7 @@ flat in vec3 up_rest;
 flat in vec3 eye_rest;
 flat in vec4 first_color;
 flat in vec4 second_color;
-flat in vec4 finish;
+flat in vec3 finish;
 
 out vec4 color;
 
@@ -29,12 +29,11 @@ void main() {
   vec4 cloud = texture(tiles, vec3(uv * kCloudsPerMetre, kCloudLayer));
 
   vec3 albedo = mix(first_color.rgb, second_color.rgb, tile.g);
-  albedo *= 1.0 + finish.w * (tile.r - 0.5) + 0.5 * (cloud.r - 0.5);
+  albedo *= 1.0 + finish.z * (tile.r - 0.5) + 0.5 * (cloud.r - 0.5);
 
   // Plaster where the weather has left it, with a dark broken rim.
   float bare = second_color.w;
-  float plaster = 1.0 - smoothstep(bare - 0.035, bare + 0.0, cloud.g + 0.08 * (tile.r - 0.5));
-  plaster = 1.0 - plaster;
+  float plaster = smoothstep(bare - 0.035, bare, cloud.g + 0.08 * (tile.r - 0.5));
   float rim = plaster * (1.0 - smoothstep(bare, bare + 0.05, cloud.g));
   vec3 coat = kPlaster * (0.65 + 0.7 * cloud.r) * (1.0 - 0.25 * rim);
   albedo = mix(albedo, coat, plaster);
@@ -51,26 +50,28 @@ void main() {
 
   vec3 from_eye = rest - eye_rest;
   float metres = length(from_eye);
+#ifdef SHINY
+  // Metal has little colour of its own, but tints what it mirrors.
   vec3 view = from_eye / metres;
   vec3 mirrored = reflect(view, bumped);
   float fresnel = 1.0 - max(-dot(view, bumped), 0.0);
   fresnel *= fresnel;
   fresnel *= fresnel;
-  float gloss = finish.z;
   float shine = max(dot(mirrored, sun_rest), 0.0);
   shine *= shine;
   shine *= shine;
   shine *= shine;
   shine *= shine;
-  vec3 mirrored_sky = mix(ground_light(), mix(kHorizon, kZenith, max(dot(mirrored, up_rest), 0.0)),
-                          smoothstep(-0.15, 0.15, dot(mirrored, up_rest)));
-  // Metal has little colour of its own, but tints what it mirrors.
-  float metal = smoothstep(0.2, 0.5, gloss);
-  vec3 tint = mix(vec3(1.0), 1.7 * albedo, metal);
-  vec3 own = albedo * (1.0 - 0.75 * metal);
-  around = own * around + tint * mirrored_sky * gloss * (0.35 + 0.65 * fresnel + 0.6 * metal);
-  direct = direct * (own + tint * gloss * 3.0 * shine);
-
+  float up = dot(mirrored, up_rest);
+  vec3 mirrored_sky = mix(ground_light(), mix(kHorizon, kZenith, max(up, 0.0)),
+                          smoothstep(-0.15, 0.15, up));
+  vec3 tint = 1.7 * albedo;
+  around = 0.25 * albedo * around + tint * mirrored_sky * (0.5 + 0.4 * fresnel);
+  direct *= 0.25 * albedo + tint * 1.7 * shine;
+#else
+  around *= albedo;
+  direct *= albedo;
+#endif
   vec3 light = direct + around;
   float ambient_share = dot(around, vec3(0.33)) / max(dot(light, vec3(0.33)), 1e-4);
   color = vec4(mix(kHorizon, light, exp2(-metres * kHaze)), ambient_share);

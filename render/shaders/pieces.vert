@@ -9,8 +9,8 @@ flat out vec3 sun_rest;
 flat out vec3 up_rest;
 flat out vec3 eye_rest;
 flat out vec4 first_color;   // w: tiles a metre
-flat out vec4 second_color;  // w: bare share of plaster-covered faces; 1 where nothing covers
-flat out vec4 finish;        // tile layer, bump, gloss, contrast
+flat out vec4 second_color;  // w: plaster holds where the weather's noise exceeds this
+flat out vec3 finish;        // tile layer, bump, contrast
 
 void main() {
   Piece piece_ = this_piece();
@@ -32,5 +32,5 @@ void main() {
   int look = 6 * piece_.material + 3 * int(piece & 1u);
   first_color = texelFetch(looks, look);
   second_color = texelFetch(looks, look + 1);
-  finish = texelFetch(looks, look + 2);
+  finish = texelFetch(looks, look + 2).xyz;
 }
