@@ -81,8 +81,9 @@ struct ClipScratch {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> on_edges;  ///< Kept, both ends on.
 };
 
-/// Keeps the part of `convex` with plane.distance <= 0 in `result` (unspecified unless the answer
-/// is kCut). The new face, the last, gets `id` and kInterior. Topology follows from the vertices'
+/// Keeps the part of a closed `convex` with plane.distance <= 0 in `result` (unspecified unless the
+/// answer is kCut). The new face, the last, gets `id` and kInterior (where a sliver as thin as the
+/// rounding is cut, it may be several faces or none). Topology follows from the vertices'
 /// signs alone (distances within `tolerance_m` of the plane count as on it), so the result is
 /// closed whatever the rounding; normals are interpolated along cut edges. A cut edge gives the
 /// same bits from either side of the plane and in every convex that has the edge. A convex wholly
