@@ -1,5 +1,5 @@
-// sin, cos and arc tangent from polynomials: the C library's differ between processors, and simulated state
-// may not.
+// sin, cos and arc tangent from polynomials: the C library's differ between processors, and
+// simulated state may not.
 #pragma once
 
 namespace sunder {
