@@ -18,6 +18,6 @@ say "Rendering house to out/demo.mp4"
 build/sunder render house -o out/demo.mp4
 
 say "Rendering one frame of it to out/demo.png"
-build/sunder render house -o out/demo.png --frames 0:150
+build/sunder render house -o out/demo.png --frames 210:210
 
 say "Done: out/demo.mp4, out/demo.png"
