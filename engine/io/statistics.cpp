@@ -105,6 +105,7 @@ Json frame_json(const FrameReport& report, double ms) {
           {"stages_ms", stages},
           {"counts", counts_json(report.counts)},
           {"kinetic_J", report.kinetic_J},
+          {"momentum_residual", report.momentum_residual},
           {"potential_J", report.potential_J}};
 }
 
