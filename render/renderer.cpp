@@ -11,7 +11,7 @@
 #include "render/hud.h"
 #include "render/looks.h"
 #include "render/pieces.h"
-#include "render/shaders.h"
+#include "render/texts.h"
 #include "render/tiles.h"
 #include "render/viewpoint.h"
 
@@ -42,7 +42,7 @@ struct Target {
 };
 
 Programs make_programs(const GlTable& gl) {
-  using namespace shaders;
+  using namespace texts;
   Programs p;
   p.shadow = make_program(gl, "shadow",
                           {common_glsl, bodies_glsl, "#define LIGHT shadow_of_eye\n", shadow_vert},

@@ -1,7 +1,7 @@
-// The GLSL sources in shaders/, compiled in as strings (see CMakeLists.txt).
+// Files compiled in as strings (see CMakeLists.txt): the GLSL sources in shaders/, and a page.
 #pragma once
 
-namespace sunder::render::shaders {
+namespace sunder::render::texts {
 
 extern const char* const common_glsl;
 extern const char* const shadow_glsl;
@@ -18,5 +18,6 @@ extern const char* const sky_frag;
 extern const char* const occlusion_frag;
 extern const char* const blur_frag;
 extern const char* const composite_frag;
+extern const char* const golden_report_html;
 
-}  // namespace sunder::render::shaders
+}  // namespace sunder::render::texts

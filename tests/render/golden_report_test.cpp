@@ -1,0 +1,59 @@
+// The page says what failed, first, and how to accept it.
+#include "render/golden_report.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace sunder::render {
+namespace {
+
+Image flat(std::uint8_t level) {
+  return {40, 40, std::vector<std::uint8_t>(std::size_t{3} * 40 * 40, level)};
+}
+
+GoldenPicture picture(const std::string& name, std::uint8_t reference, std::uint8_t actual) {
+  GoldenPicture p;
+  p.name = name;
+  p.reference = flat(reference);
+  p.actual = flat(actual);
+  p.difference = compare(p.reference, p.actual);
+  p.passed = p.difference.passes(p.thresholds);
+  p.accept_by = "sunder golden accept " + name;
+  return p;
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(GoldenReport, FailuresComeFirstWithTheCommandThatAcceptsThem) {
+  const std::vector<GoldenPicture> pictures = {picture("good", 90, 90), picture("b<a>d", 90, 200)};
+  const std::string page = golden_report(pictures);
+  EXPECT_LT(page.find("b&lt;a>d"), page.find("good"));
+  EXPECT_EQ(count(page, "sunder golden accept"), 1u) << "what passed needs no accepting";
+  EXPECT_EQ(count(page, "class=\"over\""), 2u) << "both figures are over their limits";
+}
+
+TEST(GoldenReport, ThePageHoldsItsPicturesAndNeedsNothingElse) {
+  const std::vector<GoldenPicture> pictures = {picture("good", 90, 90), picture("bad", 90, 200)};
+  const std::string page = golden_report(pictures);
+  EXPECT_EQ(count(page, "data:image/png;base64,"), 4u) << "one where all is the same, else three";
+  EXPECT_EQ(count(page, "http"), 0u);
+  EXPECT_EQ(count(page, "<!-- pictures -->"), 0u);
+}
+
+TEST(GoldenReport, AMissingBaselineIsShownAsWhatIsDrawnNow) {
+  GoldenPicture p;
+  p.name = "new";
+  p.actual = flat(50);
+  p.accept_by = "sunder golden accept new";
+  const std::string page = golden_report(std::vector<GoldenPicture>{p});
+  EXPECT_EQ(count(page, "data:image/png;base64,"), 1u);
+  EXPECT_EQ(count(page, "sunder golden accept new"), 1u);
+}
+
+}  // namespace
+}  // namespace sunder::render
