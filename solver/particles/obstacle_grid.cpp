@@ -46,11 +46,14 @@ struct Clip {
 
 }  // namespace
 
-/// The boxes that shapes sweep in the last step.
-void ObstacleGrid::place(std::size_t begin, std::size_t end, Box* boxes) const {
+/// The boxes that shapes sweep in the last step; empty for those not asked for.
+void ObstacleGrid::place(std::size_t begin, std::size_t end, Which which) {
   for (std::size_t s = begin; s < end; ++s) {
     const ObstacleShape& shape = obstacles_.shapes[s];
     const ObstacleBody& body = obstacles_.bodies[shape.body];
+    Box& box = boxes_[s];
+    box = Box();
+    if (which == Which::kMoving && !body.moves) continue;
     Vec3 center = body.X_WB.position;
     Vec3 half = Vec3::Constant(shape.radius_m);
     double reach = shape.radius_m;
@@ -62,7 +65,6 @@ void ObstacleGrid::place(std::size_t begin, std::size_t end, Box* boxes) const {
       half = rotation.cwiseAbs() * half_R;
       reach = center_B.norm() + half_R.norm();
     }
-    Box& box = boxes[s];
     box.min = center - half;
     box.max = center + half;
     if (body.moves) {
@@ -133,6 +135,8 @@ void ObstacleGrid::build(const Obstacles& obstacles, double dt_s, const Box& reg
   dt_s_ = dt_s;
   shapes_.clear();
   if (region.empty()) return;
+  const auto moves = [](const ObstacleBody& body) { return body.moves; };
+  if (which == Which::kMoving && std::ranges::none_of(obstacles.bodies, moves)) return;
   rotations_WB_.resize(obstacles.bodies.size());
   for_chunks(obstacles.bodies.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -140,11 +144,9 @@ void ObstacleGrid::build(const Obstacles& obstacles, double dt_s, const Box& reg
     }
   });
   boxes_.resize(obstacles.shapes.size());
-  for_chunks(boxes_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-    place(begin, end, boxes_.data());
-  });
+  for_chunks(boxes_.size(), kChunk,
+             [&](std::size_t begin, std::size_t end, std::size_t) { place(begin, end, which); });
   for (std::uint32_t s = 0; s < boxes_.size(); ++s) {
-    if (which == Which::kMoving && !obstacles.bodies[obstacles.shapes[s].body].moves) continue;
     if (!boxes_[s].overlaps(region)) continue;
     shapes_.push_back({s, boxes_[s].min.cast<float>(), boxes_[s].max.cast<float>()});
   }

@@ -48,7 +48,7 @@ class ObstacleGrid {
   };
   using Cell = Eigen::Vector3i;
 
-  void place(std::size_t begin, std::size_t end, Box* boxes) const;
+  void place(std::size_t begin, std::size_t end, Which which);
   void choose_cells(const Box& region);
   void sort_into_cells();
   Cell cell_of(const Vec3f& point_W) const {
