@@ -13,10 +13,12 @@ namespace sunder {
 namespace {
 
 /// In the affine space where the starting tetrahedron is regular: there, flat and tiny solids are
-/// as easy as cubes.
-constexpr double kDualTolerance = 1e-10;
+/// as easy as cubes. Noise just as large may fold a face over; then the next is tried.
+constexpr double kDualTolerances[] = {1e-10, 1e-9, 1e-11, 1e-8, 1e-12};
 /// The least height of the starting tetrahedron over its length.
 constexpr double kFlat = 1e-9;
+/// Area, over its length and the solid's, of a face too small or thin to tell its plane.
+constexpr double kSliver = 1e-6;
 
 using Tetrahedron = std::array<std::uint32_t, 4>;
 
@@ -58,21 +60,16 @@ std::optional<Tetrahedron> spanning_tetrahedron(std::span<const Vec3> points) {
   return height > 0 ? Tetrahedron{i, k, j, l} : Tetrahedron{i, j, k, l};
 }
 
-/// The points moved by the affine map that makes the tetrahedron regular.
-std::vector<Vec3> regularised(std::span<const Vec3> points, const Tetrahedron& start) {
+/// The linear part of the affine map that makes the tetrahedron regular.
+Mat3 regularising_map(std::span<const Vec3> points, const Tetrahedron& start) {
   const Eigen::Matrix<double, 3, 4> r = regular_tetrahedron();
-  const Vec3& origin = points[start[0]];
   Mat3 edges, regular_edges;
   for (int c = 0; c < 3; ++c) {
-    edges.col(c) = points[start[static_cast<std::size_t>(c + 1)]] - origin;
+    edges.col(c) = points[start[static_cast<std::size_t>(c + 1)]] - points[start[0]];
     regular_edges.col(c) = r.col(c + 1) - r.col(0);
   }
   const double size = edges.cwiseAbs().maxCoeff();  // keeps the determinant in range
-  const Mat3 map = regular_edges * (edges / size).inverse() / size;
-  std::vector<Vec3> moved;
-  moved.reserve(points.size());
-  for (const Vec3& p : points) moved.push_back(r.col(0) + map * (p - origin));
-  return moved;
+  return regular_edges * (edges / size).inverse() / size;
 }
 
 /// The dual of the starting tetrahedron. A face's id is the index of its point.
@@ -88,8 +85,13 @@ ConvexPolyhedron starting_dual(const Tetrahedron& start) {
   return dual;
 }
 
-ConvexPolyhedron dual_of_hull(std::span<const Vec3> points, const Tetrahedron& start) {
-  const std::vector<Vec3> moved = regularised(points, start);
+ConvexPolyhedron dual_of_hull(std::span<const Vec3> points, const Tetrahedron& start,
+                              const Mat3& map, double tolerance) {
+  std::vector<Vec3> moved;
+  moved.reserve(points.size());
+  for (const Vec3& p : points) {
+    moved.push_back(regular_tetrahedron().col(0) + map * (p - points[start[0]]));
+  }
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
   // Far points first: they leave little for the others to do.
@@ -103,7 +105,7 @@ ConvexPolyhedron dual_of_hull(std::span<const Vec3> points, const Tetrahedron& s
     const double distance = moved[i].norm();
     if (distance * distance < 1.0 / 3) break;  // inside the starting tetrahedron, and so the rest
     const Plane plane{moved[i] / distance, -1 / distance};
-    if (clip(dual, plane, {i}, kDualTolerance, next, scratch) == PlaneSide::kCut) {
+    if (clip(dual, plane, {i}, tolerance, next, scratch) == PlaneSide::kCut) {
       std::swap(dual, next);
     }
   }
@@ -128,16 +130,33 @@ std::vector<Fan> fans(const ConvexPolyhedron& dual) {
   return result;
 }
 
-}  // namespace
+/// Gives a sliver, whose corners hardly tell a plane, the normal that the dual has for it. False if
+/// the face is folded over.
+bool settle_last_face(ConvexPolyhedron& hull, const Vec3& dual_normal, double size) {
+  ConvexPolyhedron::Face& face = hull.faces.back();
+  const auto corners = hull.face_corners(hull.faces.size() - 1);
+  const Vec3& first = hull.vertices[corners[0]];
+  double longest = 0;
+  for (const std::uint32_t v : corners) {
+    longest = std::max(longest, (hull.vertices[v] - first).norm());
+  }
+  if (face_area(hull, hull.faces.size() - 1) > kSliver * longest * size) {
+    return face.plane.normal.dot(dual_normal) > 0;
+  }
+  face.plane = Plane::through(first, dual_normal);
+  std::fill(hull.corner_normals.begin() + face.first_corner, hull.corner_normals.end(),
+            Vec3f(dual_normal.cast<float>()));
+  return true;
+}
 
-ConvexPolyhedron make_hull(std::span<const Vec3> points) {
-  ConvexPolyhedron hull;
-  const std::optional<Tetrahedron> start = spanning_tetrahedron(points);
-  if (!start) return hull;
-  const ConvexPolyhedron dual = dual_of_hull(points, *start);
+/// Fills the hull; false if a face is folded over.
+bool make_faces(std::span<const Vec3> points, const ConvexPolyhedron& dual, const Mat3& map,
+                double size, ConvexPolyhedron& hull) {
+  hull = {};
   for (const ConvexPolyhedron::Face& face : dual.faces) {
     hull.vertices.push_back(points[face.id.value]);
   }
+  bool sound = true;
   const std::vector<Fan> all = fans(dual);
   std::vector<std::uint32_t> corners;
   for (auto begin = all.begin(); begin != all.end();) {  // a vertex of the dual: a face of the hull
@@ -150,8 +169,29 @@ ConvexPolyhedron make_hull(std::span<const Vec3> points) {
       fan = std::find_if(begin, end, [&](const Fan& other) { return other.next == fan->previous; });
     } while (fan != begin);
     // A vertex within tolerance of the edge between two others makes an empty face of two corners.
-    if (corners.size() >= 3) add_face(hull, corners);
+    if (corners.size() >= 3) {
+      add_face(hull, corners);
+      const Vec3 normal = (map.transpose() * dual.vertices[begin->vertex]).normalized();
+      sound = settle_last_face(hull, normal, size) && sound;
+    }
     begin = end;
+  }
+  return sound;
+}
+
+}  // namespace
+
+ConvexPolyhedron make_hull(std::span<const Vec3> points) {
+  ConvexPolyhedron hull;
+  const std::optional<Tetrahedron> start = spanning_tetrahedron(points);
+  if (!start) return hull;
+  const Mat3 map = regularising_map(points, *start);
+  Box box;
+  for (const Vec3& p : points) box.extend(p);
+  const double size = box.extent().norm();
+  for (const double tolerance : kDualTolerances) {
+    const ConvexPolyhedron dual = dual_of_hull(points, *start, map, tolerance);
+    if (make_faces(points, dual, map, size, hull)) break;
   }
   return hull;
 }

@@ -161,6 +161,22 @@ RC_GTEST_PROP(Hull, OfATurnedFilledBoxIsTheBox, (std::uint64_t seed)) {
   EXPECT_NEAR(volume(hull) / (27 * size.prod()), 1, 1e-11);
 }
 
+TEST(Hull, OfNoisyGridPointsEnclosesThem) {
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {  // noise about as large as the tolerance, too
+    Random random(seed);
+    const double noise = std::pow(10.0, random.uniform(-16, -6));
+    const Vec3 size(1, random.uniform(0.01, 1), random.uniform(0.1, 1));
+    const Pose pose = random_pose(random, 10);
+    std::vector<Vec3> points(4 + random.below(60));
+    for (Vec3& p : points) {
+      const Vec3 grid(random.below(3), random.below(3), random.below(3));
+      p = pose * size.cwiseProduct(grid + noise * random_point(random, random.below(2)));
+    }
+    const ConvexPolyhedron hull = make_hull(points);
+    if (!hull.empty()) expect_hull(points, hull, 10);
+  }
+}
+
 TEST(Hull, OfPointsInAPlaneIsEmpty) {
   std::vector<Vec3> points;
   EXPECT_TRUE(make_hull(points).empty());
