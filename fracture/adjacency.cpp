@@ -1,9 +1,11 @@
 #include "fracture/adjacency.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <tuple>
 
+#include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "fracture/polygon.h"
 
@@ -25,7 +27,7 @@ class PlaneSweep {
 
   /// `entries` name one plane, either side.
   void run(std::span<const FaceEntry> entries, std::vector<Bond>& bonds) {
-    if (entries.size() < 2) return;
+    if (entries.size() < 2 || (entries.size() == 2 && match_twins(entries, bonds))) return;
     flatten(entries);
     std::sort(faces_.begin(), faces_.end(), [](const FlatFace& a, const FlatFace& b) {
       return a.min.x() != b.min.x() ? a.min.x() < b.min.x() : a.entry < b.entry;
@@ -82,6 +84,41 @@ class PlaneSweep {
     return std::span(points_).subspan(face.first_point, face.point_count);
   }
 
+  /// The common case of two faces that are one polygon seen from either side. False if they are
+  /// not.
+  bool match_twins(std::span<const FaceEntry> entries, std::vector<Bond>& bonds) const {
+    const FaceEntry& a = entries[0];
+    const FaceEntry& b = entries[1];
+    if (a.id == b.id || (a.known && b.known) || a.convex == b.convex) return true;
+    const Convex& p = *convexes_[a.convex];
+    const Convex& q = *convexes_[b.convex];
+    const auto corners_p = p.polyhedron.face_corners(a.face);
+    const auto corners_q = q.polyhedron.face_corners(b.face);
+    const std::size_t n = corners_p.size();
+    if (n != corners_q.size()) return false;
+    const double size = p.box.extent().maxCoeff(), near = 1e-26 * size * size;
+    const auto same = [&](std::size_t i, std::size_t j) {
+      const Vec3& point = p.polyhedron.vertices[corners_p[i]];
+      return (point - q.polyhedron.vertices[corners_q[j]]).squaredNorm() <= near;
+    };
+    std::size_t start = 0;
+    while (start < n && !same(0, start)) ++start;
+    if (start == n) return false;
+    for (std::size_t i = 1; i < n; ++i) {
+      if (!same(i, (start + n - i) % n)) return false;
+    }
+    add_bond(a, b, face_area(p.polyhedron, a.face), bonds);
+    return true;
+  }
+
+  void add_bond(const FaceEntry& a, const FaceEntry& b, double area,
+                std::vector<Bond>& bonds) const {
+    if (area <= least_overlap(*convexes_[a.convex], *convexes_[b.convex])) return;
+    const FaceEntry& low = a.convex < b.convex ? a : b;
+    const FaceEntry& high = a.convex < b.convex ? b : a;
+    bonds.push_back({low.convex, high.convex, low.face, high.face, area});
+  }
+
   void match(std::span<const FaceEntry> entries, const FlatFace& a, const FlatFace& b,
              std::vector<Bond>& bonds) {
     const FaceEntry& entry_a = entries[a.entry];
@@ -89,14 +126,7 @@ class PlaneSweep {
     if (entry_a.id == entry_b.id || (entry_a.known && entry_b.known)) return;
     if (entry_a.convex == entry_b.convex) return;
     if (a.max.y() <= b.min.y() || b.max.y() <= a.min.y()) return;
-    const double area = overlap_area(points_of(a), points_of(b), scratch_);
-    if (area * scale_ <= least_overlap(*convexes_[entry_a.convex], *convexes_[entry_b.convex])) {
-      return;
-    }
-    const bool in_order = entry_a.convex < entry_b.convex;
-    const FaceEntry& low = in_order ? entry_a : entry_b;
-    const FaceEntry& high = in_order ? entry_b : entry_a;
-    bonds.push_back({low.convex, high.convex, low.face, high.face, area * scale_});
+    add_bond(entry_a, entry_b, scale_ * overlap_area(points_of(a), points_of(b), scratch_), bonds);
   }
 
   std::span<const ConvexPtr> convexes_;
@@ -106,6 +136,24 @@ class PlaneSweep {
   std::vector<std::uint32_t> active_;
   OverlapScratch scratch_;
 };
+
+/// Sorts by scattering into as many buckets as there are items, each then sorted on its own: in
+/// linear time if `bucket` (below the count it is given) spreads them. Items of different buckets
+/// keep the order of their buckets.
+template <class T, class Bucket, class Less>
+void bucket_sort(std::vector<T>& items, std::size_t buckets, const Bucket& bucket,
+                 const Less& less) {
+  std::vector<std::size_t> ends(buckets + 1, 0);
+  for (const T& item : items) ++ends[bucket(item) + 1];
+  for (std::size_t b = 0; b < buckets; ++b) ends[b + 1] += ends[b];
+  std::vector<T> sorted(items.size());
+  for (const T& item : items) sorted[ends[bucket(item)]++] = item;
+  for (std::size_t b = 0, begin = 0; b < buckets; begin = ends[b++]) {
+    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
+              sorted.begin() + static_cast<std::ptrdiff_t>(ends[b]), less);
+  }
+  items = std::move(sorted);
+}
 
 /// Where each plane's entries begin, and the end of the last.
 std::vector<std::size_t> plane_starts(const std::vector<FaceEntry>& faces) {
@@ -126,9 +174,17 @@ double least_overlap(const Convex& a, const Convex& b) {
 }
 
 void sort_bonds(std::vector<Bond>& bonds) {
-  std::sort(bonds.begin(), bonds.end(), [](const Bond& x, const Bond& y) {
+  std::uint32_t convexes = 0;
+  for (const Bond& bond : bonds) convexes = std::max(convexes, bond.a + 1);
+  const auto less = [](const Bond& x, const Bond& y) {
     return std::tie(x.a, x.b, x.face_a, x.face_b) < std::tie(y.a, y.b, y.face_a, y.face_b);
-  });
+  };
+  if (convexes > 2 * bonds.size()) {
+    std::sort(bonds.begin(), bonds.end(), less);
+  } else {
+    bucket_sort(
+        bonds, convexes, [](const Bond& bond) { return bond.a; }, less);
+  }
 }
 
 void add_faces(const ConvexPolyhedron& polyhedron, std::uint32_t index,
@@ -141,9 +197,13 @@ void add_faces(const ConvexPolyhedron& polyhedron, std::uint32_t index,
 }
 
 std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes, std::vector<FaceEntry> faces) {
-  std::sort(faces.begin(), faces.end(), [](const FaceEntry& a, const FaceEntry& b) {
-    return std::tie(a.id, a.convex, a.face) < std::tie(b.id, b.convex, b.face);
-  });
+  const std::size_t buckets = std::bit_ceil(faces.size() + 1);
+  bucket_sort(
+      faces, buckets,
+      [&](const FaceEntry& entry) { return mix(entry.id.value >> 1) & (buckets - 1); },
+      [](const FaceEntry& a, const FaceEntry& b) {
+        return std::tie(a.id, a.convex, a.face) < std::tie(b.id, b.convex, b.face);
+      });
   const std::vector<std::size_t> starts = plane_starts(faces);
   constexpr std::size_t kPlanesAtOnce = 64;
   const std::size_t planes = starts.size() - 1;

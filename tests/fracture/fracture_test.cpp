@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "fracture/adjacency.h"
+#include "fracture/islands.h"
 #include "fracture/pattern_breaker.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"
@@ -52,6 +54,21 @@ TEST(Fracture, keeps_every_truth_when_a_box_breaks_whole) {
   EXPECT_GT(plan.pieces.size(), 35u);
   EXPECT_EQ(plan.failed, 0u);
   EXPECT_EQ(plan.debris_volume_m3, 0);
+}
+
+TEST(Fracture, breaks_every_solid_that_is_built_in) {
+  const auto breaker = make_pattern_breaker();
+  for (const char* name : {"box:1,2,3", "column:.5,2", "torus:1,.3", "grid:3,2,1", "voronoi:9"}) {
+    const Compound solid = make_solid(name);
+    EXPECT_EQ(find_islands(solid.convexes.size(), solid.bonds).back(), 0u) << name;
+    const BreakPlan plan = breaker->plan(solid, blow(voronoi(30), Vec3(.7, .2, .1), kEndless));
+    EXPECT_EQ(broken_truth(solid, plan), "") << name;
+    EXPECT_GT(plan.pieces.size(), 5u) << name;
+  }
+  for (const char* name : {"", "box", "box:1,2", "box:1,2,-3", "torus:1,2", "grid:1.5,1,1",
+                           "voronoi:x", "ball:1", "voronoi:2e9"}) {
+    EXPECT_THROW(make_solid(name), InputError) << name;
+  }
 }
 
 TEST(Fracture, covers_every_point_exactly_once) {

@@ -1,71 +1,15 @@
-// Solids to break in tests and benchmarks, and what must be true of what comes out.
+// Figures of breaks that tests compare.
 #pragma once
 
-#include <cmath>
-#include <string>
-#include <vector>
+#include <cstdint>
 
 #include "engine/base/hash.h"
 #include "engine/base/random.h"
 #include "engine/world/breaker.h"
 #include "fracture/compound_builder.h"
-#include "fracture/pattern.h"
-#include "fracture/voronoi.h"
+#include "fracture/solids.h"
 
 namespace sunder::fracture {
-
-inline Compound box_compound(const Vec3& min, const Vec3& max, std::uint8_t anchored = 0) {
-  return make_compound({{make_box(min, max), MaterialIndex(0u), anchored}});
-}
-
-/// nx × ny × nz touching boxes of a given size, one corner at the origin; anchored below.
-inline Compound grid_compound(int nx, int ny, int nz, const Vec3& size = Vec3::Ones(),
-                              bool anchored = false) {
-  std::vector<Part> parts;
-  for (int x = 0; x < nx; ++x) {
-    for (int y = 0; y < ny; ++y) {
-      for (int z = 0; z < nz; ++z) {
-        const Vec3 min = size.cwiseProduct(Vec3(x, y, z));
-        const Vec3 max = size.cwiseProduct(Vec3(x + 1, y + 1, z + 1));
-        const bool held = anchored && y == 0;
-        parts.push_back({make_box(min, max), MaterialIndex(0u), static_cast<std::uint8_t>(held)});
-      }
-    }
-  }
-  return make_compound(std::move(parts));
-}
-
-/// The unit cube in `count` Voronoi cells.
-inline Compound voronoi_compound(int count, std::uint64_t seed) {
-  Random random(seed, 77);
-  std::vector<Vec3> sites;
-  for (int i = 0; i < count; ++i) {
-    sites.emplace_back(random.uniform(-.5, .5), random.uniform(-.5, .5), random.uniform(-.5, .5));
-  }
-  std::vector<Plane> planes = box_planes();
-  const ConvexPolyhedron solid = make_box(Vec3::Constant(-.5), Vec3::Constant(.5));
-  std::vector<Part> parts;
-  for (ConvexPolyhedron& cell : voronoi_cells(sites, solid, planes)) {
-    if (!cell.empty()) parts.push_back({std::move(cell), MaterialIndex(0u), 0});
-  }
-  return make_compound(std::move(parts), 1e-9);
-}
-
-/// A ring of prisms around y.
-inline Compound ring_compound(int segments, double inner, double outer, double height) {
-  std::vector<Part> parts;
-  for (int i = 0; i < segments; ++i) {
-    const double a = 2 * 3.14159265358979 * i / segments;
-    const double b = 2 * 3.14159265358979 * (i + 1) / segments;
-    const auto at = [](double r, double angle) {
-      return Vec2(r * std::cos(angle), r * std::sin(angle));
-    };
-    // Counter-clockwise seen from +y is clockwise in (x, z).
-    const Vec2 polygon[] = {at(inner, b), at(outer, b), at(outer, a), at(inner, a)};
-    parts.push_back({make_prism(polygon, 0, height, false), MaterialIndex(0u), 0});
-  }
-  return make_compound(std::move(parts));
-}
 
 inline double total_volume(const BreakPlan& plan) {
   double sum = plan.debris_volume_m3;
