@@ -28,8 +28,10 @@ std::vector<Piece> build_brick_wall(const BrickWall& wall) {
       const double wide = half ? brick.x() / 2 : brick.x();
       const double left = -length / 2 + (half_first && i > 0 ? i - 0.5 : i) * brick.x();
       const Vec3 corner(wide / 2, 0, brick.z() / 2);
+      const MaterialRef& material =
+          random.uniform() < wall.second_share ? wall.second : wall.material;
       pieces.push_back(
-          {{{make_box(-corner, Vec3(wide, brick.y(), brick.z()) - corner), wall.material.index}},
+          {{{make_box(-corner, Vec3(wide, brick.y(), brick.z()) - corner), material.index}},
            Vec3(left + wide / 2, course * brick.y(), 0)});
     }
   }

@@ -51,6 +51,15 @@ TEST(Structures, NoJointOfAWallLiesOverAnother) {
   for (const long joint : joints[0]) EXPECT_FALSE(joints[1].contains(joint));
 }
 
+TEST(Structures, AWallMixesTwoMaterials) {
+  const std::vector<Solid> wall = solids(
+      "structure = \"brick_wall\"\nmaterial = \"clay\"\nsecond = \"wood\"\n"
+      "second_share = 0.4");
+  std::set<MaterialIndex> materials;
+  for (const Solid& brick : wall) materials.insert(brick.compound.convexes[0]->material);
+  EXPECT_EQ(materials.size(), 2u);
+}
+
 TEST(Structures, AHouseIsOneConnectedCompoundWithoutOverlaps) {
   const std::vector<Solid> house = solids("structure = \"house\"\nanchored = \"bottom\"");
   ASSERT_EQ(house.size(), 1u);
