@@ -1,0 +1,218 @@
+#include "fracture/case_file.h"
+
+#include <cstdlib>
+#include <iomanip>
+#include <istream>
+#include <ostream>
+
+#include "engine/base/check.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr const char* kFirstLine = "sunder-break-case-1";
+
+class Writer {
+ public:
+  explicit Writer(std::ostream& out) : out_(out) { out_ << std::hexfloat; }
+
+  void word(const std::string& text) { out_ << text << ' '; }
+  template <class T>
+  void put(const T& value) {
+    out_ << value << ' ';
+  }
+  template <class Derived>
+  void put(const Eigen::MatrixBase<Derived>& matrix) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) out_ << matrix(i) << ' ';
+  }
+  void end_line() { out_ << '\n'; }
+
+ private:
+  std::ostream& out_;
+};
+
+class Reader {
+ public:
+  Reader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
+
+  void expect(const std::string& wanted) {
+    if (word() != wanted) fail("'" + wanted + "' was expected");
+  }
+  std::string word() {
+    std::string text;
+    if (!(in_ >> text)) fail("the file ends too early");
+    return text;
+  }
+  double number() {
+    const std::string text = word();
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);  // streams do not read hexadecimals
+    if (*end != 0) fail("'" + text + "' is no number");
+    return value;
+  }
+  std::uint64_t integer(std::uint64_t most) {
+    const std::string text = word();
+    char* end = nullptr;
+    const std::uint64_t value = std::strtoull(text.c_str(), &end, 10);
+    if (*end != 0 || value > most)
+      fail("'" + text + "' is no number up to " + std::to_string(most));
+    return value;
+  }
+  std::uint32_t index(std::size_t count) {
+    if (count == 0) fail("an index into nothing");
+    return static_cast<std::uint32_t>(integer(count - 1));
+  }
+  template <class Matrix>
+  Matrix matrix() {
+    Matrix result;
+    for (Eigen::Index i = 0; i < result.size(); ++i) {
+      result(i) = static_cast<typename Matrix::Scalar>(number());
+    }
+    return result;
+  }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(name_ + ": " + what + "; this is no break case");
+  }
+
+ private:
+  std::istream& in_;
+  std::string name_;
+};
+
+void write_polyhedron(Writer& out, const ConvexPolyhedron& polyhedron) {
+  for (const Vec3& vertex : polyhedron.vertices) out.put(vertex);
+  out.end_line();
+  for (const ConvexPolyhedron::Face& face : polyhedron.faces) {
+    out.put(face.id.value);
+    out.put(face.kind == FaceKind::kInterior ? 1 : 0);
+    out.put(face.plane.normal);
+    out.put(face.plane.d);
+    out.put(face.corner_count);
+    for (std::uint32_t c = face.first_corner; c < face.first_corner + face.corner_count; ++c) {
+      out.put(polyhedron.corners[c]);
+      out.put(polyhedron.corner_normals[c]);
+    }
+    out.end_line();
+  }
+}
+
+ConvexPolyhedron read_polyhedron(Reader& in, std::uint64_t vertices, std::uint64_t faces) {
+  ConvexPolyhedron polyhedron;
+  for (std::uint64_t i = 0; i < vertices; ++i) polyhedron.vertices.push_back(in.matrix<Vec3>());
+  for (std::uint64_t i = 0; i < faces; ++i) {
+    ConvexPolyhedron::Face face;
+    face.id.value = in.integer(~std::uint64_t{0});
+    face.kind = in.integer(1) == 1 ? FaceKind::kInterior : FaceKind::kSurface;
+    face.plane.normal = in.matrix<Vec3>();
+    face.plane.d = in.number();
+    face.first_corner = static_cast<std::uint32_t>(polyhedron.corners.size());
+    face.corner_count = static_cast<std::uint32_t>(in.integer(vertices));
+    for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+      polyhedron.corners.push_back(in.index(vertices));
+      polyhedron.corner_normals.push_back(in.matrix<Vec3f>());
+    }
+    polyhedron.faces.push_back(face);
+  }
+  if (!is_closed(polyhedron)) in.fail("a convex is not closed");
+  return polyhedron;
+}
+
+void write_command(Writer& out, const BreakCommand& command) {
+  const PatternSpec& pattern = command.pattern;
+  out.word("command");
+  out.put(command.event);
+  out.put(command.seed);
+  out.put(command.radius_m);
+  out.put(command.X_RP.position);
+  out.put(command.X_RP.rotation.coeffs());
+  out.put(command.stretch_P);
+  out.word("pattern");
+  out.put(static_cast<int>(pattern.kind));
+  for (const int count : {pattern.cells, pattern.rings, pattern.spokes, pattern.colors}) {
+    out.put(count);
+  }
+  out.put(pattern.falloff);
+  out.put(pattern.jitter);
+  out.put(pattern.brick_m);
+  out.put(std::quoted(pattern.file));
+  out.end_line();
+}
+
+BreakCommand read_command(Reader& in, std::istream& stream) {
+  constexpr std::uint64_t kMostCells = 1000000;
+  BreakCommand command;
+  in.expect("command");
+  command.event = in.integer(~std::uint64_t{0});
+  command.seed = in.integer(~std::uint64_t{0});
+  command.radius_m = in.number();
+  command.X_RP.position = in.matrix<Vec3>();
+  command.X_RP.rotation.coeffs() = in.matrix<Eigen::Vector4d>();
+  command.stretch_P = in.matrix<Mat3>();
+  in.expect("pattern");
+  PatternSpec& pattern = command.pattern;
+  pattern.kind = static_cast<PatternSpec::Kind>(
+      in.integer(static_cast<std::uint64_t>(PatternSpec::Kind::kFile)));
+  for (int* count : {&pattern.cells, &pattern.rings, &pattern.spokes, &pattern.colors}) {
+    *count = static_cast<int>(in.integer(kMostCells));
+  }
+  pattern.falloff = in.number();
+  pattern.jitter = in.number();
+  pattern.brick_m = in.matrix<Vec3>();
+  if (!(stream >> std::quoted(pattern.file))) in.fail("the pattern's file is missing");
+  return command;
+}
+
+}  // namespace
+
+void write_case(std::ostream& stream, const BreakCase& example) {
+  Writer out(stream);
+  const Compound& compound = example.compound;
+  out.word(kFirstLine);
+  out.put(compound.convexes.size());
+  out.put(compound.bonds.size());
+  out.end_line();
+  for (std::size_t i = 0; i < compound.convexes.size(); ++i) {
+    const Convex& convex = *compound.convexes[i];
+    out.word("convex");
+    out.put(convex.material.value);
+    out.put(static_cast<unsigned>(compound.anchored[i]));
+    out.put(convex.polyhedron.vertices.size());
+    out.put(convex.polyhedron.faces.size());
+    write_polyhedron(out, convex.polyhedron);
+  }
+  for (const Bond& bond : compound.bonds) {
+    for (const std::uint32_t value : {bond.a, bond.b, bond.face_a, bond.face_b}) out.put(value);
+    out.put(bond.area_m2);
+    out.end_line();
+  }
+  write_command(out, example.command);
+}
+
+BreakCase read_case(std::istream& stream, const std::string& name) {
+  constexpr std::uint64_t kMost = 10000000;
+  Reader in(stream, name);
+  BreakCase example;
+  Compound& compound = example.compound;
+  in.expect(kFirstLine);
+  const std::uint64_t convexes = in.integer(kMost), bonds = in.integer(kMost);
+  for (std::uint64_t i = 0; i < convexes; ++i) {
+    in.expect("convex");
+    const MaterialIndex material(in.integer(kMost));
+    compound.anchored.push_back(static_cast<std::uint8_t>(in.integer(kAnchoredAllRound)));
+    const std::uint64_t vertices = in.integer(kMost), faces = in.integer(kMost);
+    compound.convexes.push_back(make_convex(read_polyhedron(in, vertices, faces), material));
+  }
+  for (std::uint64_t i = 0; i < bonds; ++i) {
+    Bond bond;
+    bond.a = in.index(convexes);
+    bond.b = in.index(convexes);
+    bond.face_a = in.index(compound.convexes[bond.a]->polyhedron.faces.size());
+    bond.face_b = in.index(compound.convexes[bond.b]->polyhedron.faces.size());
+    bond.area_m2 = in.number();
+    compound.bonds.push_back(bond);
+  }
+  example.command = read_command(in, stream);
+  return example;
+}
+
+}  // namespace sunder::fracture
