@@ -283,7 +283,7 @@ void insert_in_edges(RawMesh& mesh, const std::vector<Insertion>& sorted) {
 
 std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_half_edges,
                              double tolerance_m) {
-  constexpr std::size_t kMostTried = 10'000'000;
+  constexpr std::size_t kMostTried = 2'000'000;
   std::vector<std::uint32_t> next(mesh.corners.size());
   for (const RawMesh::Polygon& polygon : mesh.polygons) {
     for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {

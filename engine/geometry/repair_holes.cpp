@@ -10,7 +10,7 @@ namespace sunder {
 namespace {
 
 /// Loops with more corners than this are not holes but missing halves.
-constexpr std::size_t kLongest = 4000;
+constexpr std::size_t kLongest = 2000;
 /// A loop is planar whose corners lie within this part of its length of a plane.
 constexpr double kPlanar = 1e-5;
 /// A patch over a curved loop is at most this part of the area of the shell around it: about as

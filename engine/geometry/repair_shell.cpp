@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/geometry/repair_clean.h"
 #include "engine/geometry/repair_triangulate.h"
@@ -17,6 +18,8 @@ namespace {
 
 /// Inside is what the mesh encloses by more than this. Beside a lone triangle it is one half.
 constexpr double kEnclosed = 0.6;
+constexpr double kMostWork = 1.5e7;  ///< Triangles and dipoles added up over the grid.
+constexpr std::uint32_t kFewestCells = 4;
 constexpr int kHalvings = 4;  ///< Of a grid edge, to find where the surface crosses it.
 
 using GridEdge = std::pair<std::uint32_t, std::uint32_t>;  ///< From inside to outside.
@@ -39,13 +42,9 @@ class WindingGrid {
   WindingGrid(const RawMesh& mesh, std::uint32_t cells_along) : field_(triangles_of(mesh)) {
     Box box;
     for (const std::uint32_t v : mesh.corners) box.extend(mesh.vertices[v]);
-    cell_ = box.extent().maxCoeff() / cells_along;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto axis = static_cast<Eigen::Index>(k);
-      size_[k] = static_cast<std::uint32_t>(std::ceil(box.extent()[axis] / cell_)) + 4;
-    }
-    const Vec3 span = cell_ * Vec3(size_[0] - 1, size_[1] - 1, size_[2] - 1);
-    origin_ = box.center() - 0.5 * span;
+    do {
+      lay_out(box, cells_along);
+    } while (too_much_work() && (cells_along -= cells_along / 4) > kFewestCells);
     sample();
   }
 
@@ -59,6 +58,29 @@ class WindingGrid {
   }
 
  private:
+  void lay_out(const Box& box, std::uint32_t cells_along) {
+    cell_ = box.extent().maxCoeff() / cells_along;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      size_[k] = static_cast<std::uint32_t>(std::ceil(box.extent()[axis] / cell_)) + 4;
+    }
+    const Vec3 span = cell_ * Vec3(size_[0] - 1, size_[1] - 1, size_[2] - 1);
+    origin_ = box.center() - 0.5 * span;
+  }
+
+  std::uint32_t point_count() const { return size_[0] * size_[1] * size_[2]; }
+
+  /// By the work that some of the points take: triangles that all overlap take a lot.
+  bool too_much_work() const {
+    constexpr std::uint32_t kProbes = 64;
+    std::size_t work = 0;
+    for (std::uint32_t i = 0; i < kProbes; ++i) {
+      const auto some = static_cast<std::uint32_t>(mix(i) % point_count());
+      work += field_.work_at(place(some));
+    }
+    return static_cast<double>(work) / kProbes * point_count() > kMostWork;
+  }
+
   std::uint32_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
     return (z * size_[1] + y) * size_[0] + x;
   }
@@ -75,7 +97,7 @@ class WindingGrid {
   }
 
   void sample() {
-    std::vector<double> winding(std::size_t{size_[0]} * size_[1] * size_[2], 0);
+    std::vector<double> winding(point_count(), 0);
     for_chunks(winding.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
         if (!on_rim(i)) winding[i] = field_.at(place(i));

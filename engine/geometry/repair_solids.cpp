@@ -17,8 +17,8 @@ namespace {
 /// Corners may lie this part of the mesh's size off their polygon's plane: volumes are exact to
 /// about as much.
 constexpr double kOffPlane = 1e-13;
-/// More shells than this that face inward are not looked for around one another.
-constexpr std::size_t kMostCavities = 256;
+/// More shells than this that face inward, or might hold one, are not searched.
+constexpr std::size_t kMostCavities = 256, kMostHolders = 64;
 
 Plane plane_of(const RawMesh& mesh, std::size_t polygon) {
   const Vec3 normal = double_area(mesh, polygon).normalized();
@@ -87,6 +87,7 @@ std::vector<std::uint32_t> shells_around(const Surface& surface, const Shells& s
       if (!(shells.volume[t] > -shells.volume[s]) || !smaller) continue;
       if ((shells.box[s].min.array() < shells.box[t].min.array()).any()) continue;
       if ((shells.box[s].max.array() > shells.box[t].max.array()).any()) continue;
+      if (!fields.contains(t) && fields.size() == kMostHolders) continue;
       if (!fields.contains(t)) fields.emplace(t, shells.field(surface, t));
       if (fields.at(t).at(some_point[s]) > 0.5) around[s] = t;
     }

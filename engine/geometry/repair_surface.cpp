@@ -94,7 +94,8 @@ struct Spoke {
 };
 
 /// The half-edges of a crowded edge, sorted about it. At one angle a solid ends before one begins.
-std::vector<Spoke> spokes_around(const Surface& surface, std::span<const std::uint32_t> group) {
+std::vector<Spoke> spokes_around(const Surface& surface, std::span<const std::uint32_t> group,
+                                 std::span<const Vec3> normals) {
   const RawMesh& mesh = surface.mesh;
   const std::uint32_t low = std::min(mesh.corners[group[0]], mesh.corners[surface.next(group[0])]);
   Vec3 axis = Vec3::Zero(), side = Vec3::Zero();
@@ -103,7 +104,7 @@ std::vector<Spoke> spokes_around(const Surface& surface, std::span<const std::ui
     const bool backward = mesh.corners[c] != low;
     const Vec3 along = surface.point(surface.next(c)) - surface.point(c);
     // Into the face: its normal turned about its edge.
-    const Vec3 in = double_area(mesh, surface.polygon[c]).normalized().cross(along.normalized());
+    const Vec3 in = normals[surface.polygon[c]].cross(along.normalized());
     if (spokes.empty()) {
       axis = (backward ? -along : Vec3(along)).normalized();
       side = in;
@@ -212,9 +213,13 @@ Surface pair_edges(RawMesh mesh) {
   surface.mesh = std::move(mesh);
   surface.polygon = polygon_of_corners(surface.mesh);
   surface.twin.assign(surface.mesh.corners.size(), Surface::kNone);
+  std::vector<Vec3> normals;  // of the polygons, once an edge needs them
   EdgeTable(surface.mesh).each([&](std::span<const std::uint32_t> group) {
     if (group.size() > 2) {
-      pair_spokes(spokes_around(surface, group), surface.twin);
+      for (std::size_t p = normals.size(); p < surface.mesh.polygons.size(); ++p) {
+        normals.push_back(double_area(surface.mesh, p).normalized());
+      }
+      pair_spokes(spokes_around(surface, group, normals), surface.twin);
     } else if (group.size() == 2 &&
                surface.mesh.corners[group[0]] != surface.mesh.corners[group[1]]) {
       surface.twin[group[0]] = group[1];

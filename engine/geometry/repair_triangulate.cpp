@@ -6,6 +6,10 @@
 namespace sunder {
 namespace {
 
+constexpr std::size_t kMostForLeastArea = 64, kMostForEars = 2000;
+/// Corners tried as ears, for each corner.
+constexpr std::size_t kMostTries = 16;
+
 /// Area, plus a little for needles, so that equal areas are divided well.
 double cost(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double area = 0.5 * (b - a).cross(c - a).norm();
@@ -65,15 +69,16 @@ class EarClipper {
 
   std::vector<Triangle> clip() {
     std::vector<Triangle> triangles;
-    std::size_t at = 0, refused = 0;
+    std::size_t at = 0, refused = 0, tries = kMostTries * left_.size();
     while (left_.size() > 3) {
       const std::size_t n = left_.size();
       at %= n;
       const Triangle ear = {left_[(at + n - 1) % n], left_[at], left_[(at + 1) % n]};
       // Where no ear is left (the contour crosses itself) any will do: the result stays closed.
-      if (refused < n && !is_ear(ear)) {
+      if (refused < n && tries > 0 && !is_ear(ear)) {
         ++at;
         ++refused;
+        --tries;
         continue;
       }
       triangles.push_back(ear);
@@ -106,7 +111,11 @@ class EarClipper {
 
 std::vector<Triangle> triangulate(std::span<const Vec3> contour) {
   if (contour.size() < 3) return {};
-  return contour.size() <= kLeastAreaCorners ? least_area(contour) : EarClipper(contour).clip();
+  if (contour.size() <= kMostForLeastArea) return least_area(contour);
+  if (contour.size() <= kMostForEars) return EarClipper(contour).clip();
+  std::vector<Triangle> fan;
+  for (std::uint32_t i = 2; i < contour.size(); ++i) fan.push_back({0, i - 1, i});
+  return fan;
 }
 
 }  // namespace sunder

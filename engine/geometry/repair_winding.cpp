@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/trigonometry.h"
-
 namespace sunder {
 namespace {
 
@@ -15,13 +13,28 @@ constexpr double kFar = 2.2;
 
 Vec3 centroid(const std::array<Vec3, 3>& t) { return (t[0] + t[1] + t[2]) / 3; }
 
+/// The angle of (x, y), within 2e-5: plenty to tell in from out, and several times as fast as
+/// exact.
+double rough_angle(double y, double x) {
+  const double across = std::abs(y), along = std::abs(x);
+  const double longer = std::max(across, along);
+  if (!(longer > 0)) return 0;
+  const double t = std::min(across, along) / longer, z = t * t;
+  // Minimax (Hastings 1955).
+  const double slope =
+      (((0.0208351 * z - 0.0851330) * z + 0.1801410) * z - 0.3302995) * z + 0.9998660;
+  const double angle = across > along ? kPi / 2 - slope * t : slope * t;
+  const double upper = x < 0 ? kPi - angle : angle;
+  return y < 0 ? -upper : upper;
+}
+
 /// The signed solid angle of a triangle (van Oosterom and Strackee 1983).
 double solid_angle(const std::array<Vec3, 3>& t, const Vec3& point) {
   const Vec3 a = t[0] - point, b = t[1] - point, c = t[2] - point;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   const double across = a.dot(b.cross(c));
   const double along = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return 2 * arc_tangent(across, along);
+  return 2 * rough_angle(across, along);
 }
 
 }  // namespace
@@ -74,25 +87,43 @@ void WindingField::summarise(Node& node) const {
   }
 }
 
-double WindingField::at(const Vec3& point) const {
-  double angle = 0;
+/// Calls `far(node)` for nodes that act as one, `near(node)` for leaves that do not.
+template <class Far, class Near>
+void WindingField::walk(const Vec3& point, const Far& far, const Near& near) const {
   for (std::size_t n = 0; n < nodes_.size();) {
     const Node& node = nodes_[n];
-    const Vec3 away = node.center - point;
-    const double square = away.squaredNorm(), far = kFar * node.radius;
-    if (square > far * far) {
-      angle += away.dot(node.area) / (square * std::sqrt(square));
-      n = node.next;
+    const double reach = kFar * node.radius;
+    const bool is_far = (node.center - point).squaredNorm() > reach * reach;
+    if (is_far) {
+      far(node);
     } else if (node.leaf) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        angle += solid_angle(triangles_[i], point);
-      }
-      n = node.next;
-    } else {
-      ++n;
+      near(node);
     }
+    n = is_far || node.leaf ? node.next : n + 1;
   }
+}
+
+double WindingField::at(const Vec3& point) const {
+  double angle = 0;
+  const auto dipole = [&](const Node& node) {
+    const Vec3 away = node.center - point;
+    const double square = away.squaredNorm();
+    angle += away.dot(node.area) / (square * std::sqrt(square));
+  };
+  const auto triangles = [&](const Node& leaf) {
+    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+      angle += solid_angle(triangles_[i], point);
+    }
+  };
+  walk(point, dipole, triangles);
   return angle / (4 * kPi);
+}
+
+std::size_t WindingField::work_at(const Vec3& point) const {
+  std::size_t work = 0;
+  walk(
+      point, [&](const Node&) { ++work; }, [&](const Node& leaf) { work += leaf.count; });
+  return work;
 }
 
 }  // namespace sunder

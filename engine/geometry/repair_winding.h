@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,8 @@ class WindingField {
   /// 1 inside a closed surface that faces outward, 0 outside, between where it is open; within
   /// about 0.02.
   double at(const Vec3& point) const;
+  /// How many triangles and dipoles an answer there adds up.
+  std::size_t work_at(const Vec3& point) const;
 
  private:
   struct Node {
@@ -30,6 +33,8 @@ class WindingField {
     bool leaf = false;
   };
   void build(std::uint32_t first, std::uint32_t count);
+  template <class Far, class Near>
+  void walk(const Vec3& point, const Far& far, const Near& near) const;
   void summarise(Node& node) const;
 
   std::vector<std::array<Vec3, 3>> triangles_;

@@ -1,0 +1,64 @@
+// What repair promises to the cut: real meshes, sound and broken, halve into watertight parts that
+// make up the whole.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "engine/base/random.h"
+#include "engine/geometry/clip_mesh.h"
+#include "engine/geometry/repair.h"
+#include "engine/io/mesh_reader.h"
+#include "tests/mesh/meshes.h"
+
+namespace sunder {
+namespace {
+
+double half_volume(const PolygonMesh& mesh, const Plane& plane, PlaneId id) {
+  PolygonMesh half;
+  MeshClipScratch scratch;
+  switch (clip(mesh, plane, id, 0, half, scratch)) {
+    case PlaneSide::kInside:
+      return mass_properties(mesh).volume_m3;
+    case PlaneSide::kOutside:
+      return 0;
+    case PlaneSide::kCut:
+      EXPECT_EQ(open_edges(half), 0u);
+      return mass_properties(half).volume_m3;
+  }
+  return 0;
+}
+
+void expect_cuts_add_up(const std::vector<PolygonMesh>& shells, const std::string& name) {
+  Random random(11);
+  for (const PolygonMesh& shell : shells) {
+    const Box box = bounds(shell);
+    const double whole = mass_properties(shell).volume_m3;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 away(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
+                      random.uniform(-0.3, 0.3));
+      const Vec3 direction = i == 0 ? Vec3(Vec3::UnitY()) : random.direction();
+      const Plane plane = Plane::through(box.center() + box.extent().cwiseProduct(away), direction);
+      const double sum = half_volume(shell, plane, {2}) + half_volume(shell, plane.flipped(), {3});
+      // Of the box, where the volume is a small difference of large parts.
+      EXPECT_NEAR(sum, whole, 1e-12 * std::max(whole, box.extent().prod())) << name;
+    }
+  }
+}
+
+TEST(RealMeshes, CanBeCutOnceRepaired) {
+  SUNDER_NEEDS_MESHES();
+  for (const std::string set : {"good", "nasty"}) {
+    for (const auto& file : test::meshes(set)) {
+      const std::string name = file.filename().string();
+      try {
+        expect_cuts_add_up(repair_mesh(read_mesh(file), name).shells, name);
+      } catch (const InputError&) {
+        EXPECT_EQ(set, "nasty") << name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunder
