@@ -77,7 +77,12 @@ class PatternBreaker final : public Breaker {
     command.seed = seed;
     command.pattern = material.pattern;
     command.radius_m = material.impact_radius_m;
-    command.X_RP = {hit.point_R, orientation(material.pattern.kind, *compound.convexes[hit.convex],
+    for (const StrongerBlow& stronger : material.stronger) {
+      if (hit.energy_J < stronger.energy_J) break;
+      command.pattern = stronger.pattern;
+      command.radius_m = stronger.impact_radius_m;
+    }
+    command.X_RP = {hit.point_R, orientation(command.pattern.kind, *compound.convexes[hit.convex],
                                              hit.direction_R, random)};
     return command;
   }

@@ -49,6 +49,13 @@ struct PatternSpec {
   }
 };
 
+/// How a harder blow breaks a material.
+struct StrongerBlow {
+  double energy_J = 0;  ///< From this on.
+  PatternSpec pattern;
+  double impact_radius_m = 1;
+};
+
 struct MaterialTag;
 using MaterialIndex = Index<MaterialTag>;
 
@@ -65,6 +72,8 @@ struct Material {
   PatternSpec pattern;
   /// Radius of the impact sphere (paper 3.2); infinity breaks the whole solid.
   double impact_radius_m = 1;
+  /// In place of `pattern` and `impact_radius_m` for harder blows, ascending by energy.
+  std::vector<StrongerBlow> stronger;
   /// Pieces below this volume no longer break.
   double smallest_break_m3 = 1e-3;
   Look surface;

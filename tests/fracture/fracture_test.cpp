@@ -1,8 +1,10 @@
 // What a break must keep, step by step and as a whole.
 #include "fracture/fracture.h"
 
+#include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -157,6 +159,49 @@ TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_hit) {
     }
   }
   EXPECT_EQ(at_the_hit, 12);
+}
+
+TEST(Fracture, uses_the_pattern_of_the_blows_strength) {
+  const auto breaker = make_pattern_breaker();
+  const Compound box = box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  Material stone;
+  stone.pattern = voronoi(10);
+  stone.impact_radius_m = 0.5;
+  stone.stronger = {{100, voronoi(20), 0.7}, {1000, web(3, 6), 0.9}};
+  const auto radius = [&](double energy_J) {
+    return breaker->command(box, stone, {Vec3(0, 1, 0), Vec3(0, -1, 0), 0, energy_J}, 1, 1);
+  };
+  EXPECT_EQ(radius(99).radius_m, 0.5);
+  EXPECT_EQ(radius(100).radius_m, 0.7);
+  EXPECT_EQ(radius(100).pattern.cells, 20);
+  EXPECT_EQ(radius(5000).radius_m, 0.9);
+  EXPECT_EQ(radius(5000).pattern.kind, PatternSpec::Kind::kWeb);
+}
+
+TEST(Fracture, does_not_depend_on_the_order_of_convexes) {
+  const auto breaker = make_pattern_breaker();
+  const Compound wall = grid_compound(5, 4, 2, Vec3(0.4, 0.2, 0.2), true);
+  Compound turned = wall;
+  const auto last = static_cast<std::uint32_t>(wall.convexes.size() - 1);
+  std::reverse(turned.convexes.begin(), turned.convexes.end());
+  std::reverse(turned.anchored.begin(), turned.anchored.end());
+  for (Bond& bond : turned.bonds) {
+    bond = {last - bond.b, last - bond.a, bond.face_b, bond.face_a, bond.area_m2};
+  }
+  sort_bonds(turned.bonds);
+  const auto pieces = [&](const Compound& solid) {
+    std::multiset<std::pair<double, std::size_t>> found;  // volume and bonds of each piece
+    for (const Compound& piece :
+         breaker->plan(solid, blow(voronoi(40), Vec3(1, .4, .2), 0.5)).pieces) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const ConvexPtr& convex : piece.convexes) {
+        least = std::min(least, convex->solid.volume_m3);
+      }
+      found.emplace(least, piece.bonds.size());
+    }
+    return found;
+  };
+  EXPECT_EQ(pieces(wall), pieces(turned));
 }
 
 TEST(Fracture, is_the_same_for_any_number_of_threads) {
