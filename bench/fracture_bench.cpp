@@ -87,6 +87,7 @@ void Event_in_a_building(benchmark::State& state) {
     pieces = edit.loose.pieces.size();
   }
   state.counters["convexes"] = building.structure.size();
+  state.counters["bytes_per_convex"] = building.structure.bytes_per_convex();
   state.counters["touched"] =
       static_cast<double>(building.structure.touched(building.sphere).size());
   state.counters["pieces"] = static_cast<double>(pieces);
