@@ -113,12 +113,12 @@ void press(ConstraintBlock& c, Motion& v, const Motion& x, const Softness& soft)
 }
 
 template <bool kBiased>
-void sweep(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
+void sweep(ConstraintBlock& c, BodyRow* rows, const ContactSoftness& soft) {
   Motion v(c, rows, &BodyRow::velocity);
   const Motion x(c, rows, &BodyRow::position);
-  slide<kBiased>(c, v, x, soft);
+  slide<kBiased>(c, v, x, soft.slide);
   if (c.points > 1) twist(c, v);
-  press<kBiased>(c, v, x, soft);
+  press<kBiased>(c, v, x, soft.press);
   store_velocity(v.a, c.row_a, rows);
   store_velocity(v.b, c.row_b, rows);
 }
@@ -141,12 +141,12 @@ void warm_start(ConstraintBlock& c, BodyRow* rows) {
   store_velocity(v.b, c.row_b, rows);
 }
 
-void sweep_biased(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
+void sweep_biased(ConstraintBlock& c, BodyRow* rows, const ContactSoftness& soft) {
   sweep<true>(c, rows, soft);
   if (c.bouncy) note_impacts(c);
 }
 
-void sweep_relaxed(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
+void sweep_relaxed(ConstraintBlock& c, BodyRow* rows, const ContactSoftness& soft) {
   sweep<false>(c, rows, soft);
   if (c.bouncy) note_impacts(c);
   if (!c.outside) return;

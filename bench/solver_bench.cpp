@@ -1,0 +1,288 @@
+// The rigid solver on the scenes that engines are compared by: rubble, wall, pyramid, stack, and
+// thousands of touching cubes that appear at once. Beside each figure stands what other engines
+// were measured at (one thread, a like machine).
+//
+//   solver_bench [--scene NAME] [--threads N] [--substeps N] [--frames N] [--rate HZ] [--sleep]
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/parallel.h"
+#include "engine/base/random.h"
+#include "engine/geometry/convex_polyhedron.h"
+#include "solver/rigid/rigid_physics.h"
+
+namespace sunder::solver {
+namespace {
+
+struct Options {
+  std::string scene = "all";
+  int threads = 1;
+  int substeps = 4;
+  int frames = 0;  ///< 0: the scene's own.
+  double rate_Hz = 60;
+  bool sleep = false;
+};
+
+/// Processor time of the whole process: a busy machine does not change it much.
+double cpu_ms() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+/// Bodies to add, and the hulls they refer to.
+struct Set {
+  std::vector<BodyDesc> bodies;
+  std::vector<std::unique_ptr<ConvexPolyhedron>> hulls;
+
+  void ground(const Vec3& normal_W = Vec3::UnitY(), const Vec3& point_W = Vec3::Zero()) {
+    BodyDesc desc;
+    desc.is_static = true;
+    ShapeDesc shape;
+    shape.kind = ShapeDesc::Kind::kHalfSpace;
+    shape.normal_R = normal_W;
+    shape.center_R = point_W;
+    desc.shapes = {shape};
+    bodies.push_back(desc);
+  }
+  void convex(ConvexPolyhedron polyhedron, const Vec3& center_W, double density = 2000) {
+    hulls.push_back(std::make_unique<ConvexPolyhedron>(std::move(polyhedron)));
+    const MassProperties solid = mass_properties(*hulls.back());
+    BodyDesc desc;
+    desc.com_R = solid.centroid;
+    desc.X_WB.position = center_W;
+    desc.mass_kg = density * solid.volume_m3;
+    desc.inertia_B = density * solid.inertia();
+    ShapeDesc shape;
+    shape.hull = hulls.back().get();
+    desc.shapes = {shape};
+    bodies.push_back(desc);
+  }
+  void box(const Vec3& size, const Vec3& center_W, double density = 2000) {
+    convex(make_box(-0.5 * size, 0.5 * size), center_W, density);
+  }
+  void ball(double mass_kg, double radius_m, const Vec3& center_W, const Vec3& velocity_W) {
+    BodyDesc desc;
+    desc.X_WB.position = center_W;
+    desc.velocity_W = velocity_W;
+    desc.mass_kg = mass_kg;
+    desc.inertia_B = Mat3::Identity() * (0.4 * mass_kg * radius_m * radius_m);
+    ShapeDesc shape;
+    shape.kind = ShapeDesc::Kind::kSphere;
+    shape.radius_m = radius_m;
+    desc.shapes = {shape};
+    bodies.push_back(desc);
+  }
+};
+
+/// `count` hulls of 8 to 16 vertices, 0.1 to 0.5 m, dropped into a pit.
+Set rubble(int count) {
+  constexpr double kPitch_m = 0.45;
+  Set set;
+  const int side = std::max(3, static_cast<int>(std::lround(std::cbrt(count / 2.0))));
+  const double half = 0.5 * side * kPitch_m + 0.3;
+  set.ground();
+  for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)})
+    set.ground(normal, -half * normal);
+  Random random(1);
+  for (int i = 0; i < count; ++i) {
+    const double size = random.uniform(0.1, 0.5);
+    std::vector<Vec3> points(8 + random.below(9));
+    for (Vec3& point : points) point = 0.5 * size * random.direction();
+    const Vec3 cell(i % side - 0.5 * side + 0.5, i / side / side,
+                    i / side % side - 0.5 * side + 0.5);
+    const Vec3 jitter(random.uniform(-0.05, 0.05), 0.4, random.uniform(-0.05, 0.05));
+    set.convex(make_hull(points), kPitch_m * cell + jitter);
+  }
+  return set;
+}
+
+/// A running bond of `columns` by `rows` bricks (shifted by less than half, or its ends would
+/// fall).
+Set wall(int columns, int rows) {
+  Set set;
+  set.ground();
+  const Vec3 brick(0.4, 0.2, 0.2);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      set.box(brick, Vec3((column + 0.4 * (row % 2)) * brick.x(), (row + 0.5) * brick.y(), 0));
+  return set;
+}
+
+Set pyramid(int base) {
+  Set set;
+  set.ground();
+  for (int row = 0; row < base; ++row)
+    for (int i = 0; i < base - row; ++i)
+      set.box(Vec3(1, 1, 1), Vec3((i + 0.5 * row) * 1.02, row + 0.5, 0));
+  return set;
+}
+
+Set stack(int count) {
+  Set set;
+  set.ground();
+  for (int i = 0; i < count; ++i) set.box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0));
+  return set;
+}
+
+Set touching_cubes(int side) {
+  Set set;
+  set.ground();
+  for (int i = 0; i < side * side * side; ++i)
+    set.box(Vec3(0.2, 0.2, 0.2), 0.2 * Vec3(i % side, i / side / side + 0.5, i / side % side));
+  return set;
+}
+
+struct Run {
+  std::unique_ptr<Physics> physics;
+  std::vector<BodyId> ids;
+  std::vector<double> frame_ms;
+  double add_ms = 0;
+  SolveReport last;
+};
+
+void advance(Run& run, int frames, const Options& options) {
+  const double dt = 1 / options.rate_Hz;
+  const int steps = std::max(1, static_cast<int>(std::lround(options.rate_Hz / 60)));
+  for (int frame = 0; frame < frames; ++frame) {
+    const double start = cpu_ms();
+    for (int step = 0; step < steps; ++step) {
+      run.physics->collide(dt);
+      run.last = run.physics->solve(dt, options.substeps);
+    }
+    run.frame_ms.push_back(cpu_ms() - start);
+  }
+}
+
+Run begin(const Set& set, const Options& options) {
+  RigidOptions rigid;
+  rigid.sleeping = options.sleep;
+  Run run;
+  run.physics = make_rigid_physics(rigid);
+  const double start = cpu_ms();
+  run.ids = run.physics->replace({}, set.bodies);
+  run.add_ms = cpu_ms() - start;
+  return run;
+}
+
+void print(const char* name, const Run& run, const char* peers) {
+  const std::vector<double>& ms = run.frame_ms;
+  double sum = 0, last = 0, worst = 0;
+  for (const double frame : ms) sum += frame, worst = std::max(worst, frame);
+  const std::size_t tail = std::min<std::size_t>(60, ms.size());
+  for (std::size_t i = ms.size() - tail; i < ms.size(); ++i) last += ms[i];
+  std::vector<float> depths = run.physics->penetrations();
+  std::sort(depths.begin(), depths.end());
+  double depth = 0, square = 0;
+  for (const float d : depths) depth += static_cast<double>(d);
+  std::size_t moving = 0;
+  for (const BodyId id : run.ids) {
+    square += run.physics->state(id).velocity_W.squaredNorm();
+    moving += 1;
+  }
+  const double deepest = depths.empty() ? 0 : static_cast<double>(depths.back());
+  const double p99 = depths.empty() ? 0 : static_cast<double>(depths[depths.size() * 99 / 100]);
+  std::printf(
+      "%-14s %6zu bodies  ms: first %7.2f  average %6.2f  worst %6.2f  last60 %6.2f  | mm: mean "
+      "%.3f p99 %.2f max %.1f  | rms %.1e m/s | awake %u contacts %u\n%15s%s\n",
+      name, run.ids.size(), ms.front(), sum / static_cast<double>(ms.size()), worst,
+      last / static_cast<double>(tail),
+      1e3 * depth / std::max<double>(1, static_cast<double>(depths.size())), 1e3 * p99,
+      1e3 * deepest, std::sqrt(square / static_cast<double>(moving)), run.last.awake,
+      run.last.contacts, "", peers);
+  std::fflush(stdout);
+}
+
+void settle(const char* name, const Set& set, int frames, const Options& options,
+            const char* peers) {
+  if (options.scene != "all" && options.scene != name) return;
+  Run run = begin(set, options);
+  advance(run, options.frames > 0 ? options.frames : frames, options);
+  print(name, run, peers);
+}
+
+/// Ten seconds of standing, then a ball of 500 kg at 20 m/s.
+void shoot_wall(const Options& options) {
+  if (options.scene != "all" && options.scene != "wall") return;
+  Run run = begin(wall(50, 20), options);
+  const BodyId high = run.ids[run.ids.size() - 25];  // middle of the top row
+  const double top = run.physics->state(high).X_WB.position.y();
+  advance(run, 600, options);
+  const double sink = top - run.physics->state(high).X_WB.position.y();
+  print("wall", run,
+        "Box3D stands, sinks 59 mm, 2.1 ms; PhysX TGS 32 4.5 ms, 1.1 mm; Bullet, ODE, Jolt fall");
+  std::printf("%15stop sinks %.2f mm\n", "", 1e3 * sink);
+  Set shot;
+  shot.ball(500, 0.4, Vec3(10, 2, -3), Vec3(0, 0, 20));
+  run.physics->replace({}, shot.bodies);
+  run.frame_ms.clear();
+  advance(run, 180, options);
+  print("wall, shot", run, "");
+}
+
+void run_all(const Options& options) {
+  set_threads(options.threads);
+  std::printf("%d thread(s), %.0f Hz, %d substeps, sleeping %s; processor time\n", options.threads,
+              options.rate_Hz, options.substeps, options.sleep ? "on" : "off");
+  settle("rubble-2000", rubble(2000), 600, options,
+         "Box3D 4.6, 6.3, 9.2 (3.8/67, 1.7/50, 1.7/50 mm); Jolt 6.9 (8.9/70); PhysX TGS 4, 16: "
+         "7.1 (.62/36), 9.6 (.075/4.5)");
+  settle("rubble-5000", rubble(5000), 600, options,
+         "Box3D 29-31, worst 62-77 (2.6/42 mm, 9e-7 m/s); Jolt 32 (11.3/56); PhysX 31 (1.15/40)");
+  if (options.scene == "rubble-20000")
+    settle("rubble-20000", rubble(20000), 420, options,
+           "Box3D 216, worst 556 (2.7/71 mm); Jolt 227 (11.7/77); PhysX 157 (1.3/66)");
+  shoot_wall(options);
+  settle("pyramid", pyramid(40), 300, options,
+         "Box3D 1, 2, 4 substeps .8, .9, 1.1 (143, 28, 6.9 mm max); PhysX TGS 4, 16 1.0, 1.6 "
+         "(18, 1.1); Jolt 2.0 (18)");
+  settle("stack", stack(50), 600, options, "");
+  settle("cubes-4913", touching_cubes(17), 60, options,
+         "first step, median: Box3D 116, 54; Jolt 36, 31; PhysX 142, 65");
+}
+
+bool parse(int argc, char** argv, Options& options) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string flag = argv[i];
+    if (flag == "--sleep") {
+      options.sleep = true;
+      continue;
+    }
+    if (i + 1 >= argc) return false;
+    const std::string value = argv[++i];
+    if (flag == "--scene")
+      options.scene = value;
+    else if (flag == "--threads")
+      options.threads = std::atoi(value.c_str());
+    else if (flag == "--substeps")
+      options.substeps = std::atoi(value.c_str());
+    else if (flag == "--frames")
+      options.frames = std::atoi(value.c_str());
+    else if (flag == "--rate")
+      options.rate_Hz = std::atof(value.c_str());
+    else
+      return false;
+  }
+  return options.threads > 0 && options.substeps > 0 && options.rate_Hz >= 60;
+}
+
+}  // namespace
+}  // namespace sunder::solver
+
+int main(int argc, char** argv) {
+  sunder::solver::Options options;
+  if (!sunder::solver::parse(argc, argv, options)) {
+    std::fprintf(stderr,
+                 "usage: %s [--scene NAME] [--threads N] [--substeps N] [--frames N] [--rate HZ, "
+                 ">= 60] [--sleep]\n",
+                 argv[0]);
+    return 2;
+  }
+  sunder::solver::run_all(options);
+}
