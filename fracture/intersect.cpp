@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -73,11 +72,11 @@ class Cutter {
   void cut_cell(std::uint32_t index) {
     const AlignedPattern::Cell& cell = pattern_.cells[index];
     const ConvexPolyhedron& shape = pattern_.pattern->cells[cell.index].polyhedron;
-    std::vector<PlaneId> region;
-    for (const ConvexPolyhedron::Face& face : shape.faces) region.push_back(face.id);
+    region_.clear();
+    for (const ConvexPolyhedron::Face& face : shape.faces) region_.push_back(face.id);
     ConvexPtr convex = contains(cell) ? make_convex(pattern_.polyhedron(cell), parent_->material)
-                                      : clip_by(region);
-    if (convex) drafts_.push_back({index, std::move(region), std::move(convex)});
+                                      : clip_by(region_);
+    if (convex) drafts_.push_back({index, region_, std::move(convex)});
   }
 
   /// Whether the cell lies strictly inside the parent.
@@ -92,9 +91,9 @@ class Cutter {
     return true;
   }
 
-  /// The planes of a region that cut the parent, deepest first; nothing if it lies outside one.
-  std::optional<std::vector<Cut>> find_cuts(const std::vector<PlaneId>& region) const {
-    std::vector<Cut> cuts;
+  /// Finds the planes of a region that cut the parent, deepest first; false if it lies outside one.
+  bool find_cuts(const std::vector<PlaneId>& region, std::vector<Cut>& cuts) const {
+    cuts.clear();
     for (const PlaneId id : region) {
       const Plane plane = pattern_.plane(id);
       double least = 1e300, most = -1e300;
@@ -103,19 +102,18 @@ class Cutter {
         least = std::min(least, distance);
         most = std::max(most, distance);
       }
-      if (least >= -tolerance_) return std::nullopt;
+      if (least >= -tolerance_) return false;
       if (most > tolerance_) cuts.push_back({plane.distance(parent_->solid.centroid), id});
     }
     std::sort(cuts.begin(), cuts.end());
-    return cuts;
+    return true;
   }
 
   /// The parent within a region: null if there is nothing, the parent itself if all of it.
   ConvexPtr clip_by(const std::vector<PlaneId>& region) {
-    const std::optional<std::vector<Cut>> cuts = find_cuts(region);
-    if (!cuts) return nullptr;
+    if (!find_cuts(region, cuts_)) return nullptr;
     const ConvexPolyhedron* from = &parent_->polyhedron;
-    for (const Cut& cut : *cuts) {
+    for (const Cut& cut : cuts_) {
       const PlaneSide side =
           clip(*from, pattern_.plane(cut.id), pattern_.name(cut.id), tolerance_, next_, scratch_);
       if (side == PlaneSide::kOutside) return nullptr;
@@ -293,6 +291,8 @@ class Cutter {
   double noise_ = volume_noise(*parent_);
   double debris_ = 0;
   std::vector<Draft> drafts_;
+  std::vector<PlaneId> region_;
+  std::vector<Cut> cuts_;
   ConvexPolyhedron current_, next_;
   ClipScratch scratch_;
 };
