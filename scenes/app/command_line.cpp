@@ -125,7 +125,11 @@ void add_golden(CLI::App& program, Command& chosen) {
   const auto accept = add("accept", "Make what is drawn now the baseline", golden_accept);
   accept.app->add_option("NAME", accept.options->names, "Goldens")->required();
   auto record = add("record", "Store a frame of a scene as a golden's subject", golden_record);
-  record.app->add_option("NAME", record.options->names, "What to call it")->required()->expected(1);
+  record.app
+      ->add_option_function<std::string>(
+          "NAME", [given = record.options](const std::string& name) { given->names = {name}; },
+          "What to call it")
+      ->required();
   record.app->add_option("SCENE", record.options->scene, "File or name of a scene")->required();
   record.app->add_option("FRAME", record.options->frame, "Which frame")
       ->required()
