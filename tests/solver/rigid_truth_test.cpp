@@ -151,5 +151,23 @@ TEST(RigidTruth, AStackOfTenRestsForTenSeconds) {
   expect_stack_rests(1.0 / 120, 2);
 }
 
+TEST(RigidTruth, APyramidComesToRest) {
+  RigidOptions options;
+  options.sleeping = false;
+  RigidWorld world(options);
+  world.add(W::ground());
+  constexpr int kBase = 20;
+  for (int row = 0; row < kBase; ++row)
+    for (int i = 0; i < kBase - row; ++i)
+      world.add(W::box(Vec3(1, 1, 1), Vec3((i + 0.5 * row) * 1.02, row + 0.5, 0), 2000));
+  world.run(10, 1.0 / 60, 4);
+  double square = 0;
+  for (std::size_t i = 1; i < world.size(); ++i)
+    square += world.state(world.id(i)).velocity_W.squaredNorm();
+  const double rms = std::sqrt(square / static_cast<double>(world.size() - 1));
+  std::printf("pyramid of 210: rms speed %.1e m/s\n", rms);
+  EXPECT_LT(rms, 2e-3);
+}
+
 }  // namespace
 }  // namespace sunder::solver
