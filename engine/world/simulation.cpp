@@ -23,22 +23,31 @@ void act(World& world) {
 
 void collide(World& world) { world.physics->collide(world.scene.accuracy.dt_s); }
 
-Vec3 momentum(const World& world) {
-  Vec3 sum = Vec3::Zero();
+struct Momentum {
+  double mass_kg = 0;
+  Vec3 momentum_Ns = Vec3::Zero();
+};
+
+Momentum momentum(const World& world) {
+  Momentum sum;
   for (const Actor& actor : world.actors) {
-    if (!actor.is_static) sum += actor.weight.mass_kg * world.physics->state(actor.body).velocity_W;
+    if (actor.is_static) continue;
+    sum.mass_kg += actor.weight.mass_kg;
+    sum.momentum_Ns += actor.weight.mass_kg * world.physics->state(actor.body).velocity_W;
   }
   return sum;
 }
 
 /// Moves everything; what the momentum did not come from gravity or static bodies is an error.
 void solve(World& world) {
-  const Vec3 before = momentum(world);
+  const Vec3 before = momentum(world).momentum_Ns;
   const SolveReport report =
       world.physics->solve(world.scene.accuracy.dt_s, world.scene.accuracy.substeps);
-  const Vec3 after = momentum(world);
-  world.momentum_error_Ns += (after - before - report.external_impulse_Ns).norm();
-  world.momentum_moved_Ns += before.norm() + report.external_impulse_Ns.norm();
+  const Momentum after = momentum(world);
+  world.momentum_error_Ns += (after.momentum_Ns - before - report.external_impulse_Ns).norm();
+  // At rest weight and support cancel: what changed hands is the weight, not the sum of both.
+  world.momentum_moved_Ns +=
+      before.norm() + after.mass_kg * world.scene.gravity_W.norm() * world.scene.accuracy.dt_s;
   world.report.counts.contacts = report.contacts;
   world.report.frozen += report.frozen;
 }

@@ -35,7 +35,6 @@ struct Subcommand {
     app->add_option("--set", options->load.set,
                     "Change a key of the scene: key=value, as often as wanted")
         ->type_name("KEY=VALUE")
-        ->expected(1)
         ->allow_extra_args(false);
   }
   void add_frames() {
