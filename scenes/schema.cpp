@@ -138,8 +138,8 @@ Schema make_schema() {
 
 std::span<const Preset> presets() {
   static constexpr Preset kPresets[] = {
-      {"draft", {1.0 / 60, 2}, "fastest"},
-      {"realtime", {1.0 / 120, 2}, "the default"},
+      {"draft", {1.0 / 60, 4}, "fastest"},
+      {"realtime", {1.0 / 120, 4}, "the default"},
   };
   return kPresets;
 }

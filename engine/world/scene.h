@@ -44,7 +44,7 @@ struct Ground {
 /// Speed against accuracy.
 struct Accuracy {
   double dt_s = 1.0 / 120;
-  int substeps = 2;
+  int substeps = 4;
 };
 
 struct Limits {

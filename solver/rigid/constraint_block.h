@@ -60,9 +60,4 @@ struct Softness {
   float push_m_s = 0;   ///< Fastest correction.
 };
 
-/// How contacts give along the normal, and how friction anchors give.
-struct ContactSoftness {
-  Softness press, slide;
-};
-
 }  // namespace sunder::solver

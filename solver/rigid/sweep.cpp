@@ -113,12 +113,12 @@ void press(ConstraintBlock& c, Motion& v, const Motion& x, const Softness& soft)
 }
 
 template <bool kBiased>
-void sweep(ConstraintBlock& c, BodyRow* rows, const ContactSoftness& soft) {
+void sweep(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
   Motion v(c, rows, &BodyRow::velocity);
   const Motion x(c, rows, &BodyRow::position);
-  slide<kBiased>(c, v, x, soft.slide);
+  slide<kBiased>(c, v, x, soft);
   if (c.points > 1) twist(c, v);
-  press<kBiased>(c, v, x, soft.press);
+  press<kBiased>(c, v, x, soft);
   store_velocity(v.a, c.row_a, rows);
   store_velocity(v.b, c.row_b, rows);
 }
@@ -141,12 +141,12 @@ void warm_start(ConstraintBlock& c, BodyRow* rows) {
   store_velocity(v.b, c.row_b, rows);
 }
 
-void sweep_biased(ConstraintBlock& c, BodyRow* rows, const ContactSoftness& soft) {
+void sweep_biased(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
   sweep<true>(c, rows, soft);
   if (c.bouncy) note_impacts(c);
 }
 
-void sweep_relaxed(ConstraintBlock& c, BodyRow* rows, const ContactSoftness& soft) {
+void sweep_relaxed(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
   sweep<false>(c, rows, soft);
   if (c.bouncy) note_impacts(c);
   if (!c.outside) return;

@@ -147,8 +147,8 @@ void expect_stack_rests(double dt, int substeps) {
 }
 
 TEST(RigidTruth, AStackOfTenRestsForTenSeconds) {
-  expect_stack_rests(1.0 / 60, 4);
-  expect_stack_rests(1.0 / 120, 2);
+  expect_stack_rests(1.0 / 60, 8);
+  expect_stack_rests(1.0 / 120, 4);
 }
 
 TEST(RigidTruth, APyramidComesToRest) {
