@@ -46,6 +46,8 @@ Keys<Material> material_keys() {
                                            "Only what is nearer to the impact breaks; inf: all."),
            key<&Material::smallest_break_m3>("smallest_break_m3", "m³", Range{0, kInfinity},
                                              "Smaller pieces no longer break."),
+           key<&Material::smallest_piece_m3>("smallest_piece_m3", "m³", Range{0, kInfinity},
+                                             "Smaller pieces are debris, no bodies."),
            table_key("pattern", "How it breaks."), table_key("surface", "How it looks outside."),
            table_key("interior", "How it looks where it broke.")}};
 }

@@ -76,6 +76,8 @@ struct Material {
   std::vector<StrongerBlow> stronger;
   /// Pieces below this volume no longer break.
   double smallest_break_m3 = 1e-3;
+  /// Pieces below this volume are debris, no bodies: they would unsettle the solver (paper 5).
+  double smallest_piece_m3 = 1e-6;
   Look surface;
   Look interior;
   Crumbling crumbling;

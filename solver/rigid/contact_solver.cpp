@@ -17,6 +17,9 @@ constexpr std::uint32_t kBlockGrain = 8;
 constexpr double kStiffness = 0.125;
 constexpr double kDamping = 5;   // ratio to critical
 constexpr double kPush_m_s = 4;  // fastest correction of an overlap
+// Farthest turn of a touching body within a step: beyond, contacts that are straight lines for the
+// step would feed its spin. Free flight has no such limit.
+constexpr double kMostTurn = 0.785;
 constexpr double kPi = 3.14159265358979323846;
 
 enum StageKind {
@@ -39,6 +42,11 @@ Softness softness(double h) {
   const double a1 = 2 * kDamping + omega_h, a2 = omega_h * a1, a3 = 1 / (1 + a2);
   return {static_cast<float>(omega_h / h / a1), static_cast<float>(a2 * a3), static_cast<float>(a3),
           static_cast<float>(1 / h), static_cast<float>(kPush_m_s)};
+}
+
+void limit_spin(Vec3& angular_velocity, double dt_s) {
+  const double turn = dt_s * angular_velocity.norm();
+  if (turn > kMostTurn) angular_velocity *= kMostTurn / turn;
 }
 
 Vec3f linear(Wide v) { return {v[0], v[1], v[2]}; }
@@ -199,6 +207,7 @@ void ContactSolver::collect_bodies(const Bodies& bodies) {
 
 void ContactSolver::begin_body(std::uint32_t body, double dt_s, Bodies& bodies) {
   bodies.angular_velocity[body] += gyroscopic_change(bodies, body, dt_s);
+  limit_spin(bodies.angular_velocity[body], dt_s);
   root_W_[body] = bodies.rotation_f[body] * bodies.root_B[body];
   const Vec3 spin_B = bodies.rotation[body].conjugate() * bodies.angular_velocity[body];
   const Vec3f spin =
