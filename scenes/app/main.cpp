@@ -6,6 +6,15 @@
 #include "scenes/app/command_line.h"
 
 int main(int argc, char** argv) {
+#ifdef __AVX2__
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
+    std::fputs(
+        "failed: this program is built for processors with AVX2 (x86-64-v3); build it with "
+        "-DSUNDER_ARCH=x86-64-v2\n",
+        stderr);
+    return 1;
+  }
+#endif
   try {
     return sunder::app::parse_command_line(argc, argv)();
   } catch (const sunder::InputError& error) {
