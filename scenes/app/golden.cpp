@@ -6,9 +6,9 @@
 
 #include "engine/base/check.h"
 #include "engine/io/frame_file.h"
+#include "render/golden_report.h"
 #include "render/renderer.h"
 #include "scenes/app/golden_file.h"
-#include "scenes/app/golden_report.h"
 #include "scenes/app/run.h"
 
 namespace sunder::app {
@@ -81,7 +81,13 @@ int golden_report(const GoldenOptions& options) {
   const std::vector<GoldenResult> results = compare_all(options);
   fs::create_directories(options.out);
   const fs::path page = fs::path(options.out) / "report.html";
-  write_text(page.string(), golden_page(results));
+  std::vector<render::GoldenPicture> pictures;
+  for (const GoldenResult& r : results) {
+    pictures.push_back({r.golden.name, r.passed, r.verdict, r.baseline, r.actual, r.difference,
+                        r.golden.thresholds, r.golden.command,
+                        "sunder golden accept " + r.golden.name, r.renderer});
+  }
+  write_text(page.string(), render::golden_report(pictures));
   options.say("wrote " + page.string() + "\n");
   options.write_json(format_results(results));
   return failures(results) == 0 ? 0 : 1;
