@@ -61,12 +61,11 @@ function(sunder_precompile target first)
   if(NOT SUNDER_PRECOMPILE)
     return()
   endif()
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
   if(target STREQUAL first)
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
     target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <cmath>
       <cstdint> <functional> <map> <memory> <span> <string> <vector> ${ARGN})
   else()
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
     target_precompile_headers(${target} REUSE_FROM ${first})
   endif()
 endfunction()
