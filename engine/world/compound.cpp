@@ -3,12 +3,15 @@
 #include <algorithm>
 
 #include "engine/base/check.h"
+#include "engine/geometry/polygon_mesh.h"
 
 namespace sunder {
 
-ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material) {
+ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
+                      std::shared_ptr<const PolygonMesh> visual) {
   auto convex = std::make_shared<Convex>();
-  convex->solid = mass_properties(polyhedron);
+  convex->solid = visual ? mass_properties(*visual) : mass_properties(polyhedron);
+  convex->visual = std::move(visual);
   convex->box = bounds(polyhedron);
   convex->material = material;
   convex->polyhedron = std::move(polyhedron);

@@ -11,18 +11,25 @@
 
 namespace sunder {
 
+struct PolygonMesh;
+
 /// One convex of a compound: immutable and shared, so that what a break does not touch stays the
-/// same object, bit for bit.
+/// same object, bit for bit. A surface convex owns a piece of visual mesh inside its polyhedron; an
+/// internal convex is seen as the polyhedron that it is (paper 3.3).
 struct Convex {
-  ConvexPolyhedron polyhedron;
+  ConvexPolyhedron polyhedron;                ///< What collides, and what neighbours touch.
+  std::shared_ptr<const PolygonMesh> visual;  ///< Watertight; null: an internal convex.
   MaterialIndex material;
-  MassProperties solid;  ///< Of `polyhedron`, unit density.
+  MassProperties solid;  ///< Of `visual` if there is one, else of `polyhedron`; unit density.
   Box box;               ///< Of `polyhedron`.
+
+  bool is_internal() const { return !visual; }
 };
 using ConvexPtr = std::shared_ptr<const Convex>;
 
-/// A polyhedron with its volume and box worked out.
-ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material);
+/// A convex with its mass properties and box worked out.
+ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
+                      std::shared_ptr<const PolygonMesh> visual = nullptr);
 
 /// Two convexes of a compound that share part of a plane (property (c) of paper 3.1).
 struct Bond {
