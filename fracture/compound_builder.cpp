@@ -107,7 +107,8 @@ void mark_inner_faces(Compound& compound) {
     for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
       if (hidden[c][f]) polyhedron.faces[f].kind = FaceKind::kInterior;
     }
-    compound.convexes[c] = make_convex(std::move(polyhedron), compound.convexes[c]->material);
+    const Convex& convex = *compound.convexes[c];
+    compound.convexes[c] = make_convex(std::move(polyhedron), convex.material, convex.visual);
   }
 }
 
@@ -117,7 +118,8 @@ Compound make_compound(std::vector<Part> parts, double tolerance_m) {
   name_planes(parts, tolerance_m);
   Compound compound;
   for (Part& part : parts) {
-    compound.convexes.push_back(make_convex(std::move(part.polyhedron), part.material));
+    compound.convexes.push_back(
+        make_convex(std::move(part.polyhedron), part.material, part.visual));
     compound.anchored.push_back(part.anchored);
   }
   compound.bonds = find_contacts(compound.convexes);

@@ -12,6 +12,7 @@ struct Part {
   ConvexPolyhedron polyhedron;
   MaterialIndex material;
   std::uint8_t anchored = 0;  ///< As in Compound: `true` is held from below.
+  std::shared_ptr<const PolygonMesh> visual = nullptr;  ///< As in Convex.
 };
 
 /// A compound of parts that do not overlap. Faces within `tolerance_m` of one plane share a plane

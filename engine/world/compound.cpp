@@ -6,6 +6,18 @@
 #include "engine/geometry/polygon_mesh.h"
 
 namespace sunder {
+namespace {
+
+/// Calls `visit` with every convex, and every ghost that weighs, and its sign.
+template <class Visit>
+void for_each_solid(const Compound& compound, const Visit& visit) {
+  for (const ConvexPtr& convex : compound.convexes) visit(*convex, 1.0);
+  for (const Ghost& ghost : compound.ghosts) {
+    if (ghost.sign != 0) visit(*ghost.convex, static_cast<double>(ghost.sign));
+  }
+}
+
+}  // namespace
 
 ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
                       std::shared_ptr<const PolygonMesh> visual) {
@@ -25,27 +37,28 @@ bool Compound::is_anchored() const {
 Weight weigh(const Compound& compound, std::span<const Material> materials) {
   Weight weight;
   Vec3 moment = Vec3::Zero();
-  for (const ConvexPtr& convex : compound.convexes) {
-    SUNDER_CHECK(convex->material.value < materials.size());
-    const double mass = convex->solid.volume_m3 * materials[convex->material.value].density_kg_m3;
-    weight.mass_kg += mass;
-    moment += mass * convex->solid.centroid;
-  }
+  for_each_solid(compound, [&](const Convex& convex, double sign) {
+    SUNDER_CHECK(convex.material.value < materials.size());
+    const double density = sign * materials[convex.material.value].density_kg_m3;
+    weight.mass_kg += density * convex.solid.volume_m3;
+    moment += density * convex.solid.volume_m3 * convex.solid.centroid;
+  });
   if (weight.mass_kg <= 0) return weight;
   weight.com_R = moment / weight.mass_kg;
-  for (const ConvexPtr& convex : compound.convexes) {
-    const double density = materials[convex->material.value].density_kg_m3;
-    const double mass = convex->solid.volume_m3 * density;
-    const Vec3 arm = convex->solid.centroid - weight.com_R;
-    weight.inertia_R += density * convex->solid.inertia() +
+  for_each_solid(compound, [&](const Convex& convex, double sign) {
+    const double density = sign * materials[convex.material.value].density_kg_m3;
+    const double mass = density * convex.solid.volume_m3;
+    const Vec3 arm = convex.solid.centroid - weight.com_R;
+    weight.inertia_R += density * convex.solid.inertia() +
                         mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
-  }
+  });
   return weight;
 }
 
 double volume(const Compound& compound) {
   double sum = 0;
-  for (const ConvexPtr& convex : compound.convexes) sum += convex->solid.volume_m3;
+  for_each_solid(compound,
+                 [&](const Convex& convex, double sign) { sum += sign * convex.solid.volume_m3; });
   return sum;
 }
 

@@ -38,6 +38,19 @@ struct Bond {
   double area_m2 = 0;                    ///< Of the overlap.
 };
 
+/// Where convexes of a compound overlap (paper 4.3). It holds them together, and takes part in sums
+/// of volume and mass with its sign, so that they are those of the union (inclusion-exclusion); it
+/// is neither drawn nor collided. With sign −1 it is the paper's convex of negative volume; its
+/// faces are stored as any convex's, outward.
+struct Ghost {
+  ConvexPtr convex;  ///< What they have in common.
+  std::vector<std::uint32_t>
+      of;  ///< Convexes, ascending. Two or more as made; breaks may leave one.
+  /// −1 for two convexes, +1 for three, −1 for four; 0 holds together and weighs nothing: one of
+  /// its convexes is a surface convex, whose visual mesh need not reach into the overlap.
+  std::int8_t sign = -1;
+};
+
 /// One side of a convex's box (axis 0 to 2, low or high) as a bit of Compound::anchored. Below, the
 /// low side of y, is 1.
 constexpr std::uint8_t anchor_side(int axis, bool high) {
@@ -51,18 +64,20 @@ struct Compound {
   /// Per convex: the sides of its box by which the world holds it (anchor_side()), 0 where free. A
   /// part of it stays anchored by those of them that it still reaches.
   std::vector<std::uint8_t> anchored;
-  std::vector<Bond> bonds;  ///< Sorted by (a, b, face_a, face_b).
+  std::vector<Bond> bonds;    ///< Sorted by (a, b, face_a, face_b).
+  std::vector<Ghost> ghosts;  ///< Sorted by `of`; empty where nothing overlaps.
 
   bool is_anchored() const;
 };
 
-/// Mass, centre of mass and inertia about it, in the rest frame.
+/// Mass, centre of mass and inertia about it, in the rest frame; overlaps count once.
 struct Weight {
   double mass_kg = 0;
   Vec3 com_R = Vec3::Zero();
   Mat3 inertia_R = Mat3::Zero();  ///< kg·m²
 };
 Weight weigh(const Compound& compound, std::span<const Material> materials);
+/// Of the union of the convexes.
 double volume(const Compound& compound);
 Box bounds(const Compound& compound);
 
