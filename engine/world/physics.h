@@ -40,6 +40,7 @@ struct BodyDesc {
   std::vector<ShapeDesc> shapes;
   std::uint32_t tag = 0;    ///< Opaque; comes back in contacts.
   bool breakable = false;   ///< Its approaches are reported.
+  bool bears_load = false;  ///< What presses on it is reported.
   std::uint32_t group = 0;  ///< Bodies of one non-zero group ignore each other until separated.
 };
 
@@ -62,6 +63,13 @@ struct Approach {
   double separation_m = 0;        ///< Negative: penetrating.
   double speed_m_s = 0;           ///< Approach speed along the normal, > 0.
   double effective_mass_kg = 0;   ///< Of the pair at the point along the normal.
+};
+
+/// What a contact did to a body that bears load, over one solve.
+struct ContactLoad {
+  std::uint32_t body_tag = 0, shape_tag = 0;
+  Vec3 impulse_W = Vec3::Zero();  ///< On the body, N·s, friction included.
+  Vec3 point_W = Vec3::Zero();
 };
 
 /// What one solve did, for the books.
@@ -90,6 +98,9 @@ class Physics {
   virtual SolveReport solve(double dt_s, int substeps) = 0;
 
   virtual BodyState state(BodyId body) const = 0;
+  /// What the last solve() did to bodies that bear load, ordered by a key that does not depend on
+  /// threads; contacts asleep count with what they last carried.
+  virtual std::vector<ContactLoad> contact_loads() const = 0;
   /// Depths (m, >= 0) of all contact points that carry load, unordered; for statistics.
   virtual std::vector<float> penetrations() const = 0;
   /// Time spent since the last call, by name; for the timing table.

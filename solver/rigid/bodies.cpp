@@ -77,6 +77,7 @@ void Bodies::resize(std::uint32_t count) {
   slow_s.resize(count);
   changed.resize(count);
   breakable.resize(count);
+  bears_load.resize(count);
   group.resize(count);
   tag.resize(count);
   first_shape.resize(count, kNone);
@@ -112,6 +113,7 @@ std::uint32_t Bodies::add(const BodyDesc& desc) {
   slow_s[body] = 0;
   changed[body] = 1;
   breakable[body] = desc.breakable;
+  bears_load[body] = desc.bears_load;
   group[body] = desc.group;
   tag[body] = desc.tag;
   first_shape[body] = kNone;

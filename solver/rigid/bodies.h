@@ -42,6 +42,7 @@ struct Bodies {
   std::vector<float> slow_s;               ///< Time it has been slow.
   std::vector<std::uint8_t> changed;       ///< Moved, pushed or new since the last collide.
   std::vector<std::uint8_t> breakable;
+  std::vector<std::uint8_t> bears_load;
   std::vector<std::uint32_t> group;
   std::vector<std::uint32_t> tag;
   std::vector<std::uint32_t> first_shape;

@@ -36,7 +36,7 @@ struct ConstraintBlock {
   std::uint32_t manifold[kLanes] = {};
   std::uint32_t lanes = 0;  ///< In use.
   int points = 0;           ///< Of the manifold that has most.
-  bool outside = false;     ///< Some lane touches something immovable.
+  bool summed = false;      ///< Some lane touches something immovable, or that bears load.
   bool bouncy = false;      ///< Some point has a rebound.
   Wide inverse_mass_a, inverse_mass_b;
   Wide3 normal, tangent_1, tangent_2;
@@ -46,8 +46,8 @@ struct ConstraintBlock {
   Wide twist_mass;
   Wide drift_1, drift_2;
   Wide slide_impulse_1, slide_impulse_2, twist_impulse;
-  Wide outside_sign;    ///< +1: a is immovable, −1: b is.
-  Wide3 outside_total;  ///< Impulse on bodies from immovable ones, over the step.
+  Wide outside_sign;  ///< +1: a is immovable, −1: b is.
+  Wide3 total;        ///< Impulse on b over the step, if summed.
   std::array<PointLanes, 4> point;
 };
 

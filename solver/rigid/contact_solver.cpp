@@ -241,7 +241,8 @@ ContactSolveReport ContactSolver::report() const {
   report.manifolds = static_cast<std::uint32_t>(touching_.size());
   for (const ConstraintBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.lanes; ++lane) {
-      report.outside_impulse_Ns += Hull::lane(c.outside_total, lane).cast<double>();
+      report.outside_impulse_Ns +=
+          double{c.outside_sign[lane]} * Hull::lane(c.total, lane).cast<double>();
       for (int i = 0; i < c.points; ++i)
         report.points += c.point[static_cast<std::size_t>(i)].mass[lane] > 0;
     }

@@ -56,12 +56,20 @@ struct Manifold {
   Vec3f drift_W = Vec3f::Zero();  ///< Of the friction anchors, b from a, since they were set.
   Vec3f friction_impulse_W = Vec3f::Zero();
   float twist_impulse = 0;
+  Vec3f step_impulse_W = Vec3f::Zero();  ///< On b over the last step, if a or b bears load.
   std::array<ManifoldPoint, 4> points;
 
   float least_separation() const {
     float least = 1e30f;
     for (int i = 0; i < count; ++i) least = std::min(least, points[i].separation_m);
     return least;
+  }
+  /// Where its points press, from the middle of a.
+  Vec3f middle_of_load() const {
+    Vec3f sum = Vec3f::Zero();
+    for (int i = 0; i < count; ++i) sum += points[i].impulse_Ns * points[i].arm_A;
+    const float all = normal_impulse();
+    return all > 0 ? Vec3f(sum / all) : friction_arm_A;
   }
   float normal_impulse() const {
     float sum = 0;

@@ -44,7 +44,7 @@ void gather(const Contacts& contacts, const Bodies& bodies, std::span<const Mat3
     c.inverse_mass_b[lane] = b ? bodies.inverse_mass[m.body_b] : 0;
     if (a) g.root_a.set(lane, root_W[m.body_a]);
     if (b) g.root_b.set(lane, root_W[m.body_b]);
-    c.outside = c.outside || !a || !b;
+    c.summed = c.summed || !a || !b || bodies.bears_load[m.body_a] || bodies.bears_load[m.body_b];
     c.outside_sign[lane] = (a ? 0.f : 1.f) - (b ? 0.f : 1.f);
     set_lane(g.gravity, lane, ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.gravity_W);
     set_lane(c.normal, lane, m.normal_W);
@@ -156,6 +156,7 @@ void store_block(const ConstraintBlock& c, const BodyRow* rows, Contacts& contac
     const float s1 = c.slide_impulse_1[lane], s2 = c.slide_impulse_2[lane];
     m.friction_impulse_W = s1 * Hull::lane(c.tangent_1, lane) + s2 * Hull::lane(c.tangent_2, lane);
     m.twist_impulse = c.twist_impulse[lane];
+    m.step_impulse_W = Hull::lane(c.total, lane);
     if (s1 * s1 + s2 * s2 >= limit[lane] * limit[lane] * normal * normal) m.sticking = false;
   }
   for (int i = 0; i < c.points; ++i) {

@@ -28,6 +28,7 @@ class RigidPhysics final : public Physics {
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
   SolveReport solve(double dt_s, int substeps) override;
   BodyState state(BodyId body) const override;
+  std::vector<ContactLoad> contact_loads() const override;
   std::vector<float> penetrations() const override;
   std::vector<std::pair<const char*, double>> take_timings_ms() override;
 
@@ -191,6 +192,33 @@ BodyState RigidPhysics::state(BodyId id) const {
           bodies_.velocity[id.slot],
           bodies_.angular_velocity[id.slot],
           bodies_.motion[id.slot] == Motion::kAsleep};
+}
+
+std::vector<ContactLoad> RigidPhysics::contact_loads() const {
+  std::vector<std::uint32_t> loaded;
+  for (std::uint32_t i = 0; i < contacts_.pairs.size(); ++i) {
+    const Pair& pair = contacts_.pairs[i];
+    if (!pair.present() || contacts_.manifolds[i].count == 0) continue;
+    if (bodies_.bears_load[pair.body_a] || bodies_.bears_load[pair.body_b]) loaded.push_back(i);
+  }
+  std::sort(loaded.begin(), loaded.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return contacts_.pairs[i].key() < contacts_.pairs[j].key();
+  });
+  std::vector<ContactLoad> loads;
+  for (const std::uint32_t i : loaded) {
+    const Pair& pair = contacts_.pairs[i];
+    const Manifold& m = contacts_.manifolds[i];
+    const Vec3 impulse = m.step_impulse_W.cast<double>();
+    if (impulse.isZero(0)) continue;
+    const Vec3 point = bodies_.position[m.body_a] + m.middle_of_load().cast<double>();
+    for (const bool on_b : {false, true}) {
+      const std::uint32_t body = on_b ? m.body_b : m.body_a;
+      if (!bodies_.bears_load[body]) continue;
+      const Shape& shape = shapes_[on_b ? pair.shape_b : pair.shape_a];
+      loads.push_back({bodies_.tag[body], shape.tag, on_b ? impulse : Vec3(-impulse), point});
+    }
+  }
+  return loads;
 }
 
 std::vector<float> RigidPhysics::penetrations() const {

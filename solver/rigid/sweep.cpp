@@ -149,10 +149,9 @@ void sweep_biased(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
 void sweep_relaxed(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
   sweep<false>(c, rows, soft);
   if (c.bouncy) note_impacts(c);
-  if (!c.outside) return;
-  const Wide3 impulse = c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
-                        c.tangent_2 * c.slide_impulse_2;
-  c.outside_total = c.outside_total + impulse * c.outside_sign;
+  if (!c.summed) return;
+  c.total = c.total + c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
+            c.tangent_2 * c.slide_impulse_2;
 }
 
 void bounce(ConstraintBlock& c, BodyRow* rows) {
@@ -164,7 +163,7 @@ void bounce(ConstraintBlock& c, BodyRow* rows) {
     const WideInt active = (p.rebound > zero) & (p.most_impulse > zero);
     const Wide change = active ? max(zero, p.mass * (p.rebound - u)) : zero;
     v.push(c, c.normal, p.turn_a, p.turn_b, change);
-    c.outside_total = c.outside_total + c.normal * (change * c.outside_sign);
+    c.total = c.total + c.normal * change;
   }
   store_velocity(v.a, c.row_a, rows);
   store_velocity(v.b, c.row_b, rows);

@@ -47,6 +47,7 @@ class ScriptedPhysics final : public Physics {
     return {};
   }
   BodyState state(BodyId id) const override { return bodies[id.slot].state; }
+  std::vector<ContactLoad> contact_loads() const override { return loads; }
   std::vector<float> penetrations() const override { return {}; }
   std::vector<std::pair<const char*, double>> take_timings_ms() override { return {}; }
 
@@ -72,6 +73,7 @@ class ScriptedPhysics final : public Physics {
   }
 
   std::vector<Body> bodies;
+  std::vector<ContactLoad> loads;  ///< What contact_loads() answers.
 
  private:
   Script script_;

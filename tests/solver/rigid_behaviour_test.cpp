@@ -208,5 +208,33 @@ TEST(RigidPhysics, ReportsApproachesToBreakableBodiesBeforeTheyTouch) {
   EXPECT_LT((approach.point_W - Vec3(-0.05, 0.3, 0)).norm(), 1e-4);
 }
 
+TEST(RigidPhysics, ReportsWhatPressesOnABodyThatBearsLoadAsleepOrAwake) {
+  RigidWorld world;
+  BodyDesc table = W::fixed(W::box(Vec3(2, 1, 2), Vec3(0, 0.5, 0)));
+  table.bears_load = true;
+  table.tag = 7;
+  table.shapes[0].tag = 3;
+  world.add(table);
+  const BodyId weight = world.add(W::box(Vec3::Constant(0.4), Vec3(0.5, 1.2, 0.25)));
+  const double dt = 1.0 / 120, mass = 64;
+  Vec3 sum = Vec3::Zero();
+  double falling = 0;
+  for (int i = 0; i < 240; ++i) {
+    world.step(dt, 4);
+    for (const ContactLoad& load : world.physics().contact_loads()) sum += load.impulse_W;
+    falling += mass * 9.81 * dt;
+    if (world.state(weight).asleep) break;
+  }
+  ASSERT_TRUE(world.state(weight).asleep);
+  EXPECT_NEAR(sum.y(), -falling, 0.01 * falling);  // what came down was stopped by the table
+  world.step(dt, 4);
+  const std::vector<ContactLoad> loads = world.physics().contact_loads();
+  ASSERT_EQ(loads.size(), 1u);
+  EXPECT_EQ(loads[0].body_tag, 7u);
+  EXPECT_EQ(loads[0].shape_tag, 3u);
+  EXPECT_LT((loads[0].impulse_W - Vec3(0, -mass * 9.81 * dt, 0)).norm(), 0.01 * mass * 9.81 * dt);
+  EXPECT_LT((loads[0].point_W - Vec3(0.5, 1, 0.25)).norm(), 0.02);
+}
+
 }  // namespace
 }  // namespace sunder::solver
