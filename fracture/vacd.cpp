@@ -1,0 +1,117 @@
+#include "fracture/vacd.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "engine/base/check.h"
+#include "engine/base/parallel.h"
+#include "engine/base/trace.h"
+#include "fracture/adjacency.h"
+#include "fracture/vacd_nodes.h"
+#include "fracture/vacd_regions.h"
+
+namespace sunder::fracture {
+namespace {
+
+void check_options(const VacdOptions& options) {
+  if (options.nodes.size() > kMostNodes || options.node_count.value_or(0) > kMostNodes ||
+      options.convexes > kMostNodes) {
+    throw InputError("a decomposition has at most " + std::to_string(kMostNodes) +
+                     " nodes and convexes");
+  }
+  for (const Vec3& node : options.nodes) {
+    if (!node.allFinite()) throw InputError("nodes have finite coordinates");
+  }
+}
+
+/// Pieces of all shells, `count` automatic nodes among them unless there are nodes by hand.
+std::vector<VacdPiece> all_pieces(const RepairedMesh& mesh, const VacdOptions& options,
+                                  std::uint32_t count, PlaneNames& names) {
+  std::vector<VacdPiece> pieces;
+  const std::vector<std::uint32_t> share = share_nodes(mesh.shells, count);
+  for (std::size_t s = 0; s < mesh.shells.size(); ++s) {
+    const PolygonMesh& shell = mesh.shells[s];
+    const std::vector<Vec3> nodes =
+        options.nodes.empty() ? automatic_nodes(shell, share[s]) : options.nodes;
+    std::vector<VacdPiece> part = voronoi_pieces(shell, nodes, names);
+    std::move(part.begin(), part.end(), std::back_inserter(pieces));
+  }
+  return pieces;
+}
+
+std::vector<VacdPiece> limited_pieces(const RepairedMesh& mesh, const VacdOptions& options,
+                                      PlaneNames& names) {
+  const std::uint32_t limit = options.convexes;
+  std::uint32_t count = options.node_count.value_or(limit > 0 ? limit : kDefaultNodes);
+  for (;;) {
+    names = {};
+    std::vector<VacdPiece> pieces = all_pieces(mesh, options, count, names);
+    const std::size_t least = mesh.shells.size();
+    if (limit == 0 || pieces.size() <= limit || count <= least || !options.nodes.empty()) {
+      return pieces;
+    }
+    const auto over = static_cast<std::uint32_t>(pieces.size()) - limit;
+    count = count > over ? count - over : 1;
+  }
+}
+
+/// A convex per piece: fitted, and with a name for every plane.
+std::vector<ConvexPtr> fitted_convexes(std::vector<VacdPiece> pieces, const VacdOptions& options,
+                                       PlaneNames& names) {
+  std::vector<ConvexPolyhedron> fitted(pieces.size());
+  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
+    fitted[p] = fitted_region(pieces[p], options.fit);
+  });
+  for (ConvexPolyhedron& polyhedron : fitted) {
+    for (ConvexPolyhedron::Face& face : polyhedron.faces) {
+      if (face.id.none()) face.id = names.next();
+    }
+  }
+  std::vector<ConvexPtr> convexes(pieces.size());
+  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
+    std::shared_ptr<const PolygonMesh> visual;
+    if (!pieces[p].is_internal()) {
+      visual = std::make_shared<PolygonMesh>(std::move(pieces[p].mesh));
+    }
+    convexes[p] = make_convex(std::move(fitted[p]), options.material, std::move(visual));
+  });
+  return convexes;
+}
+
+VacdFigures measure(const Compound& compound, const RepairedMesh& mesh) {
+  VacdFigures figures;
+  for (const PolygonMesh& shell : mesh.shells) {
+    figures.mesh_volume_m3 += mass_properties(shell).volume_m3;
+  }
+  for (const ConvexPtr& convex : compound.convexes) {
+    figures.hull_volume_m3 += mass_properties(convex->polyhedron).volume_m3;
+    figures.max_faces_per_convex =
+        std::max(figures.max_faces_per_convex,
+                 convex->visual ? convex->visual->faces.size() : convex->polyhedron.faces.size());
+  }
+  return figures;
+}
+
+}  // namespace
+
+Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
+  check_options(options);
+  const Stopwatch watch;
+  PlaneNames names;
+  std::vector<VacdPiece> pieces = limited_pieces(mesh, options, names);
+  const double split_ms = watch.ms();
+  Vacd result;
+  Compound& compound = result.compound;
+  compound.convexes = fitted_convexes(std::move(pieces), options, names);
+  compound.anchored.assign(compound.convexes.size(), 0);
+  compound.bonds = find_contacts(compound.convexes);
+  const double total_ms = watch.ms();
+  result.figures = measure(compound, mesh);
+  result.figures.split_ms = split_ms;
+  result.figures.total_ms = total_ms;
+  return result;
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,113 @@
+#include "fracture/vacd_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/geometry/mesh_islands.h"
+#include "engine/geometry/split_mesh.h"
+#include "fracture/voronoi.h"
+
+namespace sunder::fracture {
+namespace {
+
+/// Room around a mesh, over its size, so that no outermost face of a region touches it.
+constexpr double kRoom = 1e-2;
+/// Normals of planes this close are one direction.
+constexpr double kParallel = 1e-6;
+
+ConvexPolyhedron room_around(const Box& box) {
+  const Vec3 room = Vec3::Constant(kRoom * box.extent().maxCoeff());
+  return make_box(box.min - room, box.max + room);
+}
+
+/// The cells' inner planes, nearest first.
+std::vector<NamedPlane> inner_planes(const ConvexPolyhedron& cell) {
+  std::vector<NamedPlane> planes;
+  const Vec3 center = bounds(cell).center();
+  for (const ConvexPolyhedron::Face& face : cell.faces) {
+    if (!face.id.none()) planes.push_back({face.plane, face.id});
+  }
+  std::sort(planes.begin(), planes.end(), [&](const NamedPlane& a, const NamedPlane& b) {
+    const double at_a = -a.plane.distance(center), at_b = -b.plane.distance(center);
+    return at_a != at_b ? at_a < at_b : a.id < b.id;
+  });
+  return planes;
+}
+
+/// Voronoi cells whose inner faces have names of their own.
+std::vector<ConvexPolyhedron> named_cells(std::span<const Vec3> nodes, const Box& box,
+                                          PlaneNames& names) {
+  std::vector<ConvexPolyhedron> cells;
+  if (nodes.size() < 2) {
+    cells.push_back(room_around(box));
+    return cells;
+  }
+  std::vector<Plane> planes(1);  // so that no name of a plane is none
+  cells = voronoi_cells(nodes, room_around(box), planes);
+  for (ConvexPolyhedron& cell : cells) {
+    for (ConvexPolyhedron::Face& face : cell.faces) {
+      if (!face.id.none()) face.id.value += 2 * names.used();
+    }
+  }
+  names.use(planes.size() - 1);
+  return cells;
+}
+
+/// The directions in which a region may be clipped: those of its own faces are done already, and
+/// clipping there again would leave slivers of faces that neighbours share.
+void drop_own_directions(const ConvexPolyhedron& region, std::vector<Vec3>& directions) {
+  std::erase_if(directions, [&](const Vec3& direction) {
+    return std::any_of(
+        region.faces.begin(), region.faces.end(), [&](const ConvexPolyhedron::Face& face) {
+          return !face.id.none() &&
+                 (face.plane.normal - direction).squaredNorm() < kParallel * kParallel;
+        });
+  });
+}
+
+}  // namespace
+
+bool VacdPiece::is_internal() const {
+  return std::none_of(mesh.faces.begin(), mesh.faces.end(),
+                      [](const PolygonMesh::Face& face) { return face.id.none(); });
+}
+
+double region_tolerance(const Box& box) {
+  const double reach = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
+  return 1e-13 * box.extent().maxCoeff() + 1e-15 * reach;
+}
+
+std::vector<VacdPiece> voronoi_pieces(const PolygonMesh& mesh, std::span<const Vec3> nodes,
+                                      PlaneNames& names) {
+  const Box box = bounds(mesh);
+  std::vector<ConvexPolyhedron> cells = named_cells(nodes, box, names);
+  std::erase_if(cells, [](const ConvexPolyhedron& cell) { return cell.empty(); });
+  std::vector<std::vector<NamedPlane>> planes;
+  for (const ConvexPolyhedron& cell : cells) planes.push_back(inner_planes(cell));
+  std::vector<MeshRegion> regions;
+  for (std::size_t c = 0; c < cells.size(); ++c) regions.push_back({bounds(cells[c]), planes[c]});
+  std::vector<PolygonMesh> parts = split(mesh, regions, region_tolerance(box));
+  std::vector<std::vector<PolygonMesh>> separate(cells.size());
+  for_chunks(cells.size(), 1, [&](std::size_t c, std::size_t, std::size_t) {
+    separate[c] = islands(std::move(parts[c]));
+  });
+  std::vector<VacdPiece> pieces;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (PolygonMesh& island : separate[c]) pieces.push_back({cells[c], std::move(island)});
+  }
+  return pieces;
+}
+
+ConvexPolyhedron fitted_region(const VacdPiece& piece, const Fit& fit) {
+  if (piece.is_internal()) return piece.region;
+  const std::span<const Vec3> points = piece.mesh.vertices;
+  std::vector<Vec3> directions = fit_directions(points, fit);
+  drop_own_directions(piece.region, directions);
+  const std::vector<Plane> planes = touching_planes(points, directions);
+  const std::vector<PlaneId> none(planes.size());
+  return clip_all(piece.region, planes, none, region_tolerance(bounds(piece.region)));
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,107 @@
+// Decompositions of real and made-up meshes: pieces are watertight and make up the whole, hulls
+// hold them, regions share planes.
+#include "fracture/vacd.h"
+
+#include <cmath>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "engine/base/parallel.h"
+#include "engine/io/mesh_reader.h"
+#include "tests/mesh/meshes.h"
+
+namespace sunder::fracture {
+namespace {
+
+RepairedMesh one_shell(PolygonMesh mesh) {
+  RepairedMesh repaired;
+  repaired.shells.push_back(std::move(mesh));
+  repaired.closed = true;
+  return repaired;
+}
+
+RepairedMesh cube() { return one_shell(polygon_mesh(make_box(Vec3::Zero(), Vec3::Ones()))); }
+
+/// Empty if the convexes are what decompose() promises, otherwise what is wrong with them.
+std::string broken_promise(const Compound& compound, const RepairedMesh& mesh) {
+  double whole = 0, room = 0;
+  for (const PolygonMesh& shell : mesh.shells) {
+    whole += mass_properties(shell).volume_m3;
+    room += bounds(shell).extent().prod();
+  }
+  double sum = 0;
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+    const Convex& convex = *compound.convexes[c];
+    const std::string which = " of convex " + std::to_string(c);
+    sum += convex.solid.volume_m3;
+    if (!(convex.solid.volume_m3 > 0)) return "no volume" + which;
+    if (!is_closed(convex.polyhedron)) return "open polyhedron" + which;
+    const PolygonMesh visual = convex.visual ? *convex.visual : polygon_mesh(convex.polyhedron);
+    if (open_edges(visual) != 0) return "open mesh" + which;
+    const double size = bounds(convex.polyhedron).extent().maxCoeff();
+    for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces) {
+      if (face.id.none()) return "plane without a name" + which;
+      for (const Vec3& v : visual.vertices) {
+        if (face.plane.distance(v) > 1e-10 * size) return "mesh outside the hull" + which;
+      }
+    }
+  }
+  // Of the box, where the volume is a small difference of large parts.
+  if (std::abs(sum - whole) > 1e-12 * std::max(whole, room)) {
+    return "volumes sum to " + std::to_string(sum) + " of " + std::to_string(whole);
+  }
+  return "";
+}
+
+TEST(Vacd, OfRealMeshesKeepsItsPromises) {
+  SUNDER_NEEDS_MESHES();
+  for (const std::string set : {"good", "nasty"}) {
+    for (const auto& file : test::meshes(set)) {
+      const std::string name = file.filename().string();
+      RepairedMesh mesh;
+      try {
+        mesh = repair_mesh(read_mesh(file), name);
+      } catch (const InputError&) {
+        EXPECT_EQ(set, "nasty") << name;
+        continue;
+      }
+      EXPECT_EQ(broken_promise(decompose(mesh).compound, mesh), "") << name;
+    }
+  }
+}
+
+TEST(Vacd, CellsWithinTheMeshAreInternal) {
+  VacdOptions options;
+  for (int x = 0; x < 3; ++x) {
+    for (int y = 0; y < 3; ++y) {
+      for (int z = 0; z < 3; ++z) options.nodes.push_back((Vec3(x, y, z) + Vec3::Ones()) / 4);
+    }
+  }
+  const Vacd vacd = decompose(cube(), options);
+  ASSERT_EQ(vacd.compound.convexes.size(), 27u);
+  EXPECT_EQ(broken_promise(vacd.compound, cube()), "");
+  std::size_t internal = 0;
+  for (const ConvexPtr& convex : vacd.compound.convexes) internal += convex->is_internal();
+  EXPECT_EQ(internal, 1u);
+  EXPECT_EQ(vacd.compound.bonds.size(), 54u);  // between neighbours in a 3 × 3 × 3 grid
+}
+
+TEST(Vacd, NodesComeFromAFileAndErrorsNameTheLine) {
+  std::istringstream good("# a row\n0 0 0\n\n1.5 -2 3e-1 # last\n");
+  EXPECT_EQ(read_nodes(good, "row.txt"), (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1.5, -2, 0.3)}));
+  for (const std::string bad :
+       {"0 0 0\n1 2\n", "0 0 0\n1 2 3 4\n", "0 0 0\n1 2 nan\n", "0 0 0\nx\n"}) {
+    std::istringstream in(bad);
+    try {
+      read_nodes(in, "row.txt");
+      FAIL() << bad;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind("row.txt:2: ", 0), 0u) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunder::fracture
