@@ -6,6 +6,7 @@
 
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
+#include "fracture/bear.h"
 #include "fracture/fracture.h"
 #include "fracture/pattern_library.h"
 
@@ -94,6 +95,10 @@ class PatternBreaker final : public Breaker {
     const Placement placement{command.X_RP.rotation.toRotationMatrix() * (unit * command.stretch_P),
                               command.X_RP.position};
     return fracture(compound, *pattern, placement, sphere, command.event);
+  }
+
+  LoadAnswer bear(const Compound& compound, const LoadCase& load) const override {
+    return bear_load(compound, load);
   }
 
  private:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,41 @@ struct BreakPlan {
   bool broke() const { return pieces.size() > 1; }
 };
 
+/// A force on a convex of a compound, in its rest frame R.
+struct Load {
+  std::uint32_t convex = 0;
+  Vec3 force_N = Vec3::Zero();
+  Vec3 point_R = Vec3::Zero();
+};
+
+/// What a breaker knows of a compound under load and wants back when it is asked again; only it
+/// knows what is inside. Never changed once made.
+class LoadMemory {
+ public:
+  virtual ~LoadMemory() = default;
+};
+using LoadMemoryPtr = std::shared_ptr<const LoadMemory>;
+
+/// What a compound bears, besides itself.
+struct LoadCase {
+  std::span<const Material> materials;
+  std::span<const Load> loads;
+  Vec3 gravity_R = Vec3::Zero();
+  std::uint64_t most_work = 0;  ///< To spend on the answer, in visits of bonds.
+  LoadMemoryPtr memory;         ///< Of this compound, or of what it was a piece of; null at first.
+};
+
+/// What becomes of it.
+struct LoadAnswer {
+  /// Islands of what is left of the bonds; one that holds may have fewer bonds than before.
+  BreakPlan plan;
+  std::uint32_t cut = 0;   ///< Bonds that were too weak.
+  double worst = 0;        ///< Highest stress in what is left, in parts of the limit; <= 1.
+  bool settled = false;    ///< Nothing is left to do until the load, or the compound, changes.
+  std::uint64_t work = 0;  ///< Spent.
+  LoadMemoryPtr memory;    ///< For the next time, of any of the pieces.
+};
+
 /// Pure and const: any thread may ask about any compound.
 class Breaker {
  public:
@@ -58,6 +94,8 @@ class Breaker {
                                std::uint64_t event, std::uint64_t seed) const = 0;
   /// Carries a command out. A pattern that misses gives back the one compound it was given.
   virtual BreakPlan plan(const Compound& compound, const BreakCommand& command) const = 0;
+  /// Which bonds of a compound a steady load breaks, judged by the stress that balances it.
+  virtual LoadAnswer bear(const Compound& compound, const LoadCase& load) const = 0;
 };
 
 }  // namespace sunder

@@ -74,6 +74,13 @@ struct Material {
   double impact_radius_m = 1;
   /// In place of `pattern` and `impact_radius_m` for harder blows, ascending by energy.
   std::vector<StrongerBlow> stronger;
+  /// Stress that breaks the bonds between its convexes, own weight and slow load included; 0:
+  /// never. Where two materials meet, the weaker decides.
+  double tensile_Pa = 0;
+  double shear_Pa = 0;
+  double compressive_Pa = 0;
+  /// Stiffness: how convexes share a load between them.
+  double youngs_Pa = 3e10;
   /// Pieces below this volume no longer break.
   double smallest_break_m3 = 1e-3;
   /// Pieces below this volume are debris, no bodies: they would unsettle the solver (paper 5).
@@ -83,6 +90,7 @@ struct Material {
   Crumbling crumbling;
 
   bool breakable() const { return pattern.kind != PatternSpec::Kind::kNone; }
+  bool breaks_by_load() const { return tensile_Pa > 0 || shear_Pa > 0 || compressive_Pa > 0; }
 };
 
 }  // namespace sunder

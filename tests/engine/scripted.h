@@ -102,6 +102,11 @@ class ScriptedBreaker final : public Breaker {
     }
     return plan;
   }
+  LoadAnswer bear(const Compound& compound, const LoadCase& load) const override {
+    return bearing ? bearing(compound, load) : LoadAnswer{};
+  }
+
+  std::function<LoadAnswer(const Compound&, const LoadCase&)> bearing;  ///< What bear() answers.
 
  private:
   double area_m2_;

@@ -1,0 +1,265 @@
+#include "fracture/bear.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+
+#include "engine/base/check.h"
+#include "engine/base/parallel.h"
+#include "fracture/islands.h"
+#include "fracture/stress.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr double kTolerance = 1e-3;  // of the solve
+// Of an overloaded region the worst bond goes, and those of its plane whose stress is this near:
+// by symmetry many are alike, and which is a shade worse is rounding.
+constexpr double kAlike = 0.97;
+constexpr int kRounds = 64;               // of cutting and solving again in one answer
+constexpr int kMostIterations = 2000;     // a solve that needs more is given up, and cuts nothing
+constexpr std::uint64_t kSetUpWork = 10;  // iterations that making a system costs, about
+// Stress at a bond's own corners is at most so many times that of its section: those well below
+// the limit need no closer look.
+constexpr double kWorthALook = 0.6;
+
+/// What is handed back to the next solve.
+struct Memory final : LoadMemory {
+  std::vector<ConvexPtr> convexes;
+  std::vector<std::uint8_t> anchored;
+  std::vector<Bond> bonds;
+  std::shared_ptr<const StressSystem> system;
+  std::vector<Displacement> displacements;
+  int iterations = 0;  ///< Without coming to an end.
+
+  bool is_of(const Compound& compound) const {
+    // Bonds are only ever lost, so their number tells.
+    return bonds.size() == compound.bonds.size() && convexes == compound.convexes &&
+           anchored == compound.anchored;
+  }
+};
+
+struct Limits {
+  double tensile_Pa, shear_Pa, compressive_Pa;
+};
+
+double weaker(double x, double y) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  return std::min(x > 0 ? x : kNever, y > 0 ? y : kNever);
+}
+
+Limits limits_of(const Material& a, const Material& b) {
+  return {weaker(a.tensile_Pa, b.tensile_Pa), weaker(a.shear_Pa, b.shear_Pa),
+          weaker(a.compressive_Pa, b.compressive_Pa)};
+}
+
+/// Stress in parts of the limit.
+double part_of(const BondStress& stress, const Limits& limits) {
+  return std::max({stress.tension_Pa / limits.tensile_Pa, stress.shear_Pa / limits.shear_Pa,
+                   stress.compression_Pa / limits.compressive_Pa});
+}
+
+bool same_place(const Bond& x, const Bond& y) {
+  return std::tie(x.a, x.b, x.face_a, x.face_b) == std::tie(y.a, y.b, y.face_a, y.face_b);
+}
+
+/// A compound while its bonds are cut.
+class Bearing {
+ public:
+  Bearing(const Compound& compound, const LoadCase& load)
+      : compound_(compound), load_(load), memory_(std::make_shared<Memory>()) {}
+
+  LoadAnswer run() {
+    LoadAnswer answer;
+    recall();
+    for (int round = 0; round < kRounds; ++round) {
+      if (!solve(answer)) break;
+      const std::vector<std::uint32_t> cut = overloaded(answer);
+      if (cut.empty()) {
+        answer.settled = true;
+        break;
+      }
+      answer.cut += static_cast<std::uint32_t>(cut.size());
+      remove(cut);
+      answer.work += kSetUpWork * memory_->system->work();
+    }
+    make_plan(answer);
+    memory_->bonds = compound_.bonds;
+    memory_->convexes = compound_.convexes;
+    memory_->anchored = compound_.anchored;
+    answer.memory = memory_;
+    return answer;
+  }
+
+ private:
+  /// Takes over what is known of the compound, or of what it was a part of.
+  void recall() {
+    const auto* old = dynamic_cast<const Memory*>(load_.memory.get());
+    if (old && old->is_of(compound_)) {
+      *memory_ = *old;
+      return;
+    }
+    std::vector<BondGeometry> geometry(compound_.bonds.size());
+    std::vector<std::uint32_t> old_of_new(compound_.convexes.size(), kNew);
+    memory_->displacements.resize(compound_.convexes.size());
+    if (old) {
+      std::unordered_map<const Convex*, std::uint32_t> numbers;
+      for (std::uint32_t c = 0; c < old->convexes.size(); ++c) {
+        numbers.emplace(old->convexes[c].get(), c);
+      }
+      for (std::uint32_t c = 0; c < old_of_new.size(); ++c) {
+        const auto found = numbers.find(compound_.convexes[c].get());
+        if (found == numbers.end()) continue;
+        old_of_new[c] = found->second;
+        memory_->displacements[c] = old->displacements[found->second];
+      }
+    }
+    for_chunks(geometry.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const BondGeometry* known = old ? known_geometry(*old, old_of_new, i) : nullptr;
+        geometry[i] = known ? *known : bond_geometry(compound_, compound_.bonds[i]);
+      }
+    });
+    memory_->system =
+        std::make_shared<const StressSystem>(compound_, std::move(geometry), load_.materials);
+  }
+
+  const BondGeometry* known_geometry(const Memory& old,
+                                     const std::vector<std::uint32_t>& old_of_new,
+                                     std::size_t i) const {
+    Bond bond = compound_.bonds[i];
+    bond.a = old_of_new[bond.a];
+    bond.b = old_of_new[bond.b];
+    if (bond.a == kNew || bond.b == kNew || bond.a > bond.b) return nullptr;
+    const auto at = std::lower_bound(
+        old.bonds.begin(), old.bonds.end(), bond, [](const Bond& x, const Bond& y) {
+          return std::tie(x.a, x.b, x.face_a, x.face_b) < std::tie(y.a, y.b, y.face_a, y.face_b);
+        });
+    if (at == old.bonds.end() || !same_place(*at, bond)) return nullptr;
+    return &old.system->geometry()[static_cast<std::size_t>(at - old.bonds.begin())];
+  }
+
+  /// False if the stress is not known by now: there is no work left, or it is given up.
+  bool solve(LoadAnswer& answer) {
+    const std::uint64_t each = std::max<std::uint64_t>(1, memory_->system->work());
+    if (answer.work >= load_.most_work) return false;
+    const auto left = static_cast<int>(
+        std::min<std::uint64_t>(kMostIterations, 1 + (load_.most_work - answer.work) / each));
+    const SolveResult result = memory_->system->solve(load_.loads, load_.gravity_R, kTolerance,
+                                                      left, memory_->displacements);
+    answer.work += each * static_cast<std::uint64_t>(1 + result.iterations);
+    memory_->iterations = result.converged ? 0 : memory_->iterations + result.iterations;
+    answer.settled = memory_->iterations >= kMostIterations;
+    return result.converged;
+  }
+
+  /// The worst bonds of each overloaded region, ascending.
+  std::vector<std::uint32_t> overloaded(LoadAnswer& answer) const {
+    std::vector<double> parts(compound_.bonds.size(), 0);
+    for_chunks(parts.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t i = begin; i < end; ++i) parts[i] = part_of_limit(i);
+    });
+    answer.worst = 0;
+    std::vector<Bond> too_weak;
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+      answer.worst = std::max(answer.worst, parts[i]);
+      if (parts[i] <= 1) continue;
+      too_weak.push_back(compound_.bonds[i]);
+      numbers.push_back(i);
+    }
+    if (numbers.empty()) return {};
+    // Overloaded bonds that share a convex are one region.
+    const std::vector<std::uint32_t> region = find_islands(compound_.convexes.size(), too_weak);
+    const auto region_of = [&](std::uint32_t i) { return region[compound_.bonds[i].a]; };
+    std::vector<std::uint32_t> worst(compound_.convexes.size(), kNew);
+    for (const std::uint32_t i : numbers) {
+      std::uint32_t& most = worst[region_of(i)];
+      if (most == kNew || parts[i] > parts[most]) most = i;
+    }
+    std::erase_if(numbers, [&](std::uint32_t i) {
+      const std::uint32_t most = worst[region_of(i)];
+      return plane_of(i) != plane_of(most) || parts[i] < kAlike * parts[most];
+    });
+    return numbers;
+  }
+
+  std::uint64_t plane_of(std::uint32_t i) const {
+    const Bond& bond = compound_.bonds[i];
+    return compound_.convexes[bond.a]->polyhedron.faces[bond.face_a].id.value >> 1;
+  }
+
+  double part_of_limit(std::size_t i) const {
+    const Bond& bond = compound_.bonds[i];
+    const auto number = static_cast<std::uint32_t>(i);
+    const Limits limits = limits_of(load_.materials[compound_.convexes[bond.a]->material.value],
+                                    load_.materials[compound_.convexes[bond.b]->material.value]);
+    const double most = part_of(memory_->system->bound(number, memory_->displacements), limits);
+    if (!(most > kWorthALook)) return most;
+    return part_of(memory_->system->stress(compound_, number, memory_->displacements), limits);
+  }
+
+  void remove(const std::vector<std::uint32_t>& cut) {
+    std::vector<BondGeometry> geometry;
+    std::vector<Bond> bonds;
+    auto next = cut.begin();
+    for (std::uint32_t i = 0; i < compound_.bonds.size(); ++i) {
+      if (next != cut.end() && *next == i) {
+        cut_.push_back(compound_.bonds[i]);
+        ++next;
+        continue;
+      }
+      bonds.push_back(compound_.bonds[i]);
+      geometry.push_back(memory_->system->geometry()[i]);
+    }
+    compound_.bonds = std::move(bonds);
+    memory_->system =
+        std::make_shared<const StressSystem>(compound_, std::move(geometry), load_.materials);
+  }
+
+  /// Islands as pieces, in the order of their first convex.
+  void make_plan(LoadAnswer& answer) const {
+    const std::vector<std::uint32_t> island =
+        find_islands(compound_.convexes.size(), compound_.bonds);
+    const std::uint32_t islands = 1 + *std::max_element(island.begin(), island.end());
+    if (islands == 1 && cut_.empty()) return;
+    BreakPlan& plan = answer.plan;
+    plan.pieces.resize(islands);
+    plan.untouched = static_cast<std::uint32_t>(island.size());
+    std::vector<std::uint32_t> place(island.size());
+    for (std::uint32_t c = 0; c < island.size(); ++c) {
+      Compound& piece = plan.pieces[island[c]];
+      place[c] = static_cast<std::uint32_t>(piece.convexes.size());
+      piece.convexes.push_back(compound_.convexes[c]);
+      piece.anchored.push_back(compound_.anchored[c]);
+    }
+    for (const Bond& bond : compound_.bonds) {
+      plan.pieces[island[bond.a]].bonds.push_back(
+          {place[bond.a], place[bond.b], bond.face_a, bond.face_b, bond.area_m2});
+    }
+    for (const Bond& bond : cut_) {
+      if (island[bond.a] == island[bond.b]) continue;
+      plan.new_area_m2 += bond.area_m2;
+      plan.exposed.push_back({island[bond.a], place[bond.a], bond.face_a, bond.area_m2});
+      plan.exposed.push_back({island[bond.b], place[bond.b], bond.face_b, bond.area_m2});
+    }
+  }
+
+  static constexpr std::uint32_t kNew = 0xffffffff;
+
+  Compound compound_;  ///< Less the bonds that are cut.
+  const LoadCase& load_;
+  std::shared_ptr<Memory> memory_;
+  std::vector<Bond> cut_;
+};
+
+}  // namespace
+
+LoadAnswer bear_load(const Compound& compound, const LoadCase& load) {
+  SUNDER_CHECK(!compound.convexes.empty());
+  return Bearing(compound, load).run();
+}
+
+}  // namespace sunder::fracture

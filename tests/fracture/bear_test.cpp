@@ -1,0 +1,201 @@
+// What a steady load breaks, and what it leaves alone.
+#include "fracture/bear.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "engine/base/random.h"
+#include "fracture/solids.h"
+#include "tests/fracture/frames.h"
+#include "tests/fracture/solids.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40;
+
+LoadAnswer bear(const Compound& compound, const std::vector<Material>& materials,
+                std::vector<Load> loads = {}, LoadMemoryPtr memory = nullptr,
+                std::uint64_t most_work = kPlenty) {
+  return bear_load(compound, {materials, loads, kDown, most_work, std::move(memory)});
+}
+
+// The root of a cantilever bears 6 F L / b h².
+constexpr double kLength = 4, kWidth = 0.4, kRootStrength = 1e6;
+constexpr double kSnaps_N = kRootStrength * kWidth * kWidth * kWidth / (6 * kLength);
+
+std::vector<Load> at_tip(const Compound& bar, double force_N) {
+  const auto tip = static_cast<std::uint32_t>(bar.convexes.size() - 1);
+  return {{tip, Vec3(0, -force_N, 0), Vec3(kLength, kWidth / 2, kWidth / 2)}};
+}
+
+std::vector<Material> weightless(double tensile_Pa) {
+  std::vector<Material> materials = stone(tensile_Pa);
+  for (Material& material : materials) material.density_kg_m3 = 1e-6;
+  return materials;
+}
+
+/// What is held has lost the beam, but for crumbs beside the root.
+void expect_snapped_at_root(const BreakPlan& plan) {
+  std::size_t all = 0, held = 0, longest = 0;
+  for (const Compound& piece : plan.pieces) {
+    const std::size_t count = piece.convexes.size();
+    all += count;
+    if (piece.is_anchored()) held += count;
+    if (!piece.is_anchored()) longest = std::max(longest, count);
+  }
+  ASSERT_GT(plan.pieces.size(), 1u);
+  const double layer = 16;  // convexes
+  EXPECT_LE(static_cast<double>(held), layer);
+  EXPECT_GE(static_cast<double>(longest), static_cast<double>(all) - 2 * layer);
+  EXPECT_LE(plan.new_area_m2, 1.5 * kWidth * kWidth);
+}
+
+TEST(Bear, ACantileverBearsNineTenthsOfItsLoadForEverAndSnapsAtElevenTenths) {
+  const Compound compound = bar(kLength, kWidth, 40, 4);
+  const std::vector<Material> materials = weightless(kRootStrength);
+  LoadMemoryPtr memory;
+  for (int step = 0; step < 200; ++step) {
+    // A load that trembles is solved for anew each time; nothing must add up.
+    const double load_N = (0.9 + (step % 2 ? 0.01 : -0.01)) * kSnaps_N;
+    const LoadAnswer answer = bear(compound, materials, at_tip(compound, load_N), memory);
+    ASSERT_TRUE(answer.settled && answer.cut == 0 && answer.plan.pieces.empty()) << step;
+    ASSERT_LE(answer.worst, 1);
+    memory = answer.memory;
+  }
+  const LoadAnswer answer = bear(compound, materials, at_tip(compound, 1.1 * kSnaps_N), memory);
+  EXPECT_TRUE(answer.settled);
+  expect_snapped_at_root(answer.plan);
+}
+
+TEST(Bear, ACantileverThatIsTooLongSnapsUnderItsOwnWeightAtTheRoot) {
+  // 3 ρ g L² / h
+  const double length = std::sqrt(kRootStrength * kWidth / (3 * kDensity * kGravity));
+  EXPECT_EQ(bear(bar(0.95 * length, kWidth, 30, 4), stone(kRootStrength)).cut, 0u);
+  const LoadAnswer answer = bear(bar(1.05 * length, kWidth, 30, 4), stone(kRootStrength));
+  expect_snapped_at_root(answer.plan);
+}
+
+TEST(Bear, TheSameLoadAgainCostsOneLookAndChangesNothing) {
+  const Compound compound = bar(kLength, kWidth, 40, 4);
+  const LoadAnswer first = bear(compound, stone(1e9));
+  const LoadAnswer second = bear(compound, stone(1e9), {}, first.memory);
+  EXPECT_TRUE(second.settled);
+  EXPECT_LT(second.work, first.work / 5);
+  EXPECT_EQ(first.worst, second.worst);
+}
+
+TEST(Bear, WorkPutOffIsNotLost) {
+  const Compound compound = bar(kLength, kWidth, 40, 4);
+  const std::vector<Material> materials = weightless(kRootStrength);
+  const std::vector<Load> loads = at_tip(compound, 1.1 * kSnaps_N);
+  const std::uint64_t little = 3 * compound.bonds.size();
+  LoadMemoryPtr memory;
+  Compound left = compound;
+  std::size_t pieces = 1;
+  int calls = 0;
+  for (; pieces == 1 && calls < 1000; ++calls) {
+    LoadAnswer answer = bear(left, materials, loads, memory, little);
+    EXPECT_LE(answer.work, 20 * compound.bonds.size());
+    memory = answer.memory;
+    pieces = std::max<std::size_t>(1, answer.plan.pieces.size());
+    if (!answer.plan.pieces.empty()) left = answer.plan.pieces[0];
+  }
+  EXPECT_GT(calls, 3);
+  ASSERT_GT(pieces, 1u);
+  EXPECT_LE(left.convexes.size(), 32u);  // broken at the root, as in one go
+}
+
+/// Half a ring of voussoirs on two footings; `keystone` leaves the middle one out if false.
+Compound arch(bool keystone) {
+  const int stones = 15;
+  const double pi = 3.14159265358979323846;
+  std::vector<Part> parts;
+  for (int i = -1; i <= stones; ++i) {
+    if (!keystone && i == stones / 2) continue;
+    const SinCos from = sin_cos(pi * i / stones), to = sin_cos(pi * (i + 1) / stones);
+    std::vector<Vec3> corners;
+    for (const double r : {1.7, 2.3}) {
+      for (const SinCos& at : {from, to}) {
+        for (const double z : {0.0, 0.5}) corners.emplace_back(r * at.cos, r * at.sin, z);
+      }
+    }
+    const bool held = i < 0 || i == stones;
+    parts.push_back({make_hull(corners), MaterialIndex(held ? 1 : 0), held});
+  }
+  return make_compound(std::move(parts));
+}
+
+TEST(Bear, AnArchStandsByItsKeystone) {
+  const std::vector<Material> weak_mortar = stone(1e5);
+  EXPECT_EQ(bear(arch(true), weak_mortar).cut, 0u);
+  const LoadAnswer answer = bear(arch(false), weak_mortar);
+  EXPECT_TRUE(answer.settled);
+  ASSERT_GE(answer.plan.pieces.size(), 4u);
+  int falling = 0;
+  for (const Compound& piece : answer.plan.pieces) {
+    if (!piece.is_anchored()) falling += static_cast<int>(piece.convexes.size());
+  }
+  EXPECT_GE(falling, 6);
+}
+
+TEST(Bear, WhatHangsOnNothingIsAPieceOfItsOwn) {
+  std::vector<Part> parts;
+  add_grid(Vec3(0, 0, 0), Vec3(1, 1, 1), 1, 2, 1, true, parts);
+  add_grid(Vec3(0, 3, 0), Vec3(1, 4, 1), 2, 1, 1, false, parts);
+  const LoadAnswer answer = bear(make_compound(std::move(parts)), stone(1e6));
+  ASSERT_EQ(answer.plan.pieces.size(), 2u);
+  EXPECT_TRUE(answer.settled);
+  EXPECT_EQ(answer.cut, 0u);
+  EXPECT_FALSE(answer.plan.pieces[1].is_anchored());
+  EXPECT_EQ(answer.plan.pieces[1].bonds.size(), 1u);
+}
+
+TEST(Bear, MaterialsWithoutLimitsNeverBreak) {
+  const Compound compound = bar(kLength, kWidth, 20, 2);
+  EXPECT_EQ(bear(compound, stone(0), at_tip(compound, 1e12)).cut, 0u);
+}
+
+TEST(Bear, AnyCompoundGivesPiecesThatAddUpAndTheSameForAnyNumberOfThreads) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed, 17);
+    Compound compound = voronoi_compound(2 + static_cast<int>(random.below(120)), seed);
+    for (std::uint8_t& held : compound.anchored) held = random.uniform() < 0.05;
+    std::vector<Load> loads;
+    for (int i = 0; i < 5; ++i) {
+      const auto convex = random.below(static_cast<std::uint32_t>(compound.convexes.size()));
+      const double size = std::pow(10.0, random.uniform(-3, 9));
+      loads.push_back(
+          {convex, size * random.direction(), random.uniform(0, 9) * random.direction()});
+    }
+    std::vector<Material> materials = stone(std::pow(10.0, random.uniform(2, 8)));
+    materials[0].shear_Pa = std::pow(10.0, random.uniform(2, 8));
+    materials[0].compressive_Pa = std::pow(10.0, random.uniform(2, 8));
+    std::vector<std::uint64_t> hashes;
+    for (const int count : {1, 2, 4}) {
+      set_threads(count);
+      LoadAnswer answer = bear(compound, materials, loads);
+      for (int more = 0; !answer.settled && more < 50; ++more) {
+        if (answer.plan.pieces.size() > 1) break;
+        const Compound cracked = answer.plan.pieces[0];
+        answer = bear(cracked, materials, loads, answer.memory);
+      }
+      EXPECT_TRUE(answer.settled || answer.plan.pieces.size() > 1) << seed;
+      EXPECT_TRUE(std::isfinite(answer.worst)) << seed;
+      EXPECT_TRUE(!answer.settled || answer.worst <= 1) << seed;
+      if (!answer.plan.pieces.empty()) {
+        EXPECT_NEAR(total_volume(answer.plan), volume(compound), 1e-9);
+      }
+      hashes.push_back(combine(hash_of(answer.plan), bits_of(answer.worst)));
+    }
+    set_threads(0);
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_EQ(hashes[0], hashes[2]);
+  }
+}
+
+}  // namespace
+}  // namespace sunder::fracture

@@ -1,0 +1,210 @@
+// Stress on bonds against the theory of beams, frames and arches.
+#include "fracture/stress.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "fracture/fracture.h"
+#include "fracture/pattern.h"
+#include "tests/fracture/frames.h"
+
+namespace sunder::fracture {
+namespace {
+
+TEST(Stress, ACantileversRootCarriesWhatBeamTheorySays) {
+  for (const int across : {1, 2, 4}) {
+    const double length = 4, width = 0.4;
+    const Compound compound = bar(length, width, 10 * across, across);
+    const double own = 3 * kDensity * kGravity * length * length / width;
+    EXPECT_NEAR(worst_stress(compound).tension_Pa / own, 1, 0.1) << across;
+
+    const auto tip = static_cast<std::uint32_t>(compound.convexes.size() - 1);
+    const Load load{tip, Vec3(0, -1000, 0), Vec3(length, width / 2, width / 2)};
+    const double bending = 6 * 1000 * length / (width * width * width);
+    EXPECT_NEAR(worst_stress(compound, {load}, Vec3::Zero()).tension_Pa / bending, 1, 0.1)
+        << across;
+  }
+}
+
+TEST(Stress, ABeamHeldAtBothEndsIsBentMostWhereItIsHeld) {
+  const double length = 6, width = 0.4;
+  const Compound compound = bar(length, width, 60, 4, true);
+  const double weight = kDensity * kGravity * width * width;  // N/m
+  const double expected = weight * length * length / 12 * 6 / (width * width * width);
+  EXPECT_NEAR(worst_stress(compound).tension_Pa / expected, 1, 0.1);
+}
+
+TEST(Stress, AColumnIsOnlyPressedAndTheMoreTheLower) {
+  const Compound compound = bar(5, 0.5, 10, 2);
+  const BondStress stress = worst_stress(compound, {}, Vec3(-kGravity, 0, 0));
+  const double base = kDensity * kGravity * 5;
+  EXPECT_NEAR(stress.compression_Pa, base, 1e-2 * base);
+  EXPECT_LT(stress.tension_Pa, 1e-2 * base);
+}
+
+// Kleinlogel, Rahmenformeln: uniform load w on the beam of a portal held at both feet, h its
+// height and L its span, all of one section: M = w L² / (6 (h/L + 2)) at the corners.
+TEST(Stress, APortalsCornersCarryWhatFrameTheorySays) {
+  const double span = 6, height = 4, t = 0.2;  // between centre lines
+  std::vector<Part> parts;
+  const int n = 4;
+  const double low = -span / 2 - t / 2, high = span / 2 + t / 2, beam = height - t / 2;
+  for (const double x : {low, high - t}) {
+    add_grid(Vec3(x, -t / n, 0), Vec3(x + t, 0, t), n, 1, n, true, parts);
+    add_grid(Vec3(x, 0, 0), Vec3(x + t, beam, t), n, 39 * n / 2, n, false, parts);
+  }
+  add_grid(Vec3(low, beam, 0), Vec3(high, beam + t, t), 31 * n, n, n, false, parts);
+  const Compound compound = make_compound(std::move(parts));
+  // The beam alone is loaded, as in the formula.
+  std::vector<Load> loads;
+  for (std::uint32_t c = 0; c < compound.convexes.size(); ++c) {
+    const MassProperties& solid = compound.convexes[c]->solid;
+    const double y = solid.centroid.y();
+    if (y > beam) loads.push_back({c, kDensity * solid.volume_m3 * kDown, solid.centroid});
+  }
+  const double w = kDensity * kGravity * t * t;
+  const double corner = w * span * span / (6 * (height / span + 2));
+  const double middle = w * span * span / 8 - corner;
+  const double thrust = 1.5 * corner / height;
+  const double expected = middle * 6 / (t * t * t) - thrust / (t * t);
+  EXPECT_NEAR(worst_stress(compound, loads, Vec3::Zero()).tension_Pa / expected, 1, 0.1);
+}
+
+// A semicircular arch of radius R held at both ends, with a load P at the crown. The moment at
+// angle θ from there is M = M₀ + H R (1 − cos θ) − ½ P R sin θ; that the crown neither turns nor
+// moves sideways, ∫ M dθ = 0 and ∫ M cos θ dθ = 0, gives H = P (4 − π) / (π² − 8) and M₀.
+TEST(Stress, AnArchCarriesWhatTheElasticCentreSays) {
+  const double radius = 4, t = 0.2, load_N = 5000;
+  const int around = 96, across = 4;
+  std::vector<Part> parts;
+  const auto ring = [&](int k, double angle_0, double angle_1, bool held) {
+    const double inner = radius - t / 2 + t * k / across, outer = inner + t / across;
+    const SinCos from = sin_cos(angle_0), to = sin_cos(angle_1);
+    std::vector<Vec3> corners;
+    for (const double r : {inner, outer}) {
+      for (const SinCos& at : {from, to}) {
+        for (const double z : {0.0, t}) corners.emplace_back(r * at.cos, r * at.sin, z);
+      }
+    }
+    parts.push_back({make_hull(corners), MaterialIndex(held ? 1 : 0), held});
+  };
+  const double pi = 3.14159265358979323846, step = pi / around;
+  for (int k = 0; k < across; ++k) {
+    ring(k, -step, 0, true);
+    for (int i = 0; i < around; ++i) ring(k, i * step, (i + 1) * step, false);
+    ring(k, pi, pi + step, true);
+  }
+  const Compound compound = make_compound(std::move(parts));
+  std::vector<Load> loads;
+  for (std::uint32_t c = 0; c < compound.convexes.size(); ++c) {
+    const Box& box = compound.convexes[c]->box;
+    if (box.min.x() < 1e-6 && box.max.x() > -1e-6 && box.max.y() > radius + 0.4 * t) {
+      loads.push_back({c, Vec3::Zero(), Vec3(0, radius + t / 2, t / 2)});
+    }
+  }
+  ASSERT_EQ(loads.size(), 2u);
+  for (Load& load : loads) load.force_N.y() = -load_N / 2;
+  const double thrust = load_N * (4 - pi) / (pi * pi - 8);
+  const double crown = load_N * radius / pi - thrust * radius * (1 - 2 / pi);
+  const double expected = std::abs(crown) * 6 / (t * t * t) - thrust / (t * t);
+  EXPECT_NEAR(worst_stress(compound, loads, Vec3::Zero()).tension_Pa / expected, 1, 0.1);
+}
+
+/// A bar from 0 to 4 m along x in Voronoi cells, fixed by a plate at x = 0.
+Compound voronoi_bar(int cells, std::uint64_t seed) {
+  std::vector<Part> parts;
+  add_grid(Vec3(-0.1, 0, 0), Vec3(0, 0.4, 0.4), 1, 1, 1, true, parts);
+  add_grid(Vec3::Zero(), Vec3(4, 0.4, 0.4), 1, 1, 1, false, parts);
+  const Compound whole = make_compound(std::move(parts));
+  const Pattern pattern = voronoi_pattern(cells, 1, true, seed);
+  const ImpactSphere everything{Vec3(2, 0.2, 0.2), std::numeric_limits<double>::infinity()};
+  BreakPlan plan = fracture(whole, pattern, {Vec3(2.1, 0.7, 0.7).asDiagonal(), Vec3(2, 0.2, 0.2)},
+                            everything, 1);
+  std::vector<Part> cut;
+  for (const Compound& piece : plan.pieces) {
+    for (std::size_t c = 0; c < piece.convexes.size(); ++c) {
+      const bool held = piece.convexes[c]->box.max.x() < 1e-9;
+      cut.push_back({piece.convexes[c]->polyhedron, MaterialIndex(held ? 1 : 0), held});
+    }
+  }
+  return make_compound(std::move(cut), 1e-9);
+}
+
+TEST(Stress, ACantileverOfVoronoiCellsIsBentAsOneOfBoxes) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Compound compound = voronoi_bar(1500, seed);
+    ASSERT_GT(compound.convexes.size(), 100u);
+    const StressSystem system = system_of(compound, stone());
+    std::vector<Displacement> displacements;
+    const SolveResult solved = system.solve({}, kDown, 1e-3, 500, displacements);
+    EXPECT_TRUE(solved.converged);
+    double root = 0;  // where the plate holds it
+    for (std::uint32_t i = 0; i < compound.bonds.size(); ++i) {
+      if (system.geometry()[i].centroid_R.x() > 1e-6) continue;
+      root = std::max(root, system.stress(compound, i, displacements).tension_Pa);
+    }
+    EXPECT_NEAR(root / (3 * kDensity * kGravity * 16 / 0.4), 1, 0.1) << compound.convexes.size();
+  }
+}
+
+TEST(Stress, WhatFallsFreelyFeelsNothing) {
+  std::vector<Part> parts;
+  add_grid(Vec3::Zero(), Vec3(3, 1, 2), 6, 2, 4, false, parts);
+  const BondStress stress = worst_stress(make_compound(std::move(parts)));
+  EXPECT_LT(stress.tension_Pa + stress.compression_Pa + stress.shear_Pa, 1e-3);
+}
+
+// Pushed at one end and free at the other, a rod is pressed everywhere by what it has to push on.
+TEST(Stress, AFreeRodThatIsPushedFeelsWhatItsRestWeighs) {
+  std::vector<Part> parts;
+  add_grid(Vec3::Zero(), Vec3(4, 0.5, 0.5), 8, 1, 1, false, parts);
+  const Compound compound = make_compound(std::move(parts));
+  const Load push{0, Vec3(1000, 0, 0), Vec3(0, 0.25, 0.25)};
+  const StressSystem system = system_of(compound, stone());
+  std::vector<Displacement> displacements;
+  EXPECT_TRUE(system.solve(std::span(&push, 1), kDown, 1e-6, 500, displacements).converged);
+  for (std::uint32_t i = 0; i < compound.bonds.size(); ++i) {
+    const double rest = (4 - system.geometry()[i].centroid_R.x()) / 4;
+    const BondStress stress = system.stress(compound, i, displacements);
+    EXPECT_NEAR(stress.compression_Pa, rest * 1000 / 0.25, 1e-3 * 1000 / 0.25);
+    EXPECT_LT(stress.tension_Pa, 1e-3 * 1000 / 0.25);
+  }
+}
+
+TEST(Stress, AWarmStartHasNothingLeftToDo) {
+  const Compound compound = bar(4, 0.4, 30, 3);
+  const StressSystem system = system_of(compound, stone());
+  std::vector<Displacement> displacements;
+  EXPECT_GT(system.solve({}, kDown, 1e-3, 500, displacements).iterations, 0);
+  EXPECT_EQ(system.solve({}, kDown, 1e-3, 500, displacements).iterations, 0);
+}
+
+TEST(Stress, TakesFewIterationsHoweverManyConvexesAndHoweverFlat) {
+  const auto iterations = [](int along, int across) {
+    const Compound compound = bar(4, 0.4, along, across);
+    std::vector<Displacement> displacements;
+    const StressSystem system = system_of(compound, stone());
+    return system.solve({}, kDown, 1e-3, 500, displacements).iterations;
+  };
+  EXPECT_LE(iterations(40, 4), 20);
+  EXPECT_LE(iterations(126, 8), 25);
+  EXPECT_LE(iterations(20, 20), 30);  // ten times as long as thick
+}
+
+TEST(Stress, IsTheSameToTheLastBitForAnyNumberOfThreads) {
+  const Compound compound = bar(4, 0.4, 50, 6);
+  std::vector<std::vector<Displacement>> results;
+  for (const int count : {1, 2, 4}) {
+    set_threads(count);
+    const StressSystem system = system_of(compound, stone());
+    system.solve({}, kDown, 1e-3, 500, results.emplace_back());
+  }
+  set_threads(0);
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+    EXPECT_EQ(results[0][c].shift_R, results[1][c].shift_R);
+    EXPECT_EQ(results[0][c].turn_R, results[2][c].turn_R);
+  }
+}
+
+}  // namespace
+}  // namespace sunder::fracture
