@@ -221,8 +221,7 @@ class Bearing {
 
   /// Islands as pieces, in the order of their first convex.
   void make_plan(LoadAnswer& answer) const {
-    const std::vector<std::uint32_t> island =
-        find_islands(compound_.convexes.size(), compound_.bonds);
+    const std::vector<std::uint32_t> island = find_islands(compound_);
     const std::uint32_t islands = 1 + *std::max_element(island.begin(), island.end());
     if (islands == 1 && cut_.empty()) return;
     BreakPlan& plan = answer.plan;
@@ -238,6 +237,11 @@ class Bearing {
     for (const Bond& bond : compound_.bonds) {
       plan.pieces[island[bond.a]].bonds.push_back(
           {place[bond.a], place[bond.b], bond.face_a, bond.face_b, bond.area_m2});
+    }
+    for (Ghost ghost : compound_.ghosts) {
+      Compound& piece = plan.pieces[island[ghost.of[0]]];
+      for (std::uint32_t& c : ghost.of) c = place[c];
+      piece.ghosts.push_back(std::move(ghost));
     }
     for (const Bond& bond : cut_) {
       if (island[bond.a] == island[bond.b]) continue;

@@ -22,4 +22,13 @@ std::vector<std::uint32_t> find_islands(std::size_t count, std::span<const Bond>
   return island;
 }
 
+std::vector<std::uint32_t> find_islands(const Compound& compound) {
+  if (compound.ghosts.empty()) return find_islands(compound.convexes.size(), compound.bonds);
+  std::vector<Bond> links = compound.bonds;
+  for (const Ghost& ghost : compound.ghosts) {
+    for (const std::uint32_t c : ghost.of) links.push_back({ghost.of[0], c, 0, 0, 0});
+  }
+  return find_islands(compound.convexes.size(), links);
+}
+
 }  // namespace sunder::fracture

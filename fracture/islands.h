@@ -13,4 +13,7 @@ namespace sunder::fracture {
 /// their first convex.
 std::vector<std::uint32_t> find_islands(std::size_t count, std::span<const Bond> bonds);
 
+/// The same for a compound, whose convexes hold together where they overlap too.
+std::vector<std::uint32_t> find_islands(const Compound& compound);
+
 }  // namespace sunder::fracture

@@ -40,6 +40,13 @@ StressSystem::StressSystem(const Compound& compound, std::vector<BondGeometry> g
     masses_kg_.push_back(density * convex->solid.volume_m3);
     inertias_.push_back(density * convex->solid.inertia());
   }
+  for (const Ghost& ghost : compound.ghosts) {  // what is counted twice, shared
+    const Convex& common = *ghost.convex;
+    const double mass = materials[common.material.value].density_kg_m3 * common.solid.volume_m3;
+    for (const std::uint32_t c : ghost.of) {
+      masses_kg_[c] += ghost.sign * mass / static_cast<double>(ghost.of.size());
+    }
+  }
   number_nodes(compound);
   std::vector<Spring> springs = make_joints(compound, materials);
   by_plane_.resize(joints_.size());
@@ -56,7 +63,7 @@ StressSystem::StressSystem(const Compound& compound, std::vector<BondGeometry> g
 /// Convexes that may move are nodes; of an island that nothing holds, the heaviest is held.
 void StressSystem::number_nodes(const Compound& compound) {
   const std::size_t count = compound.convexes.size();
-  const std::vector<std::uint32_t> island = find_islands(count, compound.bonds);
+  const std::vector<std::uint32_t> island = find_islands(compound);
   std::vector<std::vector<std::uint32_t>> members;
   for (std::uint32_t c = 0; c < count; ++c) {
     if (island[c] == members.size()) members.emplace_back();
@@ -127,7 +134,25 @@ std::vector<Spring> StressSystem::make_joints(const Compound& compound,
     }
     joints_.push_back(joint);
   }
+  add_overlaps(compound, materials, springs);
   return springs;
+}
+
+/// Convexes that overlap are held together as if by a cube of what they have in common; such a
+/// joint is no bond, and never breaks by load.
+void StressSystem::add_overlaps(const Compound& compound, std::span<const Material> materials,
+                                std::vector<Spring>& springs) const {
+  for (const Ghost& ghost : compound.ghosts) {
+    const Convex& common = *ghost.convex;
+    const double edge = std::cbrt(std::max(common.solid.volume_m3, 1e-300));
+    const double stretch = materials[common.material.value].youngs_Pa * edge;
+    for (std::size_t i = 1; i < ghost.of.size(); ++i) {
+      const std::uint32_t a = node_of_convex_[ghost.of[0]], b = node_of_convex_[ghost.of[i]];
+      if (a == Spring::kWorld && b == Spring::kWorld) continue;
+      springs.push_back(
+          {a, b, common.solid.centroid, stretch, stretch * edge * edge / 6 * Mat3::Identity()});
+    }
+  }
 }
 
 /// Forces on convexes and torques about their centroids: loads and weight, less what accelerates

@@ -82,6 +82,8 @@ class StressSystem {
   void number_nodes(const Compound& compound);
   void add_loose(std::vector<std::uint32_t> convexes);
   std::vector<Spring> make_joints(const Compound& compound, std::span<const Material> materials);
+  void add_overlaps(const Compound& compound, std::span<const Material> materials,
+                    std::vector<Spring>& springs) const;
   void weigh_down(std::span<const Load> loads, const Vec3& gravity_R, std::vector<Vec3>& forces_N,
                   std::vector<Vec3>& torques_Nm) const;
   Field field(std::uint32_t bond, std::span<const Displacement> displacements) const;

@@ -97,7 +97,7 @@ class ScriptedBreaker final : public Breaker {
   BreakPlan plan(const Compound& compound, const BreakCommand&) const override {
     BreakPlan plan;
     for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-      plan.pieces.push_back({{compound.convexes[c]}, {compound.anchored[c]}, {}});
+      plan.pieces.push_back({{compound.convexes[c]}, {compound.anchored[c]}, {}, {}});
       plan.exposed.push_back({static_cast<std::uint32_t>(c), 0, 0, area_m2_});
     }
     return plan;
