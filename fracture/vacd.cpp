@@ -11,6 +11,7 @@
 #include "fracture/adjacency.h"
 #include "fracture/vacd_nodes.h"
 #include "fracture/vacd_regions.h"
+#include "fracture/vacd_tree.h"
 
 namespace sunder::fracture {
 namespace {
@@ -41,19 +42,25 @@ std::vector<VacdPiece> all_pieces(const RepairedMesh& mesh, const VacdOptions& o
   return pieces;
 }
 
-std::vector<VacdPiece> limited_pieces(const RepairedMesh& mesh, const VacdOptions& options,
-                                      PlaneNames& names) {
+/// Pieces by nodes, if there are any, cut further where `convexes` allows or `polygons` demands.
+std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& options,
+                                  PlaneNames& names) {
+  const auto shells = static_cast<std::uint32_t>(mesh.shells.size());
   const std::uint32_t limit = options.convexes;
-  std::uint32_t count = options.node_count.value_or(limit > 0 ? limit : kDefaultNodes);
+  std::uint32_t count = options.node_count.value_or(limit > 0 ? shells : kDefaultNodes);
   for (;;) {
     names = {};
     std::vector<VacdPiece> pieces = all_pieces(mesh, options, count, names);
-    const std::size_t least = mesh.shells.size();
-    if (limit == 0 || pieces.size() <= limit || count <= least || !options.nodes.empty()) {
-      return pieces;
+    const auto made = static_cast<std::uint32_t>(pieces.size());
+    const bool fewest = options.nodes.empty() && count <= shells;
+    if (limit == 0 || made <= limit || fewest) {
+      return refine(std::move(pieces), {limit, options.polygons}, names);
     }
-    const auto over = static_cast<std::uint32_t>(pieces.size()) - limit;
-    count = count > over ? count - over : 1;
+    if (!options.nodes.empty()) {
+      throw InputError("the nodes make " + std::to_string(made) + " convexes, more than the " +
+                       std::to_string(limit) + " allowed; give fewer nodes or allow more");
+    }
+    count -= std::min(count - shells, made - limit);
   }
 }
 
@@ -100,7 +107,7 @@ Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
   check_options(options);
   const Stopwatch watch;
   PlaneNames names;
-  std::vector<VacdPiece> pieces = limited_pieces(mesh, options, names);
+  std::vector<VacdPiece> pieces = cut_pieces(mesh, options, names);
   const double split_ms = watch.ms();
   Vacd result;
   Compound& compound = result.compound;

@@ -17,6 +17,10 @@
 
 namespace sunder::fracture {
 
+inline constexpr std::uint32_t kDefaultNodes = 12;
+inline constexpr std::uint32_t kMostNodes = 10000;        ///< Also of convexes.
+inline constexpr std::uint32_t kDefaultPolygons = 20000;  ///< Of a piece.
+
 struct VacdOptions {
   std::vector<Vec3> nodes;  ///< By hand, in the mesh's coordinates; empty: automatic.
   /// Automatic nodes, shared among the shells; none by default where `convexes` is given.
@@ -24,11 +28,10 @@ struct VacdOptions {
   /// At most so many convexes, and no fewer where more make tighter hulls; 0: what the nodes make.
   /// A convex owns one connected mesh, so there are never fewer than shells.
   std::uint32_t convexes = 0;
+  std::uint32_t polygons = kDefaultPolygons;  ///< A piece with more is cut again, if it may be.
   Fit fit{Fit::Kind::kHull, 24};
   MaterialIndex material;
 };
-inline constexpr std::uint32_t kDefaultNodes = 12;
-inline constexpr std::uint32_t kMostNodes = 10000;  ///< Also of convexes.
 
 struct VacdFigures {
   double mesh_volume_m3 = 0;

@@ -67,9 +67,69 @@ TEST(Vacd, OfRealMeshesKeepsItsPromises) {
         EXPECT_EQ(set, "nasty") << name;
         continue;
       }
-      EXPECT_EQ(broken_promise(decompose(mesh).compound, mesh), "") << name;
+      VacdOptions tight;
+      tight.convexes = 8;
+      for (const VacdOptions& options : {VacdOptions(), tight}) {
+        const Vacd vacd = decompose(mesh, options);
+        EXPECT_EQ(broken_promise(vacd.compound, mesh), "") << name;
+        if (options.convexes > 0) {
+          EXPECT_LE(vacd.compound.convexes.size(), std::max<std::size_t>(8, mesh.shells.size()));
+        }
+      }
     }
   }
+}
+
+/// An L of boxes, as one mesh of 12 vertices: two convexes make it up exactly.
+RepairedMesh corner_mesh() {
+  const Vec2 outline[] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}};
+  RawMesh raw;
+  for (const double z : {0.0, 1.0}) {
+    for (const Vec2& p : outline) raw.vertices.emplace_back(p.x(), p.y(), z);
+  }
+  const auto add = [&](std::vector<std::uint32_t> corners) {
+    raw.polygons.push_back({static_cast<std::uint32_t>(raw.corners.size()),
+                            static_cast<std::uint32_t>(corners.size()), 0});
+    raw.corners.insert(raw.corners.end(), corners.begin(), corners.end());
+  };
+  add({5, 4, 3, 2, 1, 0});
+  add({6, 7, 8, 9, 10, 11});
+  for (std::uint32_t i = 0; i < 6; ++i) add({i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i});
+  return repair_mesh(std::move(raw), "corner");
+}
+
+TEST(Vacd, CutsWhereAMeshIsConcave) {
+  VacdOptions options;
+  options.convexes = 2;
+  const RepairedMesh mesh = corner_mesh();
+  const Vacd vacd = decompose(mesh, options);
+  EXPECT_EQ(vacd.compound.convexes.size(), 2u);
+  EXPECT_LT(vacd.figures.hull_volume_ratio(), 1.02);
+  EXPECT_EQ(broken_promise(vacd.compound, mesh), "");
+}
+
+TEST(Vacd, IsTheSameForAnyNumberOfThreads) {
+  VacdOptions options;
+  options.node_count = 3;
+  options.convexes = 7;
+  const RepairedMesh mesh = corner_mesh();
+  set_threads(1);
+  const Compound one = decompose(mesh, options).compound;
+  for (const int count : {2, 5}) {
+    set_threads(count);
+    const Compound many = decompose(mesh, options).compound;
+    ASSERT_EQ(many.convexes.size(), one.convexes.size());
+    for (std::size_t c = 0; c < one.convexes.size(); ++c) {
+      const Convex &a = *one.convexes[c], &b = *many.convexes[c];
+      EXPECT_EQ(a.polyhedron.vertices, b.polyhedron.vertices);
+      ASSERT_EQ(a.is_internal(), b.is_internal());
+      if (!a.is_internal()) {
+        EXPECT_EQ(a.visual->vertices, b.visual->vertices);
+      }
+    }
+    ASSERT_EQ(many.bonds.size(), one.bonds.size());
+  }
+  set_threads(0);
 }
 
 TEST(Vacd, CellsWithinTheMeshAreInternal) {

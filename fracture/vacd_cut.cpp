@@ -1,0 +1,293 @@
+#include "fracture/vacd_cut.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <Eigen/Eigenvalues>
+
+#include "engine/base/parallel.h"
+#include "engine/geometry/approximate_hull.h"
+#include "engine/geometry/mass_properties.h"
+#include "fracture/vacd_sweep.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr std::size_t kAround = 16;  // points of a slice's outline
+constexpr std::size_t kSlices = 14;  // along each direction at first
+constexpr std::size_t kNearSlices = 8;
+constexpr int kRounds = 3;
+constexpr double kFirstTilt = 0.25;
+/// Of two cuts about as tight the more even one, by this share of the larger hull.
+constexpr double kEvenness = 2e-3;
+
+/// Of a hull: what a vertex must add to it to matter.
+constexpr double kLeastGain = 1e-4;
+
+/// Unit vectors every 22.5 degrees.
+constexpr double kCos = 0.92387953251128674, kSin = 0.38268343236508977,
+                 kDiagonal = 0.70710678118654752;
+constexpr double kRing[kAround][2] = {
+    {1, 0},  {kCos, kSin},   {kDiagonal, kDiagonal},   {kSin, kCos},
+    {0, 1},  {-kSin, kCos},  {-kDiagonal, kDiagonal},  {-kCos, kSin},
+    {-1, 0}, {-kCos, -kSin}, {-kDiagonal, -kDiagonal}, {-kSin, -kCos},
+    {0, -1}, {kSin, -kCos},  {kDiagonal, -kDiagonal},  {kCos, -kSin}};
+
+/// Where a plane cuts a mesh: the outline's outermost points.
+struct Slice {
+  double place = 0;
+  std::array<double, kAround> reach;
+  std::array<Vec3, kAround> points;
+  bool hit = false;
+
+  explicit Slice(double at) : place(at) { reach.fill(-std::numeric_limits<double>::infinity()); }
+  Vec3 middle() const {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : points) sum += p;
+    return sum / static_cast<double>(kAround);
+  }
+};
+
+struct Frame {
+  Vec3 up, right, front;
+
+  explicit Frame(const Vec3& direction) : up(direction) {
+    int flattest;
+    direction.cwiseAbs().minCoeff(&flattest);
+    right = direction.cross(Vec3::Unit(flattest)).normalized();
+    front = direction.cross(right);
+  }
+};
+
+struct Candidate {
+  Vec3 direction = Vec3::UnitX();
+  Vec3 middle = Vec3::Zero();  ///< Of the slice.
+  double place = 0;
+  double price = std::numeric_limits<double>::infinity();
+  double hull_volume_m3 = 0;
+};
+
+/// Prices parallel cuts; reused from direction to direction.
+class Sweeper {
+ public:
+  Sweeper(const PolygonMesh& mesh, const std::vector<Vec3>& outermost, const Box& box)
+      : mesh_(mesh), tips_(outermost), box_(box) {}
+
+  /// The best of kSlices evenly spread planes.
+  Candidate anywhere(const Vec3& direction) {
+    lay_out(direction);
+    const auto [low, high] = std::minmax_element(places_.begin(), places_.end());
+    const double step = (*high - *low) / (kSlices + 1);
+    for (std::size_t k = 1; k <= kSlices; ++k) {
+      slices_.emplace_back(*low + static_cast<double>(k) * step);
+    }
+    return price(direction);
+  }
+
+  /// The best of some planes within `reach` of a point, among others for the hull's sake.
+  Candidate near(const Vec3& direction, const Vec3& point, double reach_m) {
+    lay_out(direction);
+    const auto [low, high] = std::minmax_element(places_.begin(), places_.end());
+    const double at = direction.dot(point), step = (*high - *low) / (kSlices + 1);
+    for (double place = *low + step; place < at - reach_m; place += step) {
+      slices_.emplace_back(place);
+    }
+    for (std::size_t k = 0; k < kNearSlices; ++k) {
+      const double along = (static_cast<double>(k) + 0.5) / kNearSlices * 2 - 1;
+      const double place = at + along * reach_m;
+      if (place > *low && place < *high) slices_.emplace_back(place);
+    }
+    for (double place = at + reach_m + step; place < *high; place += step) {
+      slices_.emplace_back(place);
+    }
+    return price(direction);
+  }
+
+ private:
+  void lay_out(const Vec3& direction) {
+    slices_.clear();
+    places_.clear();
+    for (const Vec3& v : mesh_.vertices) places_.push_back(direction.dot(v));
+  }
+  Candidate price(const Vec3& direction);
+  void cut_edges(const Frame& frame);
+  template <class Iterator>
+  void sweep(Iterator begin, Iterator end, double sign, const Vec3& direction,
+             std::vector<double>& volumes);
+
+  const PolygonMesh& mesh_;
+  std::vector<Vec3> tips_;
+  const Box box_;
+  std::vector<double> places_;       ///< Of vertices, along the direction.
+  std::vector<std::uint8_t> above_;  ///< Per vertex: how many slices it is above.
+  std::vector<Slice> slices_;        ///< In order.
+  std::vector<double> below_m3_, above_m3_;
+  SweepHull hull_;
+};
+
+void Sweeper::cut_edges(const Frame& frame) {
+  above_.resize(places_.size());
+  for (std::size_t v = 0; v < places_.size(); ++v) {
+    std::uint8_t count = 0;
+    for (const Slice& slice : slices_) count += places_[v] > slice.place;
+    above_[v] = count;
+  }
+  for (std::size_t c = 0; c < mesh_.contours.size(); ++c) {
+    const auto corners = mesh_.contour_corners(c);
+    std::uint32_t from = corners.back();
+    for (const std::uint32_t to : corners) {
+      for (std::size_t s = above_[from]; s < above_[to]; ++s) {
+        Slice& slice = slices_[s];
+        const double t = (slice.place - places_[from]) / (places_[to] - places_[from]);
+        const Vec3 p = mesh_.vertices[from] + t * (mesh_.vertices[to] - mesh_.vertices[from]);
+        const double u = frame.right.dot(p), v = frame.front.dot(p);
+        slice.hit = true;
+        for (std::size_t i = 0; i < kAround; ++i) {
+          const double reach = kRing[i][0] * u + kRing[i][1] * v;
+          if (reach <= slice.reach[i]) continue;
+          slice.reach[i] = reach;
+          slice.points[i] = p;
+        }
+      }
+      from = to;
+    }
+  }
+}
+
+template <class Iterator>
+void Sweeper::sweep(Iterator begin, Iterator end, double sign, const Vec3& direction,
+                    std::vector<double>& volumes) {
+  hull_.restart(box_.center(), box_.extent().maxCoeff());
+  std::sort(tips_.begin(), tips_.end(), [&](const Vec3& a, const Vec3& b) {
+    return sign * direction.dot(a) < sign * direction.dot(b);
+  });
+  volumes.clear();
+  auto tip = tips_.begin();
+  for (auto slice = begin; slice != end; ++slice) {
+    for (; tip != tips_.end() && sign * direction.dot(*tip) < sign * slice->place; ++tip) {
+      hull_.add(*tip);
+    }
+    if (slice->hit) {
+      for (std::size_t i = 0; i < kAround; ++i) {
+        if (i == 0 || slice->points[i] != slice->points[i - 1]) hull_.add(slice->points[i]);
+      }
+    }
+    volumes.push_back(hull_.volume_m3());
+  }
+  for (; tip != tips_.end(); ++tip) hull_.add(*tip);
+}
+
+Candidate Sweeper::price(const Vec3& direction) {
+  cut_edges(Frame(direction));
+  sweep(slices_.begin(), slices_.end(), 1, direction, below_m3_);
+  sweep(slices_.rbegin(), slices_.rend(), -1, direction, above_m3_);
+  const double whole = hull_.volume_m3();
+  Candidate best;
+  best.direction = direction;
+  for (std::size_t s = 0; s < slices_.size(); ++s) {
+    if (!slices_[s].hit) continue;
+    const double below = below_m3_[s], above = above_m3_[slices_.size() - 1 - s];
+    const double price = below + above - whole + kEvenness * std::max(below, above);
+    if (!(price < best.price)) continue;
+    best.price = price;
+    best.hull_volume_m3 = below + above;
+    best.place = slices_[s].place;
+    best.middle = slices_[s].middle();
+  }
+  return best;
+}
+
+/// The 98 directions with coordinates of at most 2, not of unit length.
+std::vector<Vec3> many_directions() {
+  std::vector<Vec3> directions;
+  for (int x = -2; x <= 2; ++x) {
+    for (int y = -2; y <= 2; ++y) {
+      for (int z = -2; z <= 2; ++z) {
+        if ((x | y | z) & 1) directions.emplace_back(x, y, z);
+      }
+    }
+  }
+  return directions;
+}
+
+std::uint32_t farthest(const PolygonMesh& mesh, const Vec3& direction) {
+  double most = -std::numeric_limits<double>::infinity();
+  std::uint32_t best = 0;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (const double reach = direction.dot(mesh.vertices[v]); reach > most) {
+      most = reach;
+      best = v;
+    }
+  }
+  return best;
+}
+
+/// The directions tried first: those of the 26-dop, one of each pair, and the mesh's own axes.
+std::vector<Vec3> first_directions(const PolygonMesh& mesh) {
+  std::vector<Vec3> directions;
+  for (std::size_t i = 0; i < dop_directions().size(); i += 2) {
+    directions.push_back(dop_directions()[i]);
+  }
+  const Mat3 moment = mass_properties(mesh).second_moment;
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(moment / moment.cwiseAbs().maxCoeff());
+  if (solver.info() == Eigen::Success) {
+    for (int axis = 0; axis < 3; ++axis) directions.push_back(solver.eigenvectors().col(axis));
+  }
+  return directions;
+}
+
+}  // namespace
+
+Outline outline_of(const PolygonMesh& mesh) {
+  Outline outline;
+  const Box box = bounds(mesh);
+  SweepHull hull;
+  hull.restart(box.center(), box.extent().maxCoeff());
+  std::vector<std::uint32_t> found;
+  for (const Vec3& direction : many_directions()) found.push_back(farthest(mesh, direction));
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  for (const std::uint32_t v : found) {
+    hull.add(mesh.vertices[v]);
+    outline.points.push_back(mesh.vertices[v]);
+  }
+  for (const Vec3& v : mesh.vertices) {
+    if (hull.add(v, kLeastGain * hull.volume_m3())) outline.points.push_back(v);
+  }
+  outline.hull_m3 = hull.volume_m3();
+  return outline;
+}
+
+std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline) {
+  const Box box = bounds(mesh);
+  std::vector<Vec3> directions = first_directions(mesh);
+  std::vector<Candidate> found(directions.size());
+  for_chunks(directions.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
+    Sweeper sweeper(mesh, outline.points, box);
+    for (std::size_t i = begin; i < end; ++i) found[i] = sweeper.anywhere(directions[i]);
+  });
+  const auto better = [](const Candidate& a, const Candidate& b) { return a.price < b.price; };
+  Candidate best = *std::min_element(found.begin(), found.end(), better);
+  if (!(best.price < std::numeric_limits<double>::infinity())) return std::nullopt;
+  double tilt = kFirstTilt, reach_m = box.extent().maxCoeff() / kSlices;
+  for (int round = 0; round < kRounds; ++round, tilt *= 0.5, reach_m *= 0.5) {
+    const Frame frame(best.direction);
+    directions = {best.direction};
+    for (const Vec3& aside : {frame.right, frame.front}) {
+      directions.push_back((best.direction + tilt * aside).normalized());
+      directions.push_back((best.direction - tilt * aside).normalized());
+    }
+    found.resize(directions.size());
+    for_chunks(directions.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      found[i] = Sweeper(mesh, outline.points, box).near(directions[i], best.middle, reach_m);
+    });
+    const Candidate& next = *std::min_element(found.begin(), found.end(), better);
+    if (next.price < best.price) best = next;
+  }
+  return Cut{{best.direction, -best.place}, best.hull_volume_m3};
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,244 @@
+// Cuts make a tree: a piece, the islands on either side of its cut, theirs. It is grown to more
+// leaves than asked for, the loosest hull first, and then pruned to those of least volume together
+// (as classification trees are: Breiman et al. 1984), so that a cut that gains nothing by itself
+// may prepare one that does.
+#include "fracture/vacd_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/geometry/clip_mesh.h"
+#include "engine/geometry/mesh_islands.h"
+#include "fracture/vacd_cut.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr double kOvergrowth = 2;      // leaves grown for each that is wanted
+constexpr std::size_t kAtOnce = 8;     // pieces cut between two looks at which is loosest
+constexpr double kTightEnough = 1e-4;  // of all hulls: looser pieces are cut
+constexpr double kLeastShare = 1e-6;   // of a piece: smaller islands are not cut off
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Node {
+  VacdPiece piece;
+  Outline outline;
+  double solid_m3 = 0;
+  double hull_m3 = 0;
+  std::vector<std::uint32_t> children;
+  bool tried = false;  ///< To be cut.
+
+  double slack() const { return hull_m3 - solid_m3; }
+};
+
+Node make_node(VacdPiece piece) {
+  Node node;
+  node.outline = outline_of(piece.mesh);
+  node.solid_m3 = mass_properties(piece.mesh).volume_m3;
+  node.hull_m3 = std::max(node.solid_m3, node.outline.hull_m3);
+  node.piece = std::move(piece);
+  return node;
+}
+
+/// The islands on the inner side of a plane; false if there is nothing, or a sliver.
+bool add_side(const VacdPiece& piece, const Plane& plane, PlaneId id, double least_m3,
+              std::vector<VacdPiece>& sides) {
+  const double tolerance = region_tolerance(bounds(piece.region));
+  VacdPiece side;
+  ClipScratch clip_scratch;
+  MeshClipScratch mesh_scratch;
+  if (clip(piece.region, plane, id, tolerance, side.region, clip_scratch) != PlaneSide::kCut ||
+      clip(piece.mesh, plane, id, tolerance, side.mesh, mesh_scratch) != PlaneSide::kCut) {
+    return false;
+  }
+  for (PolygonMesh& island : islands(std::move(side.mesh))) {
+    if (!(mass_properties(island).volume_m3 > least_m3)) return false;
+    sides.push_back({side.region, std::move(island)});
+  }
+  return true;
+}
+
+/// The piece cut in parts by about the best plane; empty if it cannot be.
+std::vector<Node> cut_piece(const Node& node, PlaneId id) {
+  const std::optional<Cut> cut = best_cut(node.piece.mesh, node.outline);
+  if (!cut) return {};
+  const double size = bounds(node.piece.mesh).extent().maxCoeff();
+  std::vector<VacdPiece> sides;
+  for (const double shift : {0.0, 1e-3, -1e-3, 5e-3, -5e-3}) {
+    Plane plane = cut->plane;
+    plane.d += shift * size;
+    sides.clear();
+    const double least = kLeastShare * node.solid_m3;
+    if (add_side(node.piece, plane, id, least, sides) &&
+        add_side(node.piece, plane.flipped(), id.opposite(), least, sides)) {
+      std::vector<Node> parts;
+      for (VacdPiece& side : sides) parts.push_back(make_node(std::move(side)));
+      return parts;
+    }
+  }
+  return {};
+}
+
+/// The least volume of hulls when two trees share the leaves, by number less one.
+std::vector<double> shared(const std::vector<double>& a, const std::vector<double>& b,
+                           std::size_t most) {
+  std::vector<double> sum(std::min(most, a.size() + b.size()), kInfinity);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size() && i + j + 1 < sum.size(); ++j) {
+      sum[i + j + 1] = std::min(sum[i + j + 1], a[i] + b[j]);
+    }
+  }
+  return sum;
+}
+
+class Tree {
+ public:
+  Tree(std::vector<VacdPiece> pieces, const RefineLimits& limits, PlaneNames& names)
+      : limits_(limits),
+        names_(names),
+        roots_(pieces.size()),
+        leaves_(pieces.size()),
+        most_(limits.convexes > 0 ? std::max<std::size_t>(limits.convexes, pieces.size())
+                                  : ~std::size_t{0}) {
+    nodes_.resize(pieces.size());
+    for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
+      nodes_[p] = make_node(std::move(pieces[p]));
+    });
+    for (const Node& node : nodes_) hull_m3_ += node.hull_m3;
+  }
+
+  void grow();
+  std::vector<VacdPiece> pruned();
+
+ private:
+  bool too_many_polygons(const Node& node) const {
+    return node.piece.mesh.faces.size() > limits_.polygons;
+  }
+  std::vector<std::uint32_t> loosest() const;
+  std::vector<std::vector<double>> together(const std::vector<std::uint32_t>& children) const;
+  void harvest(const std::vector<std::uint32_t>& siblings, std::size_t count,
+               std::vector<VacdPiece>& pieces);
+
+  const RefineLimits limits_;
+  PlaneNames& names_;
+  std::vector<Node> nodes_;
+  const std::size_t roots_;
+  std::size_t leaves_;
+  const std::size_t most_;  ///< Pieces allowed.
+  double hull_m3_ = 0;
+  /// Per node and number of leaves less one: the least volume of so many hulls below it.
+  std::vector<std::vector<double>> least_;
+};
+
+/// The leaves to be cut next.
+std::vector<std::uint32_t> Tree::loosest() const {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
+    if (node.tried || !node.children.empty() || node.piece.is_internal()) continue;
+    const bool loose =
+        limits_.convexes > 0 && node.slack() > kTightEnough * hull_m3_ / limits_.convexes;
+    if (loose || too_many_polygons(node)) order.push_back(n);
+  }
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const bool many_a = too_many_polygons(nodes_[a]), many_b = too_many_polygons(nodes_[b]);
+    if (many_a != many_b) return many_a;
+    return nodes_[a].slack() != nodes_[b].slack() ? nodes_[a].slack() > nodes_[b].slack() : a < b;
+  });
+  order.resize(std::min(order.size(), kAtOnce));
+  return order;
+}
+
+void Tree::grow() {
+  const double wanted = limits_.convexes > 0 ? kOvergrowth * limits_.convexes : kInfinity;
+  while (static_cast<double>(leaves_) < wanted) {
+    const std::vector<std::uint32_t> next = loosest();
+    if (next.empty()) return;
+    std::vector<PlaneId> ids;
+    for (std::size_t i = 0; i < next.size(); ++i) ids.push_back(names_.next());
+    std::vector<std::vector<Node>> parts(next.size());
+    for_chunks(next.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      parts[i] = cut_piece(nodes_[next[i]], ids[i]);
+    });
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      nodes_[next[i]].tried = true;
+      if (parts[i].empty()) continue;
+      leaves_ += parts[i].size() - 1;
+      for (Node& part : parts[i]) {
+        nodes_[next[i]].children.push_back(static_cast<std::uint32_t>(nodes_.size()));
+        nodes_.push_back(std::move(part));
+      }
+    }
+  }
+}
+
+/// What the first child, the first two, and so on can do.
+std::vector<std::vector<double>> Tree::together(const std::vector<std::uint32_t>& children) const {
+  std::vector<std::vector<double>> sums;
+  for (const std::uint32_t child : children) {
+    sums.push_back(sums.empty() ? least_[child] : shared(sums.back(), least_[child], most_));
+  }
+  return sums;
+}
+
+/// Appends the leaves of the best way to leave `count` of them below some siblings.
+void Tree::harvest(const std::vector<std::uint32_t>& siblings, std::size_t count,
+                   std::vector<VacdPiece>& pieces) {
+  const auto sums = together(siblings);
+  std::vector<std::size_t> share(siblings.size());
+  for (std::size_t c = siblings.size(); c-- > 0; count -= share[c]) {
+    const std::vector<double>& own = least_[siblings[c]];
+    share[c] = count;
+    for (std::size_t mine = 1; c > 0 && mine <= own.size(); ++mine) {
+      if (count - mine < 1 || count - mine > sums[c - 1].size()) continue;
+      if (sums[c - 1][count - mine - 1] + own[mine - 1] != sums[c][count - 1]) continue;
+      share[c] = mine;
+      break;
+    }
+  }
+  for (std::size_t c = 0; c < siblings.size(); ++c) {
+    Node& node = nodes_[siblings[c]];
+    if (share[c] == 1) {
+      pieces.push_back(std::move(node.piece));
+    } else {
+      harvest(node.children, share[c], pieces);
+    }
+  }
+}
+
+std::vector<VacdPiece> Tree::pruned() {
+  least_.resize(nodes_.size());
+  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parent
+    const auto sums = together(nodes_[n].children);
+    least_[n] = sums.empty() ? std::vector<double>(1) : sums.back();
+    const double rather_any_cut = too_many_polygons(nodes_[n]) ? 1e3 * hull_m3_ : 0;
+    least_[n][0] = nodes_[n].hull_m3 + rather_any_cut;
+  }
+  std::vector<std::uint32_t> roots(roots_);
+  std::iota(roots.begin(), roots.end(), 0u);
+  std::vector<VacdPiece> pieces;
+  if (roots.empty()) return pieces;
+  const std::vector<double> all = together(roots).back();
+  const std::size_t count =
+      limits_.convexes == 0
+          ? leaves_
+          : 1 + static_cast<std::size_t>(std::min_element(all.begin(), all.end()) - all.begin());
+  harvest(roots, count, pieces);
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<VacdPiece> refine(std::vector<VacdPiece> pieces, const RefineLimits& limits,
+                              PlaneNames& names) {
+  Tree tree(std::move(pieces), limits, names);
+  tree.grow();
+  return tree.pruned();
+}
+
+}  // namespace sunder::fracture

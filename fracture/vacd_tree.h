@@ -1,0 +1,21 @@
+// Pieces cut further by planes, where hulls are loosest, and put together again where a cut gave
+// least: as many convexes as allowed, as tight as the cuts tried can make them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fracture/vacd_regions.h"
+
+namespace sunder::fracture {
+
+struct RefineLimits {
+  std::uint32_t convexes = 0;  ///< At most so many pieces; 0: cut only what has too many polygons.
+  std::uint32_t polygons = 0;  ///< A piece with more is cut again, if `convexes` allows.
+};
+
+/// The pieces, some of them cut into smaller ones; never fewer than before.
+std::vector<VacdPiece> refine(std::vector<VacdPiece> pieces, const RefineLimits& limits,
+                              PlaneNames& names);
+
+}  // namespace sunder::fracture
