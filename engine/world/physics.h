@@ -44,6 +44,15 @@ struct BodyDesc {
   std::uint32_t group = 0;  ///< Bodies of one non-zero group ignore each other until separated.
 };
 
+/// A change to the shapes of a body that stays; what it keeps keeps its contacts, and costs
+/// nothing. Static bodies only: a body that moves would need a new mass, inertia and centre as
+/// well.
+struct BodyEdit {
+  BodyId body;
+  std::span<const std::uint32_t> removed_tags;  ///< Of shapes it has; its tags must be unique.
+  std::span<const ShapeDesc> added;             ///< In the rest frame R of the body.
+};
+
 /// How a body moves now.
 struct BodyState {
   Pose X_WB;
@@ -88,6 +97,8 @@ class Physics {
   /// Removes, then adds; the answer's order is that of `add`. Neighbours of what goes wake up.
   virtual std::vector<BodyId> replace(std::span<const BodyId> remove,
                                       std::span<const BodyDesc> add) = 0;
+  /// Changes the shapes of a static body; sleepers that lose a support wake up.
+  virtual void edit(const BodyEdit& edit) = 0;
   /// Finds contacts and what may touch within dt_s; new bodies are included when called again.
   virtual void collide(double dt_s) = 0;
   /// Approaches found by the last collide(); valid until the next call that changes anything.

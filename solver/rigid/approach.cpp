@@ -76,19 +76,19 @@ std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bo
                                       const Shapes& shapes, double dt_s) {
   constexpr std::size_t kChunk = 4096;
   using Keyed = std::pair<std::uint64_t, Approach>;
-  std::vector<std::vector<Keyed>> found((contacts.pairs.size() + kChunk - 1) / kChunk);
-  for_chunks(contacts.pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Pair& pair = contacts.pairs[i];
-      if (!pair.present()) continue;
-      if (!bodies.breakable[pair.body_a] && !bodies.breakable[pair.body_b]) continue;
-      const Manifold& m = contacts.manifolds[i];
-      if (m.count == 0 || (!bodies.awake(m.body_a) && !bodies.awake(m.body_b))) continue;
-      Approach approach;
-      if (make_approach(pair, m, bodies, shapes, dt_s, approach))
-        found[c].emplace_back(pair.key(), approach);
-    }
-  });
+  std::vector<std::vector<Keyed>> found((contacts.manifolds.size() + kChunk - 1) / kChunk);
+  for_chunks(contacts.manifolds.size(), kChunk,
+             [&](std::size_t begin, std::size_t end, std::size_t c) {
+               for (std::size_t i = begin; i < end; ++i) {
+                 const Manifold& m = contacts.manifolds[i];
+                 if (m.count == 0 || (!bodies.awake(m.body_a) && !bodies.awake(m.body_b))) continue;
+                 if (!bodies.breakable[m.body_a] && !bodies.breakable[m.body_b]) continue;
+                 const Pair& pair = contacts.pairs[m.pair];
+                 Approach approach;
+                 if (make_approach(pair, m, bodies, shapes, dt_s, approach))
+                   found[c].emplace_back(pair.key(), approach);
+               }
+             });
   std::vector<Keyed> all;
   for (const auto& chunk : found) all.insert(all.end(), chunk.begin(), chunk.end());
   std::sort(all.begin(), all.end(),

@@ -63,6 +63,7 @@ void Bodies::resize(std::uint32_t count) {
   motion.resize(count, Motion::kAbsent);
   generation.resize(count, 0);
   position.resize(count);
+  com_R.resize(count);
   rotation.resize(count);
   rotation_f.resize(count);
   velocity.resize(count);
@@ -75,13 +76,14 @@ void Bodies::resize(std::uint32_t count) {
   reach_m.resize(count);
   travelled_m.resize(count);
   slow_s.resize(count);
+  rest_position.resize(count);
+  rest_rotation.resize(count);
   changed.resize(count);
   breakable.resize(count);
   bears_load.resize(count);
   group.resize(count);
   tag.resize(count);
   first_shape.resize(count, kNone);
-  next_asleep.resize(count, kNone);
 }
 
 std::uint32_t Bodies::add(const BodyDesc& desc) {
@@ -92,6 +94,7 @@ std::uint32_t Bodies::add(const BodyDesc& desc) {
   const std::uint32_t body = free_slots.back();
   free_slots.pop_back();
   motion[body] = desc.is_static ? Motion::kStatic : Motion::kAwake;
+  com_R[body] = desc.com_R;
   place(body, desc.X_WB.position, desc.X_WB.rotation);
   velocity[body] = desc.is_static ? Vec3::Zero() : desc.velocity_W;
   angular_velocity[body] = desc.is_static ? Vec3::Zero() : desc.angular_velocity_W;
@@ -111,18 +114,18 @@ std::uint32_t Bodies::add(const BodyDesc& desc) {
   reach_m[body] = 0;
   travelled_m[body] = 0;
   slow_s[body] = 0;
+  rest_position[body] = position[body];
+  rest_rotation[body] = rotation[body];
   changed[body] = 1;
   breakable[body] = desc.breakable;
   bears_load[body] = desc.bears_load;
   group[body] = desc.group;
   tag[body] = desc.tag;
   first_shape[body] = kNone;
-  next_asleep[body] = kNone;
   return body;
 }
 
 void Bodies::remove(std::uint32_t body) {
-  wake(body);
   motion[body] = Motion::kAbsent;
   ++generation[body];
   free_slots.push_back(body);
@@ -155,59 +158,75 @@ Vec3 Bodies::freeze(std::uint32_t body) {
 
 void Bodies::wake(std::uint32_t body) {
   if (motion[body] != Motion::kAsleep) return;
-  std::uint32_t at = body;
-  do {
-    const std::uint32_t next = next_asleep[at];
-    next_asleep[at] = kNone;
-    motion[at] = Motion::kAwake;
-    slow_s[at] = 0;
-    changed[at] = 1;
-    at = next;
-  } while (at != body);
+  motion[body] = Motion::kAwake;
+  slow_s[body] = 0;
+  changed[body] = 1;
 }
 
-std::vector<std::uint32_t> Shapes::add(std::span<const BodyDesc> descs,
-                                       std::span<const std::uint32_t> slots, Bodies& bodies) {
-  struct Job {
-    const ShapeDesc* desc;
-    Vec3 com_R;
-    std::uint32_t body, slot;
-  };
-  std::vector<Job> jobs;
-  std::vector<std::uint32_t> added;
-  for (std::size_t i = 0; i < descs.size(); ++i) {
-    for (const ShapeDesc& desc : descs[i].shapes) {
-      if (free_slots.empty()) {
-        free_slots.push_back(size());
-        items.emplace_back();
-      }
-      jobs.push_back({&desc, descs[i].com_R, slots[i], free_slots.back()});
-      added.push_back(free_slots.back());
-      free_slots.pop_back();
+namespace {
+
+std::uint64_t tag_key(std::uint32_t body, std::uint32_t tag) {
+  return std::uint64_t{body} << 32 | tag;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> Shapes::add(std::span<const NewShape> added, Bodies& bodies) {
+  std::vector<std::uint32_t> slots;
+  slots.reserve(added.size());
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    if (free_slots.empty()) {
+      free_slots.push_back(size());
+      items.emplace_back();
     }
+    slots.push_back(free_slots.back());
+    free_slots.pop_back();
   }
-  for_chunks(jobs.size(), 32, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t j = begin; j < end; ++j) {
-      items[jobs[j].slot] = make_shape(*jobs[j].desc, jobs[j].com_R);
-      items[jobs[j].slot].body = jobs[j].body;
+  for_chunks(slots.size(), 32, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      items[slots[i]] = make_shape(*added[i].desc, bodies.com_R[added[i].body]);
+      items[slots[i]].body = added[i].body;
     }
   });
-  for (const Job& job : jobs) {
-    items[job.slot].next = bodies.first_shape[job.body];
-    bodies.first_shape[job.body] = job.slot;
-    bodies.reach_m[job.body] = std::max(bodies.reach_m[job.body], double{items[job.slot].reach_m});
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const std::uint32_t s = slots[i], body = added[i].body;
+    items[s].next = bodies.first_shape[body];
+    if (items[s].next != kNone) items[items[s].next].previous = s;
+    bodies.first_shape[body] = s;
+    bodies.reach_m[body] = std::max(bodies.reach_m[body], double{items[s].reach_m});
+    if (bodies.motion[body] != Motion::kStatic) continue;
+    const std::uint64_t key = tag_key(body, items[s].tag);
+    if (!static_with_tag_.contains(key)) static_with_tag_.insert(key, s);
   }
-  return added;
+  return slots;
 }
 
-void Shapes::remove_of_body(std::uint32_t body, Bodies& bodies) {
-  for (std::uint32_t s = bodies.first_shape[body]; s != kNone;) {
-    const std::uint32_t next = items[s].next;
+std::vector<std::uint32_t> Shapes::of_body(std::uint32_t body, const Bodies& bodies) const {
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t s = bodies.first_shape[body]; s != kNone; s = items[s].next)
+    slots.push_back(s);
+  return slots;
+}
+
+std::uint32_t Shapes::with_tag(std::uint32_t body, std::uint32_t tag) const {
+  const std::uint32_t s = static_with_tag_.find(tag_key(body, tag));
+  SUNDER_CHECK(s != KeyMap::kAbsent);
+  return s;
+}
+
+void Shapes::remove(std::span<const std::uint32_t> removed, Bodies& bodies) {
+  for (const std::uint32_t s : removed) {
+    const Shape& shape = items[s];
+    const std::uint64_t key = tag_key(shape.body, shape.tag);
+    if (static_with_tag_.find(key) == s) static_with_tag_.erase(key);
+    if (shape.next != kNone) items[shape.next].previous = shape.previous;
+    if (shape.previous != kNone)
+      items[shape.previous].next = shape.next;
+    else
+      bodies.first_shape[shape.body] = shape.next;
     items[s] = Shape();
     free_slots.push_back(s);
-    s = next;
   }
-  bodies.first_shape[body] = kNone;
 }
 
 }  // namespace sunder::solver

@@ -7,6 +7,7 @@
 
 #include "engine/world/physics.h"
 #include "solver/rigid/hull.h"
+#include "solver/rigid/key_map.h"
 
 namespace sunder::solver {
 
@@ -26,6 +27,7 @@ struct Bodies {
   std::vector<Motion> motion;
   std::vector<std::uint32_t> generation;
   std::vector<Vec3> position;  ///< Of the centre of mass, in W.
+  std::vector<Vec3> com_R;
   std::vector<Quat> rotation;
   std::vector<Mat3f> rotation_f;
   std::vector<Vec3> velocity;
@@ -39,14 +41,15 @@ struct Bodies {
   std::vector<std::uint8_t> spins_freely;  ///< Inertia so uneven that free rotation wobbles.
   std::vector<double> reach_m;             ///< Radius about the centre of mass.
   std::vector<float> travelled_m;          ///< Bound on the way of any of its points so far.
-  std::vector<float> slow_s;               ///< Time it has been slow.
-  std::vector<std::uint8_t> changed;       ///< Moved, pushed or new since the last collide.
+  std::vector<float> slow_s;               ///< Time it has been slow and near its rest pose.
+  std::vector<Vec3> rest_position;
+  std::vector<Quat> rest_rotation;
+  std::vector<std::uint8_t> changed;  ///< Moved, pushed or new since the last collide.
   std::vector<std::uint8_t> breakable;
   std::vector<std::uint8_t> bears_load;
   std::vector<std::uint32_t> group;
   std::vector<std::uint32_t> tag;
   std::vector<std::uint32_t> first_shape;
-  std::vector<std::uint32_t> next_asleep;  ///< Ring through the island it fell asleep with.
   std::vector<std::uint32_t> free_slots;
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(motion.size()); }
@@ -68,7 +71,7 @@ struct Bodies {
   bool finite(std::uint32_t body) const;
   /// Stops a body for good; the answer is the momentum that went with it.
   Vec3 freeze(std::uint32_t body);
-  /// Wakes a sleeper together with its island; others are left as they are.
+  /// Wakes a sleeper; others are left as they are.
   void wake(std::uint32_t body);
 
  private:
@@ -80,7 +83,7 @@ struct Shape {
   ShapeDesc::Kind kind = ShapeDesc::Kind::kHull;
   bool present = false;
   std::uint32_t body = kNone;
-  std::uint32_t next = kNone;  ///< Of the same body.
+  std::uint32_t next = kNone, previous = kNone;  ///< Of the same body.
   std::uint32_t tag = 0;
   float friction = 0;
   float restitution = 0;
@@ -92,6 +95,12 @@ struct Shape {
   Hull hull;
 };
 
+/// A shape to add to a body that is there.
+struct NewShape {
+  const ShapeDesc* desc;
+  std::uint32_t body;
+};
+
 struct Shapes {
   std::vector<Shape> items;
   std::vector<std::uint32_t> free_slots;
@@ -99,11 +108,16 @@ struct Shapes {
   std::uint32_t size() const { return static_cast<std::uint32_t>(items.size()); }
   const Shape& operator[](std::uint32_t i) const { return items[i]; }
 
-  /// Adds the shapes of bodies that are in `bodies` already (hulls are made in parallel); the
-  /// answer lists them.
-  std::vector<std::uint32_t> add(std::span<const BodyDesc> descs,
-                                 std::span<const std::uint32_t> slots, Bodies& bodies);
-  void remove_of_body(std::uint32_t body, Bodies& bodies);
+  /// Adds shapes (hulls are made in parallel); the answer lists them.
+  std::vector<std::uint32_t> add(std::span<const NewShape> added, Bodies& bodies);
+  /// Takes shapes out of their bodies.
+  void remove(std::span<const std::uint32_t> removed, Bodies& bodies);
+  std::vector<std::uint32_t> of_body(std::uint32_t body, const Bodies& bodies) const;
+  /// The shape of a static body that has this tag. The body's tags must be unique.
+  std::uint32_t with_tag(std::uint32_t body, std::uint32_t tag) const;
+
+ private:
+  KeyMap static_with_tag_;  ///< Static shapes by body and tag, the first of each.
 };
 
 }  // namespace sunder::solver

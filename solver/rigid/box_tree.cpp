@@ -70,16 +70,8 @@ void BoxTree::build(std::span<const FloatBox> boxes, std::span<const std::uint32
 void BoxTree::refit(std::span<const FloatBox> boxes) {
   if (items_.empty()) return;
   for_chunks(levels_[0].size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t c = begin; c < end; ++c) {
-      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-        const std::size_t i = c * kLanes + lane;
-        const FloatBox box = i < items_.size() ? boxes[items_[i]] : FloatBox();
-        Chunk& chunk = levels_[0][c];
-        chunk.min.x[lane] = box.min.x(), chunk.max.x[lane] = box.max.x();
-        chunk.min.y[lane] = box.min.y(), chunk.max.y[lane] = box.max.y();
-        chunk.min.z[lane] = box.min.z(), chunk.max.z[lane] = box.max.z();
-      }
-    }
+    for (std::size_t i = begin * kLanes; i < end * kLanes; ++i)
+      levels_[0][i / kLanes].set(i % kLanes, i < items_.size() ? boxes[items_[i]] : FloatBox());
   });
   fit_inner_levels();
 }
@@ -87,18 +79,31 @@ void BoxTree::refit(std::span<const FloatBox> boxes) {
 void BoxTree::fit_inner_levels() {
   for (std::size_t level = 1; level < levels_.size(); ++level) {
     const std::vector<Chunk>& below = levels_[level - 1];
-    for (std::size_t i = 0; i < levels_[level].size() * kLanes; ++i) {
-      Chunk& chunk = levels_[level][i / kLanes];
-      const std::size_t lane = i % kLanes;
-      const bool full = i < below.size();
-      chunk.min.x[lane] = full ? reduce_min(below[i].min.x) : 1e30f;
-      chunk.min.y[lane] = full ? reduce_min(below[i].min.y) : 1e30f;
-      chunk.min.z[lane] = full ? reduce_min(below[i].min.z) : 1e30f;
-      chunk.max.x[lane] = full ? reduce_max(below[i].max.x) : -1e30f;
-      chunk.max.y[lane] = full ? reduce_max(below[i].max.y) : -1e30f;
-      chunk.max.z[lane] = full ? reduce_max(below[i].max.z) : -1e30f;
-    }
+    for (std::size_t i = 0; i < levels_[level].size() * kLanes; ++i)
+      levels_[level][i / kLanes].set(i % kLanes, i < below.size() ? below[i].bounds() : FloatBox());
   }
+}
+
+void BoxTree::remove_leaf(std::uint32_t leaf) {
+  items_[leaf] = kNoItem;
+  FloatBox box;
+  for (std::vector<Chunk>& level : levels_) {
+    Chunk& chunk = level[leaf / kLanes];
+    chunk.set(leaf % kLanes, box);
+    box = chunk.bounds();
+    leaf /= kLanes;
+  }
+}
+
+void BoxTree::Chunk::set(std::size_t lane, const FloatBox& box) {
+  min.x[lane] = box.min.x(), max.x[lane] = box.max.x();
+  min.y[lane] = box.min.y(), max.y[lane] = box.max.y();
+  min.z[lane] = box.min.z(), max.z[lane] = box.max.z();
+}
+
+FloatBox BoxTree::Chunk::bounds() const {
+  return {{reduce_min(min.x), reduce_min(min.y), reduce_min(min.z)},
+          {reduce_max(max.x), reduce_max(max.y), reduce_max(max.z)}};
 }
 
 }  // namespace sunder::solver

@@ -36,10 +36,19 @@ class BoxTree {
   template <class Hit>
   void overlaps(const FloatBox& query, const Hit& hit) const;
   std::size_t size() const { return items_.size(); }
+  /// Items in leaf order; kNoItem where one was removed.
+  std::span<const std::uint32_t> leaves() const { return items_; }
+  /// Takes a leaf out: its box is empty from now on. Not to be refitted any more.
+  void remove_leaf(std::uint32_t leaf);
+
+  static constexpr std::uint32_t kNoItem = 0xffffffff;
 
  private:
   struct Chunk {
     Wide3 min, max;
+
+    void set(std::size_t lane, const FloatBox& box);
+    FloatBox bounds() const;
   };
   void fit_inner_levels();
 

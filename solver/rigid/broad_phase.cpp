@@ -65,40 +65,89 @@ FloatBox fattened(const FloatBox& swept, const Shape& shape, const Bodies& bodie
   return box;
 }
 
+/// The pair of two shapes: a is the half-space, or the hull, or the lesser slot.
+Pair pair_of(std::uint32_t s, std::uint32_t t, const Shapes& shapes) {
+  const Shape &first = shapes[s], &second = shapes[t];
+  const bool swap = first.kind != second.kind ? first.kind == ShapeDesc::Kind::kSphere ||
+                                                    second.kind == ShapeDesc::Kind::kHalfSpace
+                                              : t < s;
+  Pair pair;
+  pair.shape_a = swap ? t : s;
+  pair.shape_b = swap ? s : t;
+  pair.body_a = shapes[pair.shape_a].body;
+  pair.body_b = shapes[pair.shape_b].body;
+  return pair;
+}
+
 }  // namespace
 
-void BroadPhase::shapes_changed(std::span<const std::uint32_t> added, const Shapes& shapes,
-                                const Bodies& bodies) {
+void BroadPhase::add(std::span<const std::uint32_t> added, const Shapes& shapes,
+                     const Bodies& bodies) {
+  role_.resize(shapes.size(), Role::kAbsent);
   swept_.resize(shapes.size());
   fat_.resize(shapes.size());
   moved_.resize(shapes.size());
   half_space_of_.resize(shapes.size(), -1);
   for (const std::uint32_t s : added) {
     fat_[s] = FloatBox();
-    look_again_ = look_again_ || shapes[s].kind == ShapeDesc::Kind::kHalfSpace;
+    if (shapes[s].kind == ShapeDesc::Kind::kHalfSpace) {
+      add_half_space(s, shapes, bodies);
+    } else if (bodies.dynamic(shapes[s].body)) {
+      role_[s] = Role::kMover;
+      movers_changed_ = true;
+    } else {
+      role_[s] = Role::kStatic;
+      new_statics_.push_back(s);
+    }
   }
-  half_spaces_.clear();
-  for (std::uint32_t s = 0; s < shapes.size(); ++s) {
-    half_space_of_[s] = -1;
-    if (!shapes[s].present || shapes[s].kind != ShapeDesc::Kind::kHalfSpace) continue;
-    half_space_of_[s] = static_cast<std::int32_t>(half_spaces_.size());
-    const std::uint32_t body = shapes[s].body;
-    const Vec3 normal_W = (bodies.rotation[body] * shapes[s].normal.cast<double>()).normalized();
-    const Vec3 point_W =
-        bodies.position[body] + bodies.rotation[body] * shapes[s].center.cast<double>();
-    half_spaces_.push_back({s, normal_W.cast<float>(), static_cast<float>(-normal_W.dot(point_W))});
+}
+
+void BroadPhase::remove(std::span<const std::uint32_t> removed) {
+  for (const std::uint32_t s : removed) {
+    if (role_[s] == Role::kHalfSpace) {
+      remove_half_space(s);
+    } else if (role_[s] == Role::kMover) {
+      movers_changed_ = true;
+    } else if (std::erase(new_statics_, s) == 0) {
+      static_forest_.remove(s);
+    }
+    role_[s] = Role::kAbsent;
   }
-  sets_changed_ = true;
+}
+
+void BroadPhase::add_half_space(std::uint32_t s, const Shapes& shapes, const Bodies& bodies) {
+  const std::uint32_t body = shapes[s].body;
+  const Vec3 normal_W = (bodies.rotation[body] * shapes[s].normal.cast<double>()).normalized();
+  const Vec3 point_W =
+      bodies.position[body] + bodies.rotation[body] * shapes[s].center.cast<double>();
+  half_space_of_[s] = static_cast<std::int32_t>(half_spaces_.size());
+  half_spaces_.push_back({s, normal_W.cast<float>(), static_cast<float>(-normal_W.dot(point_W))});
+  role_[s] = Role::kHalfSpace;
+  look_again_ = true;
+}
+
+void BroadPhase::remove_half_space(std::uint32_t s) {
+  const auto at = static_cast<std::size_t>(half_space_of_[s]);
+  half_spaces_.erase(half_spaces_.begin() + half_space_of_[s]);
+  for (std::size_t i = at; i < half_spaces_.size(); ++i) --half_space_of_[half_spaces_[i].shape];
+  half_space_of_[s] = -1;
 }
 
 void BroadPhase::update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,
                               double dt_s) {
-  for_chunks(shapes.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t s = begin; s < end; ++s) {
+  for (const std::uint32_t s : moved_list_) moved_[s] = 0;
+  moved_list_.clear();
+  if (movers_changed_) {
+    movers_.clear();
+    for (std::uint32_t s = 0; s < role_.size(); ++s)
+      if (role_[s] == Role::kMover) movers_.push_back(s);
+  }
+  for_chunks(movers_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t s = movers_[i];
       const Shape& shape = shapes.items[s];
-      const bool boxed = shape.present && half_space_of_[s] < 0;
-      moved_[s] = boxed && look_again_;
-      if (!boxed || !bodies.changed[shape.body]) continue;
+      moved_[s] = look_again_;
+      if (!bodies.changed[shape.body]) continue;
       swept_[s] = swept_box(shape, bodies, gravity_W, dt_s);
       if (fat_[s].contains(swept_[s])) continue;
       fat_[s] = fattened(swept_[s], shape, bodies, dt_s);
@@ -106,55 +155,70 @@ void BroadPhase::update_boxes(const Shapes& shapes, const Bodies& bodies, const 
     }
   });
   look_again_ = false;
-  moved_list_.clear();
-  for (std::uint32_t s = 0; s < shapes.size(); ++s)
+  for (const std::uint32_t s : movers_)
     if (moved_[s]) moved_list_.push_back(s);
+  for_chunks(new_statics_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t s = new_statics_[i];
+      fat_[s] = swept_[s] = swept_box(shapes.items[s], bodies, gravity_W, dt_s);
+      moved_[s] = 1;
+    }
+  });
+  moved_list_.insert(moved_list_.end(), new_statics_.begin(), new_statics_.end());
 }
 
-void BroadPhase::update_trees(const Shapes& shapes, const Bodies& bodies) {
-  if (sets_changed_) {
-    movers_.clear();
-    statics_.clear();
-    for (std::uint32_t s = 0; s < shapes.size(); ++s) {
-      if (!shapes[s].present || half_space_of_[s] >= 0) continue;
-      (bodies.dynamic(shapes[s].body) ? movers_ : statics_).push_back(s);
-    }
-    static_tree_.build(fat_, statics_);
-  } else if (moved_list_.empty()) {
-    return;
-  }
-  if (sets_changed_ || ++refits_ >= kRefitsPerBuild) {
+void BroadPhase::update_trees() {
+  static_forest_.add(fat_, new_statics_);
+  new_statics_.clear();
+  if (movers_changed_ || (!moved_list_.empty() && ++refits_ >= kRefitsPerBuild)) {
     mover_tree_.build(fat_, movers_);
     refits_ = 0;
-  } else {
+  } else if (!moved_list_.empty()) {
     mover_tree_.refit(fat_);
   }
-  sets_changed_ = false;
+  movers_changed_ = false;
+}
+
+std::vector<std::uint32_t> BroadPhase::pairs_with(std::span<const std::uint32_t> of,
+                                                  const Shapes& shapes,
+                                                  const KeyMap& slot_of) const {
+  std::vector<std::uint32_t> slots;
+  for (const std::uint32_t s : of) {
+    const auto consider = [&](std::uint32_t other) {
+      if (role_[other] == Role::kAbsent) return;  // gone since the tree was built
+      const std::uint32_t slot = slot_of.find(pair_of(s, other, shapes).key());
+      if (slot != KeyMap::kAbsent) slots.push_back(slot);
+    };
+    if (role_[s] == Role::kHalfSpace) {
+      for (const std::uint32_t other : movers_) consider(other);
+      continue;
+    }
+    mover_tree_.overlaps(fat_[s], consider);
+    if (role_[s] != Role::kMover) continue;
+    static_forest_.overlaps(fat_[s], consider);
+    for (const HalfSpace& plane : half_spaces_) consider(plane.shape);
+  }
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  return slots;
 }
 
 void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
-                            const KeySet& keys, std::vector<Pair>& found) const {
+                            const KeyMap& slot_of, std::vector<Pair>& found) const {
   const Shape& mine = shapes[shape];
   const bool mover = bodies.dynamic(mine.body);
   auto consider = [&](std::uint32_t other) {
     const Shape& theirs = shapes[other];
     if (theirs.body == mine.body || (moved_[other] && other < shape)) return;
     if (!mover && !bodies.dynamic(theirs.body)) return;
-    Pair pair;
-    const bool swap = mine.kind != theirs.kind ? mine.kind == ShapeDesc::Kind::kSphere ||
-                                                     theirs.kind == ShapeDesc::Kind::kHalfSpace
-                                               : other < shape;
-    pair.shape_a = swap ? other : shape;
-    pair.shape_b = swap ? shape : other;
-    pair.body_a = shapes[pair.shape_a].body;
-    pair.body_b = shapes[pair.shape_b].body;
+    Pair pair = pair_of(shape, other, shapes);
     pair.sibling =
         bodies.group[mine.body] != 0 && bodies.group[mine.body] == bodies.group[theirs.body];
-    if (!keys.contains(pair.key())) found.push_back(pair);
+    if (!slot_of.contains(pair.key())) found.push_back(pair);
   };
   mover_tree_.overlaps(fat_[shape], consider);
   if (!mover) return;
-  static_tree_.overlaps(fat_[shape], consider);
+  static_forest_.overlaps(fat_[shape], consider);
   for (const HalfSpace& plane : half_spaces_) {
     Pair pair;
     pair.shape_a = plane.shape, pair.shape_b = shape;
@@ -165,11 +229,11 @@ void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bod
 void BroadPhase::update(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,
                         double dt_s, Contacts& contacts) {
   update_boxes(shapes, bodies, gravity_W, dt_s);
-  update_trees(shapes, bodies);
+  update_trees();
   std::vector<std::vector<Pair>> found((moved_list_.size() + kChunk - 1) / kChunk);
   for_chunks(moved_list_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
     for (std::size_t i = begin; i < end; ++i)
-      find_pairs(moved_list_[i], shapes, bodies, contacts.keys, found[c]);
+      find_pairs(moved_list_[i], shapes, bodies, contacts.slot_of, found[c]);
   });
   std::vector<Pair> all;
   for (const auto& chunk : found) all.insert(all.end(), chunk.begin(), chunk.end());

@@ -1,4 +1,4 @@
-// Which shapes are near each other. Movers and statics have a tree each; every shape has a fat
+// Which shapes are near each other. Movers have a tree, statics a forest; every shape has a fat
 // box, and only shapes that leave theirs look for new neighbours.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/rigid/bodies.h"
+#include "solver/rigid/box_forest.h"
 #include "solver/rigid/box_tree.h"
 #include "solver/rigid/contacts.h"
 
@@ -14,9 +15,14 @@ namespace sunder::solver {
 
 class BroadPhase {
  public:
-  /// Tells of shapes that came or went; they are found again by the next update().
-  void shapes_changed(std::span<const std::uint32_t> added, const Shapes& shapes,
-                      const Bodies& bodies);
+  /// Takes shapes in; they are found by the next update().
+  void add(std::span<const std::uint32_t> added, const Shapes& shapes, const Bodies& bodies);
+  /// The slots of all pairs that have one of these shapes, each once, ascending. To be asked before
+  /// the shapes are removed.
+  std::vector<std::uint32_t> pairs_with(std::span<const std::uint32_t> of, const Shapes& shapes,
+                                        const KeyMap& slot_of) const;
+  /// Takes shapes out.
+  void remove(std::span<const std::uint32_t> removed);
   /// Boxes of what changed, swept over dt_s; adds pairs that came near, in order of their keys.
   void update(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W, double dt_s,
               Contacts& contacts);
@@ -26,24 +32,29 @@ class BroadPhase {
   bool keep(const Pair& pair) const;
 
  private:
+  enum class Role : std::uint8_t { kAbsent, kMover, kStatic, kHalfSpace };
   struct HalfSpace {
     std::uint32_t shape;
     Vec3f normal_W;
     float d;
   };
+  void add_half_space(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies);
+  void remove_half_space(std::uint32_t shape);
   void update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W, double dt_s);
-  void update_trees(const Shapes& shapes, const Bodies& bodies);
+  void update_trees();
   void find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
-                  const KeySet& keys, std::vector<Pair>& found) const;
+                  const KeyMap& slot_of, std::vector<Pair>& found) const;
   bool overlaps(const Pair& pair, const std::vector<FloatBox>& boxes) const;
 
+  std::vector<Role> role_;             ///< By shape slot.
   std::vector<FloatBox> swept_, fat_;  ///< By shape slot.
   std::vector<std::uint8_t> moved_;    ///< Left its fat box in this update.
-  std::vector<std::uint32_t> movers_, statics_, moved_list_;
+  std::vector<std::uint32_t> movers_, new_statics_, moved_list_;
   std::vector<HalfSpace> half_spaces_;
   std::vector<std::int32_t> half_space_of_;  ///< By shape slot; −1: not one.
-  BoxTree mover_tree_, static_tree_;
-  bool sets_changed_ = true;
+  BoxTree mover_tree_;
+  BoxForest static_forest_;
+  bool movers_changed_ = true;
   bool look_again_ = false;  ///< A half-space came: it has no box that others would find.
   int refits_ = 0;
 };

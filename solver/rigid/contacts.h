@@ -1,5 +1,4 @@
-// Pairs of shapes that are near each other, and the manifolds of those that touch. Both live as
-// long as the pair stays near, at the same index.
+// Pairs of shapes that are near each other, and the manifolds of those that touch.
 #pragma once
 
 #include <array>
@@ -8,6 +7,7 @@
 
 #include "engine/base/types.h"
 #include "solver/rigid/bodies.h"
+#include "solver/rigid/key_map.h"
 
 namespace sunder::solver {
 
@@ -17,14 +17,17 @@ inline constexpr std::uint8_t kNoColor = 0xff;
 struct Pair {
   std::uint32_t shape_a = kNone, shape_b = kNone;  ///< kNone: a free slot.
   std::uint32_t body_a = kNone, body_b = kNone;
-  float clearance_m = -1;        ///< Lower bound on the distance when last looked at closely.
-  float travelled_m = 0;         ///< Of both bodies at that time.
-  Vec3f axis_A = Vec3f::Zero();  ///< Last axis that parted them, in A; zero if none.
+  std::uint32_t manifold = kNone;  ///< kNone: not touching.
+  float clearance_m = -1;          ///< Lower bound on the distance when last looked at closely.
+  float travelled_m = 0;           ///< Of both bodies at that time.
+  Vec3f axis_A = Vec3f::Zero();    ///< Last axis that parted them, in A; zero if none.
   /// Siblings of a break: overlap they were born with, not pushed apart. Negative: not known yet.
   float slack_m = -1;
   bool sibling = false;
+  bool fresh = true;  ///< Not looked at closely yet.
 
   bool present() const { return shape_a != kNone; }
+  bool touching() const { return manifold != kNone; }
   std::uint64_t key() const { return std::uint64_t{shape_a} << 32 | shape_b; }
 };
 
@@ -38,8 +41,9 @@ struct ManifoldPoint {
 
 /// Up to four points on one normal. Friction acts at their middle, with twist about the normal.
 struct Manifold {
+  std::uint32_t pair = kNone;  ///< kNone: a free slot.
   std::uint32_t body_a = kNone, body_b = kNone;
-  std::uint8_t count = 0;  ///< 0: not touching.
+  std::uint8_t count = 0;  ///< 0: a free slot.
   std::uint8_t color = kNoColor;
   bool normal_on_b = false;  ///< The normal is fixed to B instead of A.
   bool reusable = false;     ///< Points may be carried along while the pair barely moves.
@@ -57,6 +61,7 @@ struct Manifold {
   Vec3f friction_impulse_W = Vec3f::Zero();
   float twist_impulse = 0;
   Vec3f step_impulse_W = Vec3f::Zero();  ///< On b over the last step, if a or b bears load.
+  Vec3f rest_force_W = Vec3f::Zero();    ///< On b, N, when a body of the two last fell asleep.
   std::array<ManifoldPoint, 4> points;
 
   float least_separation() const {
@@ -76,36 +81,25 @@ struct Manifold {
     for (int i = 0; i < count; ++i) sum += points[i].impulse_Ns;
     return sum;
   }
+  Vec3f impulse_W() const { return normal_impulse() * normal_W + friction_impulse_W; }
 };
 
-/// The set of pair keys, by open addressing.
-class KeySet {
- public:
-  bool contains(std::uint64_t key) const;
-  void insert(std::uint64_t key);  ///< The key must not be in it.
-  void erase(std::uint64_t key);   ///< The key must be in it.
-
- private:
-  std::size_t home(std::uint64_t key) const;
-  void grow();
-  static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
-  std::vector<std::uint64_t> slots_;
-  std::size_t count_ = 0;
-};
-
-/// All pairs, with their manifolds at the same index, and the colours bodies have in use.
+/// All pairs, the manifolds of those that touch, and the colours bodies have in use.
 struct Contacts {
   std::vector<Pair> pairs;
   std::vector<Manifold> manifolds;
-  std::vector<std::uint32_t> free_slots;
+  std::vector<std::uint32_t> free_pairs, free_manifolds;
   std::vector<std::uint64_t> body_colors;  ///< Bit c: a manifold of colour c touches the body.
-  KeySet keys;
+  KeyMap slot_of;                          ///< Pair slots by key.
 
-  std::uint32_t add(const Pair& pair);
-  void remove(std::uint32_t slot);
-  /// Gives a touching manifold the least colour neither body has, takes it from one that no
-  /// longer touches. `kMaxColors` is the overflow: no colour was free.
-  void recolor(std::uint32_t slot, const Bodies& bodies);
+  void add(const Pair& pair);
+  /// Removes a pair and its manifold, if it has one.
+  void remove(std::uint32_t pair);
+  /// The pair came to touch. Its manifold gets the least colour neither body has; `kMaxColors` is
+  /// the overflow: none was free.
+  void touch(std::uint32_t pair, const Manifold& manifold, const Bodies& bodies);
+  /// The pair no longer touches.
+  void part(std::uint32_t pair);
 };
 
 inline constexpr std::uint8_t kMaxColors = 64;

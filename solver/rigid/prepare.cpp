@@ -31,7 +31,13 @@ struct Gathered {
   Wide restitution = {};
   Wide3 gravity = {};  ///< Acceleration of b from a.
   Wide exists[4] = {};
+  Wide awake_a = {}, awake_b = {};
+  bool sleepers = false;
 };
+
+Mat3f root_now(const Bodies& bodies, std::uint32_t body) {
+  return bodies.rotation_f[body] * bodies.root_B[body];
+}
 
 void gather(const Contacts& contacts, const Bodies& bodies, std::span<const Mat3f> root_W,
             const PrepareStep& step, ConstraintBlock& c, Gathered& g) {
@@ -40,10 +46,14 @@ void gather(const Contacts& contacts, const Bodies& bodies, std::span<const Mat3
     const bool a = bodies.awake(m.body_a), b = bodies.awake(m.body_b);
     c.row_a[lane] = a ? static_cast<std::int32_t>(m.body_a + 1) : 0;
     c.row_b[lane] = b ? static_cast<std::int32_t>(m.body_b + 1) : 0;
-    c.inverse_mass_a[lane] = a ? bodies.inverse_mass[m.body_a] : 0;
-    c.inverse_mass_b[lane] = b ? bodies.inverse_mass[m.body_b] : 0;
-    if (a) g.root_a.set(lane, root_W[m.body_a]);
-    if (b) g.root_b.set(lane, root_W[m.body_b]);
+    c.inverse_mass_a[lane] = bodies.inverse_mass[m.body_a];
+    c.inverse_mass_b[lane] = bodies.inverse_mass[m.body_b];
+    // A sleeper has its mass until prepare_block() takes it out: see sleep.h.
+    const bool sleeps_a = !a && bodies.dynamic(m.body_a), sleeps_b = !b && bodies.dynamic(m.body_b);
+    g.sleepers = g.sleepers || sleeps_a || sleeps_b;
+    g.awake_a[lane] = a ? 1 : 0, g.awake_b[lane] = b ? 1 : 0;
+    if (a || sleeps_a) g.root_a.set(lane, a ? root_W[m.body_a] : root_now(bodies, m.body_a));
+    if (b || sleeps_b) g.root_b.set(lane, b ? root_W[m.body_b] : root_now(bodies, m.body_b));
     c.summed = c.summed || !a || !b || bodies.bears_load[m.body_a] || bodies.bears_load[m.body_b];
     c.outside_sign[lane] = (a ? 0.f : 1.f) - (b ? 0.f : 1.f);
     set_lane(g.gravity, lane, ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.gravity_W);
@@ -101,6 +111,19 @@ void prepare_friction(const Gathered& g, Wide inverse_mass, ConstraintBlock& c) 
   c.slide_impulse_2 = dot(g.slide_impulse, c.tangent_2);
 }
 
+/// Sleepers stay where they are: no response to any impulse.
+void hold_sleepers(const Gathered& g, ConstraintBlock& c) {
+  c.inverse_mass_a *= g.awake_a, c.inverse_mass_b *= g.awake_b;
+  auto hold = [&](Wide3& a, Wide3& b) { a = a * g.awake_a, b = b * g.awake_b; };
+  hold(c.slide_1_a, c.slide_1_b);
+  hold(c.slide_2_a, c.slide_2_b);
+  hold(c.twist_a, c.twist_b);
+  for (int i = 0; i < c.points; ++i) {
+    PointLanes& p = c.point[static_cast<std::size_t>(i)];
+    hold(p.turn_a, p.turn_b);
+  }
+}
+
 /// The speed at which the point will have closed its gap, by energy, times restitution.
 Wide rebound_of(const Gathered& g, const ConstraintBlock& c, const PointLanes& p, Wide u,
                 const PrepareStep& step) {
@@ -142,6 +165,7 @@ void prepare_block(const Contacts& contacts, const Bodies& bodies, std::span<con
     p.rebound = rebound_of(g, c, p, speed_along(c, i, rows), step);
     c.bouncy = c.bouncy || bits(p.rebound > splat(0)) != 0;
   }
+  if (g.sleepers) hold_sleepers(g, c);
 }
 
 void store_block(const ConstraintBlock& c, const BodyRow* rows, Contacts& contacts) {

@@ -18,7 +18,7 @@ struct PrepareStep {
 };
 
 /// Fills everything but `manifold`, `lanes` and `points`, which say what goes in. `root_W` is by
-/// body slot (zero for what cannot move now); rows are by slot + 1.
+/// body slot, for bodies that are awake; rows are by slot + 1.
 void prepare_block(const Contacts& contacts, const Bodies& bodies, std::span<const Mat3f> root_W,
                    const BodyRow* rows, const PrepareStep& step, ConstraintBlock& block);
 

@@ -2,6 +2,7 @@
 #include "solver/rigid/rigid_physics.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
@@ -11,8 +12,8 @@
 #include "solver/rigid/broad_phase.h"
 #include "solver/rigid/contact_solver.h"
 #include "solver/rigid/contacts.h"
-#include "solver/rigid/islands.h"
 #include "solver/rigid/narrow_phase.h"
+#include "solver/rigid/sleep.h"
 
 namespace sunder::solver {
 namespace {
@@ -23,6 +24,7 @@ class RigidPhysics final : public Physics {
 
   std::vector<BodyId> replace(std::span<const BodyId> remove,
                               std::span<const BodyDesc> add) override;
+  void edit(const BodyEdit& edit) override;
   void collide(double dt_s) override;
   std::span<const Approach> approaches() const override { return approaches_; }
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
@@ -34,6 +36,7 @@ class RigidPhysics final : public Physics {
 
  private:
   void remove_bodies(std::span<const BodyId> ids);
+  void remove_shapes(std::span<const std::uint32_t> shapes);
   void update_contacts(double dt_s);
   Vec3 freeze_broken();
 
@@ -42,12 +45,12 @@ class RigidPhysics final : public Physics {
   Shapes shapes_;
   Contacts contacts_;
   BroadPhase broad_phase_;
-  Islands islands_;
+  Sleep sleep_;
   ContactSolver contact_solver_;
   std::vector<Approach> approaches_;
   std::uint32_t frozen_ = 0;  ///< Since the last solve began.
   std::vector<std::pair<const char*, double>> timings_ms_ = {
-      {"broad phase", 0}, {"narrow phase", 0}, {"contacts", 0}, {"islands", 0}};
+      {"broad phase", 0}, {"narrow phase", 0}, {"contacts", 0}, {"sleep", 0}};
 };
 
 std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
@@ -60,32 +63,49 @@ std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
     ids.push_back(bodies_.id(slots.back()));
   }
   contacts_.body_colors.resize(bodies_.size());
-  const std::vector<std::uint32_t> added = shapes_.add(add, slots, bodies_);
-  if (!remove.empty() || !add.empty()) broad_phase_.shapes_changed(added, shapes_, bodies_);
+  std::vector<NewShape> shapes;
+  for (std::size_t i = 0; i < add.size(); ++i)
+    for (const ShapeDesc& shape : add[i].shapes) shapes.push_back({&shape, slots[i]});
+  broad_phase_.add(shapes_.add(shapes, bodies_), shapes_, bodies_);
   return ids;
 }
 
 void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
-  if (ids.empty()) return;
-  std::vector<std::uint8_t> goes(bodies_.size(), 0);
+  std::vector<std::uint32_t> shapes;
   for (const BodyId id : ids) {
-    SUNDER_CHECK(bodies_.holds(id) && !goes[id.slot]);
-    goes[id.slot] = 1;
+    SUNDER_CHECK(bodies_.holds(id));
+    const std::vector<std::uint32_t> of_body = shapes_.of_body(id.slot, bodies_);
+    shapes.insert(shapes.end(), of_body.begin(), of_body.end());
   }
-  for (std::uint32_t i = 0; i < contacts_.pairs.size(); ++i) {
-    const Pair pair = contacts_.pairs[i];
-    if (!pair.present() || (!goes[pair.body_a] && !goes[pair.body_b])) continue;
-    if (contacts_.manifolds[i].count > 0) {
-      bodies_.wake(pair.body_a);
-      bodies_.wake(pair.body_b);
-    }
-    contacts_.remove(i);
-  }
+  remove_shapes(shapes);
   for (const BodyId id : ids) {
-    shapes_.remove_of_body(id.slot, bodies_);
+    SUNDER_CHECK(bodies_.holds(id));  // each once
     bodies_.remove(id.slot);
     contacts_.body_colors[id.slot] = 0;
   }
+}
+
+void RigidPhysics::remove_shapes(std::span<const std::uint32_t> shapes) {
+  const std::vector<std::uint32_t> pairs =
+      broad_phase_.pairs_with(shapes, shapes_, contacts_.slot_of);
+  std::vector<std::uint32_t> manifolds;
+  for (const std::uint32_t pair : pairs)
+    if (contacts_.pairs[pair].touching()) manifolds.push_back(contacts_.pairs[pair].manifold);
+  sleep_.wake_left(manifolds, options_.gravity_W, contacts_, bodies_);
+  for (const std::uint32_t pair : pairs) contacts_.remove(pair);
+  broad_phase_.remove(shapes);
+  shapes_.remove(shapes, bodies_);
+}
+
+void RigidPhysics::edit(const BodyEdit& edit) {
+  SUNDER_CHECK(bodies_.holds(edit.body) && bodies_.motion[edit.body.slot] == Motion::kStatic);
+  std::vector<std::uint32_t> removed;
+  for (const std::uint32_t tag : edit.removed_tags)
+    removed.push_back(shapes_.with_tag(edit.body.slot, tag));
+  remove_shapes(removed);
+  std::vector<NewShape> added;
+  for (const ShapeDesc& shape : edit.added) added.push_back({&shape, edit.body.slot});
+  broad_phase_.add(shapes_.add(added, bodies_), shapes_, bodies_);
 }
 
 void RigidPhysics::collide(double dt_s) {
@@ -94,40 +114,46 @@ void RigidPhysics::collide(double dt_s) {
   broad_phase_.update(shapes_, bodies_, options_.gravity_W, dt_s, contacts_);
   timings_ms_[0].second += watch.lap_ms();
   update_contacts(dt_s);
-  islands_.wake_touched(contacts_, dt_s, bodies_);
+  sleep_.wake_hit(contacts_, dt_s, bodies_);
   approaches_ = find_approaches(contacts_, bodies_, shapes_, dt_s);
   timings_ms_[1].second += watch.lap_ms();
 }
 
 /// Narrow phase over pairs of which a body changed; then, in order of slots, what came to touch
-/// gets a colour and what drifted apart goes.
+/// gets a manifold and what drifted apart goes.
 void RigidPhysics::update_contacts(double dt_s) {
   constexpr std::size_t kChunk = 1024;
   struct Changes {
-    std::vector<std::uint32_t> recolor, gone;
+    std::vector<std::pair<std::uint32_t, Manifold>> touched;
+    std::vector<std::uint32_t> parted, gone;
   };
   auto& pairs = contacts_.pairs;
   std::vector<Changes> changes((pairs.size() + kChunk - 1) / kChunk);
   const NarrowStep step{dt_s, static_cast<float>(options_.gravity_W.norm() * dt_s * dt_s)};
   for_chunks(pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
     NarrowScratch scratch;
+    Manifold fresh;
     for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
       Pair& pair = pairs[i];
       if (!pair.present()) continue;
-      if (!bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b]) continue;
-      Manifold& m = contacts_.manifolds[i];
-      const bool touched = m.count > 0;
-      if (broad_phase_.near(pair)) {
-        update_contact(shapes_, bodies_, step, pair, m, scratch);
-      } else {
-        m.count = 0;
-        if (!broad_phase_.keep(pair)) changes[c].gone.push_back(i);
-      }
-      if (touched != (m.count > 0)) changes[c].recolor.push_back(i);
+      if (!pair.fresh && !bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b]) continue;
+      pair.fresh = false;
+      const bool touched = pair.touching(), near = broad_phase_.near(pair);
+      Manifold& m = touched ? contacts_.manifolds[pair.manifold] : fresh;
+      if (near) update_contact(shapes_, bodies_, step, pair, m, scratch);
+      if (touched && (!near || m.count == 0)) changes[c].parted.push_back(i);
+      if (!touched && m.count > 0) changes[c].touched.emplace_back(i, std::exchange(fresh, {}));
+      if (!near && !broad_phase_.keep(pair)) changes[c].gone.push_back(i);
     }
   });
+  std::vector<std::uint32_t> left;
   for (const Changes& chunk : changes)
-    for (const std::uint32_t i : chunk.recolor) contacts_.recolor(i, bodies_);
+    for (const std::uint32_t i : chunk.parted) left.push_back(pairs[i].manifold);
+  sleep_.wake_left(left, options_.gravity_W, contacts_, bodies_);
+  for (const Changes& chunk : changes)
+    for (const std::uint32_t i : chunk.parted) contacts_.part(i);
+  for (const Changes& chunk : changes)
+    for (const auto& [pair, manifold] : chunk.touched) contacts_.touch(pair, manifold, bodies_);
   for (const Changes& chunk : changes)
     for (const std::uint32_t i : chunk.gone) contacts_.remove(i);
   std::fill(bodies_.changed.begin(), bodies_.changed.end(), std::uint8_t{0});
@@ -174,8 +200,12 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   report.external_impulse_Ns += solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
   timings_ms_[2].second += watch.lap_ms();
-  if (options_.sleeping)
-    report.external_impulse_Ns += islands_.put_to_sleep(contacts_, dt_s, bodies_);
+  if (options_.sleeping) {
+    const double h_s = dt_s / substeps;
+    sleep_.wake_changed(options_.gravity_W, h_s, contacts_, bodies_);
+    report.external_impulse_Ns +=
+        sleep_.put_to_sleep(options_.gravity_W, dt_s, h_s, bodies_, contacts_);
+  }
   timings_ms_[3].second += watch.lap_ms();
   approaches_.clear();
   report.contacts = solved.manifolds;
@@ -195,19 +225,17 @@ BodyState RigidPhysics::state(BodyId id) const {
 }
 
 std::vector<ContactLoad> RigidPhysics::contact_loads() const {
-  std::vector<std::uint32_t> loaded;
-  for (std::uint32_t i = 0; i < contacts_.pairs.size(); ++i) {
-    const Pair& pair = contacts_.pairs[i];
-    if (!pair.present() || contacts_.manifolds[i].count == 0) continue;
-    if (bodies_.bears_load[pair.body_a] || bodies_.bears_load[pair.body_b]) loaded.push_back(i);
-  }
-  std::sort(loaded.begin(), loaded.end(), [&](std::uint32_t i, std::uint32_t j) {
-    return contacts_.pairs[i].key() < contacts_.pairs[j].key();
+  std::vector<const Manifold*> loaded;
+  for (const Manifold& m : contacts_.manifolds)
+    if (m.count > 0 && (bodies_.bears_load[m.body_a] || bodies_.bears_load[m.body_b]))
+      loaded.push_back(&m);
+  std::sort(loaded.begin(), loaded.end(), [&](const Manifold* m, const Manifold* n) {
+    return contacts_.pairs[m->pair].key() < contacts_.pairs[n->pair].key();
   });
   std::vector<ContactLoad> loads;
-  for (const std::uint32_t i : loaded) {
-    const Pair& pair = contacts_.pairs[i];
-    const Manifold& m = contacts_.manifolds[i];
+  for (const Manifold* loaded_m : loaded) {
+    const Manifold& m = *loaded_m;
+    const Pair& pair = contacts_.pairs[m.pair];
     const Vec3 impulse = m.step_impulse_W.cast<double>();
     if (impulse.isZero(0)) continue;
     const Vec3 point = bodies_.position[m.body_a] + m.middle_of_load().cast<double>();

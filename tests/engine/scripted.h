@@ -32,6 +32,12 @@ class ScriptedPhysics final : public Physics {
     }
     return ids;
   }
+  void edit(const BodyEdit& edit) override {
+    std::vector<ShapeDesc>& shapes = bodies[edit.body.slot].desc.shapes;
+    for (const std::uint32_t tag : edit.removed_tags)
+      std::erase_if(shapes, [&](const ShapeDesc& shape) { return shape.tag == tag; });
+    shapes.insert(shapes.end(), edit.added.begin(), edit.added.end());
+  }
   void collide(double) override { approaches_ = script_(*this, collides_++); }
   std::span<const Approach> approaches() const override { return approaches_; }
   void apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) override {

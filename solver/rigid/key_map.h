@@ -1,0 +1,33 @@
+// A map from 64-bit keys to slots, by open addressing. Nothing iterates over it, so its order
+// decides nothing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace sunder::solver {
+
+class KeyMap {
+ public:
+  static constexpr std::uint32_t kAbsent = 0xffffffff;
+
+  /// The slot of a key, or kAbsent.
+  std::uint32_t find(std::uint64_t key) const;
+  bool contains(std::uint64_t key) const { return find(key) != kAbsent; }
+  void insert(std::uint64_t key, std::uint32_t slot);  ///< The key must not be in it.
+  void erase(std::uint64_t key);                       ///< The key must be in it.
+
+ private:
+  struct Entry {
+    std::uint64_t key = kEmpty;
+    std::uint32_t slot = kAbsent;
+  };
+  std::size_t home(std::uint64_t key) const;
+  void grow();
+
+  static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
+  std::vector<Entry> entries_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace sunder::solver

@@ -1,0 +1,194 @@
+// Rest, support and wakes. All decisions are made from the state at the end of a step, in order of
+// slots.
+#include "solver/rigid/sleep.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "solver/rigid/approach.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr double kSlow_m_s = 0.05;
+constexpr double kDrift = 0.002;  // of the radius, within the time of rest
+constexpr float kRestTime_s = 0.5f;
+constexpr double kHit_m_s = 0.15;
+constexpr float kChange = 0.3f;      // of the sleeper's weight: what wakes it
+constexpr float kLoadChange = 0.1f;  // of the load on it, in addition
+constexpr double kLeastGravity_m_s2 = 1;
+
+float weight_N(const Bodies& bodies, std::uint32_t body, const Vec3& gravity_W) {
+  return static_cast<float>(bodies.mass_kg[body] * std::max(kLeastGravity_m_s2, gravity_W.norm()));
+}
+
+Vec3f up(const Vec3& gravity_W) {
+  const double g = gravity_W.norm();
+  return g > 0 ? Vec3f((-gravity_W / g).cast<float>()) : Vec3f(Vec3f::Zero());
+}
+
+bool asleep(const Bodies& bodies, std::uint32_t body) {
+  return bodies.motion[body] == Motion::kAsleep;
+}
+
+}  // namespace
+
+std::uint32_t Sleep::root(std::uint32_t body) {
+  while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
+  return body;
+}
+
+void Sleep::note_rest(double dt_s, Bodies& bodies) {
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies.awake(i)) continue;
+    const double reach = bodies.reach_m[i];
+    const double speed = bodies.velocity[i].norm() + bodies.angular_velocity[i].norm() * reach;
+    const Quat turn = bodies.rest_rotation[i].conjugate() * bodies.rotation[i];
+    const double drift =
+        (bodies.position[i] - bodies.rest_position[i]).norm() + 2 * turn.vec().norm() * reach;
+    if (speed < kSlow_m_s && drift < kDrift * reach) {
+      bodies.slow_s[i] += static_cast<float>(dt_s);
+    } else {
+      bodies.slow_s[i] = 0;
+      bodies.rest_position[i] = bodies.position[i];
+      bodies.rest_rotation[i] = bodies.rotation[i];
+    }
+  }
+}
+
+Vec3 Sleep::put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, Bodies& bodies,
+                         Contacts& contacts) {
+  note_rest(dt_s, bodies);
+  const std::uint32_t n = bodies.size();
+  candidate_.assign(n, 0);
+  bool any = false;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    candidate_[i] = bodies.awake(i) && bodies.slow_s[i] >= kRestTime_s;
+    any = any || candidate_[i];
+  }
+  if (!any) return Vec3::Zero();
+  parent_.resize(n);
+  for (std::uint32_t i = 0; i < n; ++i) parent_[i] = i;
+  held_.assign(n, gravity_W.isZero(0));
+  auto rests = [&](std::uint32_t body) { return candidate_[body] || asleep(bodies, body); };
+  for (const Manifold& m : contacts.manifolds) {
+    if (m.count == 0 || m.normal_impulse() <= 0) continue;
+    const bool a = rests(m.body_a), b = rests(m.body_b);
+    if (a && b) {
+      const std::uint32_t x = root(m.body_a), y = root(m.body_b);
+      parent_[std::max(x, y)] = std::min(x, y);
+    } else if (a && !bodies.dynamic(m.body_b)) {
+      held_[m.body_a] = 1;
+    } else if (b && !bodies.dynamic(m.body_a)) {
+      held_[m.body_b] = 1;
+    }
+  }
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (held_[i] && rests(i)) held_[root(i)] = 1;
+  Vec3 taken = Vec3::Zero();
+  for (std::uint32_t i = 0; i < n; ++i) {
+    candidate_[i] = candidate_[i] && held_[root(i)];
+    if (!candidate_[i]) continue;
+    taken -= bodies.mass_kg[i] * bodies.velocity[i];
+    bodies.motion[i] = Motion::kAsleep;
+    bodies.velocity[i].setZero();
+    bodies.angular_velocity[i].setZero();
+  }
+  const auto inverse_h = static_cast<float>(1 / h_s);
+  for (Manifold& m : contacts.manifolds)
+    if (m.count > 0 && (candidate_[m.body_a] || candidate_[m.body_b]))
+      m.rest_force_W = inverse_h * m.impulse_W();
+  return taken;
+}
+
+void Sleep::wake_hit(const Contacts& contacts, double dt_s, Bodies& bodies) const {
+  std::vector<std::uint32_t> woken;
+  for (const Manifold& m : contacts.manifolds) {
+    if (m.count == 0) continue;
+    const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
+    if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
+    for (std::size_t i = 0; i < m.count; ++i) {
+      const ManifoldPoint& p = m.points[i];
+      const double speed = closing_speed(m, bodies, p.arm_A, p.arm_B);
+      if (speed < kHit_m_s || double{p.separation_m} > dt_s * speed) continue;
+      woken.push_back(a ? m.body_a : m.body_b);
+      break;
+    }
+  }
+  for (const std::uint32_t body : woken) bodies.wake(body);
+}
+
+void Sleep::wake_changed(const Vec3& gravity_W, double h_s, const Contacts& contacts,
+                         Bodies& bodies) {
+  change_N_.assign(bodies.size(), 0);
+  support_N_.assign(bodies.size(), 0);
+  const Vec3f up_W = up(gravity_W);
+  const auto inverse_h = static_cast<float>(1 / h_s);
+  for (const Manifold& m : contacts.manifolds) {
+    if (m.count == 0) continue;
+    const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
+    if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
+    const std::uint32_t body = a ? m.body_a : m.body_b;
+    const Vec3f change = inverse_h * m.impulse_W() - m.rest_force_W;
+    change_N_[body] += std::max(0.f, change.norm() - kLoadChange * m.rest_force_W.norm());
+    support_N_[body] += (a ? -1.f : 1.f) * change.dot(up_W);
+  }
+  std::vector<std::uint32_t> woken, left;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    if (!asleep(bodies, i)) continue;
+    const float weight = weight_N(bodies, i, gravity_W);
+    if (change_N_[i] <= kChange * weight) continue;
+    (support_N_[i] < -kChange * weight ? left : woken).push_back(i);
+  }
+  for (const std::uint32_t body : woken) bodies.wake(body);
+  wake_above(std::move(left), gravity_W, contacts, bodies);
+}
+
+void Sleep::wake_left(std::span<const std::uint32_t> manifolds, const Vec3& gravity_W,
+                      const Contacts& contacts, Bodies& bodies) {
+  std::vector<std::uint32_t> seeds;
+  for (const std::uint32_t slot : manifolds) {
+    const Manifold& m = contacts.manifolds[slot];
+    for (const std::uint32_t body : {m.body_a, m.body_b}) {
+      if (!asleep(bodies, body)) continue;
+      const bool carried = m.rest_force_W.norm() > kChange * weight_N(bodies, body, gravity_W);
+      if (carried) seeds.push_back(body);
+    }
+  }
+  std::sort(seeds.begin(), seeds.end());
+  seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+  wake_above(std::move(seeds), gravity_W, contacts, bodies);
+}
+
+void Sleep::wake_above(std::vector<std::uint32_t> seeds, const Vec3& gravity_W,
+                       const Contacts& contacts, Bodies& bodies) {
+  if (seeds.empty()) return;
+  const Vec3f up_W = up(gravity_W);
+  // What stands on what, both asleep: a counting sort of edges by the lower body.
+  auto for_each_edge = [&](const auto& visit) {
+    for (const Manifold& m : contacts.manifolds) {
+      if (m.count == 0 || !asleep(bodies, m.body_a) || !asleep(bodies, m.body_b)) continue;
+      const float lift = m.rest_force_W.dot(up_W);
+      const std::uint32_t low = lift > 0 ? m.body_a : m.body_b;
+      const std::uint32_t high = lift > 0 ? m.body_b : m.body_a;
+      if (std::abs(lift) > kChange * weight_N(bodies, high, gravity_W)) visit(low, high);
+    }
+  };
+  first_.assign(bodies.size() + 2, 0);
+  for_each_edge([&](std::uint32_t low, std::uint32_t) { ++first_[low + 2]; });
+  for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  above_.resize(first_.back());
+  for_each_edge([&](std::uint32_t low, std::uint32_t high) { above_[first_[low + 1]++] = high; });
+  for (const std::uint32_t body : seeds) bodies.wake(body);
+  while (!seeds.empty()) {
+    const std::uint32_t low = seeds.back();
+    seeds.pop_back();
+    for (std::uint32_t i = first_[low]; i < first_[low + 1]; ++i) {
+      if (!asleep(bodies, above_[i])) continue;
+      bodies.wake(above_[i]);
+      seeds.push_back(above_[i]);
+    }
+  }
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,44 @@
+// Bodies fall asleep and wake one by one, not by islands: what rests may sleep beside what moves.
+//
+// A sleeper keeps its true mass in the contacts of its neighbours, so that those stay as soft as
+// they were, but takes no impulse. It holds as long as what presses on it stays what it was.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/rigid/bodies.h"
+#include "solver/rigid/contacts.h"
+
+namespace sunder::solver {
+
+class Sleep {
+ public:
+  /// Puts bodies to sleep that have been at rest for half a second and stand on something, by
+  /// loaded contacts through other sleepers, that cannot move. `h_s` is the last substep. The
+  /// answer is the momentum that was taken away.
+  Vec3 put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, Bodies& bodies,
+                    Contacts& contacts);
+  /// Wakes sleepers that something awake is about to hit.
+  void wake_hit(const Contacts& contacts, double dt_s, Bodies& bodies) const;
+  /// Wakes sleepers on which the load has changed in the last solve, and what stood on them if it
+  /// was their support that went.
+  void wake_changed(const Vec3& gravity_W, double h_s, const Contacts& contacts, Bodies& bodies);
+  /// Wakes both bodies of manifolds that are about to go, and what stood on them.
+  void wake_left(std::span<const std::uint32_t> manifolds, const Vec3& gravity_W,
+                 const Contacts& contacts, Bodies& bodies);
+
+ private:
+  void note_rest(double dt_s, Bodies& bodies);
+  std::uint32_t root(std::uint32_t body);
+  /// Wakes the seeds and all sleepers that stand on them, by sleepers between.
+  void wake_above(std::vector<std::uint32_t> seeds, const Vec3& gravity_W, const Contacts& contacts,
+                  Bodies& bodies);
+
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint8_t> candidate_, held_;
+  std::vector<float> change_N_, support_N_;  ///< By body, since it fell asleep.
+  std::vector<std::uint32_t> first_, above_;
+};
+
+}  // namespace sunder::solver

@@ -1,0 +1,201 @@
+// Sleep below the level of an island: what rests sleeps, beside what moves, and wakes in time.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "tests/solver/rigid_world.h"
+
+namespace sunder::solver {
+namespace {
+
+using W = RigidWorld;
+constexpr double kDt_s = 1.0 / 60;
+constexpr int kSubsteps = 4;
+const Vec3 kBrick(0.4, 0.2, 0.2);
+
+/// Bricks in running bond, row after row; the answer lists them.
+std::vector<BodyId> add_wall(RigidWorld& world, int columns, int rows) {
+  std::vector<BodyId> bricks;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      bricks.push_back(world.add(
+          W::box(kBrick, Vec3((column + 0.4 * (row % 2)) * kBrick.x(), (row + 0.5) * kBrick.y(), 0),
+                 2000)));
+  return bricks;
+}
+
+std::size_t asleep(const RigidWorld& world, const std::vector<BodyId>& ids) {
+  return static_cast<std::size_t>(
+      std::count_if(ids.begin(), ids.end(), [&](BodyId id) { return world.state(id).asleep; }));
+}
+
+RigidOptions sleeping(bool yes) {
+  RigidOptions options;
+  options.sleeping = yes;
+  return options;
+}
+
+TEST(Sleep, WhatRestsSleepsBesideWhatMoves) {
+  RigidWorld world;
+  world.add(W::ground());
+  const std::vector<BodyId> wall = add_wall(world, 8, 8);
+  // A top that spins on the wall for ever keeps only itself awake.
+  BodyDesc top = W::with_friction(W::sphere(0.1, Vec3(1, 1.7, 0), 100), 0);
+  top.angular_velocity_W = Vec3(0, 20, 0);
+  const BodyId spinning = world.add(top);
+  world.run(6, kDt_s, kSubsteps);
+  EXPECT_FALSE(world.state(spinning).asleep);
+  EXPECT_EQ(asleep(world, wall), wall.size());
+}
+
+TEST(Sleep, NothingWakesDuringTenSecondsOfRest) {
+  RigidWorld world;
+  world.add(W::ground());
+  Random random(4);
+  std::vector<BodyId> pile;
+  for (int i = 0; i < 150; ++i) {
+    const Vec3 at(0.4 * (i % 5) + random.uniform(0, 0.05), 0.3 + 0.4 * (i / 25),
+                  0.4 * (i / 5 % 5) + random.uniform(0, 0.05));
+    pile.push_back(world.add(W::box(random.uniform(0.1, 0.3) * Vec3(1, 1.3, 0.8), at, 2000)));
+  }
+  world.run(10, kDt_s, kSubsteps);
+  std::size_t before = asleep(world, pile), wakes = 0;
+  EXPECT_GT(before, pile.size() * 9 / 10);
+  for (int i = 0; i < 600; ++i) {
+    std::vector<bool> slept;
+    for (const BodyId id : pile) slept.push_back(world.state(id).asleep);
+    world.step(kDt_s, kSubsteps);
+    for (std::size_t b = 0; b < pile.size(); ++b) wakes += slept[b] && !world.state(pile[b]).asleep;
+  }
+  EXPECT_EQ(wakes, 0u);
+  EXPECT_GE(asleep(world, pile), before);
+}
+
+TEST(Sleep, NothingSleepsWithoutASupport) {
+  RigidWorld world;
+  const BodyId plank = world.add(W::box(Vec3(2, 0.1, 0.4), Vec3(0, 50, 0)));
+  const BodyId brick = world.add(W::box(kBrick, Vec3(0, 50.15, 0)));
+  for (int i = 0; i < 120; ++i) {
+    // Held by pushes alone: at rest, but on nothing.
+    for (const BodyId id : {plank, brick}) {
+      const double mass = id == plank ? 80 : 16;
+      world.physics().apply_impulse(id, Vec3(0, 9.81 * kDt_s * mass, 0),
+                                    world.state(id).X_WB.position);
+    }
+    world.step(kDt_s, kSubsteps);
+  }
+  EXPECT_FALSE(world.state(plank).asleep);
+  EXPECT_FALSE(world.state(brick).asleep);
+}
+
+/// Speeds of a tower's boxes in the step after the lowest is taken out.
+std::vector<double> speeds_without_support(bool sleep) {
+  RigidWorld world(sleeping(sleep));
+  world.add(W::ground());
+  std::vector<BodyId> tower;
+  for (int i = 0; i < 12; ++i)
+    tower.push_back(world.add(W::box(Vec3(1, 0.5, 1), Vec3(0, 0.25 + 0.5 * i, 0))));
+  const BodyId beside = world.add(W::box(Vec3(1, 1, 1), Vec3(3, 0.5, 0)));
+  world.run(4, kDt_s, kSubsteps);
+  EXPECT_EQ(asleep(world, tower), sleep ? tower.size() : 0);
+  world.remove(tower[0]);
+  world.step(kDt_s, kSubsteps);
+  EXPECT_EQ(world.state(beside).asleep, sleep);
+  std::vector<double> speeds;
+  for (std::size_t i = 1; i < tower.size(); ++i)
+    speeds.push_back(world.state(tower[i]).velocity_W.y());
+  return speeds;
+}
+
+TEST(Sleep, WhatStoodOnARemovedBodyFallsAsIfItHadNeverSlept) {
+  const std::vector<double> here = speeds_without_support(true);
+  const std::vector<double> twin = speeds_without_support(false);
+  EXPECT_LT(twin[0], -0.1);
+  for (std::size_t i = 0; i < twin.size(); ++i) EXPECT_NEAR(here[i], twin[i], 1e-3) << i;
+}
+
+TEST(Sleep, AChangedLoadWakesALightBodyButNotWhatHardlyFeelsIt) {
+  RigidWorld world;
+  world.add(W::ground());
+  const BodyId heavy = world.add(W::box(Vec3(2, 1, 2), Vec3(0, 0.5, 0), 5000));
+  const BodyId light = world.add(W::box(Vec3(1, 0.2, 1), Vec3(5, 0.1, 0), 100));
+  world.run(3, kDt_s, kSubsteps);
+  ASSERT_TRUE(world.state(heavy).asleep && world.state(light).asleep);
+  // Put down without a hit: only the load tells.
+  world.add(W::box(Vec3(0.4, 0.4, 0.4), Vec3(0, 1.2, 0), 1000));
+  world.add(W::box(Vec3(0.4, 0.4, 0.4), Vec3(5, 0.4, 0), 1000));
+  bool heavy_woke = false, light_woke = false;
+  for (int i = 0; i < 30; ++i) {
+    world.step(kDt_s, kSubsteps);
+    heavy_woke = heavy_woke || !world.state(heavy).asleep;
+    light_woke = light_woke || !world.state(light).asleep;
+  }
+  EXPECT_TRUE(light_woke);
+  EXPECT_FALSE(heavy_woke);
+}
+
+/// Bricks of a wall that moved over a centimetre after some of the lowest row were taken out.
+std::vector<bool> moved_without_supports(bool sleep) {
+  RigidWorld world(sleeping(sleep));
+  world.add(W::ground());
+  const std::vector<BodyId> wall = add_wall(world, 20, 10);
+  constexpr int kAccurate = 12;  // fewer, and a wall that does not sleep sways
+  world.run(2, kDt_s, kAccurate);
+  std::vector<Vec3> from;
+  for (const BodyId id : wall) from.push_back(world.state(id).X_WB.position);
+  for (std::size_t gone = 4; gone < 14; ++gone) world.remove(wall[gone]);
+  world.run(2, kDt_s, kAccurate);
+  std::vector<bool> moved;
+  for (std::size_t i = 20; i < wall.size(); ++i)
+    moved.push_back((world.state(wall[i]).X_WB.position - from[i]).norm() > 0.01);
+  return moved;
+}
+
+TEST(Sleep, WakesNineTenthsOfWhatMovesInAWorldThatNeverSleeps) {
+  const std::vector<bool> twin = moved_without_supports(false), here = moved_without_supports(true);
+  std::size_t in_twin = 0, in_both = 0;
+  for (std::size_t i = 0; i < twin.size(); ++i) in_twin += twin[i], in_both += twin[i] && here[i];
+  std::printf("moved in the twin: %zu of %zu, here too: %zu\n", in_twin, twin.size(), in_both);
+  ASSERT_GT(in_twin, 20u);
+  EXPECT_GE(in_both * 10, in_twin * 9);
+}
+
+TEST(Sleep, WhatSleepersTakeUpIsInTheBooks) {
+  RigidWorld world;
+  world.add(W::ground());
+  add_wall(world, 10, 6);
+  world.run(3, kDt_s, kSubsteps);
+  BodyDesc ball = W::sphere(0.15, Vec3(1.8, 1.3, -4), 7000);
+  ball.velocity_W = Vec3(0, 2, 12);
+  world.add(ball);
+  for (int i = 0; i < 180; ++i) {
+    const Vec3 before = world.momentum();
+    const SolveReport report = world.step(kDt_s, kSubsteps);
+    const Vec3 residual = world.momentum() - before - report.external_impulse_Ns;
+    EXPECT_LT(residual.norm(), 2e-3) << "step " << i;  // of 1,200 Ns in the ball alone
+  }
+}
+
+TEST(Sleep, GivesTheSameBitsForAnyNumberOfThreads) {
+  std::vector<std::uint64_t> hashes;
+  for (const int count : {1, 2, 4, 7}) {
+    set_threads(count);
+    RigidWorld world;
+    world.add(W::ground());
+    const std::vector<BodyId> wall = add_wall(world, 20, 15);
+    world.run(2, kDt_s, kSubsteps);
+    world.remove(wall[7]);
+    BodyDesc ball = W::sphere(0.2, Vec3(2.1, 1.3, -2), 7000);
+    ball.velocity_W = Vec3(0, 0, 10);
+    world.add(ball);
+    world.run(2, kDt_s, kSubsteps);
+    hashes.push_back(world.hash());
+  }
+  set_threads(0);
+  for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
+}
+
+}  // namespace
+}  // namespace sunder::solver
