@@ -10,7 +10,7 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr const char* kFirstLine = "sunder-break-case-1";
+constexpr const char* kFirstLine = "sunder-break-case-2";
 
 class Writer {
  public:
@@ -117,6 +117,35 @@ ConvexPolyhedron read_polyhedron(Reader& in, std::uint64_t vertices, std::uint64
   return polyhedron;
 }
 
+void write_ghost(Writer& out, const Ghost& ghost) {
+  const ConvexPolyhedron& polyhedron = ghost.convex->polyhedron;
+  out.word("ghost");
+  out.put(static_cast<int>(ghost.sign) + 1);
+  out.put(ghost.of.size());
+  for (const std::uint32_t of : ghost.of) out.put(of);
+  out.put(ghost.convex->material.value);
+  out.put(polyhedron.vertices.size());
+  out.put(polyhedron.faces.size());
+  write_polyhedron(out, polyhedron);
+}
+
+Ghost read_ghost(Reader& in, std::uint64_t convexes) {
+  constexpr std::uint64_t kMost = 10000000;
+  Ghost ghost;
+  in.expect("ghost");
+  ghost.sign = static_cast<std::int8_t>(static_cast<int>(in.integer(2)) - 1);
+  const std::uint64_t count = in.integer(convexes);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    ghost.of.push_back(in.index(convexes));
+    if (i > 0 && ghost.of[i] <= ghost.of[i - 1]) in.fail("a ghost's convexes are out of order");
+  }
+  if (count == 0) in.fail("a ghost of no convex");
+  const MaterialIndex material(in.integer(kMost));
+  const std::uint64_t vertices = in.integer(kMost), faces = in.integer(kMost);
+  ghost.convex = make_convex(read_polyhedron(in, vertices, faces), material);
+  return ghost;
+}
+
 void write_command(Writer& out, const BreakCommand& command) {
   const PatternSpec& pattern = command.pattern;
   out.word("command");
@@ -170,6 +199,7 @@ void write_case(std::ostream& stream, const BreakCase& example) {
   out.word(kFirstLine);
   out.put(compound.convexes.size());
   out.put(compound.bonds.size());
+  out.put(compound.ghosts.size());
   out.end_line();
   for (std::size_t i = 0; i < compound.convexes.size(); ++i) {
     const Convex& convex = *compound.convexes[i];
@@ -180,6 +210,7 @@ void write_case(std::ostream& stream, const BreakCase& example) {
     out.put(convex.polyhedron.faces.size());
     write_polyhedron(out, convex.polyhedron);
   }
+  for (const Ghost& ghost : compound.ghosts) write_ghost(out, ghost);
   for (const Bond& bond : compound.bonds) {
     for (const std::uint32_t value : {bond.a, bond.b, bond.face_a, bond.face_b}) out.put(value);
     out.put(bond.area_m2);
@@ -195,6 +226,7 @@ BreakCase read_case(std::istream& stream, const std::string& name) {
   Compound& compound = example.compound;
   in.expect(kFirstLine);
   const std::uint64_t convexes = in.integer(kMost), bonds = in.integer(kMost);
+  const std::uint64_t ghosts = in.integer(kMost);
   for (std::uint64_t i = 0; i < convexes; ++i) {
     in.expect("convex");
     const MaterialIndex material(in.integer(kMost));
@@ -202,6 +234,7 @@ BreakCase read_case(std::istream& stream, const std::string& name) {
     const std::uint64_t vertices = in.integer(kMost), faces = in.integer(kMost);
     compound.convexes.push_back(make_convex(read_polyhedron(in, vertices, faces), material));
   }
+  for (std::uint64_t i = 0; i < ghosts; ++i) compound.ghosts.push_back(read_ghost(in, convexes));
   for (std::uint64_t i = 0; i < bonds; ++i) {
     Bond bond;
     bond.a = in.index(convexes);

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/geometry/bvh.h"
 #include "engine/world/piece_mesh.h"
 #include "fracture/adjacency.h"
+#include "fracture/islands.h"
+#include "fracture/overlap.h"
 
 namespace sunder::fracture {
 namespace {
@@ -53,10 +54,6 @@ bool back_to_back(const ConvexPolyhedron& a, std::size_t f, const ConvexPolyhedr
   return true;
 }
 
-Box grown(const Box& box, double by) {
-  return {box.min - Vec3::Constant(by), box.max + Vec3::Constant(by)};
-}
-
 /// Joins the faces by which two convexes may touch.
 void join_faces(const ConvexPolyhedron& a, std::uint32_t first_a, const ConvexPolyhedron& b,
                 std::uint32_t first_b, double tolerance, Planes& planes) {
@@ -70,26 +67,17 @@ void join_faces(const ConvexPolyhedron& a, std::uint32_t first_a, const ConvexPo
 }
 
 /// Names the planes of all faces; those back to back share one.
-void name_planes(std::vector<Part>& parts, double tolerance) {
-  std::vector<Box> boxes;
+void name_planes(std::vector<Part>& parts, const PartPairs& pairs, double tolerance) {
   std::vector<std::uint32_t> first_face;
   std::uint32_t faces = 0;
   for (const Part& part : parts) {
-    boxes.push_back(grown(bounds(part.polyhedron), tolerance));
     first_face.push_back(faces);
     faces += static_cast<std::uint32_t>(part.polyhedron.faces.size());
   }
-  const Bvh tree(boxes);
   Planes planes(faces);
-  std::vector<std::uint32_t> hits;
-  for (std::uint32_t i = 0; i < parts.size(); ++i) {
-    hits.clear();
-    tree.overlaps(boxes[i], hits);
-    for (const std::uint32_t j : hits) {
-      if (j <= i) continue;
-      join_faces(parts[i].polyhedron, first_face[i], parts[j].polyhedron, first_face[j], tolerance,
-                 planes);
-    }
+  for (const auto& [i, j] : pairs) {
+    join_faces(parts[i].polyhedron, first_face[i], parts[j].polyhedron, first_face[j], tolerance,
+               planes);
   }
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
     for (std::uint32_t f = 0; f < parts[i].polyhedron.faces.size(); ++f) {
@@ -115,16 +103,46 @@ void mark_inner_faces(Compound& compound) {
 }  // namespace
 
 Compound make_compound(std::vector<Part> parts, double tolerance_m) {
-  name_planes(parts, tolerance_m);
+  PartPairs pairs = find_pairs(parts, tolerance_m);
+  if (part_deep_overlaps(parts, pairs, tolerance_m)) pairs = find_pairs(parts, tolerance_m);
+  name_planes(parts, pairs, tolerance_m);
   Compound compound;
   for (Part& part : parts) {
     compound.convexes.push_back(
-        make_convex(std::move(part.polyhedron), part.material, part.visual));
+        make_convex(std::move(part.polyhedron), part.material, std::move(part.visual)));
     compound.anchored.push_back(part.anchored);
   }
   compound.bonds = find_contacts(compound.convexes);
+  compound.ghosts = find_ghosts(compound.convexes, pairs, tolerance_m);
   mark_inner_faces(compound);
   return compound;
+}
+
+std::vector<Compound> split_islands(const Compound& compound) {
+  const std::vector<std::uint32_t> island = find_islands(compound);
+  const std::size_t count = compound.convexes.size();
+  if (count == 0 || *std::max_element(island.begin(), island.end()) == 0) return {compound};
+  std::vector<Compound> islands;
+  std::vector<std::uint32_t> index(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    if (island[c] == islands.size()) islands.emplace_back();
+    Compound& part = islands[island[c]];
+    index[c] = static_cast<std::uint32_t>(part.convexes.size());
+    part.convexes.push_back(compound.convexes[c]);
+    part.anchored.push_back(compound.anchored[c]);
+  }
+  for (Bond bond : compound.bonds) {
+    std::vector<Bond>& bonds = islands[island[bond.a]].bonds;
+    bond.a = index[bond.a];
+    bond.b = index[bond.b];
+    bonds.push_back(bond);
+  }
+  for (Ghost ghost : compound.ghosts) {
+    std::vector<Ghost>& ghosts = islands[island[ghost.of[0]]].ghosts;
+    for (std::uint32_t& c : ghost.of) c = index[c];
+    ghosts.push_back(std::move(ghost));
+  }
+  return islands;
 }
 
 }  // namespace sunder::fracture

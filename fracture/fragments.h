@@ -22,13 +22,18 @@ struct Fragment {
 
 struct Fragments {
   std::vector<Fragment> all;
+  std::vector<Ghost> ghosts;  ///< By nodes, as cut_ghosts() says.
   double debris_volume_m3 = 0;
   std::uint32_t welded = 0;
   std::uint32_t failed = 0;
 };
 
+/// The sides of `parent` by which it is held that a part of it still reaches.
+std::uint8_t inherited_anchors(std::uint8_t anchored, const Box& parent, const Box& part);
+
 /// Cuts the convexes in slots `touched`, welds full cells, and groups by colour what the sphere
-/// touches. Convexes that it turns out to leave whole and in place are taken out of `touched`.
+/// touches; what overlaps stays together. Convexes that it turns out to leave whole and in place
+/// are taken out of `touched`.
 Fragments make_fragments(const Structure& structure, std::vector<std::uint32_t>& touched,
                          const AlignedPattern& pattern, const ImpactSphere& sphere);
 

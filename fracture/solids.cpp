@@ -49,6 +49,23 @@ Compound torus_compound(double large, double small) {
   return make_compound(std::move(parts));
 }
 
+/// Columns under a roof that they reach into, as artists model it (paper, figure 12).
+Compound hall_compound(int columns) {
+  constexpr double kSpan = 3, kHeight = 3, kRadius = 0.3, kRoof = 0.5, kReach = 0.2;
+  constexpr int kSides = 12;
+  std::vector<Vec2> circle;
+  for (int i = kSides; i > 0; --i) circle.push_back(on_circle(kRadius, i, kSides));
+  std::vector<Part> parts;
+  for (int c = 0; c < columns; ++c) {
+    ConvexPolyhedron column = make_prism(circle, 0, kHeight + kReach, true);
+    column = transformed(column, Pose{Vec3(c * kSpan, 0, 0), Quat::Identity()});
+    parts.push_back({std::move(column), kMaterial, 1});
+  }
+  const Vec3 low(-1, kHeight, -1), high((columns - 1) * kSpan + 1, kHeight + kRoof, 1);
+  parts.push_back({make_box(low, high), kMaterial, 0});
+  return make_compound(std::move(parts));
+}
+
 }  // namespace
 
 Compound box_compound(const Vec3& min, const Vec3& max, std::uint8_t anchored) {
@@ -126,9 +143,12 @@ Compound make_solid(const std::string& name) {
   if (is("voronoi", 1) && whole(0) && sizes[0] <= kMostConvexes) {
     return voronoi_compound(static_cast<int>(sizes[0]), 1);
   }
+  if (is("hall", 1) && whole(0) && sizes[0] <= kMostConvexes) {
+    return hall_compound(static_cast<int>(sizes[0]));
+  }
   throw InputError("'" + name +
                    "' is no built-in solid; these are box:X,Y,Z column:R,H torus:R,r (r < R) "
-                   "grid:NX,NY,NZ voronoi:N, with sizes above 0");
+                   "grid:NX,NY,NZ voronoi:N hall:N, with sizes above 0");
 }
 
 }  // namespace sunder::fracture

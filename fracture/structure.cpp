@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "fracture/adjacency.h"
+#include "fracture/overlap.h"
 #include "fracture/polygon.h"
 
 namespace sunder::fracture {
@@ -34,10 +35,11 @@ bool ImpactSphere::touches(const Convex& convex) const {
 Structure::Structure(const Compound& compound) {
   slots_.resize(compound.convexes.size());
   for (std::size_t i = 0; i < slots_.size(); ++i) {
-    slots_[i] = {compound.convexes[i], compound.anchored[i], {}};
+    slots_[i] = {compound.convexes[i], compound.anchored[i], {}, {}};
   }
   size_ = slot_count();
   for (const Bond& bond : compound.bonds) link(bond);
+  for (const Ghost& ghost : compound.ghosts) add_ghost(ghost);
   std::vector<std::uint32_t> all(slots_.size());
   std::iota(all.begin(), all.end(), 0u);
   add_level(std::move(all));
@@ -46,6 +48,18 @@ Structure::Structure(const Compound& compound) {
 void Structure::link(const Bond& bond) {
   slots_[bond.a].links.push_back({bond.b, bond.face_a, bond.face_b, bond.area_m2});
   slots_[bond.b].links.push_back({bond.a, bond.face_b, bond.face_a, bond.area_m2});
+}
+
+void Structure::add_ghost(Ghost ghost) {
+  for (const std::uint32_t slot : ghost.of) {
+    slots_[slot].ghosts.push_back(static_cast<std::uint32_t>(ghosts_.size()));
+  }
+  ghosts_.push_back(std::move(ghost));
+}
+
+void Structure::remove_ghost(std::uint32_t number) {
+  for (const std::uint32_t slot : ghosts_[number].of) std::erase(slots_[slot].ghosts, number);
+  ghosts_[number] = {};
 }
 
 void Structure::add_level(std::vector<std::uint32_t> slots) {
@@ -87,16 +101,18 @@ void Structure::apply(const BreakEdit& edit) {
     for (const Link& link : slots_[gone].links) {
       std::erase_if(slots_[link.other].links, [&](const Link& back) { return back.other == gone; });
     }
+    while (!slots_[gone].ghosts.empty()) remove_ghost(slots_[gone].ghosts.back());
     slots_[gone] = {};
   }
   std::vector<std::uint32_t> fresh;
   for (std::size_t i = 0; i < edit.added.size(); ++i) {
     fresh.push_back(slot_count());
-    slots_.push_back({edit.added[i], edit.added_anchors[i], {}});
+    slots_.push_back({edit.added[i], edit.added_anchors[i], {}, {}});
   }
   size_ += static_cast<std::uint32_t>(edit.added.size());
   size_ -= static_cast<std::uint32_t>(edit.removed.size());
   for (const Bond& bond : edit.bonds) link(bond);
+  for (const Ghost& ghost : edit.ghosts) add_ghost(ghost);
   add_level(std::move(fresh));
 }
 
@@ -117,6 +133,12 @@ Compound Structure::compound() const {
     }
   }
   sort_bonds(compound.bonds);
+  for (Ghost ghost : ghosts_) {
+    if (!ghost.convex) continue;
+    for (std::uint32_t& slot : ghost.of) slot = index[slot];
+    compound.ghosts.push_back(std::move(ghost));
+  }
+  sort_ghosts(compound.ghosts);
   return compound;
 }
 
@@ -125,8 +147,8 @@ double Structure::bytes_per_convex() const {
   for (const Slot& slot : slots_) {
     if (!slot.convex) continue;
     const ConvexPolyhedron& p = slot.convex->polyhedron;
-    sum += bytes(slot.links) + sizeof(Convex) + bytes(p.vertices) + bytes(p.faces) +
-           bytes(p.corners) + bytes(p.corner_normals);
+    sum += bytes(slot.links) + bytes(slot.ghosts) + sizeof(Convex) + bytes(p.vertices) +
+           bytes(p.faces) + bytes(p.corners) + bytes(p.corner_normals);
   }
   return static_cast<double>(sum) / std::max(1u, size_);
 }

@@ -37,7 +37,8 @@ struct BreakEdit {
   /// Convexes that take new slots, in this order from the structure's slot_count() on.
   std::vector<ConvexPtr> added;
   std::vector<std::uint8_t> added_anchors;
-  std::vector<Bond> bonds;  ///< Contacts of added convexes: a and b are slots.
+  std::vector<Bond> bonds;    ///< Contacts of added convexes: a and b are slots.
+  std::vector<Ghost> ghosts;  ///< Of added convexes, and of them with others, by slots.
   /// The pieces that came off, and the figures of the whole break. Exposed faces name piece p as
   /// p + 1; 0 is the structure, and their convex a slot of it.
   BreakPlan loose;
@@ -46,6 +47,7 @@ struct BreakEdit {
 
 class Structure {
  public:
+  /// Of a compound that hangs together (split_islands() sees to that).
   explicit Structure(const Compound& compound);
 
   std::uint32_t slot_count() const { return static_cast<std::uint32_t>(slots_.size()); }
@@ -55,6 +57,10 @@ class Structure {
   const ConvexPtr& convex(std::uint32_t slot) const { return slots_[slot].convex; }
   std::uint8_t anchored(std::uint32_t slot) const { return slots_[slot].anchored; }
   std::span<const Link> links(std::uint32_t slot) const { return slots_[slot].links; }
+  /// The numbers of the ghosts of a convex; ascending.
+  std::span<const std::uint32_t> ghosts_of(std::uint32_t slot) const { return slots_[slot].ghosts; }
+  /// By number; its convexes are slots.
+  const Ghost& ghost(std::uint32_t number) const { return ghosts_[number]; }
 
   /// Slots that the sphere touches, ascending.
   std::vector<std::uint32_t> touched(const ImpactSphere& sphere) const;
@@ -70,6 +76,7 @@ class Structure {
     ConvexPtr convex;
     std::uint8_t anchored = 0;
     std::vector<Link> links;
+    std::vector<std::uint32_t> ghosts;
   };
   /// A tree over some slots. Trees shrink from the first to the last, each less than half of the
   /// one before, so that slots are seldom sorted anew (Bentley and Saxe 1980).
@@ -79,9 +86,12 @@ class Structure {
   };
 
   void link(const Bond& bond);
+  void add_ghost(Ghost ghost);
+  void remove_ghost(std::uint32_t number);
   void add_level(std::vector<std::uint32_t> slots);
 
   std::vector<Slot> slots_;
+  std::vector<Ghost> ghosts_;  ///< Numbers are not used again.
   std::vector<Level> levels_;
   std::uint32_t size_ = 0;
 };

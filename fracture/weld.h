@@ -8,10 +8,11 @@
 
 namespace sunder::fracture {
 
-/// The one convex that `parts` of a cell amount to: exactly the cell's polyhedron. Null unless
-/// they fill the cell, are of one material, and its whole boundary was made by this pattern (a
-/// face of the old solid that lies in it keeps its look and name, so it is left alone).
+/// The one convex that `parts` of a cell amount to: exactly the cell's polyhedron; `ghosts` are the
+/// overlaps of those parts. Null unless they fill the cell, are of one material, and its whole
+/// boundary was made by this pattern (a face of the old solid that lies in it keeps its look and
+/// name, so it is left alone).
 ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
-               std::span<const ConvexPtr> parts);
+               std::span<const ConvexPtr> parts, std::span<const Ghost> ghosts);
 
 }  // namespace sunder::fracture

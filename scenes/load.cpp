@@ -199,14 +199,21 @@ void Loader::add_solid(const Value& table) {
   }
   const Pose X_WS{head.position, rotation(head.rotation_rad)};
   const std::string base = head.name.empty() ? head.structure : head.name;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    Solid solid;
-    solid.name = pieces.size() == 1 ? base : base + "." + std::to_string(i);
-    solid.compound = fracture::make_compound(std::move(pieces[i].parts));
-    solid.X_WR = {X_WS * pieces[i].at, X_WS.rotation};
-    solid.velocity_W = head.velocity;
-    solid.angular_velocity_W = head.angular_velocity;
-    scene_.solids.push_back(std::move(solid));
+  std::vector<Solid> solids;
+  for (Piece& piece : pieces) {
+    const Compound whole = fracture::make_compound(std::move(piece.parts));
+    for (Compound& island : fracture::split_islands(whole)) {
+      Solid solid;
+      solid.compound = std::move(island);
+      solid.X_WR = {X_WS * piece.at, X_WS.rotation};
+      solid.velocity_W = head.velocity;
+      solid.angular_velocity_W = head.angular_velocity;
+      solids.push_back(std::move(solid));
+    }
+  }
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    solids[i].name = solids.size() == 1 ? base : base + "." + std::to_string(i);
+    scene_.solids.push_back(std::move(solids[i]));
   }
 }
 

@@ -1,6 +1,8 @@
 #include "engine/world/piece_mesh.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numbers>
 
 #include "engine/base/trigonometry.h"
@@ -11,6 +13,26 @@ namespace {
 // A face counts as covered when less than this part of it shows: bond areas carry rounding.
 constexpr double kCovered = 1 - 1e-6;
 
+constexpr std::uint32_t kAlone = 0xffffffff;
+
+/// Per convex the lowest that it overlaps, over others or not; kAlone if it overlaps none. Faces
+/// beyond which two of a heap lie are covered by the larger: nobody knows how far both cover it.
+std::vector<std::uint32_t> heaps(const Compound& compound) {
+  std::vector<std::uint32_t> lowest(compound.convexes.size(), kAlone);
+  for (bool changed = !compound.ghosts.empty(); changed;) {
+    changed = false;
+    for (const Ghost& ghost : compound.ghosts) {
+      std::uint32_t least = ghost.of[0];
+      for (const std::uint32_t c : ghost.of) least = std::min(least, lowest[c]);
+      for (const std::uint32_t c : ghost.of) {
+        changed = changed || lowest[c] != least;
+        lowest[c] = least;
+      }
+    }
+  }
+  return lowest;
+}
+
 }  // namespace
 
 std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound) {
@@ -18,10 +40,21 @@ std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound) {
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
     covered_m2[c].assign(compound.convexes[c]->polyhedron.faces.size(), 0.0);
   }
+  const std::vector<std::uint32_t> heap = heaps(compound);
+  std::map<std::array<std::uint32_t, 3>, double> most_m2;  // by convex, face and heap beyond
+  const auto cover = [&](std::uint32_t convex, std::uint32_t face, std::uint32_t by, double area) {
+    if (heap[by] == kAlone) {
+      covered_m2[convex][face] += area;
+    } else {
+      double& most = most_m2[{convex, face, heap[by]}];
+      most = std::max(most, area);
+    }
+  };
   for (const Bond& bond : compound.bonds) {
-    covered_m2[bond.a][bond.face_a] += bond.area_m2;
-    covered_m2[bond.b][bond.face_b] += bond.area_m2;
+    cover(bond.a, bond.face_a, bond.b, bond.area_m2);
+    cover(bond.b, bond.face_b, bond.a, bond.area_m2);
   }
+  for (const auto& [at, area] : most_m2) covered_m2[at[0]][at[1]] += area;
   std::vector<std::vector<std::uint8_t>> hidden(compound.convexes.size());
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
     hidden[c].resize(covered_m2[c].size());

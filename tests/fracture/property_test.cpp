@@ -26,7 +26,7 @@ ConvexPolyhedron random_hull(Random& random, double size) {
 
 Compound random_solid(Random& random, std::uint64_t seed) {
   const double size = std::pow(10.0, random.uniform(-2, 2));
-  switch (random.below(5)) {
+  switch (random.below(6)) {
     case 0:
       return box_compound(Vec3::Zero(),
                           size * Vec3(random.uniform(.01, 1), random.uniform(.01, 1), 1), 1);
@@ -37,6 +37,8 @@ Compound random_solid(Random& random, std::uint64_t seed) {
                            size * Vec3(.4, .2, random.uniform(.1, .3)), true);
     case 3:
       return ring_compound(3 + static_cast<int>(random.below(9)), .5 * size, size, .4 * size);
+    case 4:
+      return split_islands(compound_of(random_boxes(random, 2 + random.below(5))))[0];
     default:
       return voronoi_compound(2 + static_cast<int>(random.below(12)), seed);
   }
@@ -114,6 +116,38 @@ TEST(Truths, hold_over_ten_thousand_random_breaks) {
   RecordProperty("pieces", static_cast<int>(total));
   std::printf("%zu pieces, %zu convexes left whole, at most %.1e of a solid became debris\n", total,
               failures, most_debris);
+}
+
+/// Breaks of breaks of what overlaps: whether the ghosts still fit after several cuts.
+TEST(Truths, hold_where_convexes_overlap_over_three_generations) {
+  const auto breaker = make_pattern_breaker();
+  std::size_t pieces = 0, ghosts = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    Random random(seed, 31);
+    std::vector<Compound> solids =
+        split_islands(compound_of(random_boxes(random, 2 + random.below(5))));
+    double before = 0, after = 0;
+    for (const Compound& solid : solids) before += volume(solid);
+    for (std::uint64_t generation = 1; generation <= 3; ++generation) {
+      const std::size_t which = random.below(static_cast<std::uint32_t>(solids.size()));
+      const Compound target = solids[which];
+      const BreakCommand command = random_blow(random, target, 10 * seed + generation);
+      const BreakPlan plan = breaker->plan(target, command);
+      ASSERT_EQ(broken_truth(target, plan), "") << "seed " << seed << " generation " << generation;
+      EXPECT_EQ(plan.failed, 0u);
+      after += plan.debris_volume_m3;
+      solids[which] = plan.pieces[0];
+      solids.insert(solids.end(), plan.pieces.begin() + 1, plan.pieces.end());
+    }
+    for (const Compound& piece : solids) {
+      after += volume(piece);
+      ghosts += piece.ghosts.size();
+    }
+    EXPECT_NEAR(after, before, 1e-11 * before);
+    pieces += solids.size();
+  }
+  EXPECT_GT(pieces, 8000u);
+  EXPECT_GT(ghosts, 2000u);
 }
 
 TEST(Truths, survive_torture_to_five_levels) {

@@ -48,7 +48,13 @@ std::string broken_solid(const BreakPlan& plan) {
       if (!is_closed(convex->polyhedron)) return "a convex that is not closed";
       if (!(convex->solid.volume_m3 > 0)) return "a convex without volume";
     }
-    const auto islands = find_islands(piece.convexes.size(), piece.bonds);
+    for (const Ghost& ghost : piece.ghosts) {
+      if (!is_closed(ghost.convex->polyhedron)) return "a ghost that is not closed";
+      if (ghost.of.empty() || ghost.of.back() >= piece.convexes.size()) return "a ghost of nothing";
+      if (!std::is_sorted(ghost.of.begin(), ghost.of.end())) return "a ghost out of order";
+    }
+    if (!(volume(piece) > 0)) return "a piece without volume";
+    const auto islands = find_islands(piece);
     if (*std::max_element(islands.begin(), islands.end()) > 0) return "a piece in two parts";
     std::vector<std::vector<double>> covered(piece.convexes.size());
     for (std::size_t c = 0; c < covered.size(); ++c) {
@@ -62,7 +68,7 @@ std::string broken_solid(const BreakPlan& plan) {
       for (std::size_t f = 0; f < covered[c].size(); ++f) {
         const double area = face_area(piece.convexes[c]->polyhedron, f);
         const double size = piece.convexes[c]->box.extent().maxCoeff();
-        if (covered[c][f] > area * (1 + 1e-9) + 1e-12 * size * size) {
+        if (piece.ghosts.empty() && covered[c][f] > area * (1 + 1e-9) + 1e-12 * size * size) {
           return "a face covered more than once";
         }
       }
@@ -74,6 +80,12 @@ std::string broken_solid(const BreakPlan& plan) {
 MassProperties whole(const Compound& compound) {
   MassProperties sum;
   for (const ConvexPtr& convex : compound.convexes) sum = sum + convex->solid;
+  for (const Ghost& ghost : compound.ghosts) {
+    MassProperties overlap = ghost.convex->solid;
+    overlap.volume_m3 *= ghost.sign;
+    overlap.second_moment *= ghost.sign;
+    if (ghost.sign != 0) sum = sum + overlap;
+  }
   return sum;
 }
 

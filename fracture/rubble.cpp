@@ -1,0 +1,182 @@
+#include "fracture/rubble.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "engine/base/check.h"
+#include "fracture/connectivity.h"
+#include "fracture/islands.h"
+#include "fracture/overlap.h"
+
+namespace sunder::fracture {
+
+/// What comes off, as islands of one group: the rest's smaller islands, then groups in order.
+std::vector<std::vector<std::uint32_t>> Rubble::find_pieces() {
+  std::vector<std::vector<std::uint32_t>> pieces;
+  separate_rest(pieces);
+  join_groups(pieces);
+  return pieces;
+}
+
+void Rubble::join_rest(std::uint32_t a, std::uint32_t b) {
+  if (group(a) != Fragment::kRest || group(b) != Fragment::kRest) return;
+  rest_contacts_[a].push_back(b);
+  rest_contacts_[b].push_back(a);
+}
+
+void Rubble::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) {
+  for (const Contact& contact : contacts_) join_rest(contact.a, contact.b);
+  for (const Ghost& ghost : ghosts_) {
+    for (const std::uint32_t node : ghost.of) join_rest(ghost.of[0], node);
+  }
+  std::vector<std::uint32_t> seeds = neighbours_;
+  for (std::uint32_t i = 0; i < fragments_.size(); ++i) {
+    if (fragments_[i].group == Fragment::kRest) seeds.push_back(first_fragment_ + i);
+  }
+  Separation rest = separate(seeds, [&](std::uint32_t node, const auto& visit) {
+    if (const auto it = rest_contacts_.find(node); it != rest_contacts_.end()) {
+      for (const std::uint32_t other : it->second) visit(other);
+    }
+    if (is_fragment(node)) return;
+    for (const Link& link : structure_.links(node)) {
+      if (!is_touched(link.other)) visit(link.other);
+    }
+    for (const std::uint32_t number : structure_.ghosts_of(node)) {
+      for (const std::uint32_t other : structure_.ghost(number).of) {
+        if (!is_touched(other)) visit(other);
+      }
+    }
+  });
+  std::size_t known = touched_.size(), largest = 0;
+  for (std::size_t i = 0; i < rest.islands.size(); ++i) {
+    for (const std::uint32_t node : rest.islands[i]) known += is_fragment(node) ? 0 : 1;
+    if (rest.islands[i].size() > rest.islands[largest].size()) largest = i;
+  }
+  // Where nothing else is left, the largest island is the structure from now on.
+  if (!rest.bulk && known == structure_.size() && !rest.islands.empty()) {
+    rest.islands.erase(rest.islands.begin() + static_cast<std::ptrdiff_t>(largest));
+  }
+  pieces = std::move(rest.islands);
+}
+
+void Rubble::join_groups(std::vector<std::vector<std::uint32_t>>& pieces) const {
+  std::vector<Bond> bonds;
+  for (const Contact& contact : contacts_) {
+    if (!is_fragment(contact.a) || !is_fragment(contact.b)) continue;
+    if (group(contact.a) != group(contact.b)) continue;
+    bonds.push_back({contact.a - first_fragment_, contact.b - first_fragment_, 0, 0, 0});
+  }
+  for (const Ghost& ghost : ghosts_) {
+    if (!is_fragment(ghost.of[0])) continue;
+    for (const std::uint32_t node : ghost.of) {
+      bonds.push_back({ghost.of[0] - first_fragment_, node - first_fragment_, 0, 0, 0});
+    }
+  }
+  const std::vector<std::uint32_t> islands = find_islands(fragments_.size(), bonds);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> members;
+  for (std::uint32_t i = 0; i < fragments_.size(); ++i) {
+    if (fragments_[i].group == Fragment::kRest) continue;
+    members[{fragments_[i].group, islands[i]}].push_back(first_fragment_ + i);
+  }
+  for (auto& [key, nodes] : members) pieces.push_back(std::move(nodes));
+}
+
+Compound Rubble::make_piece(const std::vector<std::uint32_t>& nodes) const {
+  Compound piece;
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    const std::uint32_t node = nodes[i];
+    piece.convexes.push_back(convex(node));
+    piece.anchored.push_back(is_fragment(node) ? fragment(node).anchored
+                                               : structure_.anchored(node));
+    if (is_fragment(node)) continue;
+    for (const Link& link : structure_.links(node)) {
+      if (link.other < node || is_touched(link.other)) continue;
+      piece.bonds.push_back(
+          {i, place(link.other).second, link.face, link.other_face, link.area_m2});
+    }
+    for (const std::uint32_t number : structure_.ghosts_of(node)) {
+      Ghost ghost = structure_.ghost(number);
+      if (ghost.of[0] != node || is_any_touched(ghost)) continue;
+      for (std::uint32_t& of : ghost.of) of = place(of).second;
+      piece.ghosts.push_back(std::move(ghost));
+    }
+  }
+  return piece;
+}
+
+/// Gives the ghosts that were cut to the pieces of their convexes, which are held together.
+void Rubble::place_ghosts(BreakEdit& edit) const {
+  for (Ghost ghost : ghosts_) {
+    const std::uint32_t piece = place(ghost.of[0]).first;
+    for (std::uint32_t& of : ghost.of) {
+      SUNDER_CHECK(place(of).first == piece);
+      of = place(of).second;
+    }
+    std::sort(ghost.of.begin(), ghost.of.end());
+    (piece == 0 ? edit.ghosts : edit.loose.pieces[piece - 1].ghosts).push_back(std::move(ghost));
+  }
+  for (Compound& piece : edit.loose.pieces) sort_ghosts(piece.ghosts);
+}
+
+/// What stays with the structure: fragments of the rest that did not come off get slots.
+void Rubble::keep_rest(BreakEdit& edit) {
+  for (std::uint32_t i = 0; i < fragments_.size(); ++i) {
+    if (places_.count(first_fragment_ + i)) continue;
+    const auto slot = structure_.slot_count() + static_cast<std::uint32_t>(edit.added.size());
+    edit.added.push_back(fragments_[i].convex);
+    edit.added_anchors.push_back(fragments_[i].anchored);
+    places_[first_fragment_ + i] = {0, slot};
+  }
+}
+
+void Rubble::expose(BreakPlan& plan) const {
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, double> exposed;
+  const auto add = [&](const Contact& contact, double area) {
+    const auto [piece_a, a] = place(contact.a);
+    const auto [piece_b, b] = place(contact.b);
+    if (piece_a == piece_b) return;
+    plan.new_area_m2 += area;
+    exposed[{piece_a, a, contact.face_a}] += area;
+    exposed[{piece_b, b, contact.face_b}] += area;
+  };
+  for (const Contact& contact : contacts_) add(contact, contact.area_m2);
+  for (const auto& [contact, sign] : corrections_) add(contact, sign * contact.area_m2);
+  for (const auto& [where, area] : exposed) {
+    if (area > 0)
+      plan.exposed.push_back({std::get<0>(where), std::get<1>(where), std::get<2>(where), area});
+  }
+}
+
+BreakEdit Rubble::edit() {
+  BreakEdit edit;
+  const std::vector<std::vector<std::uint32_t>> pieces = find_pieces();
+  for (std::uint32_t p = 0; p < pieces.size(); ++p) {
+    for (std::uint32_t i = 0; i < pieces[p].size(); ++i) places_[pieces[p][i]] = {p + 1, i};
+  }
+  keep_rest(edit);
+  edit.removed = touched_;
+  for (const auto& nodes : pieces) {
+    std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(edit.removed),
+                 [&](std::uint32_t node) { return !is_fragment(node); });
+  }
+  std::sort(edit.removed.begin(), edit.removed.end());
+  const bool stays = structure_.size() + edit.added.size() > edit.removed.size();
+  edit.changed = pieces.size() + (stays ? 1 : 0) > 1;
+  if (!edit.changed) return {};
+  for (const auto& nodes : pieces) edit.loose.pieces.push_back(make_piece(nodes));
+  for (const Contact& contact : contacts_) {
+    const auto [piece_a, a] = place(contact.a);
+    const auto [piece_b, b] = place(contact.b);
+    if (piece_a != piece_b) continue;
+    const Bond bond = a < b ? Bond{a, b, contact.face_a, contact.face_b, contact.area_m2}
+                            : Bond{b, a, contact.face_b, contact.face_a, contact.area_m2};
+    (piece_a == 0 ? edit.bonds : edit.loose.pieces[piece_a - 1].bonds).push_back(bond);
+  }
+  for (Compound& piece : edit.loose.pieces) sort_bonds(piece.bonds);
+  place_ghosts(edit);
+  expose(edit.loose);
+  return edit;
+}
+
+}  // namespace sunder::fracture
