@@ -73,7 +73,7 @@ class Bearing {
 
   LoadAnswer run() {
     LoadAnswer answer;
-    recall();
+    recall(answer);
     for (int round = 0; round < kRounds; ++round) {
       if (!solve(answer)) break;
       const std::vector<std::uint32_t> cut = overloaded(answer);
@@ -95,7 +95,7 @@ class Bearing {
 
  private:
   /// Takes over what is known of the compound, or of what it was a part of.
-  void recall() {
+  void recall(LoadAnswer& answer) {
     const auto* old = dynamic_cast<const Memory*>(load_.memory.get());
     if (old && old->is_of(compound_)) {
       *memory_ = *old;
@@ -124,6 +124,7 @@ class Bearing {
     });
     memory_->system =
         std::make_shared<const StressSystem>(compound_, std::move(geometry), load_.materials);
+    answer.work += kSetUpWork * memory_->system->work();
   }
 
   const BondGeometry* known_geometry(const Memory& old,

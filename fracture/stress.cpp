@@ -164,7 +164,8 @@ void StressSystem::weigh_down(std::span<const Load> loads, const Vec3& gravity_R
   for (std::size_t c = 0; c < centroids_.size(); ++c) forces_N[c] = masses_kg_[c] * gravity_R;
   for (const Load& load : loads) {
     forces_N[load.convex] += load.force_N;
-    torques_Nm[load.convex] += (load.point_R - centroids_[load.convex]).cross(load.force_N);
+    torques_Nm[load.convex] +=
+        load.torque_Nm + (load.point_R - centroids_[load.convex]).cross(load.force_N);
   }
   for (const Loose& loose : loose_) {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();

@@ -34,22 +34,30 @@ Keys<Scene> scene_keys() {
 }
 
 Keys<Material> material_keys() {
-  return {"[[material]]",
-          {key<&Material::density_kg_m3>("density_kg_m3", "kg/m³", Range{1, 30000}, "Density."),
-           key<&Material::friction>("friction", "", Range{0, 10}, "Coefficient of friction."),
-           key<&Material::restitution>("restitution", "", kFraction, "0 = no bounce, 1 = full."),
-           key<&Material::strength_Ns>("strength_Ns", "N·s", Range{0, kInfinity},
-                                       "Least impulse of a contact that can break it."),
-           key<&Material::toughness_J_m2>("toughness_J_m2", "J/m²", Range{0, kInfinity},
-                                          "Energy that each square metre of crack takes."),
-           key<&Material::impact_radius_m>("impact_radius_m", "m", Range{0.001, kInfinity},
-                                           "Only what is nearer to the impact breaks; inf: all."),
-           key<&Material::smallest_break_m3>("smallest_break_m3", "m³", Range{0, kInfinity},
-                                             "Smaller pieces no longer break."),
-           key<&Material::smallest_piece_m3>("smallest_piece_m3", "m³", Range{0, kInfinity},
-                                             "Smaller pieces are debris, no bodies."),
-           table_key("pattern", "How it breaks."), table_key("surface", "How it looks outside."),
-           table_key("interior", "How it looks where it broke.")}};
+  return {
+      "[[material]]",
+      {key<&Material::density_kg_m3>("density_kg_m3", "kg/m³", Range{1, 30000}, "Density."),
+       key<&Material::friction>("friction", "", Range{0, 10}, "Coefficient of friction."),
+       key<&Material::restitution>("restitution", "", kFraction, "0 = no bounce, 1 = full."),
+       key<&Material::strength_Ns>("strength_Ns", "N·s", Range{0, kInfinity},
+                                   "Least impulse of a contact that can break it."),
+       key<&Material::toughness_J_m2>("toughness_J_m2", "J/m²", Range{0, kInfinity},
+                                      "Energy that each square metre of crack takes."),
+       key<&Material::tensile_Pa>("tensile_Pa", "Pa", Range{0, kInfinity},
+                                  "Tension that breaks a joint, by weight or slow load; 0: never."),
+       key<&Material::shear_Pa>("shear_Pa", "Pa", Range{0, kInfinity}, "Shear that does."),
+       key<&Material::compressive_Pa>("compressive_Pa", "Pa", Range{0, kInfinity},
+                                      "Pressure that does."),
+       key<&Material::youngs_Pa>("youngs_Pa", "Pa", Range{1, 1e13},
+                                 "Stiffness: how joints share a load."),
+       key<&Material::impact_radius_m>("impact_radius_m", "m", Range{0.001, kInfinity},
+                                       "Only what is nearer to the impact breaks; inf: all."),
+       key<&Material::smallest_break_m3>("smallest_break_m3", "m³", Range{0, kInfinity},
+                                         "Smaller pieces no longer break."),
+       key<&Material::smallest_piece_m3>("smallest_piece_m3", "m³", Range{0, kInfinity},
+                                         "Smaller pieces are debris, no bodies."),
+       table_key("pattern", "How it breaks."), table_key("surface", "How it looks outside."),
+       table_key("interior", "How it looks where it broke.")}};
 }
 
 Keys<PatternSpec> pattern_keys() {
@@ -102,7 +110,10 @@ Schema make_schema() {
       "[limits]",
       {key<&Limits::bodies>("bodies", "", Range{1, 200000}, "Bodies that may exist."),
        key<&Limits::cells_a_frame>("cells_a_frame", "", Range{1, 1000000},
-                                   "Pattern cells to cut by; breaks beyond it wait a frame.")}};
+                                   "Pattern cells to cut by; breaks beyond it wait a frame."),
+       key<&Limits::load_work_a_frame>("load_work_a_frame", "", Range{1, 4e9},
+                                       "Visits of joints to find out what load breaks; the rest "
+                                       "waits a frame.")}};
   s.ground = {"[ground]",
               {key<&Ground::height_m>("height_m", "m", kPlace, "Height of the plane."),
                key<&Ground::friction>("friction", "", Range{0, 10}, "Coefficient of friction."),

@@ -27,6 +27,16 @@ double ball_volume_m3(double radius_m) {
   return 4.0 / 3.0 * std::numbers::pi * radius_m * radius_m * radius_m;
 }
 
+/// Whether load may break a compound: one that stands, or a large one that moves.
+bool bears_load(const World& world, const Actor& actor) {
+  constexpr std::size_t kLeastMoving = 16;  // convexes
+  const Compound& compound = actor.compound;
+  if (compound.convexes.size() < (actor.is_static ? 2 : kLeastMoving)) return false;
+  return std::any_of(compound.convexes.begin(), compound.convexes.end(), [&](const ConvexPtr& c) {
+    return world.material(c->material).breaks_by_load();
+  });
+}
+
 bool is_breakable(const World& world, const Actor& actor) {
   return std::any_of(actor.compound.convexes.begin(), actor.compound.convexes.end(),
                      [&](const ConvexPtr& c) { return world.material(c->material).breakable(); });
@@ -58,6 +68,8 @@ Actor make_actor(World& world, Compound compound) {
   actor.volume_m3 = volume(compound);
   actor.born_step = world.step;
   actor.compound = std::move(compound);
+  actor.bearing.bears = bears_load(world, actor);
+  actor.bearing.since_step = world.step;
   actor.hidden = hidden_faces(actor.compound);
   return actor;
 }
@@ -77,6 +89,7 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
   body.shapes = hull_shapes(world, actor.compound);
   body.tag = actor.key;
   body.breakable = is_breakable(world, actor);
+  body.bears_load = actor.bearing.bears;
   return body;
 }
 

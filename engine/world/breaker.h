@@ -55,6 +55,7 @@ struct Load {
   std::uint32_t convex = 0;
   Vec3 force_N = Vec3::Zero();
   Vec3 point_R = Vec3::Zero();
+  Vec3 torque_Nm = Vec3::Zero();  ///< Besides that of the force.
 };
 
 /// What a breaker knows of a compound under load and wants back when it is asked again; only it

@@ -50,6 +50,8 @@ struct Accuracy {
 struct Limits {
   std::uint32_t bodies = 20000;
   std::uint32_t cells_a_frame = 2000;  ///< Pattern cells to cut by; breaks beyond it wait a frame.
+  /// Visits of bonds to find out what load breaks; what is beyond it waits a frame.
+  std::uint32_t load_work_a_frame = 400000;
 };
 
 struct Scene {

@@ -96,6 +96,7 @@ FramePtr Simulation::next() {
     }
     ++world.frame;
     world.pieces_left = world.scene.limits.cells_a_frame;
+    world.load_work_left = world.scene.limits.load_work_a_frame;
     for (int i = 0; i < steps; ++i) advance();
   }
   world.started = true;
@@ -116,6 +117,7 @@ void Simulation::advance() {
   stage(Stage::kCollide, collide);
   stage(Stage::kBreak, break_stage);
   stage(Stage::kSolve, solve);
+  stage(Stage::kLoad, load_stage);
   ++world.step;
 }
 

@@ -13,6 +13,25 @@
 
 namespace sunder {
 
+inline constexpr std::uint32_t kNoConvex = 0xffffffff;
+
+/// What presses on a convex: force in the rest frame, torque about its centroid.
+struct Press {
+  std::uint32_t convex = 0;
+  Vec3 force_R = Vec3::Zero();
+  Vec3 torque_R = Vec3::Zero();
+};
+
+/// What an actor bears, and how far it is known whether it can.
+struct Bearing {
+  bool bears = false;            ///< Load can break it.
+  bool settled = false;          ///< Judged for `judged`, to the end.
+  std::uint64_t since_step = 0;  ///< Waits to be judged since then, if not settled.
+  std::vector<Press> pressing;   ///< Averaged over time; ascending by convex.
+  std::vector<Press> judged;
+  LoadMemoryPtr memory;
+};
+
 /// A solid in the world: a body, what it is made of, and what is drawn of it.
 struct Actor {
   std::uint32_t key = 0;  ///< Unique in a run, ascending with age; the tag of its body.
@@ -24,6 +43,7 @@ struct Actor {
   std::uint64_t born_step = 0;
   /// Least energy that its last fruitless plan asked for; weaker blows need not be planned.
   double needs_J = 0;
+  Bearing bearing;
   std::vector<MeshIndex> meshes;                  ///< Per convex; none() where nothing shows.
   std::vector<std::vector<std::uint8_t>> hidden;  ///< Per convex, a flag for each face.
 };
@@ -59,8 +79,10 @@ struct World {
   std::uint64_t frame = 0;
   bool started = false;  ///< Frame 0 has been given out.
   std::size_t next_shot = 0;
-  std::vector<Blow> waiting;      ///< Over the frame's budget: decided first in the next frame.
-  std::uint32_t pieces_left = 0;  ///< Of the frame's budget, in cells of patterns to cut by.
+  std::vector<Blow> waiting;         ///< Over the frame's budget: decided first in the next frame.
+  std::uint32_t pieces_left = 0;     ///< Of the frame's budget, in cells of patterns to cut by.
+  std::uint64_t load_work_left = 0;  ///< Of the frame's budget, in visits of bonds.
+  std::uint32_t loads_waiting = 0;   ///< Actors whose load is not judged yet.
   double debris_mass_kg = 0;
 
   FrameReport report;  ///< Of the frame under way.
@@ -76,6 +98,9 @@ struct World {
 
 /// Stage `break`: approaches become breaks, before the solve.
 void break_stage(World& world);
+
+/// Stage `load`: own weight and what presses on a compound break what they overload.
+void load_stage(World& world);
 
 /// The frame as it stands.
 std::shared_ptr<Frame> snapshot(World& world);

@@ -1,0 +1,189 @@
+// The load stage, with scripted physics and fracture: who is judged when, and what follows.
+#include <gtest/gtest.h>
+
+#include "tests/engine/scripted.h"
+
+namespace sunder {
+namespace {
+
+using testing::ScriptedBreaker;
+using testing::ScriptedPhysics;
+
+/// Two boxes on top of each other, the lower one held by the world or neither.
+Compound two_boxes(bool anchored) {
+  Compound compound;
+  for (int i = 0; i < 2; ++i) {
+    const Vec3 min(0, i, 0);
+    compound.convexes.push_back(make_convex(make_box(min, min + Vec3::Ones()), MaterialIndex(0)));
+    compound.anchored.push_back(anchored && i == 0);
+  }
+  compound.bonds = {{0, 1, 3, 2, 1}};
+  return compound;
+}
+
+Scene scene_of(const Compound& compound) {
+  Scene scene;
+  Material stone;
+  stone.name = "stone";
+  stone.density_kg_m3 = 1000;
+  stone.tensile_Pa = 1e6;
+  scene.materials = {stone};
+  scene.accuracy = {1.0 / 60, 1};
+  scene.solids = {{"solid", compound, {}}};
+  return scene;
+}
+
+/// A run whose breaker answers what the test says, and counts how often it is asked.
+struct LoadRun {
+  using Answer = std::function<LoadAnswer(const Compound&, const LoadCase&)>;
+
+  ScriptedPhysics* physics = nullptr;
+  int asked = 0;
+  Vec3 asked_force = Vec3::Zero();
+  std::unique_ptr<Simulation> simulation;
+
+  LoadRun(Scene scene, Answer answer) {
+    auto owned = std::make_unique<ScriptedPhysics>(
+        [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
+    physics = owned.get();
+    auto breaker = std::make_unique<ScriptedBreaker>(1.0);
+    breaker->bearing = [this, answer](const Compound& compound, const LoadCase& load) {
+      ++asked;
+      asked_force.setZero();
+      for (const Load& one : load.loads) asked_force += one.force_N;
+      return answer(compound, load);
+    };
+    simulation =
+        std::make_unique<Simulation>(std::move(scene), std::move(owned), std::move(breaker));
+    simulation->next();
+  }
+  void frames(int count) {
+    for (int i = 0; i < count; ++i) simulation->next();
+  }
+  /// A steady force on the top of the solid.
+  void press(double force_N) {
+    physics->loads = {{0, 1, Vec3(0, -force_N / 60, 0), Vec3(0.5, 2, 0.5)}};
+  }
+};
+
+LoadAnswer holds(const Compound&, const LoadCase&) {
+  LoadAnswer answer;
+  answer.settled = true;
+  return answer;
+}
+
+LoadAnswer parts(const Compound& compound, const LoadCase&) {
+  LoadAnswer answer;
+  answer.settled = true;
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+    answer.plan.pieces.push_back({{compound.convexes[c]}, {compound.anchored[c]}, {}, {}});
+  }
+  return answer;
+}
+
+TEST(LoadStage, JudgesOwnWeightOnceAndNeverAgainWhileNothingChanges) {
+  LoadRun run(scene_of(two_boxes(true)), holds);
+  run.frames(60);
+  EXPECT_EQ(run.asked, 1);
+}
+
+TEST(LoadStage, JudgesAgainWhatIsPressedUntilThePressIsSteady) {
+  LoadRun run(scene_of(two_boxes(true)), holds);
+  run.frames(1);
+  run.press(50000);
+  run.frames(60);
+  const int asked = run.asked;
+  EXPECT_GT(asked, 1);
+  EXPECT_LT(asked, 30);
+  EXPECT_NEAR(run.asked_force.y(), -50000, 0.1 * 50000);
+  run.frames(60);
+  EXPECT_EQ(run.asked, asked);
+  run.physics->loads.clear();
+  run.frames(120);
+  EXPECT_GT(run.asked, asked);  // and what is lifted off again
+  EXPECT_NEAR(run.asked_force.y(), 0, 0.1 * 50000);
+}
+
+TEST(LoadStage, ABlowIsSpreadOverTheTimeOfTheAverageWhateverTheStep) {
+  std::vector<double> most;
+  for (const int steps : {1, 4}) {
+    Scene scene = scene_of(two_boxes(true));
+    scene.accuracy.dt_s = 1.0 / (60 * steps);
+    double highest = 0;
+    LoadRun run(scene, [&](const Compound&, const LoadCase& load) {
+      for (const Load& one : load.loads) highest = std::max(highest, one.force_N.norm());
+      LoadAnswer answer;
+      answer.settled = true;
+      return answer;
+    });
+    run.physics->loads = {{0, 1, Vec3(0, -10000, 0), Vec3(0.5, 2, 0.5)}};
+    run.simulation->advance();
+    run.physics->loads.clear();
+    run.frames(30);
+    most.push_back(highest);
+  }
+  EXPECT_NEAR(most[0], 1e5, 0.2e5);  // 10,000 N·s over a tenth of a second
+  EXPECT_NEAR(most[1], most[0], 0.15 * most[0]);
+}
+
+TEST(LoadStage, LetsFallWhatIsOverloadedAndKeepsWhatIsHeld) {
+  LoadRun run(scene_of(two_boxes(true)), parts);
+  const FramePtr frame = run.simulation->next();
+  ASSERT_EQ(frame->bodies.size(), 2u);
+  EXPECT_TRUE(frame->bodies[0].is_static);
+  EXPECT_FALSE(frame->bodies[1].is_static);
+  ASSERT_EQ(frame->breaks.size(), 1u);
+  EXPECT_EQ(frame->breaks[0].pieces, 2u);
+  EXPECT_NEAR(frame->report.mass_kg, 2000, 1e-9);
+}
+
+TEST(LoadStage, DoesNotAskAboutSmallThingsThatMoveNorAboutWhatNoLoadBreaks) {
+  LoadRun moving(scene_of(two_boxes(false)), parts);
+  moving.press(1e6);
+  moving.frames(30);
+  EXPECT_EQ(moving.asked, 0);
+  Scene scene = scene_of(two_boxes(true));
+  scene.materials[0].tensile_Pa = 0;
+  LoadRun unbreakable(scene, parts);
+  unbreakable.frames(30);
+  EXPECT_EQ(unbreakable.asked, 0);
+}
+
+TEST(LoadStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
+  Scene scene = scene_of(two_boxes(true));
+  scene.solids.push_back(scene.solids[0]);
+  scene.limits.load_work_a_frame = 10;
+  std::vector<std::uint64_t> allowed;
+  LoadRun run(scene, [&](const Compound& compound, const LoadCase& load) {
+    allowed.push_back(load.most_work);
+    LoadAnswer answer = parts(compound, load);
+    answer.work = load.most_work;
+    return answer;
+  });
+  const FramePtr first = run.simulation->next();
+  EXPECT_EQ(first->breaks.size(), 1u);
+  EXPECT_EQ(first->report.carried_over, 1u);
+  const FramePtr second = run.simulation->next();
+  EXPECT_EQ(second->breaks.size(), 1u);
+  EXPECT_EQ(second->report.carried_over, 0u);
+  EXPECT_EQ(allowed, (std::vector<std::uint64_t>{10, 10}));
+}
+
+TEST(LoadStage, GivesTheMemoryBack) {
+  struct Marked final : LoadMemory {};
+  const auto memory = std::make_shared<const Marked>();
+  LoadMemoryPtr seen;
+  LoadRun run(scene_of(two_boxes(true)), [&](const Compound&, const LoadCase& load) {
+    seen = load.memory;
+    LoadAnswer answer;
+    answer.settled = seen != nullptr;
+    answer.memory = memory;
+    return answer;
+  });
+  run.frames(3);
+  EXPECT_EQ(seen, memory);
+  EXPECT_EQ(run.asked, 2);
+}
+
+}  // namespace
+}  // namespace sunder
