@@ -116,8 +116,8 @@ TEST(LoadStage, ABlowIsSpreadOverTheTimeOfTheAverageWhateverTheStep) {
       answer.settled = true;
       return answer;
     });
-    run.physics->loads = {{0, 1, Vec3(0, -10000, 0), Vec3(0.5, 2, 0.5)}};
-    run.simulation->advance();
+    run.physics->loads = {{0, 1, Vec3(0, -10000.0 / steps, 0), Vec3(0.5, 2, 0.5)}};
+    run.frames(1);
     run.physics->loads.clear();
     run.frames(30);
     most.push_back(highest);
