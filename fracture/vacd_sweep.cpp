@@ -10,6 +10,8 @@ namespace {
 
 /// Volumes below this share of the size's cube are rounding.
 constexpr double kNothing = 1e-12;
+/// Faces that are looked at together.
+constexpr std::size_t kBlock = 16;
 /// Points are moved by up to this share of the size: of slices and of well-made solids many lie in
 /// one plane, and rounding would decide which faces each of them sees.
 constexpr double kJoggle = 1e-5;
@@ -33,7 +35,8 @@ void SweepHull::restart(const Vec3& origin, double size_m) {
   points_.clear();
   waiting_.clear();
   faces_.clear();
-  for (auto* column : {&x_, &y_, &z_, &d_}) column->clear();
+  free_.clear();
+  for (auto* column : {&x_, &y_, &z_, &d_, &gain_}) column->clear();
 }
 
 bool SweepHull::add(const Vec3& point, double least_m3) {
@@ -60,76 +63,124 @@ bool SweepHull::start(const Vec3& point) {
   const Vec3 a = points_[0];
   const double volume6 = (points_[1] - a).cross(points_[2] - a).dot(point - a);
   if (volume6 > 0) std::swap(points_[1], points_[2]);
-  add_face(0, 1, 2);
-  add_face(0, 2, 3);
-  add_face(0, 3, 1);
-  add_face(1, 3, 2);
+  constexpr std::array<std::uint32_t, 3> kVertices[4] = {
+      {0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  constexpr std::array<std::uint32_t, 3> kNeighbours[4] = {
+      {2, 3, 1}, {0, 3, 2}, {1, 3, 0}, {2, 1, 0}};
+  for (std::size_t f = 0; f < 4; ++f) {
+    const auto [i, j, k] = kVertices[f];
+    const std::uint32_t slot = new_slot();
+    set_face(slot, i, j, k);
+    faces_[slot].neighbours = kNeighbours[f];
+  }
   volume_ = std::abs(volume6) / 6;
   for (const Vec3& late : waiting_) grow(late, 0);
   return true;
 }
 
 bool SweepHull::grow(const Vec3& point, double least_m3) {
-  const std::size_t count = faces_.size();
-  gain_.resize(count);
-  const double px = point.x(), py = point.y(), pz = point.z();
-  for (std::size_t f = 0; f < count; ++f) {
-    gain_[f] = x_[f] * px + y_[f] * py + z_[f] * pz + d_[f];
-  }
-  seen_.clear();
-  double gain = 0;
-  for (std::size_t f = 0; f < count; ++f) {
-    if (!(gain_[f] > 0)) continue;
-    seen_.push_back(static_cast<std::uint32_t>(f));
-    gain += gain_[f];
-  }
-  if (!(gain > 6 * least_m3)) return false;
-  horizon_.clear();
-  for (const std::uint32_t f : seen_) {
-    const auto [a, b, c] = faces_[f];
-    toggle(a, b);
-    toggle(b, c);
-    toggle(c, a);
-  }
-  // The border of a disc of triangles is no longer; rounding on a flat hull may see more than one.
-  if (horizon_.size() > seen_.size() + 2) return false;
+  const double gain = find_seen(point);
+  if (!(gain > 6 * least_m3) || !find_border()) return false;
   volume_ += gain / 6;
-  for (auto f = seen_.rbegin(); f != seen_.rend(); ++f) drop_face(*f);
-  const auto apex = static_cast<std::uint32_t>(points_.size());
   points_.push_back(point);
-  for (const auto& [from, to] : horizon_) add_face(from, to, apex);
+  build_fan();
   return true;
 }
 
-/// Keeps an edge unless its opposite is there, which then goes: what is left at the end is the
-/// border of the faces seen.
-void SweepHull::toggle(std::uint32_t from, std::uint32_t to) {
-  for (Edge& edge : horizon_) {
-    if (edge.first != to || edge.second != from) continue;
-    edge = horizon_.back();
-    horizon_.pop_back();
-    return;
+/// Fills seen_; six times the volume that the point would add.
+double SweepHull::find_seen(const Vec3& point) {
+  const double px = point.x(), py = point.y(), pz = point.z();
+  seen_.clear();
+  double sum = 0;
+  for (std::size_t block = 0; block < gain_.size(); block += kBlock) {
+    int any = 0;
+    for (std::size_t f = block; f < block + kBlock; ++f) {
+      const double gain = x_[f] * px + y_[f] * py + z_[f] * pz + d_[f];
+      gain_[f] = gain;
+      any |= gain > 0;
+    }
+    if (!any) continue;
+    for (std::size_t f = block; f < block + kBlock; ++f) {
+      if (!(gain_[f] > 0)) continue;
+      seen_.push_back(static_cast<std::uint32_t>(f));
+      sum += gain_[f];
+    }
   }
-  horizon_.emplace_back(from, to);
+  return sum;
 }
 
-void SweepHull::add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+/// Fills border_; false unless it is one loop, as rounding on a flat hull may make it.
+bool SweepHull::find_border() {
+  border_.clear();
+  border_at_.resize(points_.size());
+  for (const std::uint32_t f : seen_) {
+    const Face& face = faces_[f];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t beyond = face.neighbours[i];
+      if (gain_[beyond] > 0) continue;
+      border_at_[face.vertices[i]] = static_cast<std::uint32_t>(border_.size());
+      border_.push_back({face.vertices[i], face.vertices[(i + 1) % 3], beyond, 0});
+    }
+  }
+  if (border_.size() < 3) return false;
+  std::uint32_t edge = 0;
+  std::size_t steps = 0;
+  do {
+    const std::uint32_t next = border_at_[border_[edge].to];
+    if (next >= border_.size() || border_[next].from != border_[edge].to) return false;
+    edge = next;
+  } while (edge != 0 && ++steps <= border_.size());
+  return steps + 1 == border_.size();
+}
+
+/// Replaces the faces seen by triangles from the border to the last point.
+void SweepHull::build_fan() {
+  for (const std::uint32_t f : seen_) {
+    x_[f] = y_[f] = z_[f] = 0;
+    d_[f] = -1;
+    free_.push_back(f);
+  }
+  const auto apex = static_cast<std::uint32_t>(points_.size() - 1);
+  for (Border& edge : border_) {
+    edge.face = new_slot();
+    set_face(edge.face, edge.from, edge.to, apex);
+  }
+  for (const Border& edge : border_) {
+    const std::uint32_t next = border_[border_at_[edge.to]].face;
+    faces_[edge.face].neighbours[0] = edge.beyond;
+    faces_[edge.face].neighbours[1] = next;
+    faces_[next].neighbours[2] = edge.face;
+    Face& beyond = faces_[edge.beyond];
+    const std::size_t side = beyond.vertices[0] == edge.to   ? 0
+                             : beyond.vertices[1] == edge.to ? 1
+                                                             : 2;
+    beyond.neighbours[side] = edge.face;
+  }
+}
+
+std::uint32_t SweepHull::new_slot() {
+  if (!free_.empty()) {
+    const std::uint32_t slot = free_.back();
+    free_.pop_back();
+    return slot;
+  }
+  const auto slot = static_cast<std::uint32_t>(faces_.size());
+  faces_.emplace_back();
+  if (slot == gain_.size()) {
+    for (auto* column : {&x_, &y_, &z_, &gain_}) column->resize(slot + kBlock, 0);
+    d_.resize(slot + kBlock, -1);
+  }
+  return slot;
+}
+
+void SweepHull::set_face(std::uint32_t slot, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const Vec3& apex = points_[a];
   const Vec3 normal = (points_[b] - apex).cross(points_[c] - apex);
-  faces_.push_back({a, b, c});
-  x_.push_back(normal.x());
-  y_.push_back(normal.y());
-  z_.push_back(normal.z());
-  d_.push_back(-normal.dot(apex));
-}
-
-void SweepHull::drop_face(std::size_t face) {
-  faces_[face] = faces_.back();
-  faces_.pop_back();
-  for (auto* column : {&x_, &y_, &z_, &d_}) {
-    (*column)[face] = column->back();
-    column->pop_back();
-  }
+  faces_[slot].vertices = {a, b, c};
+  x_[slot] = normal.x();
+  y_[slot] = normal.y();
+  z_[slot] = normal.z();
+  d_[slot] = -normal.dot(apex);
 }
 
 }  // namespace sunder::fracture

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -23,13 +22,22 @@ class SweepHull {
   double volume_m3() const { return volume_; }
 
  private:
-  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  /// A triangle; neighbour i is across the edge from vertex i to the next.
+  struct Face {
+    std::array<std::uint32_t, 3> vertices, neighbours;
+  };
+  /// An edge of the border of the faces seen, with the face beyond.
+  struct Border {
+    std::uint32_t from, to, beyond, face;
+  };
 
   bool start(const Vec3& point);
   bool grow(const Vec3& point, double least_m3);
-  void add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c);
-  void drop_face(std::size_t face);
-  void toggle(std::uint32_t from, std::uint32_t to);
+  double find_seen(const Vec3& point);
+  bool find_border();
+  void build_fan();
+  std::uint32_t new_slot();
+  void set_face(std::uint32_t slot, std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
   Vec3 origin_ = Vec3::Zero();
   double size_ = 1;
@@ -37,11 +45,12 @@ class SweepHull {
   std::uint64_t count_ = 0;  ///< Points added.
   std::vector<Vec3> points_;
   std::vector<Vec3> waiting_;  ///< Points that came before there were four that span a volume.
-  /// Faces: six times the volume of the tetrahedron with p is x·p.x + y·p.y + z·p.z + d.
+  std::vector<Face> faces_;    ///< Some are unused: see free_.
+  /// Per face: six times the volume of the tetrahedron with p is x·p.x + y·p.y + z·p.z + d. Always
+  /// whole blocks, padded with planes that nothing is outside of; so are unused faces.
   std::vector<double> x_, y_, z_, d_, gain_;
-  std::vector<std::array<std::uint32_t, 3>> faces_;
-  std::vector<std::uint32_t> seen_;
-  std::vector<Edge> horizon_;
+  std::vector<std::uint32_t> free_, seen_, border_at_;
+  std::vector<Border> border_;
 };
 
 }  // namespace sunder::fracture
