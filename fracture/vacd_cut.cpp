@@ -17,15 +17,16 @@ namespace sunder::fracture {
 namespace {
 
 constexpr std::size_t kAround = 16;  // points of a slice's outline
-constexpr std::size_t kSlices = 14;  // along each direction at first
+constexpr std::size_t kSlices = 9;   // along each direction at first
 constexpr std::size_t kNearSlices = 8;
 constexpr int kRounds = 3;
 constexpr double kFirstTilt = 0.25;
 /// Of two cuts about as tight the more even one, by this share of the larger hull.
 constexpr double kEvenness = 2e-3;
+constexpr double kMiddle = 0.2;  // that share, to be about even
 
 /// Of a hull: what a vertex must add to it to matter.
-constexpr double kLeastGain = 1e-4;
+constexpr double kLeastGain = 3e-4;
 
 /// Unit vectors every 22.5 degrees.
 constexpr double kCos = 0.92387953251128674, kSin = 0.38268343236508977,
@@ -68,13 +69,16 @@ struct Candidate {
   double place = 0;
   double price = std::numeric_limits<double>::infinity();
   double hull_volume_m3 = 0;
+
+  Cut cut() const { return {{direction, -place}, hull_volume_m3}; }
 };
 
 /// Prices parallel cuts; reused from direction to direction.
 class Sweeper {
  public:
-  Sweeper(const PolygonMesh& mesh, const std::vector<Vec3>& outermost, const Box& box)
-      : mesh_(mesh), tips_(outermost), box_(box) {}
+  Sweeper(const PolygonMesh& mesh, const std::vector<Vec3>& outermost, const Box& box,
+          double evenness)
+      : mesh_(mesh), tips_(outermost), box_(box), evenness_(evenness) {}
 
   /// The best of kSlices evenly spread planes.
   Candidate anywhere(const Vec3& direction) {
@@ -121,6 +125,7 @@ class Sweeper {
   const PolygonMesh& mesh_;
   std::vector<Vec3> tips_;
   const Box box_;
+  const double evenness_;
   std::vector<double> places_;       ///< Of vertices, along the direction.
   std::vector<std::uint8_t> above_;  ///< Per vertex: how many slices it is above.
   std::vector<Slice> slices_;        ///< In order.
@@ -190,7 +195,7 @@ Candidate Sweeper::price(const Vec3& direction) {
   for (std::size_t s = 0; s < slices_.size(); ++s) {
     if (!slices_[s].hit) continue;
     const double below = below_m3_[s], above = above_m3_[slices_.size() - 1 - s];
-    const double price = below + above - whole + kEvenness * std::max(below, above);
+    const double price = below + above - whole + evenness_ * std::max(below, above);
     if (!(price < best.price)) continue;
     best.price = price;
     best.hull_volume_m3 = below + above;
@@ -239,6 +244,44 @@ std::vector<Vec3> first_directions(const PolygonMesh& mesh) {
   return directions;
 }
 
+bool better(const Candidate& a, const Candidate& b) { return a.price < b.price; }
+
+/// The best cut across each of the first directions, the best of them first.
+std::vector<Candidate> found_anywhere(const PolygonMesh& mesh, const Outline& outline,
+                                      double evenness) {
+  const Box box = bounds(mesh);
+  const std::vector<Vec3> directions = first_directions(mesh);
+  std::vector<Candidate> found(directions.size());
+  for_chunks(directions.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
+    Sweeper sweeper(mesh, outline.points, box, evenness);
+    for (std::size_t i = begin; i < end; ++i) found[i] = sweeper.anywhere(directions[i]);
+  });
+  std::stable_sort(found.begin(), found.end(), better);
+  return found;
+}
+
+/// Searches around a cut, ever nearer.
+Candidate tilted_and_shifted(const PolygonMesh& mesh, const Outline& outline, Candidate best) {
+  const Box box = bounds(mesh);
+  double tilt = kFirstTilt, reach_m = box.extent().maxCoeff() / kSlices;
+  for (int round = 0; round < kRounds; ++round, tilt *= 0.5, reach_m *= 0.5) {
+    const Frame frame(best.direction);
+    std::vector<Vec3> directions = {best.direction};
+    for (const Vec3& aside : {frame.right, frame.front}) {
+      directions.push_back((best.direction + tilt * aside).normalized());
+      directions.push_back((best.direction - tilt * aside).normalized());
+    }
+    std::vector<Candidate> found(directions.size());
+    for_chunks(directions.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      Sweeper sweeper(mesh, outline.points, box, kEvenness);
+      found[i] = sweeper.near(directions[i], best.middle, reach_m);
+    });
+    const Candidate& next = *std::min_element(found.begin(), found.end(), better);
+    if (better(next, best)) best = next;
+  }
+  return best;
+}
+
 }  // namespace
 
 Outline outline_of(const PolygonMesh& mesh) {
@@ -261,33 +304,19 @@ Outline outline_of(const PolygonMesh& mesh) {
   return outline;
 }
 
-std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline) {
-  const Box box = bounds(mesh);
-  std::vector<Vec3> directions = first_directions(mesh);
-  std::vector<Candidate> found(directions.size());
-  for_chunks(directions.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
-    Sweeper sweeper(mesh, outline.points, box);
-    for (std::size_t i = begin; i < end; ++i) found[i] = sweeper.anywhere(directions[i]);
-  });
-  const auto better = [](const Candidate& a, const Candidate& b) { return a.price < b.price; };
-  Candidate best = *std::min_element(found.begin(), found.end(), better);
+std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline, Effort effort) {
+  Candidate best = found_anywhere(mesh, outline, kEvenness)[0];
   if (!(best.price < std::numeric_limits<double>::infinity())) return std::nullopt;
-  double tilt = kFirstTilt, reach_m = box.extent().maxCoeff() / kSlices;
-  for (int round = 0; round < kRounds; ++round, tilt *= 0.5, reach_m *= 0.5) {
-    const Frame frame(best.direction);
-    directions = {best.direction};
-    for (const Vec3& aside : {frame.right, frame.front}) {
-      directions.push_back((best.direction + tilt * aside).normalized());
-      directions.push_back((best.direction - tilt * aside).normalized());
-    }
-    found.resize(directions.size());
-    for_chunks(directions.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      found[i] = Sweeper(mesh, outline.points, box).near(directions[i], best.middle, reach_m);
-    });
-    const Candidate& next = *std::min_element(found.begin(), found.end(), better);
-    if (next.price < best.price) best = next;
+  if (effort == Effort::kFull) best = tilted_and_shifted(mesh, outline, best);
+  return best.cut();
+}
+
+std::vector<Cut> middle_cuts(const PolygonMesh& mesh, const Outline& outline) {
+  std::vector<Cut> cuts;
+  for (const Candidate& candidate : found_anywhere(mesh, outline, kMiddle)) {
+    if (candidate.price < std::numeric_limits<double>::infinity()) cuts.push_back(candidate.cut());
   }
-  return Cut{{best.direction, -best.place}, best.hull_volume_m3};
+  return cuts;
 }
 
 }  // namespace sunder::fracture

@@ -19,12 +19,17 @@ struct Outline {
 };
 Outline outline_of(const PolygonMesh& mesh);
 
-/// A plane that leaves part of a mesh on either side, with the volume of both sides' hulls
-/// together, about. None for a mesh too flat to tell. `outline` is the mesh's.
+/// A plane that leaves part of a mesh on either side, and the volume of both sides' hulls together,
+/// about.
 struct Cut {
   Plane plane;
   double hull_volume_m3 = 0;
 };
-std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline);
+enum class Effort { kLittle, kFull };
+
+/// The cut whose hulls are smallest; none for a mesh too flat to tell. `outline` is the mesh's.
+std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline, Effort effort);
+/// Cuts in several directions whose sides are about as large, those with the smallest hulls first.
+std::vector<Cut> middle_cuts(const PolygonMesh& mesh, const Outline& outline);
 
 }  // namespace sunder::fracture

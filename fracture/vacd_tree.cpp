@@ -8,81 +8,18 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "engine/geometry/clip_mesh.h"
-#include "engine/geometry/mesh_islands.h"
-#include "fracture/vacd_cut.h"
+#include "fracture/vacd_node.h"
 
 namespace sunder::fracture {
 namespace {
 
-constexpr double kOvergrowth = 2;      // leaves grown for each that is wanted
+constexpr double kOvergrowth = 1.5;    // leaves grown for each that is wanted
 constexpr std::size_t kAtOnce = 8;     // pieces cut between two looks at which is loosest
 constexpr double kTightEnough = 1e-4;  // of all hulls: looser pieces are cut
-constexpr double kLeastShare = 1e-6;   // of a piece: smaller islands are not cut off
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Node {
-  VacdPiece piece;
-  Outline outline;
-  double solid_m3 = 0;
-  double hull_m3 = 0;
-  std::vector<std::uint32_t> children;
-  bool tried = false;  ///< To be cut.
-
-  double slack() const { return hull_m3 - solid_m3; }
-};
-
-Node make_node(VacdPiece piece) {
-  Node node;
-  node.outline = outline_of(piece.mesh);
-  node.solid_m3 = mass_properties(piece.mesh).volume_m3;
-  node.hull_m3 = std::max(node.solid_m3, node.outline.hull_m3);
-  node.piece = std::move(piece);
-  return node;
-}
-
-/// The islands on the inner side of a plane; false if there is nothing, or a sliver.
-bool add_side(const VacdPiece& piece, const Plane& plane, PlaneId id, double least_m3,
-              std::vector<VacdPiece>& sides) {
-  const double tolerance = region_tolerance(bounds(piece.region));
-  VacdPiece side;
-  ClipScratch clip_scratch;
-  MeshClipScratch mesh_scratch;
-  if (clip(piece.region, plane, id, tolerance, side.region, clip_scratch) != PlaneSide::kCut ||
-      clip(piece.mesh, plane, id, tolerance, side.mesh, mesh_scratch) != PlaneSide::kCut) {
-    return false;
-  }
-  for (PolygonMesh& island : islands(std::move(side.mesh))) {
-    if (!(mass_properties(island).volume_m3 > least_m3)) return false;
-    sides.push_back({side.region, std::move(island)});
-  }
-  return true;
-}
-
-/// The piece cut in parts by about the best plane; empty if it cannot be.
-std::vector<Node> cut_piece(const Node& node, PlaneId id) {
-  const std::optional<Cut> cut = best_cut(node.piece.mesh, node.outline);
-  if (!cut) return {};
-  const double size = bounds(node.piece.mesh).extent().maxCoeff();
-  std::vector<VacdPiece> sides;
-  for (const double shift : {0.0, 1e-3, -1e-3, 5e-3, -5e-3}) {
-    Plane plane = cut->plane;
-    plane.d += shift * size;
-    sides.clear();
-    const double least = kLeastShare * node.solid_m3;
-    if (add_side(node.piece, plane, id, least, sides) &&
-        add_side(node.piece, plane.flipped(), id.opposite(), least, sides)) {
-      std::vector<Node> parts;
-      for (VacdPiece& side : sides) parts.push_back(make_node(std::move(side)));
-      return parts;
-    }
-  }
-  return {};
-}
 
 /// The least volume of hulls when two trees share the leaves, by number less one.
 std::vector<double> shared(const std::vector<double>& a, const std::vector<double>& b,
@@ -109,14 +46,14 @@ class Tree {
     for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
       nodes_[p] = make_node(std::move(pieces[p]));
     });
-    for (const Node& node : nodes_) hull_m3_ += node.hull_m3;
+    for (const VacdNode& node : nodes_) hull_m3_ += node.hull_m3;
   }
 
   void grow();
   std::vector<VacdPiece> pruned();
 
  private:
-  bool too_many_polygons(const Node& node) const {
+  bool too_many_polygons(const VacdNode& node) const {
     return node.piece.mesh.faces.size() > limits_.polygons;
   }
   std::vector<std::uint32_t> loosest() const;
@@ -126,7 +63,7 @@ class Tree {
 
   const RefineLimits limits_;
   PlaneNames& names_;
-  std::vector<Node> nodes_;
+  std::vector<VacdNode> nodes_;
   const std::size_t roots_;
   std::size_t leaves_;
   const std::size_t most_;  ///< Pieces allowed.
@@ -139,7 +76,7 @@ class Tree {
 std::vector<std::uint32_t> Tree::loosest() const {
   std::vector<std::uint32_t> order;
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-    const Node& node = nodes_[n];
+    const VacdNode& node = nodes_[n];
     if (node.tried || !node.children.empty() || node.piece.is_internal()) continue;
     const bool loose =
         limits_.convexes > 0 && node.slack() > kTightEnough * hull_m3_ / limits_.convexes;
@@ -161,15 +98,15 @@ void Tree::grow() {
     if (next.empty()) return;
     std::vector<PlaneId> ids;
     for (std::size_t i = 0; i < next.size(); ++i) ids.push_back(names_.next());
-    std::vector<std::vector<Node>> parts(next.size());
+    std::vector<std::vector<VacdNode>> parts(next.size());
     for_chunks(next.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      parts[i] = cut_piece(nodes_[next[i]], ids[i]);
+      parts[i] = cut_node(nodes_[next[i]], ids[i]);
     });
     for (std::size_t i = 0; i < next.size(); ++i) {
       nodes_[next[i]].tried = true;
       if (parts[i].empty()) continue;
       leaves_ += parts[i].size() - 1;
-      for (Node& part : parts[i]) {
+      for (VacdNode& part : parts[i]) {
         nodes_[next[i]].children.push_back(static_cast<std::uint32_t>(nodes_.size()));
         nodes_.push_back(std::move(part));
       }
@@ -202,7 +139,7 @@ void Tree::harvest(const std::vector<std::uint32_t>& siblings, std::size_t count
     }
   }
   for (std::size_t c = 0; c < siblings.size(); ++c) {
-    Node& node = nodes_[siblings[c]];
+    VacdNode& node = nodes_[siblings[c]];
     if (share[c] == 1) {
       pieces.push_back(std::move(node.piece));
     } else {

@@ -1,0 +1,28 @@
+// A piece on its way to becoming convexes: how loose its hull is, and its parts once it is cut.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fracture/vacd_cut.h"
+#include "fracture/vacd_regions.h"
+
+namespace sunder::fracture {
+
+struct VacdNode {
+  VacdPiece piece;
+  Outline outline;
+  double solid_m3 = 0;
+  double hull_m3 = 0;                   ///< At least solid_m3.
+  std::vector<std::uint32_t> children;  ///< The parts, in the tree it belongs to.
+  bool tried = false;                   ///< To be cut.
+
+  double slack() const { return hull_m3 - solid_m3; }
+};
+
+VacdNode make_node(VacdPiece piece);
+/// The islands on both sides of the plane, named `id`, that makes their hulls smallest, or, where
+/// none makes them much smaller, those of the next cuts. Empty if the piece cannot be cut.
+std::vector<VacdNode> cut_node(const VacdNode& node, PlaneId id);
+
+}  // namespace sunder::fracture
