@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastShare = 1e-6;  // of a piece: smaller islands are not cut off
 /// A cut that takes less of the slack than this is not worth much by itself; where the hull is also
 /// looser than that, it is worth looking one cut further.
-constexpr double kLittleGain = 0.1, kLoose = 0.2;
+constexpr double kLittleGain = 0.25, kLoose = 0.1;
 constexpr std::size_t kLookedAt = 6;  // cuts, one cut further
 
 /// Appends the islands on the inner side of a plane; false if there is nothing, or a sliver.
