@@ -8,7 +8,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
-#include "fracture/adjacency.h"
+#include "fracture/compound_builder.h"
 #include "fracture/vacd_nodes.h"
 #include "fracture/vacd_regions.h"
 #include "fracture/vacd_tree.h"
@@ -64,31 +64,31 @@ std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& o
   }
 }
 
-/// A convex per piece: fitted, and with a name for every plane.
-std::vector<ConvexPtr> fitted_convexes(std::vector<VacdPiece> pieces, const VacdOptions& options,
-                                       PlaneNames& names) {
-  std::vector<ConvexPolyhedron> fitted(pieces.size());
+/// A part per piece: fitted to its mesh, which goes with it unless it is internal.
+std::vector<Part> fitted_parts(std::vector<VacdPiece> pieces, const VacdOptions& options) {
+  std::vector<Part> parts(pieces.size());
   for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
-    fitted[p] = fitted_region(pieces[p], options.fit);
-  });
-  for (ConvexPolyhedron& polyhedron : fitted) {
-    for (ConvexPolyhedron::Face& face : polyhedron.faces) {
-      if (face.id.none()) face.id = names.next();
+    VacdPiece& piece = pieces[p];
+    parts[p].polyhedron = fitted_region(piece, options.fit);
+    parts[p].material = options.material;
+    if (!piece.is_internal()) {
+      parts[p].visual = std::make_shared<PolygonMesh>(std::move(piece.mesh));
     }
-  }
-  std::vector<ConvexPtr> convexes(pieces.size());
-  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
-    std::shared_ptr<const PolygonMesh> visual;
-    if (!pieces[p].is_internal()) {
-      visual = std::make_shared<PolygonMesh>(std::move(pieces[p].mesh));
-    }
-    convexes[p] = make_convex(std::move(fitted[p]), options.material, std::move(visual));
   });
-  return convexes;
+  return parts;
+}
+
+/// Faces of different shells that lie this close to one plane touch.
+double touching_tolerance(const RepairedMesh& mesh) {
+  constexpr double kTouching = 1e-7;
+  Box box;
+  for (const PolygonMesh& shell : mesh.shells) box.extend(bounds(shell));
+  return kTouching * box.extent().maxCoeff();
 }
 
 VacdFigures measure(const Compound& compound, const RepairedMesh& mesh) {
   VacdFigures figures;
+  figures.ghosts = compound.ghosts.size();
   for (const PolygonMesh& shell : mesh.shells) {
     figures.mesh_volume_m3 += mass_properties(shell).volume_m3;
   }
@@ -109,13 +109,10 @@ Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
   PlaneNames names;
   std::vector<VacdPiece> pieces = cut_pieces(mesh, options, names);
   const double split_ms = watch.ms();
-  Vacd result;
-  Compound& compound = result.compound;
-  compound.convexes = fitted_convexes(std::move(pieces), options, names);
-  compound.anchored.assign(compound.convexes.size(), 0);
-  compound.bonds = find_contacts(compound.convexes);
+  std::vector<Part> parts = fitted_parts(std::move(pieces), options);
+  Vacd result{make_compound(std::move(parts), touching_tolerance(mesh)), {}};
   const double total_ms = watch.ms();
-  result.figures = measure(compound, mesh);
+  result.figures = measure(result.compound, mesh);
   result.figures.split_ms = split_ms;
   result.figures.total_ms = total_ms;
   return result;

@@ -19,7 +19,7 @@ namespace sunder::fracture {
 
 inline constexpr std::uint32_t kDefaultNodes = 12;
 inline constexpr std::uint32_t kMostNodes = 10000;        ///< Also of convexes.
-inline constexpr std::uint32_t kDefaultPolygons = 20000;  ///< Of a piece.
+inline constexpr std::uint32_t kDefaultPolygons = 10000;  ///< Of a piece.
 
 struct VacdOptions {
   std::vector<Vec3> nodes;  ///< By hand, in the mesh's coordinates; empty: automatic.
@@ -28,7 +28,8 @@ struct VacdOptions {
   /// At most so many convexes, and no fewer where more make tighter hulls; 0: what the nodes make.
   /// A convex owns one connected mesh, so there are never fewer than shells.
   std::uint32_t convexes = 0;
-  std::uint32_t polygons = kDefaultPolygons;  ///< A piece with more is cut again, if it may be.
+  /// A piece with more is cut again, if `convexes` allows: what a hit costs grows with it.
+  std::uint32_t polygons = kDefaultPolygons;
   Fit fit{Fit::Kind::kHull, 24};
   MaterialIndex material;
 };
@@ -37,6 +38,7 @@ struct VacdFigures {
   double mesh_volume_m3 = 0;
   double hull_volume_m3 = 0;             ///< Of all convexes' polyhedra.
   std::size_t max_faces_per_convex = 0;  ///< Polygons of one convex's visual mesh.
+  std::size_t ghosts = 0;                ///< Overlaps of shells, or of islands' hulls.
   double split_ms = 0;                   ///< Nodes, regions and the cutting of the mesh.
   double total_ms = 0;
 
@@ -50,7 +52,8 @@ struct Vacd {
 
 /// Convexes that each own one connected watertight piece of a shell, within disjoint convex
 /// regions; pieces sum to the mesh. A region wholly inside the mesh is an internal convex. Regions
-/// of one shell that touch share plane ids and bonds. Throws InputError if the options ask for more
+/// that touch share plane ids and bonds, and hulls that overlap (of different shells, or of islands
+/// in one region) ghosts. Throws InputError if the options ask for more
 /// than kMostNodes or for coordinates that are not finite.
 Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options = {});
 

@@ -173,6 +173,10 @@ std::vector<VacdPiece> Tree::pruned() {
 
 std::vector<VacdPiece> refine(std::vector<VacdPiece> pieces, const RefineLimits& limits,
                               PlaneNames& names) {
+  const bool small = std::all_of(pieces.begin(), pieces.end(), [&](const VacdPiece& piece) {
+    return piece.mesh.faces.size() <= limits.polygons;
+  });
+  if (limits.convexes == 0 && small) return pieces;
   Tree tree(std::move(pieces), limits, names);
   tree.grow();
   return tree.pruned();

@@ -2,6 +2,8 @@
 // hold them, regions share planes.
 #include "fracture/vacd.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -9,6 +11,8 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "engine/base/random.h"
+#include "engine/geometry/repair_winding.h"
 #include "engine/io/mesh_reader.h"
 #include "tests/mesh/meshes.h"
 
@@ -53,6 +57,37 @@ std::string broken_promise(const Compound& compound, const RepairedMesh& mesh) {
     return "volumes sum to " + std::to_string(sum) + " of " + std::to_string(whole);
   }
   return "";
+}
+
+std::vector<std::array<Vec3, 3>> triangles(const PolygonMesh& mesh) {
+  std::vector<std::array<Vec3, 3>> fans;
+  for (std::size_t k = 0; k < mesh.contours.size(); ++k) {
+    const auto corners = mesh.contour_corners(k);
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      fans.push_back(
+          {mesh.vertices[corners[0]], mesh.vertices[corners[i - 1]], mesh.vertices[corners[i]]});
+    }
+  }
+  return fans;
+}
+
+/// Whether, at points around, the pieces wind as often as the mesh: cover without overlap.
+void expect_same_winding(const Compound& compound, const PolygonMesh& mesh) {
+  const WindingField whole(triangles(mesh));
+  std::vector<WindingField> parts;
+  for (const ConvexPtr& convex : compound.convexes) {
+    parts.emplace_back(
+        triangles(convex->visual ? *convex->visual : polygon_mesh(convex->polyhedron)));
+  }
+  const Box box = bounds(mesh);
+  Random random(5);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 share(random.uniform(), random.uniform(), random.uniform());
+    const Vec3 point = box.min + share.cwiseProduct(box.extent());
+    double sum = 0;
+    for (const WindingField& part : parts) sum += part.at(point);
+    EXPECT_NEAR(sum, whole.at(point), 0.25);
+  }
 }
 
 TEST(Vacd, OfRealMeshesKeepsItsPromises) {
@@ -130,6 +165,50 @@ TEST(Vacd, IsTheSameForAnyNumberOfThreads) {
     ASSERT_EQ(many.bonds.size(), one.bonds.size());
   }
   set_threads(0);
+}
+
+TEST(Vacd, PiecesCoverTheMeshWithoutOverlap) {
+  SUNDER_NEEDS_MESHES();
+  for (const std::string name : {"cup.obj", "fandisk_quads.off", "torus.obj", "spot.obj"}) {
+    const RepairedMesh mesh = repair_mesh(read_mesh(test::meshes_folder() / "good" / name), name);
+    VacdOptions options;
+    options.convexes = 10;
+    expect_same_winding(decompose(mesh, options).compound, mesh.shells[0]);
+    expect_same_winding(decompose(mesh).compound, mesh.shells[0]);
+  }
+}
+
+TEST(Vacd, NeverMakesAPieceOfMorePolygonsThanAllowed) {
+  SUNDER_NEEDS_MESHES();
+  const std::string name = "spot.obj";
+  const RepairedMesh mesh = repair_mesh(read_mesh(test::meshes_folder() / "good" / name), name);
+  VacdOptions options;
+  options.node_count = 2;
+  options.polygons = 500;
+  const Vacd vacd = decompose(mesh, options);
+  EXPECT_LE(vacd.figures.max_faces_per_convex, 500u);
+  EXPECT_EQ(broken_promise(vacd.compound, mesh), "");
+}
+
+TEST(Vacd, ShellsThatOverlapAreHeldTogetherByGhosts) {
+  RepairedMesh mesh;
+  mesh.shells.push_back(polygon_mesh(make_box(Vec3(0, 0, 0), Vec3(1, 4, 1))));
+  mesh.shells.push_back(polygon_mesh(make_box(Vec3(-1, 3, -1), Vec3(2, 5, 2))));
+  VacdOptions options;
+  options.convexes = 2;
+  const Vacd vacd = decompose(mesh, options);
+  EXPECT_EQ(vacd.compound.convexes.size(), 2u);
+  EXPECT_EQ(vacd.figures.ghosts, 1u);
+  EXPECT_EQ(broken_promise(vacd.compound, mesh), "");
+}
+
+TEST(Vacd, RefusesMoreNodesByHandThanConvexesAllowed) {
+  VacdOptions options;
+  options.nodes = {Vec3(0.2, 0.5, 0.5), Vec3(0.5, 0.5, 0.5), Vec3(0.8, 0.5, 0.5)};
+  options.convexes = 2;
+  EXPECT_THROW(decompose(cube(), options), InputError);
+  options.convexes = 3;
+  EXPECT_EQ(decompose(cube(), options).compound.convexes.size(), 3u);
 }
 
 TEST(Vacd, CellsWithinTheMeshAreInternal) {
