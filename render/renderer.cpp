@@ -6,33 +6,23 @@
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
 #include "render/antialias.h"
+#include "render/chips.h"
 #include "render/gl/context.h"
 #include "render/gl/objects.h"
 #include "render/hud.h"
 #include "render/looks.h"
 #include "render/pieces.h"
+#include "render/puffs.h"
 #include "render/texts.h"
 #include "render/tiles.h"
+#include "render/units.h"
 #include "render/viewpoint.h"
 
 namespace sunder::render {
 namespace {
 
-// Texture units: each texture stays on its own for good.
-enum Unit {
-  kShadowUnit,
-  kZenithUnit,
-  kSlotUnit,
-  kLookUnit,
-  kTileUnit,
-  kDepthUnit,
-  kLightUnit,
-  kOpenUnit,
-  kBlurUnit
-};
-
 struct Programs {
-  GLuint shadow, zenith, matte, shiny, glass, ground, sky, occlusion, blur, composite;
+  GLuint shadow, zenith, matte, shiny, glass, ground, sky, occlusion, blur, composite, dusty;
 };
 
 struct Target {
@@ -64,6 +54,8 @@ Programs make_programs(const GlTable& gl) {
   p.blur = make_program(gl, "blur", {common_glsl, screen_vert}, {common_glsl, blur_frag});
   p.composite =
       make_program(gl, "composite", {common_glsl, screen_vert}, {common_glsl, composite_frag});
+  p.dusty = make_program(gl, "dusty composite", {common_glsl, screen_vert},
+                         {common_glsl, "#define DUSTY\n", composite_frag});
   for (const GLuint program : {p.matte, p.shiny, p.glass, p.ground}) {
     set_sampler(gl, program, "shadow_map", kShadowUnit);
   }
@@ -78,9 +70,12 @@ Programs make_programs(const GlTable& gl) {
   set_sampler(gl, p.occlusion, "depths", kDepthUnit);
   set_sampler(gl, p.occlusion, "zenith_map", kZenithUnit);
   set_sampler(gl, p.blur, "occlusion", kOpenUnit);
-  set_sampler(gl, p.composite, "lights", kLightUnit);
-  set_sampler(gl, p.composite, "depths", kDepthUnit);
-  set_sampler(gl, p.composite, "occlusion", kBlurUnit);
+  for (const GLuint program : {p.composite, p.dusty}) {
+    set_sampler(gl, program, "lights", kLightUnit);
+    set_sampler(gl, program, "depths", kDepthUnit);
+    set_sampler(gl, program, "occlusion", kBlurUnit);
+  }
+  set_sampler(gl, p.dusty, "dust", kDustUnit);
   return p;
 }
 
@@ -113,6 +108,7 @@ struct Renderer::Impl {
   void draw_ground_and_sky();
   void draw_occlusion();
   void draw_glass();
+  void draw_dust();
   void composite();
   Image read_back();
 
@@ -125,6 +121,8 @@ struct Renderer::Impl {
   const GlTable& gl;
   Programs programs;
   Pieces pieces;
+  Chips chips;
+  Puffs puffs;
   GLuint uniform_buffer = 0;
   GLuint look_buffer = 0;
   GLuint empty_vertex_array = 0;  ///< For passes that need no vertices.
@@ -133,6 +131,7 @@ struct Renderer::Impl {
   Target light;
   Target open;
   Target blurred;
+  Target dust;
   Target picture;
   std::shared_ptr<const std::vector<Material>> materials;
   std::vector<std::uint32_t> pixels;
@@ -146,7 +145,9 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
       context(make_context(wanted.gl)),
       gl(context->gl()),
       programs(make_programs(gl)),
-      pieces(gl) {
+      pieces(gl),
+      chips(gl),
+      puffs(gl) {
   const int w = options.width;
   const int h = options.height;
   const int half_w = (w + 1) / 2;
@@ -157,6 +158,7 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   const GLuint lights = make_texture(gl, GL_RGBA16F, w, h, Filter::kNearest);
   const GLuint occlusion = make_texture(gl, GL_RG16F, half_w, half_h, Filter::kNearest);
   const GLuint smooth = make_texture(gl, GL_RG16F, half_w, half_h, Filter::kNearest);
+  const GLuint veil = make_texture(gl, GL_RGBA16F, half_w, half_h, Filter::kNearest);
   const GLuint final = make_texture(gl, GL_RGBA8, w, h, Filter::kNearest);
   bind_texture(gl, kShadowUnit, shadow_map);
   bind_texture(gl, kZenithUnit, zenith_map);
@@ -164,11 +166,13 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   bind_texture(gl, kLightUnit, lights);
   bind_texture(gl, kOpenUnit, occlusion);
   bind_texture(gl, kBlurUnit, smooth);
+  bind_texture(gl, kDustUnit, veil);
   shadow = {make_framebuffer(gl, 0, shadow_map), kShadowTexels, kShadowTexels};
   zenith = {make_framebuffer(gl, 0, zenith_map), kZenithTexels, kZenithTexels};
   light = {make_framebuffer(gl, lights, depth), w, h};
   open = {make_framebuffer(gl, occlusion, 0), half_w, half_h};
   blurred = {make_framebuffer(gl, smooth, 0), half_w, half_h};
+  dust = {make_framebuffer(gl, veil, 0), half_w, half_h};
   picture = {make_framebuffer(gl, final, 0), w, h};
   pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
 
@@ -218,6 +222,8 @@ void Renderer::Impl::upload(const Frame& frame) {
       make_uniforms(frame.view, pieces.casters(), options.width, options.height);
   gl.BindBuffer(GL_UNIFORM_BUFFER, uniform_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
+  chips.update(frame, uniforms.lens[1], uniforms.to_sun[3]);
+  puffs.update(frame);
 }
 
 void Renderer::Impl::draw_shadows() {
@@ -230,6 +236,7 @@ void Renderer::Impl::draw_shadows() {
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   pieces.draw(Pieces::Group::kMatte);
   pieces.draw(Pieces::Group::kShiny);
+  chips.draw_shadows();
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   done("shadows");
   begin(zenith, programs.zenith);
@@ -244,6 +251,7 @@ void Renderer::Impl::draw_pieces() {
   pieces.draw(Pieces::Group::kMatte);
   begin(light, programs.shiny);
   pieces.draw(Pieces::Group::kShiny);
+  chips.draw();
 }
 
 void Renderer::Impl::draw_ground_and_sky() {
@@ -281,11 +289,23 @@ void Renderer::Impl::draw_glass() {
   gl.CullFace(GL_BACK);
 }
 
+void Renderer::Impl::draw_dust() {
+  gl.Disable(GL_DEPTH_TEST);
+  gl.Disable(GL_CULL_FACE);
+  begin(dust, 0);
+  gl.ClearColor(0, 0, 0, 0);
+  gl.Clear(GL_COLOR_BUFFER_BIT);
+  gl.Enable(GL_BLEND);
+  gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  puffs.draw();
+  gl.Disable(GL_BLEND);
+}
+
 void Renderer::Impl::composite() {
   gl.Disable(GL_DEPTH_TEST);
   gl.Disable(GL_CULL_FACE);
   gl.BindVertexArray(empty_vertex_array);
-  begin(picture, programs.composite);
+  begin(picture, puffs.any() ? programs.dusty : programs.composite);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -318,6 +338,8 @@ Image Renderer::draw(const Frame& frame) {
   r.done("occlusion");
   if (r.pieces.has(Pieces::Group::kGlass)) r.draw_glass();
   r.done("glass");
+  if (r.puffs.any()) r.draw_dust();
+  r.done("dust");
   r.composite();
   r.done("composite");
   Image image = r.read_back();

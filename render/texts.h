@@ -18,6 +18,9 @@ extern const char* const sky_frag;
 extern const char* const occlusion_frag;
 extern const char* const blur_frag;
 extern const char* const composite_frag;
+extern const char* const chips_vert;
+extern const char* const puffs_vert;
+extern const char* const puffs_frag;
 extern const char* const golden_report_html;
 
 }  // namespace sunder::render::texts

@@ -94,6 +94,15 @@ void Loader::read_accuracy() {
   dt = kFrame / steps;
 }
 
+void read_crumbling(const Value& table, Crumbling& crumbling) {
+  read(schema().crumbling, table, {}, crumbling);
+  if (crumbling.debris_smallest_m > crumbling.debris_largest_m) {
+    throw InputError(table.where + ": debris_smallest_m = " + format(crumbling.debris_smallest_m) +
+                     " exceeds debris_largest_m = " + format(crumbling.debris_largest_m) +
+                     " in [material.crumbling]");
+  }
+}
+
 /// A material of the same name is replaced: a scene may change what the library says.
 void Loader::add_materials(const Value& document) {
   const Schema& s = schema();
@@ -123,6 +132,7 @@ void Loader::add_materials(const Value& document) {
     read_keys(*table, s.material.table, s.material.keys, {}, &material);
     const Table& entries = std::get<Table>(table->data);
     if (const Value* v = find(entries, "pattern")) read(s.pattern, *v, {}, material.pattern);
+    if (const Value* v = find(entries, "crumbling")) read_crumbling(*v, material.crumbling);
     if (const Value* v = find(entries, "surface")) read(s.look, *v, {}, material.surface);
     if (const Value* v = find(entries, "interior")) read(s.look, *v, {}, material.interior);
     const auto namesake = named(head.name);

@@ -56,7 +56,9 @@ Keys<Material> material_keys() {
                                          "Smaller pieces no longer break."),
        key<&Material::smallest_piece_m3>("smallest_piece_m3", "m³", Range{0, kInfinity},
                                          "Smaller pieces are debris, no bodies."),
-       table_key("pattern", "How it breaks."), table_key("surface", "How it looks outside."),
+       table_key("pattern", "How it breaks."),
+       table_key("crumbling", "What comes off where it broke."),
+       table_key("surface", "How it looks outside."),
        table_key("interior", "How it looks where it broke.")}};
 }
 
@@ -69,6 +71,23 @@ Keys<PatternSpec> pattern_keys() {
            key<&PatternSpec::rings>("rings", "", Range{1, 100}, "web: rings."),
            key<&PatternSpec::spokes>("spokes", "", Range{3, 200}, "web: spokes."),
            key<&PatternSpec::jitter>("jitter", "", kFraction, "web: 0 = regular.")}};
+}
+
+Keys<Crumbling> crumbling_keys() {
+  constexpr Range kSize{0.0005, 1};
+  return {"[material.crumbling]",
+          {key<&Crumbling::particles_per_m2>("particles_per_m2", "1/m²", Range{0, 1e5},
+                                             "Debris and dust off new crack surface; 0 for none."),
+           key<&Crumbling::debris_ratio>("debris_ratio", "", kFraction,
+                                         "How many of them are debris; the others are dust."),
+           key<&Crumbling::debris_smallest_m>("debris_smallest_m", "m", kSize,
+                                              "Least radius of debris."),
+           key<&Crumbling::debris_largest_m>("debris_largest_m", "m", kSize,
+                                             "Largest; most is near the least."),
+           key<&Crumbling::dust_kg_m2>("dust_kg_m2", "kg/m²", Range{0, 100},
+                                       "Dust off new crack surface; it weighs on the air."),
+           key<&Crumbling::dust_settling_m_s>("dust_settling_m_s", "m/s", Range{0, 10},
+                                              "How fast dust sinks in still air.")}};
 }
 
 Keys<SolidHead> solid_keys() {
@@ -113,7 +132,9 @@ Schema make_schema() {
                                    "Pattern cells to cut by; breaks beyond it wait a frame."),
        key<&Limits::load_work_a_frame>("load_work_a_frame", "", Range{1, 4e9},
                                        "Visits of joints to find out what load breaks; the rest "
-                                       "waits a frame.")}};
+                                       "waits a frame."),
+       key<&Limits::debris>("debris", "", Range{0, 200000}, "Pieces of debris alive at once."),
+       key<&Limits::dust>("dust", "", Range{0, 100000}, "Puffs of dust alive at once.")}};
   s.ground = {"[ground]",
               {key<&Ground::height_m>("height_m", "m", kPlace, "Height of the plane."),
                key<&Ground::friction>("friction", "", Range{0, 10}, "Coefficient of friction."),
@@ -130,6 +151,7 @@ Schema make_schema() {
        key<&MaterialHead::like>("like", "The material it starts from; its namesake by default.")}};
   s.material = material_keys();
   s.pattern = pattern_keys();
+  s.crumbling = crumbling_keys();
   s.look = {"[material.surface], [material.interior]",
             {choice<&Look::texture>("texture", kTextures, "Procedural texture."),
              key<&Look::color>("color", "", kFraction, "Linear red, green, blue.")}};

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -54,6 +55,12 @@ class ByteReader {
     const auto count = take<std::uint32_t>();
     need(std::size_t{count} * item_bytes);
     return count;
+  }
+  /// The next bytes as they are; valid as long as the buffer.
+  std::span<const std::byte> take_bytes(std::size_t size) {
+    need(size);
+    at_ += size;
+    return std::span(bytes_).subspan(at_ - size, size);
   }
   bool at_end() const { return at_ == bytes_.size(); }
 

@@ -1,4 +1,5 @@
-// Layout: "SUNDERF1", XXH3 of the rest (8 bytes), size of the content (8 bytes), content in zstd.
+// Layout: "SUNDERF2" (or 1: without debris and dust), XXH3 of the rest (8 bytes), size of the
+// content (8 bytes), content in zstd.
 #include "engine/io/frame_file.h"
 
 #include <cstring>
@@ -7,93 +8,17 @@
 #include <zstd.h>
 
 #include "engine/io/bytes.h"
+#include "engine/io/frame_parts.h"
+#include "engine/io/particle_codes.h"
 
 namespace sunder {
 namespace {
 
-constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '1'};
+constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '2'};
+constexpr char kMagicBefore[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '1'};
 constexpr std::size_t kHeader = sizeof kMagic + 8;
 constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refused
 constexpr int kLevel = 19;                      // written once, kept for years
-
-void put(ByteWriter& out, const Vec3& v) {
-  for (int i = 0; i < 3; ++i) out.put(v[i]);
-}
-void put(ByteWriter& out, const Vec3f& v) {
-  for (int i = 0; i < 3; ++i) out.put(v[i]);
-}
-void put(ByteWriter& out, const Look& look) {
-  out.put(look.texture);
-  put(out, look.color);
-}
-Vec3 take_vec3(ByteReader& in) {
-  Vec3 v;
-  for (int i = 0; i < 3; ++i) v[i] = in.take<double>();
-  return v;
-}
-Vec3f take_vec3f(ByteReader& in) {
-  Vec3f v;
-  for (int i = 0; i < 3; ++i) v[i] = in.take<float>();
-  return v;
-}
-Look take_look(ByteReader& in) {
-  Look look;
-  look.texture = in.take<Texture>();
-  look.color = take_vec3f(in);
-  return look;
-}
-
-void put(ByteWriter& out, const View& view) {
-  put(out, view.eye_W);
-  put(out, view.target_W);
-  put(out, view.to_sun_W);
-  put(out, view.ground_color);
-  out.put(view.fov_rad);
-  out.put(view.ground_m);
-}
-View take_view(ByteReader& in) {
-  View view;
-  view.eye_W = take_vec3(in);
-  view.target_W = take_vec3(in);
-  view.to_sun_W = take_vec3(in);
-  view.ground_color = take_vec3f(in);
-  view.fov_rad = in.take<double>();
-  view.ground_m = in.take<double>();
-  return view;
-}
-
-void put(ByteWriter& out, const Mesh& mesh) {
-  put(out, mesh.origin_R);
-  out.put(mesh.material.value);
-  out.put(static_cast<std::uint32_t>(mesh.vertices.size()));
-  for (const Mesh::Vertex& vertex : mesh.vertices) {
-    put(out, vertex.position);
-    put(out, vertex.normal);
-    out.put(vertex.interior);
-  }
-  out.put(static_cast<std::uint32_t>(mesh.indices.size()));
-  for (const std::uint32_t index : mesh.indices) out.put(index);
-}
-Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials) {
-  Mesh mesh;
-  mesh.origin_R = take_vec3(in);
-  mesh.material = MaterialIndex(in.take<std::uint32_t>());
-  mesh.vertices.resize(in.take_count(28));
-  for (Mesh::Vertex& vertex : mesh.vertices) {
-    vertex.position = take_vec3f(in);
-    vertex.normal = take_vec3f(in);
-    vertex.interior = in.take<std::uint32_t>();
-  }
-  mesh.indices.resize(in.take_count(4));
-  for (std::uint32_t& index : mesh.indices) {
-    index = in.take<std::uint32_t>();
-    if (index >= mesh.vertices.size())
-      throw InputError(file + ": corrupt: a triangle has no corner");
-  }
-  if (mesh.material.value >= materials)
-    throw InputError(file + ": corrupt: a mesh has no material");
-  return mesh;
-}
 
 void put(ByteWriter& out, const FrameBody& body) {
   out.put(body.key);
@@ -110,6 +35,24 @@ FrameBody take_body(ByteReader& in) {
   body.com_R = take_vec3(in);
   body.is_static = in.take<std::uint8_t>() != 0;
   return body;
+}
+
+template <class Particle>
+void put_codes(ByteWriter& out, const std::vector<Particle>& particles) {
+  out.put(static_cast<std::uint32_t>(particles.size()));
+  for (const Particle& particle : particles) out.put(encode(particle));
+}
+template <class Particle>
+std::vector<Particle> take_codes(ByteReader& in, const std::string& file, std::size_t materials,
+                                 Particle (*decode)(const ParticleCode&)) {
+  std::vector<Particle> particles(in.take_count(sizeof(ParticleCode)));
+  for (Particle& particle : particles) {
+    particle = decode(in.take<ParticleCode>());
+    if (particle.material.value >= materials) {
+      throw InputError(file + ": corrupt: a particle has no material");
+    }
+  }
+  return particles;
 }
 
 /// Only the meshes that the frame draws; `new_of_old` numbers them.
@@ -129,12 +72,7 @@ std::vector<std::byte> content_of(const Frame& frame) {
   out.put(frame.index);
   out.put(frame.time_s);
   put(out, frame.view);
-  out.put(static_cast<std::uint32_t>(frame.materials->size()));
-  for (const Material& material : *frame.materials) {
-    out.put(material.name);
-    put(out, material.surface);
-    put(out, material.interior);
-  }
+  put(out, *frame.materials);
   std::vector<std::uint32_t> drawn;
   const auto new_of_old = drawn_meshes(frame, drawn);
   out.put(static_cast<std::uint32_t>(drawn.size()));
@@ -146,22 +84,20 @@ std::vector<std::byte> content_of(const Frame& frame) {
     out.put(new_of_old[instance.mesh.value]);
     out.put(instance.body);
   }
+  put_codes(out, frame.debris);
+  put_codes(out, frame.dust);
   return std::move(out.bytes);
 }
 
-FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file) {
+FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file,
+                  bool has_particles) {
   ByteReader in(content, file);
   auto frame = std::make_shared<Frame>();
   frame->index = in.take<std::uint64_t>();
   frame->time_s = in.take<double>();
   frame->view = take_view(in);
-  std::vector<Material> materials(in.take_count(30));
-  for (Material& material : materials) {
-    material.name = in.take_text();
-    material.surface = take_look(in);
-    material.interior = take_look(in);
-  }
-  auto meshes = std::make_shared<MeshStore>(in.take_count(36));
+  std::vector<Material> materials = take_materials(in);
+  auto meshes = std::make_shared<MeshStore>(in.take_count(kLeastMeshBytes));
   for (auto& mesh : *meshes) {
     mesh = std::make_shared<const Mesh>(take_mesh(in, file, materials.size()));
   }
@@ -174,6 +110,10 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
     if (instance.mesh.value >= meshes->size() || instance.body >= frame->bodies.size()) {
       throw InputError(file + ": corrupt: an instance names no mesh or body");
     }
+  }
+  if (has_particles) {
+    frame->debris = take_codes(in, file, materials.size(), decode_debris);
+    frame->dust = take_codes(in, file, materials.size(), decode_dust);
   }
   if (!in.at_end()) throw InputError(file + ": corrupt: bytes are left over");
   frame->materials = std::make_shared<const std::vector<Material>>(std::move(materials));
@@ -204,7 +144,10 @@ void write_frame(const std::filesystem::path& path, const Frame& frame) {
 FramePtr read_frame(const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::vector<std::byte> file = read_file(path);
-  if (file.size() < kHeader + 8 || std::memcmp(file.data(), kMagic, sizeof kMagic) != 0) {
+  const auto is = [&](const char* magic) {
+    return std::memcmp(file.data(), magic, sizeof kMagic) == 0;
+  };
+  if (file.size() < kHeader + 8 || !(is(kMagic) || is(kMagicBefore))) {
     throw InputError(name + ": not a frame file of this version of sunder; record it again");
   }
   ByteReader header(file, name);
@@ -219,7 +162,7 @@ FramePtr read_frame(const std::filesystem::path& path) {
   const std::size_t got = ZSTD_decompress(content.data(), content.size(), file.data() + kHeader + 8,
                                           file.size() - kHeader - 8);
   if (ZSTD_isError(got) || got != size) throw InputError(name + ": corrupt: cannot be unpacked");
-  return frame_of(content, name);
+  return frame_of(content, name, is(kMagic));
 }
 
 }  // namespace sunder

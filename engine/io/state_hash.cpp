@@ -4,6 +4,8 @@
 
 #include <xxhash.h>
 
+#include "engine/io/particle_codes.h"
+
 namespace sunder {
 namespace {
 
@@ -29,13 +31,32 @@ Record record(const FrameBody& body) {
   return r;
 }
 
+template <class Particle>
+std::uint64_t hash_codes(const std::vector<Particle>& particles, std::uint64_t seed) {
+  std::vector<ParticleCode> codes;
+  codes.reserve(particles.size());
+  for (const Particle& particle : particles) codes.push_back(encode(particle));
+  return XXH3_64bits_withSeed(codes.data(), codes.size() * sizeof(ParticleCode), seed);
+}
+
 }  // namespace
 
 std::uint64_t hash_state(const Frame& frame) {
+  if (frame.recorded_hash != 0) return frame.recorded_hash;
   std::vector<Record> records;
   records.reserve(frame.bodies.size());
   for (const FrameBody& body : frame.bodies) records.push_back(record(body));
-  return XXH3_64bits_withSeed(records.data(), records.size() * sizeof(Record), frame.index);
+  std::uint64_t hash =
+      XXH3_64bits_withSeed(records.data(), records.size() * sizeof(Record), frame.index);
+  // A run without particles keeps the hash that its bodies alone have.
+  if (!frame.debris.empty()) hash = hash_codes(frame.debris, hash);
+  if (!frame.dust.empty()) hash = hash_codes(frame.dust, hash);
+  return hash;
+}
+
+std::uint64_t hash_body(const FrameBody& body) {
+  const Record one = record(body);
+  return XXH3_64bits(&one, sizeof one);
 }
 
 void StateHash::take(const FramePtr& frame) { per_frame_.push_back(hash_state(*frame)); }

@@ -9,8 +9,12 @@
 
 namespace sunder {
 
-/// Hash (XXH3) of the frame's bodies: key, pose, velocities, sleep, bit for bit.
+/// Hash (XXH3) of the frame's bodies (key, pose, velocities, sleep, bit for bit), and of its debris
+/// and dust as takes store them. That of a frame from a take is the one it was recorded with.
 std::uint64_t hash_state(const Frame& frame);
+
+/// Hash of one body's exact state.
+std::uint64_t hash_body(const FrameBody& body);
 
 /// Keeps the hash of every frame it takes.
 class StateHash final : public FrameSink {

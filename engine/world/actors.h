@@ -23,6 +23,11 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion);
 void add_meshes(World& world, std::span<Actor> actors, const Actor* parent);
 
 void add_compounds(World& world, std::span<const Solid> solids);
+/// Notes what a break laid bare, for the particles; before its pieces are moved elsewhere.
+void crumble(World& world, const BreakPlan& plan, const Motion& motion);
+/// Notes a piece that is too small to be a body.
+void add_chip(World& world, const Compound& piece, const Motion& motion);
+
 double ball_mass_kg(const World& world, const Ball& ball);
 void add_ball(World& world, const Ball& ball);
 

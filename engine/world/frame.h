@@ -40,6 +40,24 @@ struct Instance {
   std::uint32_t body = 0;  ///< Index in Frame::bodies.
 };
 
+/// A piece of debris: one of kDebrisVariants chips, inscribed in a sphere.
+struct FrameDebris {
+  Vec3f position_W = Vec3f::Zero();
+  Quatf rotation_WD = Quatf::Identity();
+  float radius_m = 0;
+  MaterialIndex material;
+  std::uint8_t variant = 0;
+};
+
+/// A puff of dust.
+struct FrameDust {
+  Vec3f position_W = Vec3f::Zero();
+  Quatf rotation_WD = Quatf::Identity();
+  float radius_m = 0;
+  float opacity = 0;  ///< 0 to 1.
+  MaterialIndex material;
+};
+
 struct BreakEvent {
   double time_s = 0;
   std::uint64_t body_key = 0;  ///< Of the body that broke.
@@ -91,8 +109,12 @@ struct Frame {
   std::shared_ptr<const MeshStore> meshes;
   std::vector<FrameBody> bodies;  ///< Ascending by key.
   std::vector<Instance> instances;
+  std::vector<FrameDebris> debris;
+  std::vector<FrameDust> dust;
   std::vector<BreakEvent> breaks;  ///< Since the previous frame.
   FrameReport report;
+  /// Of a frame from a take: the hash of the state as it was, which is stored less exactly; else 0.
+  std::uint64_t recorded_hash = 0;
 };
 using FramePtr = std::shared_ptr<const Frame>;
 

@@ -45,8 +45,12 @@ void replace_by_pieces(World& world, std::uint32_t key, BreakPlan& plan) {
   std::vector<Actor> pieces;
   std::vector<BodyDesc> bodies;
   world.debris_mass_kg += parent.weight.mass_kg;
+  crumble(world, plan, motion);
   for (Compound& compound : plan.pieces) {
-    if (!is_body(world, compound)) continue;
+    if (!is_body(world, compound)) {
+      add_chip(world, compound, motion);
+      continue;
+    }
     pieces.push_back(make_actor(world, std::move(compound)));
     pieces.back().born_step = world.step + 1;
     if (pieces.back().bearing.bears) pieces.back().bearing.memory = parent.bearing.memory;

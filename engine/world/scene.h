@@ -52,6 +52,8 @@ struct Limits {
   std::uint32_t cells_a_frame = 2000;  ///< Pattern cells to cut by; breaks beyond it wait a frame.
   /// Visits of bonds to find out what load breaks; what is beyond it waits a frame.
   std::uint32_t load_work_a_frame = 400000;
+  std::uint32_t debris = 20000;  ///< Pieces of debris alive at once.
+  std::uint32_t dust = 4000;     ///< Puffs of dust alive at once.
 };
 
 struct Scene {

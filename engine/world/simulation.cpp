@@ -72,12 +72,14 @@ int steps_per_frame(double dt_s) {
 }  // namespace
 
 Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
-                       std::unique_ptr<Breaker> breaker)
+                       std::unique_ptr<Breaker> breaker, std::unique_ptr<Particles> particles)
     : world_(std::make_unique<World>()) {
   World& world = *world_;
   world.scene = std::move(scene);
   world.physics = std::move(physics);
   world.breaker = std::move(breaker);
+  world.particles = std::move(particles);
+  world.steps_per_frame = steps_per_frame(world.scene.accuracy.dt_s);
   world.materials = std::make_shared<const std::vector<Material>>(world.scene.materials);
   add_ground(world);
   add_compounds(world, world.scene.solids);
@@ -88,7 +90,7 @@ Simulation::~Simulation() = default;
 
 FramePtr Simulation::next() {
   World& world = *world_;
-  const int steps = steps_per_frame(world.scene.accuracy.dt_s);
+  const int steps = world.steps_per_frame;
   if (world.started) {
     const double frame_s = steps * world.scene.accuracy.dt_s;
     if (static_cast<double>(world.frame + 1) * frame_s > world.scene.duration_s + 0.5 * frame_s) {
@@ -118,6 +120,7 @@ void Simulation::advance() {
   stage(Stage::kBreak, break_stage);
   stage(Stage::kSolve, solve);
   stage(Stage::kLoad, load_stage);
+  stage(Stage::kParticles, particle_stage);
   ++world.step;
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/world/breaker.h"
 #include "engine/world/frame.h"
+#include "engine/world/particles.h"
 #include "engine/world/physics.h"
 #include "engine/world/scene.h"
 
@@ -18,7 +19,9 @@ struct World;
 /// the scene's duration has passed.
 class Simulation final : public FrameSource {
  public:
-  Simulation(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaker);
+  /// Without `particles` there is no debris and no dust.
+  Simulation(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaker,
+             std::unique_ptr<Particles> particles = nullptr);
   ~Simulation() override;
 
   FramePtr next() override;

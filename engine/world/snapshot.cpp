@@ -29,6 +29,28 @@ void count(const World& world, const Actor& actor, const FrameBody& body, FrameR
   report.potential_J -= actor.weight.mass_kg * world.scene.gravity_W.dot(body.X_WB.position);
 }
 
+/// Debris and dust as they are, and what there was no room for.
+void add_particles(World& world, Frame& frame) {
+  if (!world.particles) return;
+  const DebrisView debris = world.particles->debris();
+  frame.debris.resize(debris.position_W.size());
+  for (std::size_t i = 0; i < frame.debris.size(); ++i) {
+    frame.debris[i] = {debris.position_W[i], debris.rotation_WD[i], debris.radius_m[i],
+                       debris.material[i], debris.variant[i]};
+  }
+  const DustView dust = world.particles->dust();
+  frame.dust.resize(dust.position_W.size());
+  for (std::size_t i = 0; i < frame.dust.size(); ++i) {
+    frame.dust[i] = {dust.position_W[i], dust.rotation_WD[i], dust.radius_m[i], dust.opacity[i],
+                     dust.material[i]};
+  }
+  frame.report.counts.debris = static_cast<std::uint32_t>(frame.debris.size());
+  frame.report.counts.dust = static_cast<std::uint32_t>(frame.dust.size());
+  const ParticleReport report = world.particles->report();
+  const std::uint64_t ignored = report.debris.ignored + report.dust.ignored;
+  if (ignored > std::exchange(world.particles_ignored, ignored)) ++frame.report.limits_hit;
+}
+
 }  // namespace
 
 std::shared_ptr<Frame> snapshot(World& world) {
@@ -47,6 +69,7 @@ std::shared_ptr<Frame> snapshot(World& world) {
     add_body(world, actor, *frame);
     count(world, actor, frame->bodies.back(), report);
   }
+  add_particles(world, *frame);
   report.mass_kg += world.debris_mass_kg;
   for (std::size_t i = world.next_shot; i < world.scene.shots.size(); ++i) {
     report.mass_kg += ball_mass_kg(world, world.scene.shots[i].ball);

@@ -8,6 +8,7 @@
 
 #include "engine/world/breaker.h"
 #include "engine/world/frame.h"
+#include "engine/world/particles.h"
 #include "engine/world/physics.h"
 #include "engine/world/scene.h"
 
@@ -64,10 +65,19 @@ struct Blow {
   bool waited = false;  ///< Put off from an earlier frame for want of budget.
 };
 
+/// What breaks laid bare since the particles last moved, where it was when this frame began.
+struct Crumbs {
+  std::vector<Vec3> corners_W;
+  std::vector<std::uint32_t> corners_end;  ///< Per face.
+  std::vector<Emission> faces;             ///< Their corners are set when they are emitted.
+  std::vector<Chip> chips;
+};
+
 struct World {
   Scene scene;
   std::unique_ptr<Physics> physics;
   std::unique_ptr<Breaker> breaker;
+  std::unique_ptr<Particles> particles;  ///< Null: none.
   std::shared_ptr<const std::vector<Material>> materials;
 
   std::vector<Actor> actors;  ///< Ascending by key.
@@ -84,6 +94,9 @@ struct World {
   std::uint64_t load_work_left = 0;  ///< Of the frame's budget, in visits of bonds.
   std::uint32_t loads_waiting = 0;   ///< Actors whose load is not judged yet.
   double debris_mass_kg = 0;
+  int steps_per_frame = 1;
+  Crumbs crumbs;
+  std::uint64_t particles_ignored = 0;  ///< Up to the last frame, for want of room.
 
   FrameReport report;  ///< Of the frame under way.
   std::vector<BreakEvent> breaks;
@@ -101,6 +114,8 @@ void break_stage(World& world);
 
 /// Stage `load`: own weight and what presses on a compound break what they overload.
 void load_stage(World& world);
+/// Stage `particles`, once a frame: debris and dust come off what broke, and everything moves.
+void particle_stage(World& world);
 
 /// The frame as it stands.
 std::shared_ptr<Frame> snapshot(World& world);

@@ -17,8 +17,8 @@ namespace sunder::render {
   F(COMPILESHADER, CompileShader) F(CREATEPROGRAM, CreateProgram)                                \
   F(CREATESHADER, CreateShader) F(CULLFACE, CullFace) F(DELETESHADER, DeleteShader)              \
   F(DEPTHFUNC, DepthFunc) F(DEPTHMASK, DepthMask) F(DISABLE, Disable)                            \
-  F(DRAWARRAYS, DrawArrays) F(DRAWBUFFERS, DrawBuffers) F(DRAWELEMENTS, DrawElements)            \
-  F(ENABLE, Enable)                                                                              \
+  F(DRAWARRAYS, DrawArrays) F(DRAWARRAYSINSTANCED, DrawArraysInstanced)                          \
+  F(DRAWBUFFERS, DrawBuffers) F(DRAWELEMENTS, DrawElements) F(ENABLE, Enable)                    \
   F(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray) F(FINISH, Finish)                          \
   F(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D) F(GENBUFFERS, GenBuffers)                        \
   F(GENFRAMEBUFFERS, GenFramebuffers) F(GENTEXTURES, GenTextures)                                \
@@ -32,6 +32,7 @@ namespace sunder::render {
   F(READPIXELS, ReadPixels) F(SHADERSOURCE, ShaderSource) F(TEXBUFFER, TexBuffer)                \
   F(TEXIMAGE2D, TexImage2D) F(TEXIMAGE3D, TexImage3D) F(TEXPARAMETERI, TexParameteri)            \
   F(UNIFORM1I, Uniform1i) F(UNIFORMBLOCKBINDING, UniformBlockBinding) F(USEPROGRAM, UseProgram)  \
+  F(VERTEXATTRIBDIVISOR, VertexAttribDivisor)                                                    \
   F(VERTEXATTRIBIPOINTER, VertexAttribIPointer) F(VERTEXATTRIBPOINTER, VertexAttribPointer)      \
   F(VIEWPORT, Viewport)
 // clang-format on

@@ -60,6 +60,9 @@ void add_simulate(CLI::App& program, Command& chosen) {
   Subcommand<SimulateOptions> command(program, "simulate", "Run a scene without pictures", simulate,
                                       chosen);
   command.app->add_option("SCENE", command.options->scene, "File or name of a scene")->required();
+  command.app->add_option("--take", command.options->take, "Record the run to this file");
+  command.app->add_option("--verify", command.options->verify,
+                          "A take of the same run: fails where the state differs first");
   command.add_frames();
   command.add_changes();
 }
@@ -69,7 +72,7 @@ void add_render(CLI::App& program, Command& chosen) {
                                     render_scene, chosen);
   RenderOptions& options = *command.options;
   command.app
-      ->add_option("SCENE", options.scene, "File or name of a scene, or a stored .frame file")
+      ->add_option("SCENE", options.scene, "File or name of a scene, a .take or a .frame file")
       ->required();
   command.app
       ->add_option("-o,--output", options.output,

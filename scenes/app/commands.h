@@ -36,11 +36,13 @@ struct CheckOptions : CommonOptions {
 struct SimulateOptions : CommonOptions {
   std::string scene;
   scenes::LoadOptions load;
-  int frames = -1;  ///< All.
+  int frames = -1;     ///< All.
+  std::string take;    ///< File to record to; empty: none.
+  std::string verify;  ///< Take to compare with; empty: none.
 };
 
 struct RenderOptions : CommonOptions {
-  std::string scene;  ///< Or a stored frame.
+  std::string scene;  ///< Or a stored frame, or a take.
   scenes::LoadOptions load;
   std::string output;
   std::string frames;  ///< "A:B"

@@ -1,4 +1,4 @@
-// sunder render: a scene, or one stored frame, becomes a video or images.
+// sunder render: a scene, a take or one stored frame becomes a video or images.
 #include <cstdio>
 #include <limits>
 
@@ -6,6 +6,7 @@
 #include "engine/io/figures.h"
 #include "engine/io/frame_file.h"
 #include "engine/io/state_hash.h"
+#include "engine/io/take_reader.h"
 #include "render/sinks.h"
 #include "scenes/app/run.h"
 
@@ -47,6 +48,42 @@ class StoredFrame final : public FrameSource {
   FramePtr frame_;
 };
 
+/// What is drawn, and where it comes from.
+struct Shown {
+  std::unique_ptr<FrameSource> source;
+  Span drawn;
+  int skipped = 0;             ///< Frames that the source does not give.
+  TakeReader* take = nullptr;  ///< The source, if it is one.
+};
+
+Shown open(const RenderOptions& options, const Span& span) {
+  if (options.scene.ends_with(".frame")) {
+    return {std::make_unique<StoredFrame>(options.scene), {0, 0}};
+  }
+  Shown shown;
+  int last = 0;
+  if (options.scene.ends_with(".take")) {
+    auto take = std::make_unique<TakeReader>(options.scene);
+    shown.take = take.get();
+    shown.source = std::move(take);
+    last = static_cast<int>(shown.take->frames()) - 1;
+  } else {
+    Scene scene = scenes::load_scene(options.scene, options.load);
+    last = last_frame(scene, -1);
+    shown.source = make_simulation(std::move(scene));
+  }
+  shown.drawn = {span.first, std::min(span.last, last)};
+  if (shown.drawn.first > shown.drawn.last) {
+    throw InputError("--frames " + options.frames + ": " + options.scene + " ends with frame " +
+                     std::to_string(last));
+  }
+  if (shown.take) {
+    shown.skipped = span.first;
+    shown.take->seek(static_cast<std::uint32_t>(span.first));
+  }
+  return shown;
+}
+
 }  // namespace
 
 int render_scene(const RenderOptions& options) {
@@ -55,37 +92,27 @@ int render_scene(const RenderOptions& options) {
   render::RenderOptions render_options = options.render;
   parse_size(options.size, render_options);
 
-  std::unique_ptr<FrameSource> source;
-  Span drawn;
-  if (options.scene.ends_with(".frame")) {
-    source = std::make_unique<StoredFrame>(options.scene);
-    drawn.last = 0;
-  } else {
-    Scene scene = scenes::load_scene(options.scene, options.load);
-    drawn = {span.first, last_frame(scene, span.last)};
-    if (drawn.first > drawn.last) {
-      throw InputError("--frames " + options.frames + ": the scene ends with frame " +
-                       std::to_string(drawn.last));
-    }
-    source = make_simulation(std::move(scene));
-  }
+  const Shown shown = open(options, span);
   render::Renderer renderer(render_options);
   options.say(renderer.description() + "\n");
   const auto pictures = render::make_picture_sink(options.output, renderer);
-  FramesFrom shown(*pictures, static_cast<std::uint64_t>(drawn.first));
-  FramesUntil frames(*source, drawn.last);
-  Progress progress("render " + options.scene, drawn.last, options.quiet);
+  FramesFrom from(*pictures, static_cast<std::uint64_t>(shown.drawn.first));
+  FramesUntil frames(*shown.source, shown.drawn.last - shown.skipped);
+  Progress progress("render " + options.scene, shown.drawn.last, options.quiet);
   StateHash hash;
-  FrameSink* const sinks[] = {&shown, &hash, &progress};
+  FrameSink* const sinks[] = {&from, &hash, &progress};
   pump(frames, sinks);
   options.say("wrote " + options.output + "\n");
   options.write_json(format_figures({{"/output", options.output},
                                      {"/gl", renderer.description()},
                                      {"/width", std::int64_t{render_options.width}},
                                      {"/height", std::int64_t{render_options.height}},
-                                     {"/first_frame", std::int64_t{drawn.first}},
-                                     {"/last_frame", std::int64_t{drawn.last}},
+                                     {"/first_frame", std::int64_t{shown.drawn.first}},
+                                     {"/last_frame", std::int64_t{shown.drawn.last}},
                                      {"/state_hash", hash.hex()}}));
+  if (shown.take && !shown.take->damage().empty()) {
+    throw InputError(options.scene + ": " + shown.take->damage() + "; what was before is drawn");
+  }
   return 0;
 }
 

@@ -8,15 +8,32 @@
 
 #include "engine/base/parallel.h"
 #include "fracture/pattern_breaker.h"
+#include "solver/particles/debris_and_dust.h"
 #include "solver/rigid/rigid_physics.h"
 
 namespace sunder::app {
 
+namespace {
+
+/// Of the air that carries dust: what the largest scenes need, and what a frame can spare.
+const Eigen::Vector3i kAirCells(40, 24, 40);
+
+}  // namespace
+
 std::unique_ptr<Simulation> make_simulation(Scene scene) {
   solver::RigidOptions rigid;
   rigid.gravity_W = scene.gravity_W;
+  std::unique_ptr<Particles> particles;
+  if (scene.limits.debris + scene.limits.dust > 0) {
+    solver::DebrisAndDustOptions options;
+    options.gravity_W = scene.gravity_W;
+    options.seed = scene.seed;
+    options.air_cells = kAirCells;
+    options.limits = {scene.limits.debris, scene.limits.dust};
+    particles = solver::make_debris_and_dust(options);
+  }
   return std::make_unique<Simulation>(std::move(scene), solver::make_rigid_physics(rigid),
-                                      fracture::make_pattern_breaker());
+                                      fracture::make_pattern_breaker(), std::move(particles));
 }
 
 RunInfo run_info(const Scene& scene, const scenes::LoadOptions& load) {

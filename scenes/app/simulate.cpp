@@ -1,8 +1,23 @@
 // sunder simulate: a run without pictures, with its figures and its state hash.
+#include <cstdio>
+#include <optional>
+
 #include "engine/io/state_hash.h"
+#include "engine/io/take_verifier.h"
+#include "engine/io/take_writer.h"
 #include "scenes/app/run.h"
 
 namespace sunder::app {
+namespace {
+
+std::string megabytes(std::uint64_t bytes) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.2f MB", static_cast<double>(bytes) / 1e6);
+  return text;
+}
+
+}  // namespace
+
 int simulate(const SimulateOptions& options) {
   options.apply();
   Scene scene = scenes::load_scene(options.scene, options.load);
@@ -12,11 +27,28 @@ int simulate(const SimulateOptions& options) {
   StateHash hash;
   const auto simulation = make_simulation(std::move(scene));
   FramesUntil frames(*simulation, last);
-  FrameSink* const sinks[] = {&statistics, &hash, &progress};
+  std::vector<FrameSink*> sinks = {&statistics, &hash, &progress};
+  std::optional<TakeReader> known;
+  std::optional<TakeVerifier> verifier;
+  if (!options.verify.empty()) {
+    known.emplace(options.verify);
+    sinks.push_back(&verifier.emplace(*known));
+  }
+  std::optional<TakeWriter> writer;
+  if (!options.take.empty()) sinks.push_back(&writer.emplace(options.take));
   pump(frames, sinks);
   options.say(statistics.table() + "state hash " + hash.hex() + "\n");
   options.write_json(statistics.json(hash.hex(), true));
-  return 0;
+  if (writer) options.say("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
+  if (!verifier) return 0;
+  const std::string same = std::to_string(verifier->same()) + " frames are those of the take\n";
+  if (verifier->difference().empty()) {
+    options.say(same);
+    return 0;
+  }
+  std::fprintf(stderr, "failed: differs from %s at %s; before, %s", options.verify.c_str(),
+               verifier->difference().c_str(), same.c_str());
+  return 1;
 }
 
 }  // namespace sunder::app

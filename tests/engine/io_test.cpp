@@ -7,6 +7,7 @@
 #include "engine/base/random.h"
 #include "engine/io/bytes.h"
 #include "engine/io/frame_file.h"
+#include "engine/io/particle_codes.h"
 #include "engine/io/state_hash.h"
 #include "engine/io/statistics.h"
 #include "engine/world/piece_mesh.h"
@@ -44,6 +45,9 @@ Frame sample_frame() {
   body.com_R = Vec3(1, 1, 1);
   frame.bodies = {body};
   frame.instances = {{MeshIndex(1), 0}};
+  frame.debris = {
+      {Vec3f(1.0017f, -2, 300), Quatf(0.5f, 0.5f, -0.5f, 0.5f), 0.0123f, MaterialIndex(1), 5}};
+  frame.dust = {{Vec3f(-1, 2.1f, 3), Quatf(0, 1, 0, 0), 0.31f, 0.456f, MaterialIndex(0)}};
   return frame;
 }
 
@@ -64,6 +68,36 @@ TEST(FrameFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(mesh.material, MaterialIndex(1));
   EXPECT_EQ(read->bodies[0].X_WB.position, frame.bodies[0].X_WB.position);
   EXPECT_EQ(read->instances[0].mesh, MeshIndex(0));
+  ASSERT_EQ(read->debris.size(), 1u);
+  EXPECT_LT((read->debris[0].position_W - frame.debris[0].position_W).norm(), 0.004f);
+  EXPECT_LT(read->debris[0].rotation_WD.angularDistance(frame.debris[0].rotation_WD), 0.12f);
+  EXPECT_EQ(read->debris[0].variant, 5);
+  ASSERT_EQ(read->dust.size(), 1u);
+  EXPECT_NEAR(read->dust[0].opacity, 0.456f, 0.01f);
+}
+
+TEST(ParticleCodes, OfWhatWasDecodedAreTheSame) {
+  Random random(3);
+  const auto number = [&](double largest) {
+    return static_cast<float>(random.uniform(-largest, largest));
+  };
+  for (int i = 0; i < 2000; ++i) {
+    FrameDebris chip;
+    chip.position_W = Vec3f(number(1), number(100), number(5000));
+    chip.rotation_WD = Quatf(number(1), number(1), number(1), number(1)).normalized();
+    chip.radius_m = std::abs(number(0.2));
+    chip.material = MaterialIndex(random.below(9));
+    const ParticleCode code = encode(chip);
+    EXPECT_EQ(encode(decode_debris(code)), code);
+    FrameDust puff;
+    puff.position_W = chip.position_W;
+    puff.rotation_WD = chip.rotation_WD;
+    puff.radius_m = std::abs(number(3));
+    puff.opacity = std::abs(number(1));
+    puff.material = chip.material;
+    const ParticleCode puff_code = encode(puff);
+    EXPECT_EQ(encode(decode_dust(puff_code)), puff_code);
+  }
 }
 
 TEST(FrameFile, RefusesEveryTruncationAndCorruptionWithAWord) {
@@ -97,6 +131,20 @@ TEST(StateHash, ChangesWithOneBitAndOnlyThen) {
   EXPECT_NE(hash_of(0.1, false), hash_of(std::nextafter(0.1, 1), false));
   EXPECT_NE(hash_of(0.1, false), hash_of(0.1, true));
   EXPECT_EQ(hash_of(0.1, false).size(), 16u);
+}
+
+TEST(StateHash, CoversDebrisAndDustAsFarAsTheyAreStored) {
+  Frame frame = sample_frame();
+  const std::uint64_t hash = hash_state(frame);
+  frame.debris[0].position_W.x() += 0.01f;
+  EXPECT_NE(hash_state(frame), hash);
+  frame = sample_frame();
+  frame.dust[0].opacity += 0.1f;
+  EXPECT_NE(hash_state(frame), hash);
+  const TemporaryFile file;
+  write_frame(file.path, sample_frame());
+  const FramePtr read = read_frame(file.path);
+  EXPECT_EQ(hash_state(*read), hash) << "a stored frame has the hash of the frame it was";
 }
 
 TEST(Statistics, TakesQuantilesByNearestRank) {

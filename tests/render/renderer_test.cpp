@@ -159,6 +159,55 @@ TEST(Renderer, AMeshSharedByManyBodiesIsDrawnForEach) {
   EXPECT_FALSE(changed(160));
 }
 
+TEST(Renderer, DebrisIsDrawnInItsMaterialAndThrowsAShadow) {
+  SyntheticFrame s;
+  s.frame.view.eye_W = Vec3(0, 6, 6);
+  s.frame.view.target_W = Vec3(0, 1, 0);
+  s.frame.view.to_sun_W = Vec3(0.001, 1, 0);
+  s.add_box({-3, -0.1, -3}, {3, 0, 3}, Stuff::kPlaster);  // what shadows fall on
+  const Image without = renderer().draw(s.frame);
+  FrameDebris chip;
+  chip.radius_m = 0.5f;
+  chip.position_W = Vec3f(0, 1, 0);
+  chip.material = MaterialIndex(0);
+  s.frame.debris = {chip};
+  const Image with = renderer().draw(s.frame);
+  const Vec3f brick = pixel(with, 160, 90);
+  EXPECT_GT(brick.x(), 1.2f * brick.z()) << "brick is red inside";
+  int darker = 0;
+  for (int y = 100; y < 150; ++y) {
+    for (int x = 130; x < 190; ++x) {
+      if (brightness(pixel(with, x, y)) < 0.8f * brightness(pixel(without, x, y))) ++darker;
+    }
+  }
+  EXPECT_GT(darker, 25) << "its shadow lies below it";
+  s.frame.debris[0].position_W = Vec3f(0, 60, 60);  // behind the eye
+  EXPECT_EQ(renderer().draw(s.frame), without);
+}
+
+TEST(Renderer, DustVeilsWhatIsBehindItAndNotWhatIsBefore) {
+  SyntheticFrame s;
+  s.frame.view.eye_W = Vec3(0, 1, 9);
+  s.frame.view.target_W = Vec3(0, 1, 0);
+  s.add_box({-2, 0, 3}, {0, 3, 3.2}, Stuff::kBrick);  // the left half, before the dust
+  const Image without = renderer().draw(s.frame);
+  for (int i = 0; i < 12; ++i) {
+    FrameDust puff;
+    puff.position_W = Vec3f(0.1f * static_cast<float>(i - 6), 1, 0);
+    puff.radius_m = 0.7f;
+    puff.opacity = 0.6f;
+    puff.material = MaterialIndex(1);
+    s.frame.dust.push_back(puff);
+  }
+  const Image with = renderer().draw(s.frame);
+  const auto change = [&](int x) {
+    return (pixel(with, x, 90) - pixel(without, x, 90)).cwiseAbs().maxCoeff();
+  };
+  EXPECT_GT(change(175), 12) << "open sky and ground are veiled";
+  EXPECT_LT(change(140), 3) << "the wall stands before the dust";
+  EXPECT_EQ(renderer().draw(s.frame), with) << "the same bytes again";
+}
+
 TEST(Renderer, AWallIsSeenThroughAPane) {
   SyntheticFrame s;
   s.add_box({-3, 0, -1}, {3, 4, -0.8}, Stuff::kConcrete);

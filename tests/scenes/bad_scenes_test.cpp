@@ -103,6 +103,11 @@ constexpr Fault kFaults[] = {
     {"[[material]]\nname = \"x\"\npattern = { cells = 1 }",
      "bad.toml:5: cells in [material.pattern] "
      "is the number 1"},
+    {"[[material]]\nname = \"x\"\ncrumbling = { debris_smallest_m = 0 }",
+     "bad.toml:5: debris_smallest_m in [material.crumbling] is the number 0; allowed: a number "
+     "from 0.0005 to 1"},
+    {"[[material]]\nname = \"x\"\ncrumbling = { debris_smallest_m = 0.2 }",
+     "bad.toml:5: debris_smallest_m = 0.2 exceeds debris_largest_m = 0.06"},
     {"[limits]\nbodies = 5\n[[solid]]\nstructure = \"stack\"",
      "bad.toml: 10 bodies exceed bodies = "
      "5 in [limits]"},

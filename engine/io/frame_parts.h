@@ -1,0 +1,26 @@
+// The parts of a frame that files store as they are: views, materials' looks, meshes.
+#pragma once
+
+#include "engine/io/bytes.h"
+#include "engine/world/frame.h"
+
+namespace sunder {
+
+void put(ByteWriter& out, const Vec3& v);
+Vec3 take_vec3(ByteReader& in);
+
+void put(ByteWriter& out, const View& view);
+View take_view(ByteReader& in);
+
+/// Names and looks: what pictures need of them.
+void put(ByteWriter& out, const std::vector<Material>& materials);
+std::vector<Material> take_materials(ByteReader& in);
+
+void put(ByteWriter& out, const Mesh& mesh);
+/// Throws InputError, naming `file`, if the mesh does not fit together or its material is none of
+/// `materials`.
+Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials);
+/// The least bytes that a mesh takes.
+inline constexpr std::size_t kLeastMeshBytes = 36;
+
+}  // namespace sunder

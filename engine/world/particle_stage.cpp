@@ -1,0 +1,113 @@
+// Stage `particles`: debris and dust come off what breaks laid bare, and move among the bodies.
+//
+// Read first: particle_stage(). Particles move once a frame, whatever the step, as they are for
+// the eye; what breaks within a frame is noted as if it had been there from the frame's start.
+#include <cmath>
+#include <numbers>
+
+#include "engine/world/actors.h"
+
+namespace sunder {
+namespace {
+
+double radius_of_ball_m(double volume_m3) {
+  return std::cbrt(volume_m3 * 3 / (4 * std::numbers::pi));
+}
+
+/// How much of the frame has passed before this step.
+double elapsed_s(const World& world) {
+  return static_cast<double>(world.step % static_cast<std::uint64_t>(world.steps_per_frame)) *
+         world.scene.accuracy.dt_s;
+}
+
+void emit(World& world) {
+  Crumbs& crumbs = world.crumbs;
+  std::size_t begin = 0;
+  for (std::size_t f = 0; f < crumbs.faces.size(); ++f) {
+    const std::size_t end = crumbs.corners_end[f];
+    crumbs.faces[f].corners_W = std::span(crumbs.corners_W).subspan(begin, end - begin);
+    begin = end;
+  }
+  if (!crumbs.faces.empty()) world.particles->emit(crumbs.faces);
+  if (!crumbs.chips.empty()) world.particles->emit(crumbs.chips);
+  crumbs.corners_W.clear();
+  crumbs.corners_end.clear();
+  crumbs.faces.clear();
+  crumbs.chips.clear();
+}
+
+/// All bodies as they stand, with the convexes they consist of.
+struct Surroundings {
+  std::vector<ObstacleBody> bodies;
+  std::vector<ObstacleShape> shapes;
+};
+
+Surroundings surroundings(const World& world) {
+  Surroundings all;
+  all.bodies.reserve(world.actors.size());
+  all.shapes.reserve(world.actors.size());
+  for (const Actor& actor : world.actors) {
+    const BodyState state = world.physics->state(actor.body);
+    const auto body = static_cast<std::uint32_t>(all.bodies.size());
+    all.bodies.push_back({actor.key, state.X_WB, actor.weight.com_R, state.velocity_W,
+                          state.angular_velocity_W, !actor.is_static && !state.asleep});
+    for (const ConvexPtr& convex : actor.compound.convexes) {
+      all.shapes.push_back({body, &convex->polyhedron, convex->box, convex->solid.volume_m3, 0});
+    }
+    if (actor.compound.convexes.empty()) {
+      all.shapes.push_back({body, nullptr, {}, 0, radius_of_ball_m(actor.volume_m3)});
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+void crumble(World& world, const BreakPlan& plan, const Motion& motion) {
+  if (!world.particles) return;
+  const double back_s = elapsed_s(world);
+  const VelocityField field{motion.point_W, motion.velocity_W, motion.angular_velocity_W};
+  Crumbs& crumbs = world.crumbs;
+  for (const ExposedFace& exposed : plan.exposed) {
+    const Convex& convex = *plan.pieces[exposed.piece].convexes[exposed.convex];
+    const Crumbling& crumbling = world.material(convex.material).crumbling;
+    if (!(crumbling.particles_per_m2 > 0)) continue;
+    const ConvexPolyhedron& hull = convex.polyhedron;
+    for (const std::uint32_t corner : hull.face_corners(exposed.face)) {
+      const Vec3 point_W = motion.X_WR * hull.vertices[corner];
+      crumbs.corners_W.push_back(point_W - back_s * field(point_W));
+    }
+    crumbs.corners_end.push_back(static_cast<std::uint32_t>(crumbs.corners_W.size()));
+    Emission face;
+    face.normal_W = motion.X_WR.rotation * hull.faces[exposed.face].plane.normal;
+    face.motion = field;
+    face.motion.at_W -= back_s * field.velocity_W;
+    face.material = convex.material;
+    face.crumbling = crumbling;
+    crumbs.faces.push_back(face);
+  }
+}
+
+void add_chip(World& world, const Compound& piece, const Motion& motion) {
+  if (!world.particles) return;
+  const Weight weight = weigh(piece, *world.materials);
+  const Vec3 center_W = motion.X_WR * weight.com_R;
+  const VelocityField field{motion.point_W, motion.velocity_W, motion.angular_velocity_W};
+  const Vec3 velocity_W = field(center_W);
+  world.crumbs.chips.push_back({center_W - elapsed_s(world) * velocity_W,
+                                radius_of_ball_m(volume(piece)), velocity_W,
+                                motion.angular_velocity_W, piece.convexes[0]->material});
+}
+
+void particle_stage(World& world) {
+  if (!world.particles) return;
+  if ((world.step + 1) % static_cast<std::uint64_t>(world.steps_per_frame) != 0) return;
+  emit(world);
+  const ParticleReport report = world.particles->report();
+  if (report.debris.alive == 0 && report.dust.alive == 0) return;
+  const Surroundings all = surroundings(world);
+  world.particles->advance(world.steps_per_frame * world.scene.accuracy.dt_s,
+                           {all.bodies, all.shapes, world.scene.ground.height_m});
+}
+
+}  // namespace sunder

@@ -1,0 +1,29 @@
+// Soft towards its rim, towards what stands in it and towards the eye; thicker in clots.
+uniform sampler2DArray tiles;
+uniform sampler2D distances;  // green: along the view, of what stands there
+in vec2 on;
+in vec2 cloud;
+in float lit;
+flat in vec4 puff;
+flat in vec3 color;
+out vec4 result;
+
+void main() {
+  float squared = dot(on, on);
+  if (squared >= 1.0) discard;
+  float body = 1.0 - squared;
+  float clot = texture(tiles, vec3(cloud, 6.0)).r;
+  float gap = texelFetch(distances, ivec2(gl_FragCoord.xy), 0).g - puff.x;
+  float clear_of = clamp(0.5 + gap / puff.y, 0.0, 1.0) * clamp(2.0 * puff.x - 0.6, 0.0, 1.0);
+  float density = body * body * smoothstep(0.15, 0.85, clot + 0.25 * body);
+  float alpha = puff.z * density * clear_of;
+  if (alpha < 0.003) discard;
+
+  // As a ball of powder: brighter where it bulges towards the sun, and where it is thin against it.
+  vec3 bulge = normalize(ray_right.xyz) * on.x + normalize(ray_up.xyz) * on.y -
+               ray_forward.xyz * sqrt(body);
+  float facing = 0.5 + 0.5 * dot(bulge, to_sun.xyz);
+  vec3 light = color * (kSunLight * (0.12 + 0.38 * facing * (0.6 + 0.8 * clot)) * lit +
+                        ambient_light(0.3 + 0.5 * bulge.y));
+  result = vec4(mix(kHorizon, light, puff.w) * alpha, alpha);
+}

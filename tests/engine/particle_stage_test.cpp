@@ -1,0 +1,172 @@
+// What breaks hand to the particles, and what frames show of them.
+#include <gtest/gtest.h>
+
+#include "engine/geometry/convex_polyhedron.h"
+#include "tests/engine/scripted.h"
+
+namespace sunder {
+namespace {
+
+using testing::ScriptedBreaker;
+using testing::ScriptedPhysics;
+
+/// Notes what it is told; shows one piece of debris at the end of every advance.
+class RecordingParticles final : public Particles {
+ public:
+  struct Face {
+    std::vector<Vec3> corners_W;
+    Emission emission;
+  };
+  void emit(std::span<const Emission> emitted) override {
+    for (const Emission& face : emitted) {
+      faces.push_back({{face.corners_W.begin(), face.corners_W.end()}, face});
+    }
+  }
+  void emit(std::span<const Chip> emitted) override {
+    chips.insert(chips.end(), emitted.begin(), emitted.end());
+  }
+  void advance(double dt_s, const Obstacles& obstacles) override {
+    steps_s.push_back(dt_s);
+    bodies.assign(obstacles.bodies.begin(), obstacles.bodies.end());
+    shapes = obstacles.shapes.size();
+    ground_m = obstacles.ground_m;
+    position.assign(1, Vec3f(1, 2, 3));
+  }
+  DebrisView debris() const override {
+    if (position.empty()) return {};
+    return {position, rotation, radius, variant, material};
+  }
+  DustView dust() const override { return {}; }
+  ParticleReport report() const override {
+    ParticleReport report;
+    report.debris.alive = static_cast<std::uint32_t>(faces.size() + chips.size());
+    report.debris.ignored = ignored;
+    return report;
+  }
+
+  std::vector<Face> faces;
+  std::vector<Chip> chips;
+  std::vector<double> steps_s;
+  std::vector<ObstacleBody> bodies;
+  std::size_t shapes = 0;
+  double ground_m = 0;
+  std::uint64_t ignored = 0;
+  std::vector<Vec3f> position;
+  std::vector<Quatf> rotation{Quatf::Identity()};
+  std::vector<float> radius{0.25f};
+  std::vector<std::uint8_t> variant{3};
+  std::vector<MaterialIndex> material{MaterialIndex(0)};
+};
+
+/// Two unit boxes of stone that fly along z, and a ball that parts them in the first step.
+struct ParticleRun {
+  explicit ParticleRun(double dt_s, double smallest_piece_m3 = 0, double particles_per_m2 = 10) {
+    Material stone;
+    stone.density_kg_m3 = 1000;
+    stone.pattern.kind = PatternSpec::Kind::kVoronoi;
+    stone.smallest_piece_m3 = smallest_piece_m3;
+    stone.crumbling.particles_per_m2 = particles_per_m2;
+    Material steel;
+    Scene scene;
+    scene.materials = {stone, steel};
+    scene.gravity_W = Vec3::Zero();
+    scene.ground.height_m = -7;
+    scene.accuracy = {dt_s, 1};
+    Solid solid;
+    for (int i = 0; i < 2; ++i) {
+      const Vec3 min(i, 0, 0);
+      solid.compound.convexes.push_back(
+          make_convex(make_box(min, min + Vec3::Ones()), MaterialIndex(0)));
+      solid.compound.anchored.push_back(0);
+    }
+    solid.velocity_W = Vec3(0, 0, 2);
+    scene.solids = {solid};
+    scene.balls = {{"ball", 0.25, MaterialIndex(1), Vec3(-0.3, 0.5, 0.5), Vec3(60, 0, 2)}};
+    auto owned = std::make_unique<RecordingParticles>();
+    particles = owned.get();
+    simulation = std::make_unique<Simulation>(
+        std::move(scene),
+        std::make_unique<ScriptedPhysics>([](const ScriptedPhysics& physics, int) {
+          return physics.approach(1, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX());
+        }),
+        std::make_unique<ScriptedBreaker>(1.0), std::move(owned));
+    simulation->next();
+  }
+  RecordingParticles* particles;
+  std::unique_ptr<Simulation> simulation;
+};
+
+TEST(ParticleStage, IsToldOfEveryFaceThatABreakLaidBare) {
+  ParticleRun run(1.0 / 60);
+  const FramePtr frame = run.simulation->next();
+  ASSERT_EQ(frame->breaks.size(), 1u);
+  ASSERT_EQ(run.particles->faces.size(), 2u);
+  const ConvexPolyhedron box = make_box(Vec3::Zero(), Vec3::Ones());
+  const RecordingParticles::Face& face = run.particles->faces[0];
+  ASSERT_EQ(face.corners_W.size(), 4u);
+  for (std::size_t c = 0; c < 4; ++c) {
+    EXPECT_LT((face.corners_W[c] - box.vertices[box.face_corners(0)[c]]).norm(), 1e-12);
+  }
+  EXPECT_LT((face.emission.normal_W - box.faces[0].plane.normal).norm(), 1e-12);
+  EXPECT_EQ(face.emission.material, MaterialIndex(0));
+  EXPECT_EQ(face.emission.crumbling.particles_per_m2, 10);
+  EXPECT_NEAR(face.emission.motion(face.corners_W[0]).z(), 2, 1e-9);
+}
+
+TEST(ParticleStage, MovesOnceAFrameFromWhereTheFrameBegan) {
+  ParticleRun run(1.0 / 240);
+  run.simulation->next();
+  ASSERT_EQ(run.particles->steps_s.size(), 1u);
+  EXPECT_NEAR(run.particles->steps_s[0], 1.0 / 60, 1e-12);
+  ASSERT_FALSE(run.particles->faces.empty());
+  const ConvexPolyhedron box = make_box(Vec3::Zero(), Vec3::Ones());
+  const Vec3 corner = box.vertices[box.face_corners(0)[0]];
+  EXPECT_NEAR(run.particles->faces[0].corners_W[0].z(), corner.z(), 1e-9)
+      << "whichever of the frame's steps broke it, the face was here when the frame began";
+}
+
+TEST(ParticleStage, SeesEveryBodyAndTheGround) {
+  ParticleRun run(1.0 / 60);
+  run.simulation->next();
+  ASSERT_EQ(run.particles->bodies.size(), 3u) << "the ball and two pieces";
+  EXPECT_EQ(run.particles->shapes, 3u);
+  EXPECT_EQ(run.particles->ground_m, -7);
+  EXPECT_LT(run.particles->bodies[0].key, run.particles->bodies[1].key);
+  EXPECT_TRUE(run.particles->bodies[1].moves);
+}
+
+TEST(ParticleStage, PiecesTooSmallForBodiesBecomeChipsAndTheirMassStays) {
+  ParticleRun run(1.0 / 60, 1.5);
+  const FramePtr frame = run.simulation->next();
+  ASSERT_EQ(run.particles->chips.size(), 2u);
+  const Chip& chip = run.particles->chips[0];
+  EXPECT_LT((chip.center_W - Vec3(0.5, 0.5, 0.5)).norm(), 1e-9);
+  EXPECT_NEAR(4.0 / 3 * 3.14159265358979 * std::pow(chip.radius_m, 3), 1, 1e-9);
+  EXPECT_NEAR(chip.velocity_W.z(), 2, 1e-9);
+  EXPECT_EQ(frame->bodies.size(), 1u);
+  ParticleRun bodies(1.0 / 60);
+  EXPECT_NEAR(frame->report.mass_kg, bodies.simulation->next()->report.mass_kg, 1e-9);
+}
+
+TEST(ParticleStage, WithNothingToMoveDoesNothing) {
+  ParticleRun run(1.0 / 60, 0, 0);
+  ASSERT_EQ(run.simulation->next()->breaks.size(), 1u) << "this material does not crumble";
+  EXPECT_TRUE(run.particles->faces.empty());
+  EXPECT_TRUE(run.particles->steps_s.empty());
+}
+
+TEST(ParticleStage, AFrameShowsWhatIsAliveAndCountsWhatFoundNoRoom) {
+  ParticleRun run(1.0 / 60);
+  FramePtr frame = run.simulation->next();
+  ASSERT_EQ(frame->debris.size(), 1u);
+  EXPECT_EQ(frame->debris[0].position_W, Vec3f(1, 2, 3));
+  EXPECT_EQ(frame->debris[0].variant, 3);
+  EXPECT_EQ(frame->report.counts.debris, 1u);
+  EXPECT_EQ(frame->report.limits_hit, 0u);
+  run.particles->ignored = 5;
+  EXPECT_EQ(run.simulation->next()->report.limits_hit, 1u);
+  EXPECT_EQ(run.simulation->next()->report.limits_hit, 0u);
+}
+
+}  // namespace
+}  // namespace sunder

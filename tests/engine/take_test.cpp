@@ -1,0 +1,302 @@
+// Takes: what is recorded is played, from anywhere; damage is met with a word and the readable
+// part; a run that differs is told where.
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/random.h"
+#include "engine/io/bytes.h"
+#include "engine/io/state_hash.h"
+#include "engine/io/take_reader.h"
+#include "engine/io/take_verifier.h"
+#include "engine/io/take_writer.h"
+#include "engine/world/piece_mesh.h"
+
+namespace sunder {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Take : public ::testing::Test {
+ protected:
+  ~Take() override { fs::remove(path_); }
+
+  /// A run of bodies that fly and come and go, with debris and dust.
+  class Run final : public FrameSource {
+   public:
+    explicit Run(int frames, double nudge_m = 0, int nudged_frame = -1)
+        : left_(frames), nudge_m_(nudge_m), nudged_frame_(nudged_frame) {
+      materials_ = std::make_shared<const std::vector<Material>>(3);
+    }
+    FramePtr next() override {
+      if (left_-- == 0) return nullptr;
+      auto frame = std::make_shared<Frame>();
+      frame->index = index_;
+      frame->time_s = static_cast<double>(index_) / 60;
+      frame->materials = materials_;
+      if (index_ % 7 == 0) {
+        meshes_ = std::make_shared<MeshStore>(*meshes_);
+        meshes_->push_back(
+            make_ball_mesh(0.1 + 0.01 * static_cast<double>(index_), MaterialIndex(index_ % 3)));
+      }
+      frame->meshes = meshes_;
+      add_bodies(*frame);
+      add_particles(*frame);
+      frame->report.mass_kg = 100;
+      if (index_ % 5 == 0) {
+        frame->breaks = {{frame->time_s, index_, Vec3(1, 2, 3), 10, 2, 0, 6}};
+      }
+      ++index_;
+      return frame;
+    }
+
+   private:
+    void add_bodies(Frame& frame) const {
+      for (std::uint64_t key = index_ / 10; key < 20 + index_ / 4; ++key) {
+        FrameBody body;
+        body.key = key;
+        const double t = frame.time_s, k = static_cast<double>(key);
+        body.X_WB.position = Vec3(k + t, 5 * t - 4.9 * t * t, -0.3 * k * t);
+        if (key == 12 && static_cast<int>(index_) >= nudged_frame_) {
+          body.X_WB.position.x() += nudge_m_;
+        }
+        body.X_WB.rotation = Quat(1, 0.1 * k * t, 0.2 * t, 0).normalized();
+        body.velocity_W = Vec3(1, 5 - 9.8 * t, -0.3 * k);
+        body.com_R = Vec3(0.5, k, 0.25);
+        body.asleep = key % 5 == 0;
+        body.is_static = key % 9 == 0;
+        for (std::size_t mesh = 0; mesh < 1 + key % 3; ++mesh) {
+          frame.instances.push_back({MeshIndex((key + mesh) % frame.meshes->size()),
+                                     static_cast<std::uint32_t>(frame.bodies.size())});
+        }
+        frame.bodies.push_back(body);
+      }
+    }
+    void add_particles(Frame& frame) const {
+      const float t = static_cast<float>(frame.time_s);
+      for (std::uint64_t i = 0; i < 3 * index_; ++i) {
+        Random random(i);
+        const Vec3f from = random.direction().cast<float>();
+        frame.debris.push_back({from * (1 + 3 * t), Quatf(1, t, 0, 0).normalized(), 0.02f,
+                                MaterialIndex(i % 3), static_cast<std::uint8_t>(i % 8)});
+        if (i % 4 < index_ % 5) continue;  // gaps that change
+        frame.dust.push_back(
+            {from * (1 + t), Quatf(1, 0, t, 0).normalized(), 0.1f + t, 0.5f, MaterialIndex(i % 3)});
+      }
+    }
+    int left_;
+    double nudge_m_;
+    int nudged_frame_;
+    std::uint64_t index_ = 0;
+    std::shared_ptr<const std::vector<Material>> materials_;
+    std::shared_ptr<MeshStore> meshes_ = std::make_shared<MeshStore>();
+  };
+
+  void record(int frames) {
+    Run run(frames);
+    TakeWriter writer(path_);
+    FrameSink* const sinks[] = {&writer};
+    pump(run, sinks);
+  }
+  std::vector<std::byte> bytes() const { return read_file(path_); }
+
+  fs::path path_ = fs::temp_directory_path() /
+                   ("sunder-take-" + std::to_string(::getpid()) + "-" +
+                    ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".take");
+};
+
+/// What of two frames must agree; `what` says where.
+void expect_shown_alike(const Frame& played, const Frame& run, const std::string& what) {
+  ASSERT_EQ(played.index, run.index) << what;
+  EXPECT_EQ(played.time_s, run.time_s);
+  EXPECT_EQ(hash_state(played), hash_state(run)) << what;
+  ASSERT_EQ(played.bodies.size(), run.bodies.size()) << what;
+  for (std::size_t b = 0; b < run.bodies.size(); ++b) {
+    const FrameBody &a = played.bodies[b], &c = run.bodies[b];
+    ASSERT_EQ(a.key, c.key) << what;
+    ASSERT_LT((a.X_WB.position - c.X_WB.position).norm(), 2e-4) << what << ", body " << b;
+    ASSERT_LT(a.X_WB.rotation.angularDistance(c.X_WB.rotation), 6e-4) << what;
+    ASSERT_EQ(a.com_R, c.com_R);
+    ASSERT_EQ(a.asleep, c.asleep);
+    ASSERT_EQ(a.is_static, c.is_static);
+  }
+  ASSERT_EQ(played.instances.size(), run.instances.size()) << what;
+  for (std::size_t i = 0; i < run.instances.size(); ++i) {
+    ASSERT_EQ(played.instances[i].body, run.instances[i].body);
+    const Mesh& a = *(*played.meshes)[played.instances[i].mesh.value];
+    const Mesh& b = *(*run.meshes)[run.instances[i].mesh.value];
+    ASSERT_EQ(a.vertices.size(), b.vertices.size());
+    ASSERT_EQ(a.vertices.back().position, b.vertices.back().position) << what;
+  }
+  ASSERT_EQ(played.debris.size(), run.debris.size()) << what;
+  for (std::size_t i = 0; i < run.debris.size(); ++i) {
+    ASSERT_LT((played.debris[i].position_W - run.debris[i].position_W).norm(), 4e-3f) << what;
+    ASSERT_EQ(played.debris[i].variant, run.debris[i].variant);
+  }
+  ASSERT_EQ(played.dust.size(), run.dust.size()) << what;
+  for (std::size_t i = 0; i < run.dust.size(); ++i) {
+    ASSERT_LT((played.dust[i].position_W - run.dust[i].position_W).norm(), 4e-2f) << what;
+  }
+  ASSERT_EQ(played.breaks.size(), run.breaks.size()) << what;
+  EXPECT_EQ(played.report.mass_kg, run.report.mass_kg);
+}
+
+TEST_F(Take, PlaysWhatWasRecorded) {
+  record(150);
+  TakeReader take(path_);
+  EXPECT_EQ(take.frames(), 150u);
+  EXPECT_TRUE(take.is_complete());
+  Run run(150);
+  int frames = 0;
+  for (FramePtr played = take.next(); played; played = take.next(), ++frames) {
+    expect_shown_alike(*played, *run.next(), "frame " + std::to_string(frames));
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_EQ(frames, 150);
+  EXPECT_EQ(take.damage(), "");
+}
+
+TEST_F(Take, PlaysFromAnyFrameOn) {
+  record(300);
+  TakeReader take(path_);
+  std::vector<FramePtr> run;
+  Run source(300);
+  while (FramePtr frame = source.next()) run.push_back(std::move(frame));
+  for (const std::uint32_t frame : {250u, 3u, 119u, 120u, 299u, 122u, 0u}) {
+    take.seek(frame);
+    for (std::uint32_t i = frame; i < std::min(frame + 3, 300u); ++i) {
+      const FramePtr played = take.next();
+      ASSERT_TRUE(played) << frame;
+      expect_shown_alike(*played, *run[i], "frame " + std::to_string(i));
+      if (HasFatalFailure()) return;
+    }
+  }
+  take.seek(1000);
+  EXPECT_EQ(take.next()->index, 299u);
+}
+
+TEST_F(Take, TheSameFramesGiveTheSameBytes) {
+  record(130);
+  const std::vector<std::byte> first = bytes();
+  record(130);
+  EXPECT_TRUE(bytes() == first);
+}
+
+TEST_F(Take, OfARunThatWasKilledPlaysUpToThere) {
+  Run run(90);
+  {
+    TakeWriter writer(path_);
+    while (const FramePtr frame = run.next()) writer.take(frame);
+  }  // and no finish()
+  TakeReader take(path_);
+  EXPECT_FALSE(take.is_complete());
+  EXPECT_EQ(take.frames(), 90u);
+  take.seek(89);
+  EXPECT_EQ(take.next()->index, 89u);
+  EXPECT_EQ(take.damage(), "");
+}
+
+/// Plays what can be played; the number of frames, or −1 if the take was refused.
+int playable(const fs::path& path, std::string& word) {
+  try {
+    TakeReader take(path);
+    int frames = 0;
+    while (const FramePtr frame = take.next()) {
+      EXPECT_EQ(frame->index, static_cast<std::uint64_t>(frames));
+      for (const Instance& instance : frame->instances) {
+        EXPECT_LT(instance.body, frame->bodies.size());
+        EXPECT_LT(instance.mesh.value, frame->meshes->size());
+      }
+      ++frames;
+    }
+    word = take.damage();
+    return frames;
+  } catch (const InputError& error) {
+    word = error.what();
+    return -1;
+  }
+}
+
+TEST_F(Take, CutShortAnywherePlaysWhatIsLeftOrSaysWhyNot) {
+  record(130);
+  const std::vector<std::byte> whole = bytes();
+  Random random(5);
+  int last = 131;
+  std::vector<std::size_t> sizes;
+  for (int i = 0; i < 100; ++i) sizes.push_back(random.below(whole.size()));
+  std::ranges::sort(sizes, std::greater());
+  for (const std::size_t size : sizes) {
+    write_file(path_, {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
+    std::string word;
+    const int frames = playable(path_, word);
+    EXPECT_LE(frames, last) << "less of the file cannot hold more frames";
+    EXPECT_FALSE(word.empty() && frames < 0);
+    if (frames < 0) {
+      EXPECT_NE(word.find(path_.string()), std::string::npos) << word;
+    }
+    last = frames;
+  }
+}
+
+TEST_F(Take, CorruptAnywherePlaysWhatIsReadableAndSaysSo) {
+  record(130);
+  const std::vector<std::byte> whole = bytes();
+  Random random(6);
+  for (int i = 0; i < 100; ++i) {
+    std::vector<std::byte> bad = whole;
+    const std::size_t at = random.below(bad.size());
+    bad[at] ^= static_cast<std::byte>(1 + random.below(255));
+    write_file(path_, bad);
+    std::string word;
+    const int frames = playable(path_, word);
+    EXPECT_LE(frames, 130);
+    if (frames < 130) {
+      EXPECT_FALSE(word.empty()) << "byte " << at;
+    }
+  }
+}
+
+TEST_F(Take, OfAnotherKindOrNoneIsRefused) {
+  EXPECT_THROW(TakeReader("/nowhere/at/all.take"), InputError);
+  EXPECT_THROW(TakeReader(fs::temp_directory_path()), InputError);
+  write_file(path_, std::vector<std::byte>(100));
+  EXPECT_THROW(TakeReader{path_}, InputError);
+  EXPECT_THROW(TakeWriter("/proc/no/such.take"), InputError);
+}
+
+TEST_F(Take, ARunThatIsTheSameIsFoundTheSame) {
+  record(40);
+  TakeReader take(path_);
+  TakeVerifier verifier(take);
+  FrameSink* const sinks[] = {&verifier};
+  Run run(40);
+  pump(run, sinks);
+  EXPECT_EQ(verifier.difference(), "");
+  EXPECT_EQ(verifier.same(), 40u);
+}
+
+TEST_F(Take, ARunThatDiffersIsToldTheFirstFrameAndBody) {
+  record(40);
+  TakeReader take(path_);
+  TakeVerifier verifier(take);
+  FrameSink* const sinks[] = {&verifier};
+  Run run(40, 1e-13, 31);
+  pump(run, sinks);
+  EXPECT_EQ(verifier.same(), 31u);
+  EXPECT_TRUE(verifier.difference().starts_with("frame 31: body 12 ")) << verifier.difference();
+}
+
+TEST_F(Take, ALongerRunIsToldThatTheTakeHasEnded) {
+  record(10);
+  TakeReader take(path_);
+  TakeVerifier verifier(take);
+  FrameSink* const sinks[] = {&verifier};
+  Run run(12);
+  pump(run, sinks);
+  EXPECT_EQ(verifier.difference(), "frame 10: the take has ended");
+}
+
+}  // namespace
+}  // namespace sunder
