@@ -11,6 +11,8 @@ namespace {
 
 /// Volumes below this part of the bounding cube's are rounding, not shape.
 constexpr double kNothing = 1e-13;
+/// Of those, a face is coplanar with a point that spans less with it.
+constexpr double kCoplanar = 1e-2;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -73,33 +75,31 @@ class GrowingHull {
   bool flat() const { return !(hull_.volume_m3 > nothing_); }
   bool done() const { return outside_.index.empty(); }
 
-  /// Includes the point that adds most volume.
+  /// Includes the point that adds most volume, or forgets it where rounding does not tell which
+  /// faces it sees: one in the plane of faces, of which it must see all or none.
   void grow() {
     const auto most = std::max_element(outside_.gain.begin(), outside_.gain.end());
     const auto k = outside_.index[static_cast<std::size_t>(most - outside_.gain.begin())];
     const Vec3 apex = points_[k] - origin_;
-    hull_.vertices.push_back(k);
-    hull_.volume_m3 += *most;
-
-    const auto removed = std::stable_partition(
-        faces_.begin(), faces_.end(), [&](const Face& face) { return face.volume_to(apex) <= 0; });
-    std::vector<Edge> edges;
-    for (auto face = removed; face != faces_.end(); ++face) {
-      outside_.add(*face, -1);
-      for (std::size_t i = 0; i < 3; ++i) {
-        edges.emplace_back(face->vertices[i], face->vertices[(i + 1) % 3]);
+    const auto seen = std::stable_partition(faces_.begin(), faces_.end(), [&](const Face& face) {
+      return face.volume_to(apex) <= kCoplanar * nothing_;
+    });
+    const std::vector<Edge> border = border_of(std::span(seen, faces_.end()));
+    if (border.size() > static_cast<std::size_t>(faces_.end() - seen) + 2) {  // of a disc: no more
+      *most = 0;
+    } else {
+      hull_.vertices.push_back(k);
+      hull_.volume_m3 += *most;
+      for (auto face = seen; face != faces_.end(); ++face) outside_.add(*face, -1);
+      faces_.erase(seen, faces_.end());
+      for (const auto& [from, to] : border) {
+        faces_.push_back(face_of(from, to, k));
+        outside_.add(faces_.back(), 1);
       }
-    }
-    faces_.erase(removed, faces_.end());
-    std::sort(edges.begin(), edges.end());
-    for (const auto& [from, to] : edges) {
-      // Between two removed faces, an edge is there both ways.
-      if (std::binary_search(edges.begin(), edges.end(), Edge(to, from))) continue;
-      faces_.push_back(face_of(from, to, k));
-      outside_.add(faces_.back(), 1);
     }
     outside_.drop_below(nothing_);
   }
+  std::size_t vertex_count() const { return hull_.vertices.size(); }
 
   ApproximateHull result() && {
     for (const Face& face : faces_) {
@@ -147,6 +147,24 @@ class GrowingHull {
     }
   };
 
+  /// The edges between some faces and the others.
+  static std::vector<Edge> border_of(std::span<const Face> faces) {
+    std::vector<Edge> edges, border;
+    for (const Face& face : faces) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        edges.emplace_back(face.vertices[i], face.vertices[(i + 1) % 3]);
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    for (const auto& [from, to] : edges) {
+      // Between two of the faces, an edge is there both ways.
+      if (!std::binary_search(edges.begin(), edges.end(), Edge(to, from))) {
+        border.emplace_back(from, to);
+      }
+    }
+    return border;
+  }
+
   Face face_of(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
     const Vec3 a = points_[i] - origin_, b = points_[j] - origin_, c = points_[k] - origin_;
     const Vec3 normal = (b - a).cross(c - a) / 6;
@@ -184,7 +202,7 @@ ApproximateHull approximate_hull(std::span<const Vec3> points, std::size_t verte
   if (points.size() < 4) return {};
   GrowingHull hull(points);
   if (hull.flat()) return {};
-  for (std::size_t n = 4; n < vertex_count && !hull.done(); ++n) hull.grow();
+  while (hull.vertex_count() < vertex_count && !hull.done()) hull.grow();
   return std::move(hull).result();
 }
 

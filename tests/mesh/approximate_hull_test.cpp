@@ -111,6 +111,22 @@ TEST(ApproximateHull, AClippedConvexKeepsItsOtherFacesAndTheirNames) {
   EXPECT_NEAR(volume(fitted), 1.5 * 2 * 2, 1e-12);
 }
 
+TEST(ApproximateHull, IsNeverLargerThanTheHullHoweverManyPointsLieInOnePlane) {
+  Random random(3);
+  for (int round = 0; round < 20; ++round) {
+    const Vec3 up = random.direction();
+    std::vector<Vec3> points(400);  // a ball without its cap, as cuts leave it
+    for (Vec3& p : points) {
+      p = random.direction();
+      p -= std::max(0.0, up.dot(p) - 0.2) * up;
+    }
+    const double truth = volume(make_hull(points));
+    for (const std::size_t vertices : {16u, 64u, 128u}) {
+      EXPECT_LE(approximate_hull(points, vertices).volume_m3, (1 + 1e-9) * truth);
+    }
+  }
+}
+
 TEST(ApproximateHull, Figure13) {
   SUNDER_NEEDS_MESHES();
   const RawMesh bunny = read_mesh(test::meshes_folder() / "good" / "bunny_12k.off");
