@@ -2,6 +2,7 @@
 
 #include <iterator>
 
+#include "engine/base/trace.h"
 #include "fracture/compound_builder.h"
 #include "fracture/fragments.h"
 #include "fracture/rubble.h"
@@ -38,13 +39,17 @@ BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
                           std::uint64_t event) {
   std::vector<std::uint32_t> touched = structure.touched(sphere);
   if (touched.empty()) return {};
+  Stopwatch watch;
   Box reach;
   for (const std::uint32_t slot : touched) reach.extend(structure.convex(slot)->box);
   const AlignedPattern aligned = align(pattern, placement, event, reach);
   const Fragments fragments = make_fragments(structure, touched, aligned, sphere);
+  const double clip_ms = watch.lap_ms();
   BreakEdit edit;
   if (!touched.empty()) edit = Rubble(structure, touched, fragments).edit();
   edit.loose.failed = fragments.failed;
+  edit.loose.clip_ms = clip_ms;
+  edit.loose.islands_ms = watch.ms();
   if (!edit.changed) return edit;
   edit.loose.debris_volume_m3 = fragments.debris_volume_m3;
   edit.loose.welded = fragments.welded;

@@ -8,7 +8,6 @@
 #include "engine/base/trigonometry.h"
 #include "fracture/bear.h"
 #include "fracture/fracture.h"
-#include "fracture/pattern_library.h"
 
 namespace sunder::fracture {
 namespace {
@@ -89,12 +88,8 @@ class PatternBreaker final : public Breaker {
   }
 
   BreakPlan plan(const Compound& compound, const BreakCommand& command) const override {
-    const ImpactSphere sphere{command.X_RP.position, command.radius_m};
-    const double unit = sphere.is_endless() ? reach(compound, sphere.center_R) : sphere.radius_m;
-    const auto pattern = library_.find(command.pattern, {unit, sphere.is_endless()}, command.seed);
-    const Placement placement{command.X_RP.rotation.toRotationMatrix() * (unit * command.stretch_P),
-                              command.X_RP.position};
-    return fracture(compound, *pattern, placement, sphere, command.event);
+    const ReadyBreak ready = make_ready(command, bounds(compound), library_);
+    return fracture(compound, *ready.pattern, ready.placement, ready.sphere, command.event);
   }
 
   LoadAnswer bear(const Compound& compound, const LoadCase& load) const override {
@@ -102,16 +97,26 @@ class PatternBreaker final : public Breaker {
   }
 
  private:
-  /// How far the farthest corner of the compound's box is.
-  static double reach(const Compound& compound, const Vec3& from) {
-    const Box box = bounds(compound);
-    return (box.max - from).cwiseAbs().cwiseMax((box.min - from).cwiseAbs()).norm();
-  }
-
   mutable PatternLibrary library_;
 };
 
+/// How far the farthest corner of a box is.
+double reach(const Box& box, const Vec3& from) {
+  return (box.max - from).cwiseAbs().cwiseMax((box.min - from).cwiseAbs()).norm();
+}
+
 }  // namespace
+
+ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library) {
+  ReadyBreak ready;
+  ready.sphere = {command.X_RP.position, command.radius_m};
+  const bool whole = ready.sphere.is_endless();
+  const double unit = whole ? reach(bounds_R, ready.sphere.center_R) : ready.sphere.radius_m;
+  ready.pattern = library.find(command.pattern, {unit, whole}, command.seed);
+  ready.placement = {command.X_RP.rotation.toRotationMatrix() * (unit * command.stretch_P),
+                     command.X_RP.position};
+  return ready;
+}
 
 std::unique_ptr<Breaker> make_pattern_breaker() { return std::make_unique<PatternBreaker>(); }
 

@@ -4,8 +4,20 @@
 #include <memory>
 
 #include "engine/world/breaker.h"
+#include "fracture/align.h"
+#include "fracture/pattern_library.h"
+#include "fracture/structure.h"
 
 namespace sunder::fracture {
+
+/// A command made ready to be carried out: its pattern, where that lies, and how far it reaches.
+struct ReadyBreak {
+  std::shared_ptr<const Pattern> pattern;
+  Placement placement;
+  ImpactSphere sphere;
+};
+/// What a command means for a compound in the box `bounds_R`.
+ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library);
 
 /// Breaks compounds by the pattern of the command; patterns are made once and kept.
 std::unique_ptr<Breaker> make_pattern_breaker();

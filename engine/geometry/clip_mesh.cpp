@@ -17,14 +17,6 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// Rest-space coordinates along the plane's two flattest axes, in metres.
-Vec2f planar_uv(const Vec3& point, const Vec3& normal) {
-  int steepest;
-  normal.cwiseAbs().maxCoeff(&steepest);
-  const Vec3f p = point.cast<float>();
-  return {p[(steepest + 1) % 3], p[(steepest + 2) % 3]};
-}
-
 class MeshCut {
  public:
   MeshCut(const PolygonMesh& mesh, const Plane& plane, double tolerance, PolygonMesh& result,

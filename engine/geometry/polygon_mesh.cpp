@@ -20,6 +20,13 @@ PolygonMesh polygon_mesh(const ConvexPolyhedron& convex) {
   return mesh;
 }
 
+Vec2f planar_uv(const Vec3& point, const Vec3& normal) {
+  int steepest = 0;
+  normal.cwiseAbs().maxCoeff(&steepest);
+  const Vec3f p = point.cast<float>();
+  return {p[(steepest + 1) % 3], p[(steepest + 2) % 3]};
+}
+
 Box bounds(const PolygonMesh& mesh) {
   Box box;
   for (const Vec3& v : mesh.vertices) box.extend(v);

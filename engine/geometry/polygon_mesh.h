@@ -49,6 +49,8 @@ struct PolygonMesh {
 
 /// The surface of a convex.
 PolygonMesh polygon_mesh(const ConvexPolyhedron& convex);
+/// Texture coordinates along a plane's two flattest axes, in metres of the rest frame.
+Vec2f planar_uv(const Vec3& point, const Vec3& normal);
 Box bounds(const PolygonMesh& mesh);
 /// Of the enclosed solid (divergence theorem); meaningful only if the mesh is watertight.
 MassProperties mass_properties(const PolygonMesh& mesh);

@@ -1,5 +1,7 @@
 #include "engine/io/figures.h"
 
+#include <type_traits>
+
 #include <nlohmann/json.hpp>
 
 #include "engine/base/check.h"
@@ -22,10 +24,19 @@ Figures parse_figures(const std::string& text, const std::string& file) {
 
 std::string format_figures(const Figures& figures) {
   nlohmann::json flat = nlohmann::json::object();
-  for (const auto& figure : figures) {
-    std::visit([&](const auto& value) { flat[figure.first] = value; }, figure.second);
+  for (const auto& [place, figure] : figures) {
+    std::visit(
+        [&, &key = place](const auto& value) {
+          if constexpr (!std::is_same_v<decltype(value), const EmptyList&>) flat[key] = value;
+        },
+        figure);
   }
-  return flat.unflatten().dump(2) + "\n";
+  nlohmann::json document = flat.unflatten();
+  for (const auto& [place, figure] : figures) {
+    if (!std::holds_alternative<EmptyList>(figure)) continue;
+    document[nlohmann::json::json_pointer(place)] = nlohmann::json::array();
+  }
+  return document.dump(2) + "\n";
 }
 
 }  // namespace sunder

@@ -8,10 +8,14 @@
 
 namespace sunder {
 
-/// A JSON document by place: "/frame/p50_ms", "/scenes/0/name" (JSON pointers, RFC 6901).
-using Figures = std::map<std::string, std::variant<bool, std::int64_t, double, std::string>>;
+/// A list without elements, which has no place to be seen at otherwise.
+struct EmptyList {};
 
-/// Throws InputError naming `file` if the text is not JSON. Nulls are left out.
+/// A JSON document by place: "/frame/p50_ms", "/scenes/0/name" (JSON pointers, RFC 6901).
+using Figures =
+    std::map<std::string, std::variant<bool, std::int64_t, double, std::string, EmptyList>>;
+
+/// Throws InputError naming `file` if the text is not JSON. Nulls and empty lists are left out.
 Figures parse_figures(const std::string& text, const std::string& file);
 /// The nested document, indented; ends with a newline.
 std::string format_figures(const Figures& figures);

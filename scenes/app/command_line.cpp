@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
 
 namespace sunder::app {
@@ -101,6 +102,42 @@ void add_bench(CLI::App& program, Command& chosen) {
   command.add_changes();
 }
 
+constexpr const char* kMeshHelp =
+    "A built-in solid: box:X,Y,Z column:R,H torus:R,r grid:NX,NY,NZ voronoi:N";
+
+/// Where a command on a mesh writes what it made.
+template <class Options>
+void add_solids_output(CLI::App* app, Options& options) {
+  app->add_option("-o,--output", options.output,
+                  "X.glb: glTF, a node a piece; DIR/: an .obj a piece");
+  app->add_option("--explode", options.explode,
+                  "Move the pieces of -o apart by this times their distance from the middle")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+}
+
+void add_fracture(CLI::App& program, Command& chosen) {
+  Subcommand<FractureOptions> command(program, "fracture",
+                                      "One break of one solid, with every invariant measured",
+                                      fracture_mesh, chosen);
+  FractureOptions& options = *command.options;
+  command.app
+      ->add_option("MESH", options.mesh,
+                   std::string(kMeshHelp) + "; or X.case, a break written to a file")
+      ->required();
+  command.app->add_option("--pattern", options.pattern, kPatternHelp)->type_name("SPEC");
+  command.app->add_option("--at", options.at, "The impact; the middle of the box by default")
+      ->type_name("X,Y,Z");
+  command.app
+      ->add_option("--radius", options.radius_m,
+                   "Only what is nearer to the impact breaks; everything by default")
+      ->type_name("METRES")
+      ->check(CLI::Range(1e-9, 1e9));
+  command.app->add_option("--seed", options.seed, "Another seed, another break")
+      ->capture_default_str();
+  add_solids_output(command.app, options);
+}
+
 Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const char* name,
                                      const char* help, int (*work)(const GoldenOptions&)) {
   Subcommand<GoldenOptions> command(golden, name, help, work, chosen);
@@ -151,6 +188,7 @@ Command parse_command_line(int argc, char** argv) {
   add_simulate(program, chosen);
   add_render(program, chosen);
   add_bench(program, chosen);
+  add_fracture(program, chosen);
   add_golden(program, chosen);
   try {
     program.parse(argc, argv);

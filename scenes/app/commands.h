@@ -2,6 +2,7 @@
 // command_line.cpp.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,16 @@ struct BenchOptions : CommonOptions {
   std::string compare;
 };
 
+struct FractureOptions : CommonOptions {
+  std::string mesh;  ///< Or a case file, which holds everything else.
+  std::string pattern;
+  std::string at;                  ///< "x,y,z"; empty: the middle of the bounding box.
+  std::optional<double> radius_m;  ///< None: everything breaks.
+  std::uint64_t seed = 1;
+  std::string output;
+  double explode = 0;
+};
+
 struct GoldenOptions : CommonOptions {
   std::vector<std::string> names;  ///< None: all.
   std::string folder = SUNDER_GOLDENS_FOLDER;
@@ -73,6 +84,7 @@ int check(const CheckOptions& options);
 int simulate(const SimulateOptions& options);
 int render_scene(const RenderOptions& options);
 int bench(const BenchOptions& options);
+int fracture_mesh(const FractureOptions& options);
 int golden_test(const GoldenOptions& options);
 int golden_report(const GoldenOptions& options);
 int golden_accept(const GoldenOptions& options);

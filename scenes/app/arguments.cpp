@@ -1,0 +1,121 @@
+#include "scenes/app/arguments.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include "engine/base/check.h"
+#include "scenes/keys.h"
+
+namespace sunder::app {
+namespace {
+
+/// The finite numbers of "1,2.5,3"; none if anything else stands there.
+std::vector<double> numbers(std::string_view text, char between) {
+  std::vector<double> found;
+  for (bool more = true; more;) {
+    const std::size_t end = std::min(text.find(between), text.size());
+    more = end < text.size();
+    double number = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + end, number);
+    if (error != std::errc() || stop != text.data() + end || !std::isfinite(number)) return {};
+    found.push_back(number);
+    text.remove_prefix(more ? end + 1 : end);
+  }
+  return found;
+}
+
+/// A pattern spec "kind:sizes" under way.
+struct Spec {
+  const std::string& text;
+  std::vector<double> sizes;
+
+  [[noreturn]] void refuse(const std::string& expected) const {
+    throw InputError("--pattern " + text + ": expected " + expected);
+  }
+  void need(bool right_count) const {
+    if (!right_count) refuse(kPatternHelp);
+  }
+  int whole(std::size_t i, double low, double high, const char* name) const {
+    if (sizes[i] != std::floor(sizes[i]) || sizes[i] < low || sizes[i] > high) {
+      refuse(std::string(name) + " to be a whole number from " + scenes::format(low) + " to " +
+             scenes::format(high));
+    }
+    return static_cast<int>(sizes[i]);
+  }
+  double real(std::size_t i, double low, double high, const char* name) const {
+    if (sizes[i] < low || sizes[i] > high) {
+      refuse(std::string(name) + " to be a number from " + scenes::format(low) + " to " +
+             scenes::format(high));
+    }
+    return sizes[i];
+  }
+};
+
+PatternSpec parse_built_in(const std::string& text, const std::string& kind) {
+  using Kind = PatternSpec::Kind;
+  const Spec spec{
+      text, numbers(std::string_view(text).substr(kind.size() + 1), kind == "web" ? 'x' : ',')};
+  const std::size_t count = spec.sizes.size();
+  PatternSpec pattern;
+  if (kind == "voronoi") {
+    spec.need(count == 1 || count == 2);
+    pattern.kind = Kind::kVoronoi;
+    pattern.cells = spec.whole(0, 1, 5000, "N");
+    if (count == 2) pattern.falloff = spec.real(1, 1, 10, "FALLOFF");
+  } else if (kind == "web") {
+    spec.need(count == 2);
+    pattern.kind = Kind::kWeb;
+    pattern.rings = spec.whole(0, 1, 100, "RINGS");
+    pattern.spokes = spec.whole(1, 3, 200, "SPOKES");
+  } else if (kind == "radial") {
+    spec.need(count == 1);
+    pattern.kind = Kind::kRadial;
+    pattern.cells = spec.whole(0, 3, 200, "N");
+  } else if (kind == "brick") {
+    spec.need(count == 3);
+    pattern.kind = Kind::kBrick;
+    for (std::size_t i = 0; i < 3; ++i) {
+      pattern.brick_m[static_cast<Eigen::Index>(i)] = spec.real(i, 1e-9, 1e9, "X, Y and Z");
+    }
+  } else if (kind == "slabs") {
+    spec.need(count == 1);
+    pattern.kind = Kind::kSlabs;
+    pattern.cells = spec.whole(0, 1, 1000, "N");
+  } else if (kind == "grid") {
+    spec.need(count == 1);
+    pattern.kind = Kind::kGrid;
+    pattern.cells = spec.whole(0, 1, 30, "N");
+  } else {
+    spec.refuse(kPatternHelp);
+  }
+  return pattern;
+}
+
+}  // namespace
+
+Vec3 parse_point(const std::string& flag, const std::string& text) {
+  const std::vector<double> found = numbers(text, ',');
+  if (found.size() != 3) {
+    throw InputError(flag + " " + text + ": expected three numbers, x,y,z, without spaces");
+  }
+  return {found[0], found[1], found[2]};
+}
+
+PatternSpec parse_pattern(const std::string& text) {
+  if (text.ends_with(".obj") || std::filesystem::is_regular_file(text)) {
+    PatternSpec pattern;
+    pattern.kind = PatternSpec::Kind::kFile;
+    pattern.file = text;
+    return pattern;
+  }
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) {
+    throw InputError("--pattern " + text + ": expected " + kPatternHelp);
+  }
+  return parse_built_in(text, text.substr(0, colon));
+}
+
+}  // namespace sunder::app

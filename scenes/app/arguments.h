@@ -1,0 +1,21 @@
+// Arguments that are more than a word or a number.
+#pragma once
+
+#include <string>
+
+#include "engine/base/types.h"
+#include "engine/world/material.h"
+
+namespace sunder::app {
+
+/// "x,y,z"; throws InputError naming `flag` for anything else.
+Vec3 parse_point(const std::string& flag, const std::string& text);
+
+/// What parse_pattern() understands.
+inline constexpr const char* kPatternHelp =
+    "voronoi:N[,FALLOFF] | web:RINGSxSPOKES | radial:N | brick:X,Y,Z | slabs:N | grid:N (N^3 "
+    "cells) | an .obj file of convex cells, one a group";
+/// A pattern for --pattern. Throws InputError that says what is allowed.
+PatternSpec parse_pattern(const std::string& text);
+
+}  // namespace sunder::app
