@@ -1,9 +1,86 @@
 #include "scenes/mesh_solid.h"
 
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+
+#include "engine/base/check.h"
 #include "engine/base/trace.h"
+#include "engine/io/mesh_reader.h"
 #include "fracture/solids.h"
+#include "scenes/load.h"
 
 namespace sunder::scenes {
+namespace {
+
+constexpr const char* kBuiltIn[] = {"box", "column", "torus", "grid", "voronoi"};
+
+/// A whole number from `low` to `high`; none if the text is anything else.
+std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t low,
+                                          std::uint32_t high) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number < low || number > high ? std::nullopt : std::optional(number);
+}
+
+Fit fit_of(const std::string& text) {
+  if (text == "aabb") return {Fit::Kind::kAabb, 0};
+  if (text == "14dop") return {Fit::Kind::k14Dop, 0};
+  if (text == "26dop") return {Fit::Kind::k26Dop, 0};
+  if (text.starts_with("hull:")) {
+    if (const auto count = whole_number(std::string_view(text).substr(5), 4, 1000)) {
+      return {Fit::Kind::kHull, *count};
+    }
+  }
+  throw InputError("fit " + text + ": expected aabb | 14dop | 26dop | hull:N, N from 4 to 1000");
+}
+
+bool is_number(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isdigit(c) != 0 || c == '-' || c == '+' || c == '.';
+  });
+}
+
+}  // namespace
+
+bool names_built_in(const std::string& mesh) {
+  if (std::filesystem::exists(mesh)) return false;
+  const std::string kind = mesh.substr(0, mesh.find(':'));
+  return std::find(std::begin(kBuiltIn), std::end(kBuiltIn), kind) != std::end(kBuiltIn);
+}
+
+fracture::VacdOptions vacd_options(const MeshOptions& options) {
+  fracture::VacdOptions vacd;
+  vacd.fit = fit_of(options.fit);
+  vacd.convexes = options.convexes;
+  if (is_number(options.nodes)) {
+    vacd.node_count = whole_number(options.nodes, 1, fracture::kMostNodes);
+    if (!vacd.node_count) {
+      throw InputError("nodes " + options.nodes + ": expected a whole number from 1 to " +
+                       std::to_string(fracture::kMostNodes) + ", or a file of x y z a line");
+    }
+  } else if (!options.nodes.empty()) {
+    std::istringstream text(read_text(options.nodes));
+    vacd.nodes = fracture::read_nodes(text, options.nodes);
+  }
+  if (options.repair != "auto" && options.repair != "off") {
+    throw InputError("repair " + options.repair + ": expected auto | off");
+  }
+  return vacd;
+}
+
+SoundMesh read_sound_mesh(const std::string& file, const std::string& repair) {
+  RawMesh raw = read_mesh(file);
+  SoundMesh mesh;
+  mesh.vertices = raw.vertices.size();
+  mesh.faces = raw.polygons.size();
+  RepairOptions options;
+  options.repair = repair != "off";
+  mesh.repaired = repair_mesh(std::move(raw), file, options);
+  return mesh;
+}
 
 MeshSolid as_mesh_solid(const std::string& name, Compound compound) {
   MeshSolid solid;
@@ -16,9 +93,23 @@ MeshSolid as_mesh_solid(const std::string& name, Compound compound) {
   return solid;
 }
 
-MeshSolid make_mesh_solid(const std::string& mesh) {
+MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options) {
   const Stopwatch watch;
-  MeshSolid solid = as_mesh_solid(mesh, fracture::make_solid(mesh));
+  const fracture::VacdOptions vacd_of = vacd_options(options);
+  MeshSolid solid;
+  if (names_built_in(mesh)) {
+    solid = as_mesh_solid(mesh, fracture::make_solid(mesh));
+  } else {
+    SoundMesh sound = read_sound_mesh(mesh, options.repair);
+    fracture::Vacd vacd = fracture::decompose(sound.repaired, vacd_of);
+    solid.name = std::filesystem::path(mesh).filename().string();
+    solid.vertices = sound.vertices;
+    solid.faces = sound.faces;
+    solid.closed = sound.repaired.closed;
+    solid.repairs = std::move(sound.repaired.repairs);
+    solid.compound = std::move(vacd.compound);
+    solid.vacd = vacd.figures;
+  }
   solid.prepare_ms = watch.ms();
   return solid;
 }

@@ -103,13 +103,28 @@ void add_bench(CLI::App& program, Command& chosen) {
 }
 
 constexpr const char* kMeshHelp =
-    "A built-in solid: box:X,Y,Z column:R,H torus:R,r grid:NX,NY,NZ voronoi:N";
+    "A file (.obj .ply .stl .off .gltf .glb), or a built-in solid: box:X,Y,Z column:R,H torus:R,r "
+    "grid:NX,NY,NZ voronoi:N";
+
+/// How a mesh from a file is decomposed.
+void add_decomposition(CLI::App* app, scenes::MeshOptions& options) {
+  app->add_option("--nodes", options.nodes,
+                  "Of a file's decomposition: how many, or a file of x y z a line")
+      ->type_name("N|FILE");
+  app->add_option("--convexes", options.convexes, "At most so many convexes")
+      ->check(CLI::Range(1u, fracture::kMostNodes));
+  app->add_option("--fit", options.fit, "How convexes are fitted: aabb | 14dop | 26dop | hull:N")
+      ->capture_default_str();
+  app->add_option("--repair", options.repair,
+                  "auto: what is wrong with a mesh is mended and named; off: it is refused")
+      ->capture_default_str();
+}
 
 /// Where a command on a mesh writes what it made.
 template <class Options>
 void add_solids_output(CLI::App* app, Options& options) {
   app->add_option("-o,--output", options.output,
-                  "X.glb: glTF, a node a piece; DIR/: an .obj a piece");
+                  "X.glb: glTF, a node a piece; X.png: a picture; DIR/: an .obj a piece");
   app->add_option("--explode", options.explode,
                   "Move the pieces of -o apart by this times their distance from the middle")
       ->check(CLI::Range(0.0, 1000.0))
@@ -135,7 +150,29 @@ void add_fracture(CLI::App& program, Command& chosen) {
       ->check(CLI::Range(1e-9, 1e9));
   command.app->add_option("--seed", options.seed, "Another seed, another break")
       ->capture_default_str();
+  add_decomposition(command.app, options.solid);
   add_solids_output(command.app, options);
+}
+
+void add_vacd(CLI::App& program, Command& chosen) {
+  Subcommand<VacdOptions> command(program, "vacd", "Approximate convex decomposition of a mesh",
+                                  vacd, chosen);
+  VacdOptions& options = *command.options;
+  command.app->add_option("MESH", options.mesh, "A file: .obj .ply .stl .off .gltf .glb")
+      ->required();
+  add_decomposition(command.app, options.solid);
+  command.app->add_flag("--watch", options.watch,
+                        "Again whenever the file of --nodes changes; redraws -o, until stopped");
+  add_solids_output(command.app, options);
+}
+
+void add_hull(CLI::App& program, Command& chosen) {
+  Subcommand<HullOptions> command(program, "hull", "Approximate convex hull of a mesh", hull,
+                                  chosen);
+  command.app->add_option("MESH", command.options->mesh, kMeshHelp)->required();
+  command.app->add_option("--vertices", command.options->vertices, "Vertices that it is made from")
+      ->required()
+      ->check(CLI::Range(4, 10000));
 }
 
 Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const char* name,
@@ -189,6 +226,8 @@ Command parse_command_line(int argc, char** argv) {
   add_render(program, chosen);
   add_bench(program, chosen);
   add_fracture(program, chosen);
+  add_vacd(program, chosen);
+  add_hull(program, chosen);
   add_golden(program, chosen);
   try {
     program.parse(argc, argv);

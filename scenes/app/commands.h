@@ -8,6 +8,7 @@
 
 #include "render/renderer.h"
 #include "scenes/load.h"
+#include "scenes/mesh_solid.h"
 
 namespace sunder::app {
 
@@ -60,12 +61,26 @@ struct BenchOptions : CommonOptions {
 
 struct FractureOptions : CommonOptions {
   std::string mesh;  ///< Or a case file, which holds everything else.
+  scenes::MeshOptions solid;
   std::string pattern;
   std::string at;                  ///< "x,y,z"; empty: the middle of the bounding box.
   std::optional<double> radius_m;  ///< None: everything breaks.
   std::uint64_t seed = 1;
   std::string output;
   double explode = 0;
+};
+
+struct VacdOptions : CommonOptions {
+  std::string mesh;
+  scenes::MeshOptions solid;
+  bool watch = false;
+  std::string output;
+  double explode = 0;
+};
+
+struct HullOptions : CommonOptions {
+  std::string mesh;
+  std::uint32_t vertices = 0;
 };
 
 struct GoldenOptions : CommonOptions {
@@ -85,6 +100,8 @@ int simulate(const SimulateOptions& options);
 int render_scene(const RenderOptions& options);
 int bench(const BenchOptions& options);
 int fracture_mesh(const FractureOptions& options);
+int vacd(const VacdOptions& options);
+int hull(const HullOptions& options);
 int golden_test(const GoldenOptions& options);
 int golden_report(const GoldenOptions& options);
 int golden_accept(const GoldenOptions& options);

@@ -24,6 +24,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kEvent = 1;
+/// How often a break is timed, and when that is enough.
+constexpr int kMostTimes = 20;
+constexpr double kLongEnough_ms = 200;
 
 /// The break and what came of it.
 struct Broken {
@@ -70,7 +73,8 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
   return command;
 }
 
-/// Carries the break out twice and times the second: the first finds memory and caches cold.
+/// Carries the break out a few times and takes the fastest: the first finds memory and caches cold,
+/// and other programs get in the way of any.
 Broken carry_out(const Compound& compound, const BreakCommand& command) {
   Broken broken;
   Stopwatch watch;
@@ -80,11 +84,15 @@ Broken carry_out(const Compound& compound, const BreakCommand& command) {
   broken.prepare_ms = watch.ms();
 
   fracture::BreakEdit edit;
-  for (int time = 0; time < 2; ++time) {
+  const Stopwatch all;
+  broken.total_ms = kInfinity;
+  for (int time = 0; time < kMostTimes && (time < 2 || all.ms() < kLongEnough_ms); ++time) {
     watch.lap_ms();
-    edit = fracture::break_structure(structure, *ready.pattern, ready.placement, ready.sphere,
-                                     command.event);
+    fracture::BreakEdit again = fracture::break_structure(
+        structure, *ready.pattern, ready.placement, ready.sphere, command.event);
+    if (watch.ms() >= broken.total_ms) continue;
     broken.total_ms = watch.ms();
+    edit = std::move(again);
   }
   watch.lap_ms();
   if (edit.changed) structure.apply(edit);
@@ -153,7 +161,7 @@ fracture::BreakCase case_of(const FractureOptions& options, scenes::MeshSolid& s
       throw InputError("--pattern is missing: " + std::string(kPatternHelp));
     }
     parse_pattern(options.pattern);  // before work that may take long
-    solid = scenes::make_mesh_solid(options.mesh);
+    solid = scenes::make_mesh_solid(options.mesh, options.solid);
     return {solid.compound, command_of(options, solid.compound)};
   }
   if (!options.pattern.empty() || !options.at.empty() || options.radius_m) {
@@ -177,7 +185,7 @@ int fracture_mesh(const FractureOptions& options) {
   const Broken broken = carry_out(example.compound, example.command);
   options.say(summary(solid, broken));
   if (!options.output.empty()) {
-    write_solids(options.output, broken.plan.pieces, options.explode);
+    write_solids(options.output, broken.plan.pieces, stone(), options.explode);
     options.say("wrote " + options.output + "\n");
   }
   options.write_json(format_figures(figures_of(solid, broken)));

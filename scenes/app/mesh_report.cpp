@@ -5,6 +5,7 @@
 #include "engine/base/check.h"
 #include "engine/io/glb_writer.h"
 #include "engine/io/obj_writer.h"
+#include "scenes/app/picture.h"
 
 namespace sunder::app {
 namespace {
@@ -15,15 +16,6 @@ bool is_folder(const std::string& output) {
 
 std::string text(const Repair& repair) {
   return repair.name + " (" + std::to_string(repair.count) + ")";
-}
-
-/// Limestone, for solids that nobody gave a material.
-std::vector<Material> stone() {
-  Material stone;
-  stone.name = "stone";
-  stone.surface.color = Vec3f(0.55f, 0.52f, 0.46f);
-  stone.interior.color = Vec3f(0.45f, 0.2f, 0.1f);
-  return {stone};
 }
 
 }  // namespace
@@ -51,17 +43,47 @@ std::string input_summary(const scenes::MeshSolid& solid) {
 }
 
 void check_output(const std::string& output) {
-  if (output.empty() || output.ends_with(".glb") || is_folder(output)) return;
-  throw InputError("-o " + output + ": expected X.glb, or a folder for .obj files (DIR/)");
+  if (output.empty() || output.ends_with(".glb") || output.ends_with(".png")) return;
+  if (is_folder(output)) return;
+  throw InputError("-o " + output + ": expected X.glb, X.png, or a folder for .obj files (DIR/)");
 }
 
-void write_solids(const std::string& output, std::span<const Compound> solids, double explode) {
-  const Model model = make_model(solids, stone(), explode);
+void write_solids(const std::string& output, const std::vector<Compound>& solids,
+                  const std::vector<Material>& materials, double explode) {
+  if (output.ends_with(".png")) {
+    draw_solids(output, solids, materials, explode);
+    return;
+  }
+  const Model model = make_model(solids, materials, explode);
   if (is_folder(output)) {
     write_obj_folder(output, model);
   } else {
     write_glb(output, model);
   }
+}
+
+std::vector<Material> stone() {
+  Material stone;
+  stone.name = "stone";
+  stone.surface.color = Vec3f(0.55f, 0.52f, 0.46f);
+  stone.interior.color = Vec3f(0.45f, 0.2f, 0.1f);
+  return {stone};
+}
+
+std::vector<Material> palette() {
+  constexpr float kColors[][3] = {{.80f, .25f, .18f}, {.15f, .42f, .75f}, {.90f, .62f, .12f},
+                                  {.20f, .58f, .27f}, {.55f, .27f, .62f}, {.12f, .62f, .62f},
+                                  {.85f, .42f, .55f}, {.45f, .34f, .20f}, {.60f, .68f, .20f},
+                                  {.35f, .38f, .48f}, {.90f, .80f, .45f}, {.40f, .65f, .85f}};
+  std::vector<Material> materials;
+  for (const auto& c : kColors) {
+    Material material;
+    material.name = "color " + std::to_string(materials.size());
+    material.surface.color = Vec3f(c[0], c[1], c[2]);
+    material.interior.color = 0.6f * material.surface.color;
+    materials.push_back(material);
+  }
+  return materials;
 }
 
 }  // namespace sunder::app

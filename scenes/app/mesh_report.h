@@ -1,8 +1,8 @@
 // What the commands on meshes have in common: what they say of their input, and where solids go.
 #pragma once
 
-#include <span>
 #include <string>
+#include <vector>
 
 #include "engine/io/figures.h"
 #include "scenes/mesh_solid.h"
@@ -16,8 +16,13 @@ std::string input_summary(const scenes::MeshSolid& solid);
 
 /// Throws InputError unless -o names something that can be written; nothing is fine.
 void check_output(const std::string& output);
-/// Writes solids as X.glb, or as a folder of .obj files, moved apart by `explode` times their
-/// distance from the middle. Throws InputError.
-void write_solids(const std::string& output, std::span<const Compound> solids, double explode);
+/// Writes solids as X.glb, X.png, or as a folder of .obj files, moved apart by `explode` times
+/// their distance from the middle of all. Throws InputError.
+void write_solids(const std::string& output, const std::vector<Compound>& solids,
+                  const std::vector<Material>& materials, double explode);
+/// Limestone, for solids that nobody gave a material.
+std::vector<Material> stone();
+/// Colours that are easily told apart.
+std::vector<Material> palette();
 
 }  // namespace sunder::app

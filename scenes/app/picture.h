@@ -1,0 +1,16 @@
+// A picture of solids as they lie in their rest frame.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "engine/world/compound.h"
+
+namespace sunder::app {
+
+/// Draws solids, moved apart by `explode` times their distance from the middle, from the front and
+/// a little above, as a PNG. Throws InputError if nothing can be drawn or written here.
+void draw_solids(const std::filesystem::path& file, std::span<const Compound> solids,
+                 const std::vector<Material>& materials, double explode);
+
+}  // namespace sunder::app

@@ -1,0 +1,103 @@
+// sunder vacd: the approximate convex decomposition of a mesh (paper 4.1), and how tight it is.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "engine/base/check.h"
+#include "scenes/app/commands.h"
+#include "scenes/app/mesh_report.h"
+
+namespace sunder::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+Figures figures_of(const scenes::MeshSolid& solid) {
+  Figures figures = input_figures(solid);
+  figures["/convexes"] = static_cast<std::int64_t>(solid.compound.convexes.size());
+  figures["/ghosts"] = static_cast<std::int64_t>(solid.compound.ghosts.size());
+  figures["/hull_volume_ratio"] = solid.vacd->hull_volume_ratio();
+  figures["/max_faces_per_convex"] = static_cast<std::int64_t>(solid.vacd->max_faces_per_convex);
+  figures["/volume_m3"] = solid.vacd->mesh_volume_m3;
+  figures["/prepare_ms"] = solid.prepare_ms - solid.vacd->total_ms;
+  figures["/split_ms"] = solid.vacd->split_ms;
+  figures["/total_ms"] = solid.vacd->total_ms;
+  return figures;
+}
+
+std::string summary(const scenes::MeshSolid& solid) {
+  const fracture::VacdFigures& vacd = *solid.vacd;
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "pieces   %zu convexes, at most %zu polygons each; %zu ghosts\n"
+                "tightness %.4f: all hulls %.6g m³, the mesh %.6g m³\n"
+                "time     reading and repair %.1f ms, decomposition %.1f ms (split %.1f)\n",
+                solid.compound.convexes.size(), vacd.max_faces_per_convex,
+                solid.compound.ghosts.size(), vacd.hull_volume_ratio(), vacd.hull_volume_m3,
+                vacd.mesh_volume_m3, solid.prepare_ms - vacd.total_ms, vacd.total_ms,
+                vacd.split_ms);
+  return input_summary(solid) + text;
+}
+
+/// Every convex by itself, in a colour of its own.
+std::vector<Compound> one_by_one(const Compound& compound, std::size_t colors) {
+  std::vector<Compound> convexes;
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+    const auto convex = std::make_shared<Convex>(*compound.convexes[c]);
+    convex->material = MaterialIndex(c % colors);
+    convexes.push_back({{convex}, {0}, {}, {}});
+  }
+  return convexes;
+}
+
+void decompose_once(const VacdOptions& options) {
+  const scenes::MeshSolid solid = scenes::make_mesh_solid(options.mesh, options.solid);
+  options.say(summary(solid));
+  if (!options.output.empty()) {
+    const std::vector<Material> colors = palette();
+    write_solids(options.output, one_by_one(solid.compound, colors.size()), colors,
+                 options.explode);
+    options.say("wrote " + options.output + "\n");
+  }
+  options.write_json(format_figures(figures_of(solid)));
+}
+
+/// Again whenever the node file changes, until the program is stopped; a mistake in the file is
+/// shown and waited out.
+[[noreturn]] void watch_nodes(const VacdOptions& options) {
+  std::error_code ignored;
+  for (;;) {
+    const fs::file_time_type seen = fs::last_write_time(options.solid.nodes, ignored);
+    try {
+      decompose_once(options);
+    } catch (const InputError& error) {
+      std::fprintf(stderr, "error: %s\n", error.what());
+    }
+    std::fflush(stdout);
+    while (fs::last_write_time(options.solid.nodes, ignored) == seen) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+}
+
+}  // namespace
+
+int vacd(const VacdOptions& options) {
+  options.apply();
+  if (scenes::names_built_in(options.mesh)) {
+    throw InputError(options.mesh + ": is made of convexes already; name a file of a mesh");
+  }
+  check_output(options.output);
+  scenes::vacd_options(options.solid);
+  if (!options.watch) {
+    decompose_once(options);
+    return 0;
+  }
+  if (!fs::is_regular_file(options.solid.nodes) || options.output.empty()) {
+    throw InputError("--watch: needs --nodes FILE to watch, and -o X.png (or X.glb) to redraw");
+  }
+  watch_nodes(options);
+}
+
+}  // namespace sunder::app
