@@ -149,6 +149,7 @@ void add_fracture(CLI::App& program, Command& chosen) {
       ->type_name("METRES")
       ->check(CLI::Range(1e-9, 1e9));
   command.app->add_option("--seed", options.seed, "Another seed, another break")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_decomposition(command.app, options.solid);
   add_solids_output(command.app, options);

@@ -36,12 +36,21 @@ struct Broken {
   double total_ms = 0;
 };
 
-/// The pattern's half-axes, so that all of it falls on the solid, however the solid is shaped. In
-/// units of its reach; the pattern's axes are those of `rotation`.
-Mat3 stretch_onto(const Box& box, const Vec3& at, const Quat& rotation) {
-  const Vec3 reach = (box.max - at).cwiseAbs().cwiseMax((box.min - at).cwiseAbs());
+/// What stretches a pattern so that all of it falls on a solid that reaches so far from the impact,
+/// however that is shaped. The pattern's axes are those of `rotation`.
+Mat3 stretch_onto(const Vec3& reach, const Quat& rotation) {
   const Vec3 half_P = (rotation.conjugate() * reach).cwiseAbs();
   return Mat3((half_P / reach.norm()).asDiagonal());
+}
+
+/// A wall of smaller bricks than a pattern may have would leave most of the solid whole.
+void check_bricks(const FractureOptions& options, const Vec3& brick_m, double unit_m) {
+  double bricks = 1;
+  for (const double size_m : brick_m) bricks *= 2 * std::ceil(unit_m / size_m - 0.5) + 1;
+  if (bricks <= fracture::kMostBricks) return;
+  throw InputError("--pattern " + options.pattern + ": more than " +
+                   std::to_string(fracture::kMostBricks) +
+                   " such bricks lie within reach; give larger ones, or a smaller --radius");
 }
 
 /// What the flags ask for. The blow goes towards the middle, or down.
@@ -61,6 +70,11 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
     if (distance < nearest) hit.convex = c;
     nearest = std::min(nearest, distance);
   }
+  const Vec3 reach =
+      (box.max - hit.point_R).cwiseAbs().cwiseMax((box.min - hit.point_R).cwiseAbs());
+  if (material.pattern.kind == PatternSpec::Kind::kBrick) {
+    check_bricks(options, material.pattern.brick_m, options.radius_m.value_or(reach.norm()));
+  }
   const auto breaker = fracture::make_pattern_breaker();
   BreakCommand command = breaker->command(compound, material, hit, kEvent, options.seed);
   using Kind = PatternSpec::Kind;
@@ -68,7 +82,7 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
   if (!options.radius_m &&
       (kind == Kind::kVoronoi || kind == Kind::kGrid || kind == Kind::kSlabs)) {
     if (kind == Kind::kVoronoi) command.X_RP.rotation = Quat::Identity();
-    command.stretch_P = stretch_onto(box, hit.point_R, command.X_RP.rotation);
+    command.stretch_P = stretch_onto(reach, command.X_RP.rotation);
   }
   return command;
 }

@@ -1,0 +1,208 @@
+// What is exported: triangles of faces with holes, and files that other programs can read.
+#include "engine/io/model.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/geometry/repair.h"
+#include "engine/geometry/triangulate_face.h"
+#include "engine/io/bytes.h"
+#include "engine/io/glb_writer.h"
+#include "engine/io/mesh_reader.h"
+#include "engine/io/obj_writer.h"
+
+namespace sunder {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / "sunder-model-test-XXXXXX") {
+    std::string name = path_.string();
+    path_ = mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path_); }
+  fs::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+/// One face in the plane z = 0 of contours, the first counter-clockwise, holes clockwise.
+PolygonMesh flat(const std::vector<std::vector<Vec2>>& contours) {
+  PolygonMesh mesh;
+  for (const auto& contour : contours) {
+    mesh.contours.push_back({static_cast<std::uint32_t>(mesh.corners.size()),
+                             static_cast<std::uint32_t>(contour.size())});
+    for (const Vec2& p : contour) {
+      mesh.corners.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.corner_normals.push_back(Vec3f::UnitZ());
+      mesh.vertices.emplace_back(p.x(), p.y(), 0);
+    }
+  }
+  mesh.faces.push_back({Plane{Vec3::UnitZ(), 0}, PlaneId{}, 0,
+                        static_cast<std::uint32_t>(contours.size()), FaceKind::kSurface});
+  return mesh;
+}
+
+/// The area of all triangles; less than zero if one of them is turned over.
+double covered(const PolygonMesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : triangulate(mesh, 0)) {
+    const Vec3 &a = mesh.vertices[mesh.corners[t[0]]], &b = mesh.vertices[mesh.corners[t[1]]],
+               &c = mesh.vertices[mesh.corners[t[2]]];
+    const double area = 0.5 * (b - a).cross(c - a).z();
+    if (area < -1e-15) return -1;
+    sum += area;
+  }
+  return sum;
+}
+
+const std::vector<Vec2> kSquare = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+
+TEST(TriangulateFace, CoversAFaceThatIsNotConvex) {
+  EXPECT_NEAR(covered(flat({{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {4, 3}, {4, 4}, {0, 4}}})), 10,
+              1e-12);
+}
+
+TEST(TriangulateFace, LeavesHolesOut) {
+  const std::vector<Vec2> low = {{1, 1}, {1, 2}, {2, 2}, {2, 1}};
+  const std::vector<Vec2> high = {{2.5, 2.5}, {2.5, 3.5}, {3.5, 3.5}, {3.5, 2.5}};
+  EXPECT_NEAR(covered(flat({kSquare, low})), 15, 1e-12);
+  EXPECT_NEAR(covered(flat({kSquare, low, high})), 14, 1e-12);
+  EXPECT_EQ(triangulate(flat({kSquare, low, high}), 0).size(), 4 + 4 + 4 - 2 + 2 * 2u);
+}
+
+TEST(TriangulateFace, CoversAnIslandInAHole) {
+  const std::vector<Vec2> hole = {{1, 1}, {1, 3}, {3, 3}, {3, 1}};
+  const std::vector<Vec2> island = {{1.5, 1.5}, {2.5, 1.5}, {2.5, 2.5}, {1.5, 2.5}};
+  EXPECT_NEAR(covered(flat({kSquare, hole, island})), 16 - 4 + 1, 1e-12);
+}
+
+TEST(TriangulateFace, EveryEdgeOfTheContoursIsAnEdgeOfOneTriangle) {
+  const std::vector<Vec2> hole = {{1, 1}, {1, 2}, {2, 2}, {2, 1}};
+  const PolygonMesh mesh = flat({kSquare, hole});
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const Triangle& t : triangulate(mesh, 0)) {
+    for (std::size_t i = 0; i < 3; ++i) edges.emplace_back(t[i], t[(i + 1) % 3]);
+  }
+  for (std::uint32_t first : {0u, 4u}) {
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::pair edge{first + i, first + (i + 1) % 4};
+      EXPECT_EQ(std::count(edges.begin(), edges.end(), edge), 1) << edge.first;
+    }
+  }
+}
+
+/// Two boxes, the second with a surface that is broken on one side.
+std::vector<Compound> two_pieces() {
+  std::vector<Compound> pieces;
+  for (const double x : {0.0, 1.0}) {
+    ConvexPolyhedron shape = make_box({x, 0, 0}, {x + 1, 2, 3});
+    if (x > 0) shape.faces[0].kind = FaceKind::kInterior;
+    pieces.push_back({{make_convex(shape, MaterialIndex(0u))}, {0}, {}, {}});
+  }
+  return pieces;
+}
+
+std::vector<Material> stone() {
+  Material material;
+  material.name = "old stone";
+  return {material};
+}
+
+double enclosed(const RepairedMesh& mesh) {
+  double sum = 0;
+  for (const PolygonMesh& shell : mesh.shells) sum += mass_properties(shell).volume_m3;
+  return sum;
+}
+
+TEST(Glb, ReadsBackAsTheSameClosedSolids) {
+  const Folder folder;
+  write_glb(folder / "x.glb", make_model(two_pieces(), stone(), 0));
+  RawMesh raw = read_mesh(folder / "x.glb");
+  EXPECT_EQ(raw.polygons.size(), 24u);
+  ASSERT_EQ(raw.corner_normals.size(), raw.corners.size());
+  for (std::size_t p = 0; p < raw.polygons.size(); ++p) {
+    const auto corners = raw.polygon_corners(p);
+    const Vec3 normal = (raw.vertices[corners[1]] - raw.vertices[corners[0]])
+                            .cross(raw.vertices[corners[2]] - raw.vertices[corners[0]])
+                            .normalized();
+    const Vec3f stored = raw.corner_normals[raw.polygons[p].first_corner];
+    EXPECT_NEAR(normal.dot(stored.cast<double>()), 1, 1e-6);
+  }
+}
+
+TEST(Glb, MovesPiecesApartWhenExploded) {
+  const Folder folder;
+  write_glb(folder / "x.glb", make_model(two_pieces(), stone(), 2));
+  const RepairedMesh mesh = repair_mesh(read_mesh(folder / "x.glb"), "x", {});
+  ASSERT_EQ(mesh.shells.size(), 2u);
+  EXPECT_NEAR(enclosed(mesh), 12, 1e-5);
+  EXPECT_NEAR(bounds(mesh.shells[1]).min.x() - bounds(mesh.shells[0]).max.x(), 2, 1e-6);
+}
+
+TEST(Glb, KeepsTheRulesOfTheFormat) {
+  const Folder folder;
+  write_glb(folder / "x.glb", make_model(two_pieces(), stone(), 0));
+  const std::vector<std::byte> bytes = read_file(folder / "x.glb");
+  ByteReader in(bytes, "x.glb");
+  EXPECT_EQ(in.take<std::uint32_t>(), 0x46546c67u);
+  EXPECT_EQ(in.take<std::uint32_t>(), 2u);
+  EXPECT_EQ(in.take<std::uint32_t>(), bytes.size());
+  const auto json_size = in.take<std::uint32_t>();
+  EXPECT_EQ(json_size % 4, 0u);
+  EXPECT_EQ(in.take<std::uint32_t>(), 0x4e4f534au);
+  std::string text(json_size, ' ');
+  for (char& c : text) c = in.take<char>();
+  const nlohmann::json document = nlohmann::json::parse(text);
+  const auto binary_size = in.take<std::uint32_t>();
+  EXPECT_EQ(binary_size % 4, 0u);
+  EXPECT_EQ(document["asset"]["version"], "2.0");
+  EXPECT_EQ(document["buffers"][0]["byteLength"], binary_size);
+  EXPECT_EQ(document["nodes"].size(), 2u);
+  EXPECT_EQ(document["meshes"][0]["primitives"].size(), 1u);
+  EXPECT_EQ(document["meshes"][1]["primitives"].size(), 2u) << "one side is broken";
+  EXPECT_EQ(document["materials"][1]["name"], "old stone inside");
+  for (const auto& accessor : document["accessors"]) {
+    const auto& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    const std::size_t item =
+        view.contains("byteStride") ? view["byteStride"].get<std::size_t>() : 4;
+    EXPECT_LE(
+        accessor["byteOffset"].get<std::size_t>() + item * accessor["count"].get<std::size_t>(),
+        view["byteLength"].get<std::size_t>());
+  }
+}
+
+TEST(ObjFolder, HoldsEveryPieceInFullPrecision) {
+  const Folder folder;
+  std::vector<Compound> pieces = two_pieces();
+  const ConvexPolyhedron odd =
+      transformed(make_box({0, 0, 0}, {1, 1. / 3, 1. / 7}),
+                  Pose{Vec3(.1, .2, .3), Quat(.9, .3, .1, .2).normalized()});
+  pieces.push_back({{make_convex(odd, MaterialIndex(0u))}, {0}, {}, {}});
+  write_obj_folder(folder / "out/", make_model(pieces, stone(), 0));
+  EXPECT_TRUE(fs::exists(folder / "out/materials.mtl"));
+  const RepairedMesh mesh = repair_mesh(read_mesh(folder / "out/piece_2.obj"), "x", {false});
+  ASSERT_EQ(mesh.shells.size(), 1u);
+  EXPECT_NEAR(enclosed(mesh), 1. / 21, 1e-15);
+}
+
+TEST(ObjFolder, ReplacesAnEarlierExportAndNothingElse) {
+  const Folder folder;
+  std::vector<Compound> pieces = two_pieces();
+  write_obj_folder(folder / "out", make_model(pieces, stone(), 0));
+  pieces.pop_back();
+  write_obj_folder(folder / "out", make_model(pieces, stone(), 0));
+  EXPECT_FALSE(fs::exists(folder / "out/piece_1.obj"));
+  std::ofstream(folder / "out/thesis.txt") << "years";
+  EXPECT_THROW(write_obj_folder(folder / "out", make_model(pieces, stone(), 0)), InputError);
+  EXPECT_TRUE(fs::exists(folder / "out/thesis.txt"));
+}
+
+}  // namespace
+}  // namespace sunder

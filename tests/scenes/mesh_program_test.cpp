@@ -1,0 +1,316 @@
+// The commands on meshes as their users see them: sunder fracture, vacd and hull.
+#include <chrono>
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "engine/io/figures.h"
+#include "engine/io/mesh_reader.h"
+#include "fracture/case_file.h"
+#include "fracture/solids.h"
+#include "tests/mesh/meshes.h"
+#include "tests/scenes/program.h"
+
+namespace sunder::tests {
+namespace {
+
+Figures figures(const std::string& arguments) {
+  const Outcome outcome = sunder(arguments + " --quiet --json -");
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << "\n" << outcome.err;
+  return outcome.exit_code == 0 ? parse_figures(outcome.out, arguments) : Figures();
+}
+
+std::int64_t count(const Figures& json, const char* key) {
+  const auto found = json.find(key);
+  EXPECT_NE(found, json.end()) << key;
+  return found == json.end() ? -1 : std::get<std::int64_t>(found->second);
+}
+
+double number(const Figures& json, const char* key) {
+  const auto found = json.find(key);
+  EXPECT_NE(found, json.end()) << key;
+  if (found == json.end()) return NAN;
+  const auto* whole = std::get_if<std::int64_t>(&found->second);
+  return whole ? static_cast<double>(*whole) : std::get<double>(found->second);
+}
+
+/// Everything that a break keeps.
+void expect_sound(const Figures& json, const std::string& what) {
+  EXPECT_GE(count(json, "/pieces"), 1) << what;
+  EXPECT_EQ(count(json, "/watertight_pieces"), count(json, "/pieces")) << what;
+  EXPECT_EQ(count(json, "/islands"), count(json, "/pieces")) << what;
+  EXPECT_EQ(count(json, "/open_edges"), 0) << what;
+  EXPECT_EQ(count(json, "/negative_volumes"), 0) << what;
+  EXPECT_LE(number(json, "/volume_error"), 1e-12) << what;
+  EXPECT_LE(number(json, "/overlap_volume_m3"), 1e-12 * number(json, "/volume_in_m3")) << what;
+}
+
+constexpr const char* kSolids[] = {"box:1,2,3", "column:0.5,4", "torus:1,0.3", "grid:6,5,4",
+                                   "voronoi:60"};
+constexpr const char* kPatterns[] = {"voronoi:30",        "voronoi:12,1", "web:4x8", "radial:7",
+                                     "brick:0.5,0.2,0.3", "slabs:9",      "grid:3"};
+
+TEST(Fracture, KeepsEveryInvariantOnAllSolidsAndPatterns) {
+  for (const std::string solid : kSolids) {
+    for (const std::string pattern : kPatterns) {
+      const std::string command = "fracture " + solid + " --pattern " + pattern;
+      expect_sound(figures(command), command);
+    }
+    const std::string partial =
+        "fracture " + solid + " --pattern voronoi:20 --radius 0.6 --at 0,0,0";
+    expect_sound(figures(partial), partial);
+  }
+}
+
+TEST(Fracture, GivesItsFigures) {
+  const Figures json = figures("fracture grid:4,4,4 --pattern voronoi:9 --at 2,4,2 --radius 1.2");
+  for (const char* key :
+       {"/input/vertices", "/input/faces", "/input/closed", "/pieces", "/convexes", "/islands",
+        "/welded", "/volume_in_m3", "/volume_out_m3", "/volume_error", "/watertight_pieces",
+        "/open_edges", "/negative_volumes", "/overlap_volume_m3", "/untouched_convexes",
+        "/prepare_ms", "/clip_ms", "/islands_ms", "/total_ms"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  const Outcome outcome = sunder("fracture box:1,1,1 --pattern grid:2 --quiet --json -");
+  EXPECT_NE(outcome.out.find("\"repairs\": []"), std::string::npos) << outcome.out;
+  EXPECT_GT(count(json, "/untouched_convexes"), 30);
+  EXPECT_LT(count(json, "/untouched_convexes"), 64);
+}
+
+TEST(Fracture, BreaksTheWholeSolidIntoAsManyPiecesAsThePatternHasCells) {
+  EXPECT_EQ(count(figures("fracture box:1,2,5 --pattern voronoi:50"), "/pieces"), 50);
+  EXPECT_EQ(count(figures("fracture box:1,2,5 --pattern voronoi:1"), "/pieces"), 1);
+  EXPECT_EQ(count(figures("fracture box:1,2,5 --pattern grid:4"), "/pieces"), 64);
+  EXPECT_EQ(count(figures("fracture column:0.2,4 --pattern slabs:11"), "/pieces"), 11);
+}
+
+TEST(Fracture, AnotherSeedBreaksOtherwiseAndTheSameSeedAlike) {
+  const std::string command = "fracture column:1,2 --pattern voronoi:15 --seed ";
+  const Folder folder;
+  std::vector<std::vector<Vec3>> vertices;
+  for (const std::string seed : {"3", "3", "4"}) {
+    const std::string file = folder / "x.glb";
+    EXPECT_EQ(sunder(command + seed + " -o " + file).exit_code, 0);
+    vertices.push_back(read_mesh(file).vertices);
+  }
+  EXPECT_EQ(vertices[0], vertices[1]);
+  EXPECT_NE(vertices[0], vertices[2]);
+}
+
+TEST(Fracture, RunsAPatternFileAndACase) {
+  const Folder folder;
+  std::ofstream(folder / "halves.obj")
+      << "v -9 -9 -9\nv 0 -9 -9\nv 9 -9 -9\nv -9 9 -9\nv 0 9 -9\nv 9 9 -9\n"
+         "v -9 -9 9\nv 0 -9 9\nv 9 -9 9\nv -9 9 9\nv 0 9 9\nv 9 9 9\n"
+         "g left\nf 1 4 5 2\nf 7 8 11 10\nf 1 2 8 7\nf 4 10 11 5\nf 1 7 10 4\nf 2 5 11 8\n"
+         "g right\nf 2 5 6 3\nf 8 9 12 11\nf 2 3 9 8\nf 5 11 12 6\nf 2 8 11 5\nf 3 6 12 9\n";
+  const Figures halves = figures("fracture box:1,1,1 --pattern " + folder / "halves.obj");
+  EXPECT_EQ(count(halves, "/pieces"), 2);
+  expect_sound(halves, "halves");
+
+  fracture::BreakCase example;
+  example.compound = fracture::voronoi_compound(20, 1);
+  example.command.pattern.kind = PatternSpec::Kind::kVoronoi;
+  example.command.pattern.cells = 10;
+  example.command.radius_m = 0.3;
+  std::ofstream file(folder / "x.case");
+  fracture::write_case(file, example);
+  file.close();
+  const Figures json = figures("fracture " + folder / "x.case");
+  EXPECT_GT(count(json, "/pieces"), 1);
+  expect_sound(json, "x.case");
+}
+
+TEST(Fracture, WritesPiecesToLookAt) {
+  const Folder folder;
+  const std::string command = "fracture box:1,1,1 --pattern grid:2 --explode 0.5 -o ";
+  ASSERT_EQ(sunder(command + folder / "x.glb").exit_code, 0);
+  ASSERT_EQ(sunder(command + folder / "pieces/").exit_code, 0);
+  ASSERT_EQ(sunder(command + folder / "x.png").exit_code, 0);
+  const RawMesh glb = read_mesh(folder / "x.glb");
+  double most = 0;
+  for (const Vec3& vertex : glb.vertices) most = std::max(most, vertex.maxCoeff());
+  EXPECT_NEAR(most, 0.5 + 0.5 * 0.25, 1e-6) << "pieces have moved outward";
+  EXPECT_TRUE(std::filesystem::exists(folder / "pieces/piece_7.obj"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "pieces/materials.mtl"));
+  EXPECT_GT(std::filesystem::file_size(folder / "x.png"), 10000u);
+}
+
+TEST(Hull, EnclosesAndComesCloserWithMoreVertices) {
+  double before = 1e9;
+  for (const std::string vertices : {"4", "8", "20", "64"}) {
+    const Figures json = figures("hull torus:1,0.3 --vertices " + vertices);
+    EXPECT_TRUE(std::get<bool>(json.at("/encloses_all")));
+    EXPECT_LE(count(json, "/vertices_used"), std::stoi(vertices));
+    EXPECT_GE(count(json, "/faces"), 4);
+    EXPECT_GE(number(json, "/volume_ratio"), 1 - 1e-12);
+    EXPECT_LE(number(json, "/volume_ratio"), before + 1e-12);
+    EXPECT_GE(number(json, "/total_ms"), 0);
+    before = number(json, "/volume_ratio");
+  }
+  EXPECT_NEAR(before, 1, 0.02);
+}
+
+/// A tetrahedron with an open side, as text.
+std::string open_tetrahedron() {
+  return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+}
+
+TEST(Vacd, GivesItsFiguresAndNamesRepairs) {
+  const Folder folder;
+  const std::string mesh = folder / "t.obj";
+  std::ofstream(mesh) << open_tetrahedron();
+  const Figures json = figures("vacd " + mesh + " --nodes 2");
+  for (const char* key :
+       {"/input/vertices", "/input/closed", "/input/repairs/0", "/convexes", "/hull_volume_ratio",
+        "/max_faces_per_convex", "/ghosts", "/split_ms", "/total_ms"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_FALSE(std::get<bool>(json.at("/input/closed")));
+  EXPECT_EQ(std::get<std::string>(json.at("/input/repairs/0")), "planar holes closed (1)");
+  EXPECT_NEAR(number(json, "/hull_volume_ratio"), 1, 1e-9);
+  const Outcome refused = sunder("vacd " + mesh + " --repair off");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("planar holes"), std::string::npos) << refused.err;
+}
+
+TEST(Vacd, TakesNodesFromAFile) {
+  const Folder folder;
+  std::ofstream(folder / "t.obj") << open_tetrahedron();
+  std::ofstream(folder / "nodes") << "0 0 0.1 # low\n\n0 0 0.9\n0.9 0 0\n";
+  const std::string command = "vacd " + folder / "t.obj" + " --nodes " + folder / "nodes";
+  EXPECT_EQ(count(figures(command), "/convexes"), 3);
+  std::ofstream(folder / "nodes") << "0 0 0.1\n0 zero 0.9\n";
+  const Outcome wrong = sunder(command);
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("nodes:2"), std::string::npos) << wrong.err;
+}
+
+TEST(Vacd, WatchesItsNodes) {
+  const Folder folder;
+  std::ofstream(folder / "t.obj") << open_tetrahedron();
+  std::ofstream(folder / "nodes") << "0 0 0.1\n";
+  const std::string script = "(sleep 1.5; printf '0 0 0.1\\n0.9 0 0\\n' > " + folder / "nodes" +
+                             ") & timeout 4 \"" SUNDER_PROGRAM "\" vacd " + folder / "t.obj" +
+                             " --watch --nodes " + folder / "nodes" + " -o " + folder / "x.glb" +
+                             " > " + folder / "out";
+  std::system(script.c_str());
+  std::ifstream in(folder / "out");
+  const std::string out((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_NE(out.find("1 convexes"), std::string::npos) << out;
+  EXPECT_NE(out.find("2 convexes"), std::string::npos) << out;
+  EXPECT_EQ(sunder("vacd " + folder / "t.obj" + " --watch --nodes 3").exit_code, 2);
+}
+
+constexpr const char* kWrong[] = {"fracture",
+                                  "fracture box:1,1,1",
+                                  "fracture --pattern voronoi:9",
+                                  "fracture box:1,1 --pattern voronoi:9",
+                                  "fracture box:1,1,0 --pattern voronoi:9",
+                                  "fracture box:1,1,nan --pattern voronoi:9",
+                                  "fracture torus:1,2 --pattern voronoi:9",
+                                  "fracture grid:1.5,1,1 --pattern voronoi:9",
+                                  "fracture sphere:1 --pattern voronoi:9",
+                                  "fracture nowhere.obj --pattern voronoi:9",
+                                  "fracture / --pattern voronoi:9",
+                                  "fracture box:1,1,1 --pattern voronoi",
+                                  "fracture box:1,1,1 --pattern voronoi:",
+                                  "fracture box:1,1,1 --pattern voronoi:0",
+                                  "fracture box:1,1,1 --pattern voronoi:-3",
+                                  "fracture box:1,1,1 --pattern voronoi:2.5",
+                                  "fracture box:1,1,1 --pattern voronoi:1e9",
+                                  "fracture box:1,1,1 --pattern voronoi:9,99",
+                                  "fracture box:1,1,1 --pattern voronoi:9,1,1",
+                                  "fracture box:1,1,1 --pattern voronoi:nine",
+                                  "fracture box:1,1,1 --pattern web:6",
+                                  "fracture box:1,1,1 --pattern web:6x2",
+                                  "fracture box:1,1,1 --pattern web:x",
+                                  "fracture box:1,1,1 --pattern brick:1,1",
+                                  "fracture box:1,1,1 --pattern brick:1,1,0",
+                                  "fracture box:1,1,1 --pattern brick:0.01,0.01,0.01",
+    "fracture box:1,1,1 --pattern grid:1000",
+                                  "fracture box:1,1,1 --pattern hexagons:4",
+                                  "fracture box:1,1,1 --pattern nowhere.obj",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --at 1,2",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --at 1,2,x",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --at 1,2,inf",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --radius 0",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --radius -1",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --radius wide",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --seed -1",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --explode -1",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --fit loose",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --fit hull:3",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --nodes 0",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --nodes 99999999999",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --nodes nowhere.txt",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --repair maybe",
+                                  "fracture box:1,1,1 --pattern voronoi:9 -o x.fbx",
+                                  "fracture box:1,1,1 --pattern voronoi:9 -o /proc/x.glb",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --json /proc/x.json",
+                                  "fracture nowhere.case",
+                                  "fracture /dev/null --pattern voronoi:9",
+                                  "vacd box:1,1,1",
+                                  "vacd nowhere.obj",
+                                  "vacd nowhere.obj --convexes 0",
+                                  "vacd nowhere.obj --watch",
+                                  "hull box:1,1,1",
+                                  "hull box:1,1,1 --vertices 3",
+                                  "hull box:1,1,1 --vertices many",
+                                  "hull nowhere.ply --vertices 9"};
+
+TEST(MeshCommands, WrongUseExitsWithTwoAndOneLine) {
+  for (const std::string wrong : kWrong) {
+    const Outcome outcome = sunder(wrong);
+    EXPECT_EQ(outcome.exit_code, 2) << wrong << "\n" << outcome.err;
+    EXPECT_NE(outcome.err, "") << wrong;
+    EXPECT_LE(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
+  }
+}
+
+TEST(MeshCommands, EachHasHelpForEveryFlag) {
+  const std::pair<const char*, std::vector<const char*>> commands[] = {
+      {"fracture",
+       {"--pattern", "--at", "--radius", "--seed", "--nodes", "--convexes", "--fit", "--repair",
+        "--output", "--explode", "--json", "--threads", "--quiet"}},
+      {"vacd", {"--nodes", "--convexes", "--fit", "--repair", "--watch", "--output", "--json"}},
+      {"hull", {"--vertices", "--json"}}};
+  for (const auto& [command, flags] : commands) {
+    const Outcome outcome = sunder(std::string(command) + " --help");
+    EXPECT_EQ(outcome.exit_code, 0);
+    for (const char* flag : flags) {
+      EXPECT_NE(outcome.out.find(flag), std::string::npos) << command << " " << flag;
+    }
+  }
+}
+
+TEST(MeshCommands, EveryNastyMeshEndsSoonWithPiecesOrOneLine) {
+  SUNDER_NEEDS_MESHES();
+  for (const auto& mesh : test::meshes("nasty")) {
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome =
+        sunder("fracture " + mesh.string() + " --pattern voronoi:20 --quiet --json -");
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(took.count(), 20) << mesh << ": 5 s on a machine that does nothing else";
+    if (outcome.exit_code == 0) {
+      expect_sound(parse_figures(outcome.out, mesh.string()), mesh.string());
+    } else {
+      EXPECT_EQ(outcome.exit_code, 2) << mesh;
+      EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    }
+  }
+}
+
+TEST(MeshCommands, EveryGoodMeshBreaksSoundly) {
+  SUNDER_NEEDS_MESHES();
+  for (const auto& mesh : test::meshes("good")) {
+    for (const std::string cells : {"1", "20", "100"}) {
+      const std::string command = "fracture " + mesh.string() + " --pattern voronoi:" + cells;
+      expect_sound(figures(command), command);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunder::tests
