@@ -24,6 +24,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kEvent = 1;
+/// A brick is at least this part of the largest convex.
+constexpr double kSmallestBrick = 1e-5;
 /// How often a break is timed, and when that is enough.
 constexpr int kMostTimes = 20;
 constexpr double kLongEnough_ms = 200;
@@ -43,14 +45,15 @@ Mat3 stretch_onto(const Vec3& reach, const Quat& rotation) {
   return Mat3((half_P / reach.norm()).asDiagonal());
 }
 
-/// A wall of smaller bricks than a pattern may have would leave most of the solid whole.
-void check_bricks(const FractureOptions& options, const Vec3& brick_m, double unit_m) {
-  double bricks = 1;
-  for (const double size_m : brick_m) bricks *= 2 * std::ceil(unit_m / size_m - 0.5) + 1;
-  if (bricks <= fracture::kMostBricks) return;
-  throw InputError("--pattern " + options.pattern + ": more than " +
-                   std::to_string(fracture::kMostBricks) +
-                   " such bricks lie within reach; give larger ones, or a smaller --radius");
+/// Bricks that are slivers beside what they are to cut would be joined one by one again.
+void check_bricks(const FractureOptions& options, const Vec3& brick_m, const Compound& compound) {
+  double largest_m3 = 0;
+  for (const ConvexPtr& convex : compound.convexes) {
+    largest_m3 = std::max(largest_m3, convex->solid.volume_m3);
+  }
+  if (brick_m.prod() >= kSmallestBrick * largest_m3) return;
+  throw InputError("--pattern " + options.pattern + ": such bricks are dust beside this solid; " +
+                   "give larger ones");
 }
 
 /// What the flags ask for. The blow goes towards the middle, or down.
@@ -73,7 +76,7 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
   const Vec3 reach =
       (box.max - hit.point_R).cwiseAbs().cwiseMax((box.min - hit.point_R).cwiseAbs());
   if (material.pattern.kind == PatternSpec::Kind::kBrick) {
-    check_bricks(options, material.pattern.brick_m, options.radius_m.value_or(reach.norm()));
+    check_bricks(options, material.pattern.brick_m, compound);
   }
   const auto breaker = fracture::make_pattern_breaker();
   BreakCommand command = breaker->command(compound, material, hit, kEvent, options.seed);
