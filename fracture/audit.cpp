@@ -154,7 +154,7 @@ Audit audit(std::span<const Compound> pieces) {
   for (const Compound& piece : pieces) {
     audit.convexes += piece.convexes.size();
     audit.volume_m3 += volume(piece);
-    const auto islands = find_islands(piece.convexes.size(), piece.bonds);
+    const auto islands = find_islands(piece);
     if (!islands.empty()) audit.islands += *std::max_element(islands.begin(), islands.end()) + 1;
     const std::size_t open = open_edges_of(piece);
     audit.open_edges += open;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -14,6 +15,7 @@
 #include "engine/io/figures.h"
 #include "fracture/audit.h"
 #include "fracture/case_file.h"
+#include "fracture/compound_builder.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
@@ -21,6 +23,9 @@
 
 namespace sunder::app {
 namespace {
+
+using fracture::BreakEdit;
+using fracture::Structure;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kEvent = 1;
@@ -90,35 +95,54 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
   return command;
 }
 
+/// One event on all parts of a solid that do not hang together; the structures stay as they are.
+std::vector<BreakEdit> break_once(const std::vector<Structure>& structures,
+                                  const fracture::ReadyBreak& ready, const BreakCommand& command) {
+  std::vector<BreakEdit> edits;
+  for (const Structure& structure : structures) {
+    edits.push_back(fracture::break_structure(structure, *ready.pattern, ready.placement,
+                                              ready.sphere, command.event));
+  }
+  return edits;
+}
+
+/// Adds what became of one part.
+void collect(Structure& structure, BreakEdit edit, BreakPlan& plan) {
+  BreakPlan& loose = edit.loose;
+  plan.clip_ms += loose.clip_ms;
+  plan.islands_ms += loose.islands_ms;
+  plan.failed += loose.failed;
+  plan.welded += loose.welded;
+  plan.debris_volume_m3 += loose.debris_volume_m3;
+  plan.untouched += edit.changed ? loose.untouched : structure.size();
+  if (edit.changed) structure.apply(edit);
+  if (structure.size() > 0) plan.pieces.push_back(structure.compound());
+  std::move(loose.pieces.begin(), loose.pieces.end(), std::back_inserter(plan.pieces));
+}
+
 /// Carries the break out a few times and takes the fastest: the first finds memory and caches cold,
 /// and other programs get in the way of any.
 Broken carry_out(const Compound& compound, const BreakCommand& command) {
   Broken broken;
   Stopwatch watch;
-  fracture::Structure structure(compound);
+  std::vector<Structure> structures;
+  for (const Compound& part : fracture::split_islands(compound)) structures.emplace_back(part);
   fracture::PatternLibrary library;
   const fracture::ReadyBreak ready = fracture::make_ready(command, bounds(compound), library);
   broken.prepare_ms = watch.ms();
 
-  fracture::BreakEdit edit;
+  std::vector<BreakEdit> edits;
   const Stopwatch all;
   broken.total_ms = kInfinity;
   for (int time = 0; time < kMostTimes && (time < 2 || all.ms() < kLongEnough_ms); ++time) {
     watch.lap_ms();
-    fracture::BreakEdit again = fracture::break_structure(
-        structure, *ready.pattern, ready.placement, ready.sphere, command.event);
+    std::vector<BreakEdit> again = break_once(structures, ready, command);
     if (watch.ms() >= broken.total_ms) continue;
     broken.total_ms = watch.ms();
-    edit = std::move(again);
+    edits = std::move(again);
   }
-  watch.lap_ms();
-  if (edit.changed) structure.apply(edit);
-  broken.total_ms += watch.ms();
-
-  broken.plan = std::move(edit.loose);
-  if (!edit.changed) broken.plan.untouched = static_cast<std::uint32_t>(compound.convexes.size());
-  if (structure.size() > 0) {
-    broken.plan.pieces.insert(broken.plan.pieces.begin(), structure.compound());
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    collect(structures[i], std::move(edits[i]), broken.plan);
   }
   broken.before = fracture::audit(std::span(&compound, 1));
   broken.after = fracture::audit(broken.plan.pieces);
