@@ -1,3 +1,5 @@
+// Two passes, each through memory in order. Faces are laid flat while their convexes go by, into
+// bins by the names of their planes; then each bin, small enough to stay near, is sorted and swept.
 #include "fracture/adjacency.h"
 
 #include <algorithm>
@@ -12,33 +14,91 @@
 namespace sunder::fracture {
 namespace {
 
-/// A face laid flat into two of the three axes.
+constexpr double kLeastOverlap = 1e-10;  // of the squared size of the smaller convex
+
+/// A face without the coordinate in which its normal is longest.
 struct FlatFace {
-  std::uint32_t entry = 0;
-  std::uint32_t first_point = 0;
-  std::uint32_t point_count = 0;
-  Vec2 min, max;
+  PlaneId id;
+  const Vec2* points = nullptr;  ///< Its polygon, once its bin is complete.
+  double scale = 1;              ///< Its area is this times that of the polygon.
+  double size = 0;               ///< Of its convex.
+  std::uint32_t convex = 0, face = 0;
+  std::uint32_t first_point = 0, point_count = 0;  ///< In its bin.
+  std::uint8_t dropped = 0;                        ///< That coordinate.
+  bool known = false;
+
+  std::span<const Vec2> polygon() const { return {points, point_count}; }
 };
 
-/// Finds the contacts within one plane.
+double size_of(const Convex& convex) { return convex.box.extent().maxCoeff(); }
+
+/// Appends the polygon of a face without coordinate `dropped`, counter-clockwise from either side.
+void lay_flat(const ConvexPolyhedron& polyhedron, std::size_t face, int dropped,
+              std::vector<Vec2>& points) {
+  const auto corners = polyhedron.face_corners(face);
+  const bool mirrored = polyhedron.faces[face].plane.normal[dropped] < 0;
+  const int u = (dropped + 1) % 3, v = (dropped + 2) % 3;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec3& point = polyhedron.vertices[corners[mirrored ? corners.size() - 1 - k : k]];
+    points.emplace_back(point[u], point[v]);
+  }
+}
+
+/// Faces of some planes.
+struct Bin {
+  std::vector<FlatFace> faces;
+  std::vector<Vec2> points;
+
+  void add(const Convex& convex, const FaceEntry& entry) {
+    const Vec3& normal = convex.polyhedron.faces[entry.face].plane.normal;
+    int dropped = 0;
+    const double longest = normal.cwiseAbs().maxCoeff(&dropped);
+    FlatFace flat;
+    flat.id = entry.id;
+    flat.scale = 1 / longest;
+    flat.size = size_of(convex);
+    flat.convex = entry.convex;
+    flat.face = entry.face;
+    flat.first_point = static_cast<std::uint32_t>(points.size());
+    lay_flat(convex.polyhedron, entry.face, dropped, points);
+    flat.point_count = static_cast<std::uint32_t>(points.size()) - flat.first_point;
+    flat.dropped = static_cast<std::uint8_t>(dropped);
+    flat.known = entry.known;
+    faces.push_back(flat);
+  }
+};
+
+/// Finds the contacts within planes.
 class PlaneSweep {
  public:
-  explicit PlaneSweep(std::span<const ConvexPtr> convexes) : convexes_(convexes) {}
+  PlaneSweep(std::span<const ConvexPtr> convexes, std::vector<FlatFace>& faces)
+      : convexes_(convexes), faces_(faces) {}
 
-  /// `entries` name one plane, either side.
-  void run(std::span<const FaceEntry> entries, std::vector<Bond>& bonds) {
-    if (entries.size() < 2 || (entries.size() == 2 && match_twins(entries, bonds))) return;
-    flatten(entries);
-    std::sort(faces_.begin(), faces_.end(), [](const FlatFace& a, const FlatFace& b) {
-      return a.min.x() != b.min.x() ? a.min.x() < b.min.x() : a.entry < b.entry;
-    });
+  /// `plane` numbers the faces of one plane, either side.
+  void run(std::span<const std::uint32_t> plane, std::vector<Bond>& bonds) {
+    if (plane.size() < 2) return;
+    for (const std::uint32_t i : plane) turn(faces_[i], faces_[plane[0]].dropped);
+    if (plane.size() == 2) return match(faces_[plane[0]], faces_[plane[1]], bonds);
+    spread_.clear();
+    for (const std::uint32_t i : plane) {
+      Spread spread{i, Vec2::Constant(1e300), Vec2::Constant(-1e300)};
+      for (const Vec2& point : faces_[i].polygon()) {
+        spread.min = spread.min.cwiseMin(point);
+        spread.max = spread.max.cwiseMax(point);
+      }
+      spread_.push_back(spread);
+    }
+    std::sort(spread_.begin(), spread_.end(),
+              [](const Spread& a, const Spread& b) { return a.min.x() < b.min.x(); });
     active_.clear();
-    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+    for (std::uint32_t i = 0; i < spread_.size(); ++i) {
       std::size_t kept = 0;
       for (const std::uint32_t other : active_) {
-        if (faces_[other].max.x() <= faces_[i].min.x()) continue;
+        if (spread_[other].max.x() <= spread_[i].min.x()) continue;
         active_[kept++] = other;
-        match(entries, faces_[other], faces_[i], bonds);
+        const bool apart = spread_[other].max.y() <= spread_[i].min.y() ||
+                           spread_[i].max.y() <= spread_[other].min.y();
+        if (!apart) match(faces_[spread_[other].face], faces_[spread_[i].face], bonds);
       }
       active_.resize(kept);
       active_.push_back(i);
@@ -46,94 +106,58 @@ class PlaneSweep {
   }
 
  private:
-  const ConvexPolyhedron::Face& face_of(const FaceEntry& entry) const {
-    return convexes_[entry.convex]->polyhedron.faces[entry.face];
+  struct Spread {
+    std::uint32_t face;
+    Vec2 min, max;
+  };
+
+  /// Lays a face flat the other way: rounding may tell the sides of one plane apart.
+  void turn(FlatFace& face, std::uint8_t dropped) {
+    if (face.dropped == dropped) return;
+    const ConvexPolyhedron& polyhedron = convexes_[face.convex]->polyhedron;
+    turned_.emplace_back();
+    lay_flat(polyhedron, face.face, dropped, turned_.back());
+    face.points = turned_.back().data();
+    face.dropped = dropped;
+    face.scale = 1 / std::abs(polyhedron.faces[face.face].plane.normal[dropped]);
   }
 
-  /// All faces seen against the first one's normal, so that its own side is counter-clockwise.
-  void flatten(std::span<const FaceEntry> entries) {
-    const Vec3 normal = face_of(entries[0]).plane.normal;
-    int drop = 0;
-    normal.cwiseAbs().maxCoeff(&drop);
-    scale_ = 1 / std::abs(normal[drop]);
-    const int u = (drop + 1) % 3, v = (drop + 2) % 3;
-    const bool mirrored = normal[drop] < 0;
-    const ConvexPolyhedron& first = convexes_[entries[0].convex]->polyhedron;
-    const Vec3 origin = first.vertices[first.face_corners(entries[0].face)[0]];
-    points_.clear();
-    faces_.clear();
-    for (std::uint32_t i = 0; i < entries.size(); ++i) {
-      const ConvexPolyhedron& polyhedron = convexes_[entries[i].convex]->polyhedron;
-      const auto corners = polyhedron.face_corners(entries[i].face);
-      FlatFace flat{i, static_cast<std::uint32_t>(points_.size()),
-                    static_cast<std::uint32_t>(corners.size()), Vec2::Constant(1e300),
-                    Vec2::Constant(-1e300)};
-      const bool same_side = entries[i].id == entries[0].id;
-      for (std::size_t k = 0; k < corners.size(); ++k) {
-        const std::size_t at = same_side != mirrored ? k : corners.size() - 1 - k;
-        const Vec3 point = polyhedron.vertices[corners[at]] - origin;
-        points_.emplace_back(point[u], point[v]);
-        flat.min = flat.min.cwiseMin(points_.back());
-        flat.max = flat.max.cwiseMax(points_.back());
-      }
-      faces_.push_back(flat);
-    }
-  }
-
-  std::span<const Vec2> points_of(const FlatFace& face) const {
-    return std::span(points_).subspan(face.first_point, face.point_count);
-  }
-
-  /// The common case of two faces that are one polygon seen from either side. False if they are
-  /// not.
-  bool match_twins(std::span<const FaceEntry> entries, std::vector<Bond>& bonds) const {
-    const FaceEntry& a = entries[0];
-    const FaceEntry& b = entries[1];
-    if (a.id == b.id || (a.known && b.known) || a.convex == b.convex) return true;
-    const Convex& p = *convexes_[a.convex];
-    const Convex& q = *convexes_[b.convex];
-    const auto corners_p = p.polyhedron.face_corners(a.face);
-    const auto corners_q = q.polyhedron.face_corners(b.face);
-    const std::size_t n = corners_p.size();
-    if (n != corners_q.size()) return false;
-    const double size = p.box.extent().maxCoeff(), near = 1e-26 * size * size;
-    const auto same = [&](std::size_t i, std::size_t j) {
-      const Vec3& point = p.polyhedron.vertices[corners_p[i]];
-      return (point - q.polyhedron.vertices[corners_q[j]]).squaredNorm() <= near;
-    };
-    std::size_t start = 0;
-    while (start < n && !same(0, start)) ++start;
-    if (start == n) return false;
-    for (std::size_t i = 1; i < n; ++i) {
-      if (!same(i, (start + n - i) % n)) return false;
-    }
-    add_bond(a, b, face_area(p.polyhedron, a.face), bonds);
-    return true;
-  }
-
-  void add_bond(const FaceEntry& a, const FaceEntry& b, double area,
-                std::vector<Bond>& bonds) const {
-    if (area <= least_overlap(*convexes_[a.convex], *convexes_[b.convex])) return;
-    const FaceEntry& low = a.convex < b.convex ? a : b;
-    const FaceEntry& high = a.convex < b.convex ? b : a;
+  void match(const FlatFace& a, const FlatFace& b, std::vector<Bond>& bonds) {
+    if (a.id == b.id || (a.known && b.known) || a.convex == b.convex) return;
+    // The even side first: the same bits whichever convex was given first.
+    const FlatFace& even = a.id < b.id ? a : b;
+    const FlatFace& odd = a.id < b.id ? b : a;
+    const double size = std::min(a.size, b.size);
+    const double flat_area = are_twins(even.polygon(), odd.polygon(), size)
+                                 ? polygon_area(even.polygon())
+                                 : overlap_area(even.polygon(), odd.polygon(), scratch_);
+    const double area = even.scale * flat_area;
+    if (area <= kLeastOverlap * size * size) return;
+    const FlatFace& low = a.convex < b.convex ? a : b;
+    const FlatFace& high = a.convex < b.convex ? b : a;
     bonds.push_back({low.convex, high.convex, low.face, high.face, area});
   }
 
-  void match(std::span<const FaceEntry> entries, const FlatFace& a, const FlatFace& b,
-             std::vector<Bond>& bonds) {
-    const FaceEntry& entry_a = entries[a.entry];
-    const FaceEntry& entry_b = entries[b.entry];
-    if (entry_a.id == entry_b.id || (entry_a.known && entry_b.known)) return;
-    if (entry_a.convex == entry_b.convex) return;
-    if (a.max.y() <= b.min.y() || b.max.y() <= a.min.y()) return;
-    add_bond(entry_a, entry_b, scale_ * overlap_area(points_of(a), points_of(b), scratch_), bonds);
+  /// The common case of two faces that are one polygon seen from either side.
+  static bool are_twins(std::span<const Vec2> a, std::span<const Vec2> b, double size) {
+    if (a.size() != b.size()) return false;
+    const double near = 1e-26 * size * size;
+    const auto same = [&](const Vec2& p, const Vec2& q) { return (p - q).squaredNorm() <= near; };
+    std::size_t start = 0;
+    while (start < b.size() && !same(a[0], b[start])) ++start;
+    if (start == b.size()) return false;
+    for (std::size_t i = 1; i < a.size(); ++i) {
+      if (++start == b.size()) start = 0;
+      if (!same(a[i], b[start])) return false;
+    }
+    return true;
   }
 
   std::span<const ConvexPtr> convexes_;
-  double scale_ = 1;
-  std::vector<Vec2> points_;
-  std::vector<FlatFace> faces_;
+  std::vector<FlatFace>& faces_;
+  std::vector<Spread> spread_;
   std::vector<std::uint32_t> active_;
+  std::vector<std::vector<Vec2>> turned_;
   OverlapScratch scratch_;
 };
 
@@ -155,21 +179,97 @@ void bucket_sort(std::vector<T>& items, std::size_t buckets, const Bucket& bucke
   items = std::move(sorted);
 }
 
-/// Where each plane's entries begin, and the end of the last.
-std::vector<std::size_t> plane_starts(const std::vector<FaceEntry>& faces) {
-  std::vector<std::size_t> starts;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (i == 0 || faces[i].id.value >> 1 != faces[i - 1].id.value >> 1) starts.push_back(i);
+/// The contacts within a bin's planes.
+void sweep_planes(std::span<const ConvexPtr> convexes, std::vector<FlatFace>& faces,
+                  std::vector<Bond>& bonds) {
+  struct Key {
+    std::uint64_t plane;
+    std::uint32_t face;
+  };
+  std::vector<Key> keys;
+  keys.reserve(faces.size());
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+    keys.push_back({faces[i].id.value >> 1, i});
   }
-  starts.push_back(faces.size());
-  return starts;
+  const std::size_t buckets = std::bit_ceil(keys.size() + 1);
+  // Bins took the low bits of the hash.
+  bucket_sort(
+      keys, buckets, [&](const Key& key) { return (mix(key.plane) >> 32) & (buckets - 1); },
+      [](const Key& a, const Key& b) {
+        return a.plane != b.plane ? a.plane < b.plane : a.face < b.face;
+      });
+  PlaneSweep sweep(convexes, faces);
+  std::vector<std::uint32_t> order;
+  for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
+    order.clear();
+    for (; end < keys.size() && keys[end].plane == keys[i].plane; ++end) {
+      order.push_back(keys[end].face);
+    }
+    sweep.run(order, bonds);
+  }
+}
+
+/// All contacts, where `add(begin, end, bins)` lays the faces of items [begin, end) flat.
+template <class Add>
+std::vector<Bond> contacts(std::span<const ConvexPtr> convexes, std::size_t items,
+                           std::size_t items_at_once, std::size_t faces, const Add& add) {
+  constexpr std::size_t kFacesInBin = 1024, kMostBins = 256;
+  const std::size_t bins = std::min(std::bit_ceil(faces / kFacesInBin + 1), kMostBins);
+  const std::size_t chunks = (items + items_at_once - 1) / items_at_once;
+  std::vector<std::vector<Bin>> flat(chunks);
+  for_chunks(items, items_at_once, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    flat[chunk].resize(bins);
+    for (Bin& bin : flat[chunk]) {
+      const std::size_t expected = 3 * faces / (2 * chunks * bins);
+      bin.faces.reserve(expected);
+      bin.points.reserve(6 * expected);
+    }
+    add(begin, end, flat[chunk]);
+  });
+  std::vector<std::vector<Bond>> found(bins);
+  for_chunks(bins, 1, [&](std::size_t b, std::size_t, std::size_t) {
+    std::vector<FlatFace> in_bin;
+    std::size_t count = 0;
+    for (const std::vector<Bin>& chunk : flat) count += chunk[b].faces.size();
+    in_bin.reserve(count);
+    for (const std::vector<Bin>& chunk : flat) {
+      for (FlatFace face : chunk[b].faces) {
+        face.points = chunk[b].points.data() + face.first_point;
+        in_bin.push_back(face);
+      }
+    }
+    sweep_planes(convexes, in_bin, found[b]);
+  });
+  std::vector<Bond> bonds;
+  for (const std::vector<Bond>& part : found) bonds.insert(bonds.end(), part.begin(), part.end());
+  sort_bonds(bonds);
+  return bonds;
+}
+
+/// Asks for the convexes after the first: they are strewn over memory, and waiting for them is most
+/// of the work.
+void fetch_ahead(std::span<const ConvexPtr> convexes) {
+  constexpr std::size_t kHead = 6, kBody = 3;
+  if (kHead < convexes.size()) __builtin_prefetch(convexes[kHead].get());
+  if (kBody >= convexes.size()) return;
+  const ConvexPolyhedron& next = convexes[kBody]->polyhedron;
+  const auto fetch = [](const void* start, std::size_t bytes) {
+    const char* line = static_cast<const char*>(start);
+    for (std::size_t at = 0; at < bytes; at += 64) __builtin_prefetch(line + at);
+  };
+  fetch(next.faces.data(), next.faces.size() * sizeof(next.faces[0]));
+  fetch(next.corners.data(), next.corners.size() * sizeof(next.corners[0]));
+  fetch(next.vertices.data(), next.vertices.size() * sizeof(next.vertices[0]));
+}
+
+void add_to_bins(const Convex& convex, const FaceEntry& entry, std::vector<Bin>& bins) {
+  bins[mix(entry.id.value >> 1) & (bins.size() - 1)].add(convex, entry);
 }
 
 }  // namespace
 
 double least_overlap(const Convex& a, const Convex& b) {
-  constexpr double kLeastOverlap = 1e-10;
-  const double size = std::min(a.box.extent().maxCoeff(), b.box.extent().maxCoeff());
+  const double size = std::min(size_of(a), size_of(b));
   return kLeastOverlap * size * size;
 }
 
@@ -196,36 +296,34 @@ void add_faces(const ConvexPolyhedron& polyhedron, std::uint32_t index,
   }
 }
 
-std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes, std::vector<FaceEntry> faces) {
-  const std::size_t buckets = std::bit_ceil(faces.size() + 1);
-  bucket_sort(
-      faces, buckets,
-      [&](const FaceEntry& entry) { return mix(entry.id.value >> 1) & (buckets - 1); },
-      [](const FaceEntry& a, const FaceEntry& b) {
-        return std::tie(a.id, a.convex, a.face) < std::tie(b.id, b.convex, b.face);
-      });
-  const std::vector<std::size_t> starts = plane_starts(faces);
-  constexpr std::size_t kPlanesAtOnce = 64;
-  const std::size_t planes = starts.size() - 1;
-  std::vector<std::vector<Bond>> found((planes + kPlanesAtOnce - 1) / kPlanesAtOnce);
-  for_chunks(planes, kPlanesAtOnce, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-    PlaneSweep sweep(convexes);
-    for (std::size_t p = begin; p < end; ++p) {
-      sweep.run(std::span(faces).subspan(starts[p], starts[p + 1] - starts[p]), found[chunk]);
-    }
-  });
-  std::vector<Bond> bonds;
-  for (const std::vector<Bond>& part : found) bonds.insert(bonds.end(), part.begin(), part.end());
-  sort_bonds(bonds);
-  return bonds;
+std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes,
+                                std::span<const FaceEntry> faces) {
+  constexpr std::size_t kFacesAtOnce = 8192;
+  return contacts(convexes, faces.size(), kFacesAtOnce, faces.size(),
+                  [&](std::size_t begin, std::size_t end, std::vector<Bin>& bins) {
+                    for (const FaceEntry& entry : faces.subspan(begin, end - begin)) {
+                      add_to_bins(*convexes[entry.convex], entry, bins);
+                    }
+                  });
 }
 
 std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes) {
-  std::vector<FaceEntry> faces;
-  for (std::uint32_t i = 0; i < convexes.size(); ++i) {
-    add_faces(convexes[i]->polyhedron, i, faces);
-  }
-  return find_contacts(convexes, std::move(faces));
+  constexpr std::size_t kConvexesAtOnce = 1024;
+  std::size_t faces = 0;
+  for (const ConvexPtr& convex : convexes) faces += convex->polyhedron.faces.size();
+  return contacts(
+      convexes, convexes.size(), kConvexesAtOnce, faces,
+      [&](std::size_t begin, std::size_t end, std::vector<Bin>& bins) {
+        for (std::size_t c = begin; c < end; ++c) {
+          fetch_ahead(convexes.subspan(c, end - c));
+          const ConvexPolyhedron& polyhedron = convexes[c]->polyhedron;
+          for (std::uint32_t f = 0; f < polyhedron.faces.size(); ++f) {
+            const PlaneId id = polyhedron.faces[f].id;
+            if (id.none()) continue;
+            add_to_bins(*convexes[c], {id, static_cast<std::uint32_t>(c), f, false}, bins);
+          }
+        }
+      });
 }
 
 }  // namespace sunder::fracture

@@ -31,7 +31,8 @@ void sort_bonds(std::vector<Bond>& bonds);
 void add_faces(const ConvexPolyhedron& polyhedron, std::uint32_t index,
                std::vector<FaceEntry>& entries);
 /// All contacts among `faces` of `convexes`, sorted as Compound::bonds is.
-std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes, std::vector<FaceEntry> faces);
+std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes,
+                                std::span<const FaceEntry> faces);
 /// All contacts among `convexes`.
 std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes);
 

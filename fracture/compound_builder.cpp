@@ -104,7 +104,11 @@ void mark_inner_faces(Compound& compound) {
 
 Compound make_compound(std::vector<Part> parts, double tolerance_m) {
   PartPairs pairs = find_pairs(parts, tolerance_m);
-  if (part_deep_overlaps(parts, pairs, tolerance_m)) pairs = find_pairs(parts, tolerance_m);
+  PartPairs overlaps = find_overlaps(parts, pairs, tolerance_m);
+  if (part_deep_overlaps(parts, overlaps, tolerance_m)) {
+    pairs = find_pairs(parts, tolerance_m);
+    overlaps = find_overlaps(parts, pairs, tolerance_m);
+  }
   name_planes(parts, pairs, tolerance_m);
   Compound compound;
   for (Part& part : parts) {
@@ -113,7 +117,7 @@ Compound make_compound(std::vector<Part> parts, double tolerance_m) {
     compound.anchored.push_back(part.anchored);
   }
   compound.bonds = find_contacts(compound.convexes);
-  compound.ghosts = find_ghosts(compound.convexes, pairs, tolerance_m);
+  compound.ghosts = find_ghosts(compound.convexes, overlaps, tolerance_m);
   mark_inner_faces(compound);
   return compound;
 }

@@ -142,12 +142,26 @@ PartPairs find_pairs(std::span<const Part> parts, double tolerance_m) {
   return pairs;
 }
 
-bool part_deep_overlaps(std::vector<Part>& parts, const PartPairs& pairs, double tolerance_m) {
+PartPairs find_overlaps(std::span<const Part> parts, const PartPairs& pairs, double tolerance_m) {
+  std::vector<std::uint8_t> do_overlap(pairs.size());
+  for_chunks(pairs.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const auto [a, b] = pairs[p];
+      do_overlap[p] = !overlap(parts[a].polyhedron, parts[b].polyhedron, tolerance_m).empty();
+    }
+  });
+  PartPairs found;
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    if (do_overlap[p]) found.push_back(pairs[p]);
+  }
+  return found;
+}
+
+bool part_deep_overlaps(std::vector<Part>& parts, const PartPairs& overlaps, double tolerance_m) {
   std::vector<std::vector<std::uint32_t>> before(parts.size());  // per part: what it overlaps
   std::size_t most = 0;
-  for (const auto& [a, b] : pairs) {
+  for (const auto& [a, b] : overlaps) {
     if (parts[a].visual || parts[b].visual) continue;
-    if (overlap(parts[a].polyhedron, parts[b].polyhedron, tolerance_m).empty()) continue;
     before[b].push_back(a);
     most = std::max(most, before[b].size());
   }
@@ -176,23 +190,13 @@ bool part_deep_overlaps(std::vector<Part>& parts, const PartPairs& pairs, double
   return true;
 }
 
-std::vector<Ghost> find_ghosts(std::span<const ConvexPtr> convexes, const PartPairs& pairs,
+std::vector<Ghost> find_ghosts(std::span<const ConvexPtr> convexes, const PartPairs& overlaps,
                                double tolerance_m) {
-  constexpr std::size_t kPairsAtOnce = 256;
-  std::vector<std::vector<Ghost>> found((pairs.size() + kPairsAtOnce - 1) / kPairsAtOnce);
-  for_chunks(pairs.size(), kPairsAtOnce,
-             [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-               for (std::size_t p = begin; p < end; ++p) {
-                 const auto [a, b] = pairs[p];
-                 ConvexPolyhedron common =
-                     overlap(convexes[a]->polyhedron, convexes[b]->polyhedron, tolerance_m);
-                 if (common.empty()) continue;
-                 found[chunk].push_back(make_ghost(convexes, std::move(common), {a, b}));
-               }
-             });
   std::vector<Ghost> ghosts;
-  for (std::vector<Ghost>& some : found) {
-    std::move(some.begin(), some.end(), std::back_inserter(ghosts));
+  for (const auto& [a, b] : overlaps) {
+    ConvexPolyhedron common =
+        overlap(convexes[a]->polyhedron, convexes[b]->polyhedron, tolerance_m);
+    if (!common.empty()) ghosts.push_back(make_ghost(convexes, std::move(common), {a, b}));
   }
   std::vector<std::vector<std::uint32_t>> after(convexes.size());
   for (const Ghost& ghost : ghosts) {

@@ -21,15 +21,18 @@ ConvexPolyhedron overlap(const ConvexPolyhedron& a, const ConvexPolyhedron& b, d
 /// Pairs of parts (a < b, ascending) whose boxes come within `tolerance_m` of each other.
 using PartPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 PartPairs find_pairs(std::span<const Part> parts, double tolerance_m);
+/// Those of `pairs` that overlap by more than the tolerance.
+PartPairs find_overlaps(std::span<const Part> parts, const PartPairs& pairs, double tolerance_m);
 
 /// Replaces a part that would be in a place where kDeepestGhost parts before it are already, by
 /// convex parts that fill what none of those before it does; false if there is none. What is
 /// thinner than the tolerance is lost. Throws InputError if that makes too many parts.
-bool part_deep_overlaps(std::vector<Part>& parts, const PartPairs& pairs, double tolerance_m);
+bool part_deep_overlaps(std::vector<Part>& parts, const PartPairs& overlaps, double tolerance_m);
 
-/// The ghosts of all overlaps among `pairs` of convexes, sorted. A ghost is of the material of the
-/// last of its convexes, so that the first of them decides what an overlap weighs.
-std::vector<Ghost> find_ghosts(std::span<const ConvexPtr> convexes, const PartPairs& pairs,
+/// The ghosts of the pairs of convexes that overlap, and of more of them together, sorted. A ghost
+/// is of the material of the last of its convexes, so that the first of them decides what an
+/// overlap weighs.
+std::vector<Ghost> find_ghosts(std::span<const ConvexPtr> convexes, const PartPairs& overlaps,
                                double tolerance_m);
 
 /// Puts ghosts in the order of Compound::ghosts; those of the same convexes by where they are.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
@@ -69,6 +70,8 @@ Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direc
 
 class PatternBreaker final : public Breaker {
  public:
+  explicit PatternBreaker(std::shared_ptr<FailureLog> log) : log_(std::move(log)) {}
+
   BreakCommand command(const Compound& compound, const Material& material, const Hit& hit,
                        std::uint64_t event, std::uint64_t seed) const override {
     Random random(seed, 3);
@@ -89,7 +92,10 @@ class PatternBreaker final : public Breaker {
 
   BreakPlan plan(const Compound& compound, const BreakCommand& command) const override {
     const ReadyBreak ready = make_ready(command, bounds(compound), library_);
-    return fracture(compound, *ready.pattern, ready.placement, ready.sphere, command.event);
+    BreakPlan plan =
+        fracture(compound, *ready.pattern, ready.placement, ready.sphere, command.event);
+    if (log_) log_->add(compound, command, plan);
+    return plan;
   }
 
   LoadAnswer bear(const Compound& compound, const LoadCase& load) const override {
@@ -97,6 +103,7 @@ class PatternBreaker final : public Breaker {
   }
 
  private:
+  std::shared_ptr<FailureLog> log_;
   mutable PatternLibrary library_;
 };
 
@@ -118,6 +125,8 @@ ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternL
   return ready;
 }
 
-std::unique_ptr<Breaker> make_pattern_breaker() { return std::make_unique<PatternBreaker>(); }
+std::unique_ptr<Breaker> make_pattern_breaker(std::shared_ptr<FailureLog> log) {
+  return std::make_unique<PatternBreaker>(std::move(log));
+}
 
 }  // namespace sunder::fracture

@@ -5,6 +5,7 @@
 
 #include "engine/world/breaker.h"
 #include "fracture/align.h"
+#include "fracture/failure_log.h"
 #include "fracture/pattern_library.h"
 #include "fracture/structure.h"
 
@@ -19,7 +20,8 @@ struct ReadyBreak {
 /// What a command means for a compound in the box `bounds_R`.
 ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library);
 
-/// Breaks compounds by the pattern of the command; patterns are made once and kept.
-std::unique_ptr<Breaker> make_pattern_breaker();
+/// Breaks compounds by the pattern of the command; patterns are made once and kept. What goes wrong
+/// is noted in `log`, if there is one.
+std::unique_ptr<Breaker> make_pattern_breaker(std::shared_ptr<FailureLog> log = nullptr);
 
 }  // namespace sunder::fracture

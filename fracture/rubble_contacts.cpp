@@ -97,7 +97,7 @@ void Rubble::find_contacts_of_fragments() {
   }
   const auto count = static_cast<std::uint32_t>(convexes.size());
   const std::vector<Ghost> ghosts = add_ghosts(convexes, faces);
-  for (const Bond& bond : find_contacts(convexes, std::move(faces))) {
+  for (const Bond& bond : find_contacts(convexes, faces)) {
     if (bond.b >= count) {
       correct(bond, count, ghosts);
     } else {

@@ -1,6 +1,8 @@
 // A break can be carried out again from its case file.
 #include "fracture/case_file.h"
 
+#include <cstdio>
+#include <fstream>
 #include <limits>
 #include <sstream>
 
@@ -43,6 +45,40 @@ TEST(CaseFile, replays_to_the_same_bits) {
     EXPECT_TRUE(again.broke());
     EXPECT_EQ(hash_of(again), hash_of(breaker->plan(written.compound, written.command)));
   }
+}
+
+TEST(CaseFile, is_written_where_a_break_fails_and_says_the_same) {
+  // A convex that claims more volume than it has: its parts cannot add up.
+  auto liar = std::make_shared<Convex>(*box_compound(Vec3::Zero(), Vec3::Ones()).convexes[0]);
+  liar->solid.volume_m3 *= 1.5;
+  Compound solid = box_compound(Vec3::Zero(), Vec3::Ones());
+  solid.convexes[0] = liar;
+
+  const std::string folder = testing::TempDir();
+  const auto log = std::make_shared<FailureLog>(folder, 2);
+  const auto breaker = make_pattern_breaker(log);
+  BreakCommand command = example().command;
+  for (command.event = 7001; command.event < 7004; ++command.event) {
+    EXPECT_EQ(breaker->plan(solid, command).failed, 1u);
+  }
+  EXPECT_EQ(log->failed(), 3u);
+  EXPECT_EQ(log->files(), 2u);
+  for (const char* name : {"/break-7001.case", "/break-7002.case"}) {
+    std::ifstream file(folder + name);
+    const BreakCase read = read_case(file, name);
+    EXPECT_EQ(hash_of(read.compound), hash_of(solid));
+    EXPECT_EQ(read.command.seed, command.seed);
+    std::remove((folder + name).c_str());
+  }
+  EXPECT_FALSE(std::ifstream(folder + "/break-7003.case").good());
+}
+
+TEST(CaseFile, is_not_written_where_all_goes_well) {
+  const auto log = std::make_shared<FailureLog>(testing::TempDir());
+  const auto breaker = make_pattern_breaker(log);
+  EXPECT_TRUE(breaker->plan(example().compound, example().command).broke());
+  EXPECT_EQ(log->failed(), 0u);
+  EXPECT_EQ(log->files(), 0u);
 }
 
 TEST(CaseFile, cut_short_anywhere_is_an_error) {

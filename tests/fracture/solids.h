@@ -1,12 +1,19 @@
 // Figures of breaks that tests compare.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "engine/base/hash.h"
 #include "engine/base/random.h"
 #include "engine/world/breaker.h"
+#include "fracture/adjacency.h"
 #include "fracture/compound_builder.h"
+#include "fracture/overlap.h"
 #include "fracture/solids.h"
 
 namespace sunder::fracture {
@@ -66,6 +73,90 @@ inline std::uint64_t hash_of(const BreakPlan& plan) {
   std::uint64_t hash = 0;
   for (const Compound& piece : plan.pieces) hash = combine(hash, hash_of(piece));
   return combine(hash, bits_of(plan.new_area_m2));
+}
+
+/// A hash of what a compound is whatever the order of its convexes: of each convex with what it
+/// touches and overlaps, then of these in order.
+inline std::uint64_t hash_any_order(const Compound& compound) {
+  std::vector<std::uint64_t> hashes;
+  for (const ConvexPtr& convex : compound.convexes) {
+    hashes.push_back(hash_of(Compound{{convex}, {}, {}, {}}));
+  }
+  const std::vector<std::uint64_t> own = hashes;
+  for (std::size_t c = 0; c < own.size(); ++c) hashes[c] = combine(own[c], compound.anchored[c]);
+  for (const Bond& bond : compound.bonds) {  // sums: they do not depend on the order
+    hashes[bond.a] += combine(own[bond.b], bits_of(bond.area_m2) + bond.face_a);
+    hashes[bond.b] += combine(own[bond.a], bits_of(bond.area_m2) + bond.face_b);
+  }
+  for (const Ghost& ghost : compound.ghosts) {
+    const std::uint64_t hash = hash_of(Compound{{ghost.convex}, {}, {}, {}});
+    for (const std::uint32_t c : ghost.of) hashes[c] += combine(hash, bits_of(ghost.sign));
+  }
+  std::sort(hashes.begin(), hashes.end());
+  std::uint64_t hash = 2;
+  for (const std::uint64_t part : hashes) hash = combine(hash, part);
+  return hash;
+}
+inline std::uint64_t hash_any_order(const BreakPlan& plan) {
+  std::vector<std::uint64_t> hashes;
+  for (const Compound& piece : plan.pieces) hashes.push_back(hash_any_order(piece));
+  std::sort(hashes.begin(), hashes.end());
+  std::uint64_t hash = 3;
+  for (const std::uint64_t piece : hashes) hash = combine(hash, piece);
+  return hash;
+}
+
+/// The compound with its convexes in another order: new convex i is the old `order[i]`.
+inline Compound reordered(const Compound& compound, const std::vector<std::uint32_t>& order) {
+  Compound result;
+  std::vector<std::uint32_t> new_of_old(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    new_of_old[order[i]] = i;
+    result.convexes.push_back(compound.convexes[order[i]]);
+    result.anchored.push_back(compound.anchored[order[i]]);
+  }
+  for (Bond bond : compound.bonds) {
+    bond.a = new_of_old[bond.a];
+    bond.b = new_of_old[bond.b];
+    if (bond.a > bond.b) {
+      std::swap(bond.a, bond.b);
+      std::swap(bond.face_a, bond.face_b);
+    }
+    result.bonds.push_back(bond);
+  }
+  sort_bonds(result.bonds);
+  for (Ghost ghost : compound.ghosts) {
+    for (std::uint32_t& c : ghost.of) c = new_of_old[c];
+    std::sort(ghost.of.begin(), ghost.of.end());
+    result.ghosts.push_back(std::move(ghost));
+  }
+  sort_ghosts(result.ghosts);
+  return result;
+}
+
+/// How often a surface winds around a point, by solid angles (Van Oosterom and Strackee 1983).
+inline double winding(const ConvexPolyhedron& polyhedron, const Vec3& point) {
+  double angle = 0;
+  for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
+    const auto corners = polyhedron.face_corners(f);
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const Vec3 a = polyhedron.vertices[corners[0]] - point;
+      const Vec3 b = polyhedron.vertices[corners[i - 1]] - point;
+      const Vec3 c = polyhedron.vertices[corners[i]] - point;
+      const double la = a.norm(), lb = b.norm(), lc = c.norm();
+      angle += 2 * std::atan2(a.dot(b.cross(c)),
+                              la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    }
+  }
+  return angle / (4 * std::numbers::pi);
+}
+inline double winding(const Compound& compound, const Vec3& point) {
+  double sum = 0;
+  for (const ConvexPtr& convex : compound.convexes) sum += winding(convex->polyhedron, point);
+  for (const Ghost& ghost : compound.ghosts) {
+    sum += ghost.sign * winding(ghost.convex->polyhedron, point);
+  }
+  return sum;
 }
 
 /// Boxes that may overlap, as a compound.

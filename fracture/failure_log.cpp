@@ -1,0 +1,28 @@
+#include "fracture/failure_log.h"
+
+#include <cstdio>
+#include <fstream>
+#include <utility>
+
+#include "fracture/case_file.h"
+
+namespace sunder::fracture {
+
+FailureLog::FailureLog(std::string folder, std::size_t most_files)
+    : folder_(std::move(folder)), most_files_(most_files) {}
+
+void FailureLog::add(const Compound& compound, const BreakCommand& command, const BreakPlan& plan) {
+  if (plan.failed == 0) return;
+  failed_ += plan.failed;
+  if (folder_.empty() || asked_++ >= most_files_) return;
+  const std::string name = folder_ + "/break-" + std::to_string(command.event) + ".case";
+  const std::string unfinished = name + ".part";
+  {
+    std::ofstream file(unfinished);
+    write_case(file, {compound, command});
+    if (!file.flush()) return;  // a full disk must not stop the simulation
+  }
+  if (std::rename(unfinished.c_str(), name.c_str()) == 0) ++files_;
+}
+
+}  // namespace sunder::fracture
