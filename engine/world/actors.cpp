@@ -2,6 +2,8 @@
 #include "engine/world/actors.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <unordered_map>
 
@@ -37,9 +39,24 @@ bool bears_load(const World& world, const Actor& actor) {
   });
 }
 
-bool is_breakable(const World& world, const Actor& actor) {
-  return std::any_of(actor.compound.convexes.begin(), actor.compound.convexes.end(),
-                     [&](const ConvexPtr& c) { return world.material(c->material).breakable(); });
+// A crack through a solid of volume V is at least this part of V^(2/3).
+constexpr double kLeastCrack = 0.1;
+
+/// The least energy and impulse that could break an actor's compound.
+void set_least(const World& world, Actor& actor) {
+  actor.least_Ns = std::numeric_limits<double>::infinity();
+  MaterialIndex last;
+  for (const ConvexPtr& convex : actor.compound.convexes) {
+    if (convex->material.value == last.value) continue;
+    last = convex->material;
+    const Material& material = world.material(last);
+    if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) continue;
+    const double radius = material.impact_radius_m;
+    const double reach_m3 = std::min(actor.volume_m3, 4.2 * radius * radius * radius);
+    const double crack_m2 = kLeastCrack * std::cbrt(reach_m3 * reach_m3);
+    actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);
+    actor.least_Ns = std::min(actor.least_Ns, material.strength_Ns);
+  }
 }
 
 }  // namespace
@@ -70,6 +87,7 @@ Actor make_actor(World& world, Compound compound) {
   actor.compound = std::move(compound);
   actor.bearing.bears = bears_load(world, actor);
   actor.bearing.since_step = world.step;
+  set_least(world, actor);
   actor.hidden = hidden_faces(actor.compound);
   return actor;
 }
@@ -88,7 +106,6 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
   }
   body.shapes = hull_shapes(world, actor.compound);
   body.tag = actor.key;
-  body.breakable = is_breakable(world, actor);
   body.bears_load = actor.bearing.bears;
   return body;
 }

@@ -1,161 +1,43 @@
-// Stage `break`: which approaches break what, decided before the solve, so that a wall that
-// breaks does not first stop the ball.
+// Stage `break`: what breaks, decided before the solve, so that a wall that breaks does not first
+// stop the ball.
 //
-// Read first: break_stage(). A blow breaks a solid if its energy at the contact exceeds the
-// toughness times the crack's area, and its impulse the strength. Exactly that energy is taken
-// from the relative motion of the pair; the pieces inherit the velocity field of the whole.
+// Read first: break_stage(), then decide(). Break probes (break_probe.h) tell what the breakable
+// solids would have to bear. A solid breaks if the work exceeds the toughness times the crack's
+// area, and the impulse the strength. Exactly that energy is taken from the motion; the pieces
+// inherit the velocity field of the whole.
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <utility>
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
+#include "engine/base/trigonometry.h"
+#include "engine/world/clusters.h"
 #include "engine/world/replace.h"
 
 namespace sunder {
 namespace {
 
-constexpr int kRounds = 3;  // solids that can break one behind the other within one step
-// A crack through a solid of volume V is at least this part of V^(2/3); weaker blows are not
-// planned.
-constexpr double kLeastCrack = 0.05;
-// A blow with less than this part of what the last fruitless plan asked for is not planned either.
+constexpr int kRounds = 8;  // solids that can break one behind the other within one step
+// A blow with less than this part of what the last fruitless plan asked for is not planned.
 constexpr double kWorthPlanning = 0.7;
-
-/// How two bodies meet at a point, along a direction into the second.
-struct Encounter {
-  double speed_m_s = 0;
-  double effective_mass_kg = 0;
-  double energy_J() const { return 0.5 * effective_mass_kg * speed_m_s * speed_m_s; }
-};
-
-/// Adds one body's part: `sign` +1 for the one that hits, −1 for the one that is hit.
-void meet(const World& world, const Actor* actor, double sign, const Vec3& point_W,
-          const Vec3& direction_W, double& speed, double& inverse_mass) {
-  if (!actor || actor->is_static) return;
-  const BodyState state = world.physics->state(actor->body);
-  const Vec3 arm = point_W - state.X_WB.position;
-  speed += sign * direction_W.dot(state.velocity_W + state.angular_velocity_W.cross(arm));
-  const Vec3 lever_B = state.X_WB.rotation.conjugate() * arm.cross(direction_W);
-  inverse_mass +=
-      1 / actor->weight.mass_kg + lever_B.dot(actor->weight.inertia_R.inverse() * lever_B);
-}
-
-Encounter encounter(const World& world, const Actor* hitter, const Actor* hit, const Vec3& point_W,
-                    const Vec3& direction_W) {
-  double speed = 0, inverse_mass = 0;
-  meet(world, hitter, 1, point_W, direction_W, speed, inverse_mass);
-  meet(world, hit, -1, point_W, direction_W, speed, inverse_mass);
-  if (speed <= 0 || inverse_mass <= 0) return {};
-  return {speed, 1 / inverse_mass};
-}
-
-/// The approaches between two bodies as one, weighted by speed.
-struct PairBlow {
-  Vec3 point_W = Vec3::Zero();
-  Vec3 normal_W = Vec3::Zero();
-  double weight = 0;
-  double fastest = 0;
-  std::uint32_t shape_a = 0, shape_b = 0;
-};
-
-using PairBlows = std::map<std::pair<std::uint32_t, std::uint32_t>, PairBlow>;
-
-PairBlows blows_by_pair(std::span<const Approach> approaches) {
-  PairBlows pairs;
-  for (const Approach& approach : approaches) {
-    PairBlow& blow = pairs[{approach.body_tag_a, approach.body_tag_b}];
-    blow.point_W += approach.speed_m_s * approach.point_W;
-    blow.normal_W += approach.speed_m_s * approach.normal_W;
-    blow.weight += approach.speed_m_s;
-    if (approach.speed_m_s > blow.fastest) {
-      blow.fastest = approach.speed_m_s;
-      blow.shape_a = approach.shape_tag_a;
-      blow.shape_b = approach.shape_tag_b;
-    }
-  }
-  return pairs;
-}
-
-/// Whether a blow could break the actor at all, short of planning the break.
-bool worth_planning(const World& world, const Actor& actor, const Blow& blow) {
-  const Material& material = world.material(actor.compound.convexes[blow.convex]->material);
-  if (!material.breakable() || actor.born_step == world.step + 1) return false;
-  if (actor.volume_m3 < material.smallest_break_m3) return false;
-  if (blow.effective_mass_kg * blow.speed_m_s < material.strength_Ns) return false;
-  const double radius = material.impact_radius_m;
-  const double reach_m3 = std::min(actor.volume_m3, 4.2 * radius * radius * radius);
-  const double least_J = material.toughness_J_m2 * kLeastCrack * std::cbrt(reach_m3 * reach_m3);
-  return blow.energy_J > least_J && blow.energy_J > kWorthPlanning * actor.needs_J;
-}
-
-/// The strongest blow on each actor, strongest first.
-std::vector<Blow> find_blows(World& world) {
-  std::map<std::uint32_t, Blow> strongest;
-  for (const auto& [keys, pair] : blows_by_pair(world.physics->approaches())) {
-    if (pair.weight <= 0 || pair.normal_W.squaredNorm() <= 0) continue;
-    for (const bool hits_b : {true, false}) {
-      Blow blow;
-      blow.key = hits_b ? keys.second : keys.first;
-      blow.other_key = hits_b ? keys.first : keys.second;
-      blow.convex = hits_b ? pair.shape_b : pair.shape_a;
-      blow.point_W = pair.point_W / pair.weight;
-      blow.direction_W = (hits_b ? 1.0 : -1.0) * pair.normal_W.normalized();
-      const Actor* actor = world.find(blow.key);
-      if (!actor || blow.convex >= actor->compound.convexes.size()) continue;
-      const Encounter met =
-          encounter(world, world.find(blow.other_key), actor, blow.point_W, blow.direction_W);
-      blow.speed_m_s = met.speed_m_s;
-      blow.effective_mass_kg = met.effective_mass_kg;
-      blow.energy_J = met.energy_J();
-      if (!worth_planning(world, *actor, blow)) continue;
-      const auto [it, added] = strongest.emplace(blow.key, blow);
-      if (!added && blow.energy_J > it->second.energy_J) it->second = blow;
-    }
-  }
-  std::vector<Blow> blows;
-  for (const auto& [key, blow] : strongest) blows.push_back(blow);
-  std::stable_sort(blows.begin(), blows.end(),
-                   [](const Blow& a, const Blow& b) { return a.energy_J > b.energy_J; });
-  return blows;
-}
 
 /// A blow and what it would do.
 struct Planned {
   Blow blow;
+  std::uint32_t load = 0;  ///< Index in the probe's answer.
+  BreakCommand command;
   BreakPlan plan;
   double plan_ms = 0;
+  double needed_J = 0;
 };
 
-std::vector<Planned> plan_breaks(World& world, const std::vector<Blow>& blows) {
-  std::vector<Planned> planned(blows.size());
-  std::vector<BreakCommand> commands(blows.size());
-  for (std::size_t i = 0; i < blows.size(); ++i) {
-    planned[i].blow = blows[i];
-    const Blow& blow = blows[i];
-    const Actor& actor = *world.find(blow.key);
-    const Pose X_WB = world.physics->state(actor.body).X_WB;
-    Hit hit;
-    hit.point_R = X_WB.inverse() * blow.point_W + actor.weight.com_R;
-    hit.direction_R = X_WB.rotation.conjugate() * blow.direction_W;
-    hit.convex = blow.convex;
-    hit.energy_J = blow.energy_J;
-    const std::uint64_t event = world.next_event++;
-    commands[i] = world.breaker->command(
-        actor.compound, world.material(actor.compound.convexes[blow.convex]->material), hit, event,
-        combine(world.scene.seed, event));
-  }
-  for_chunks(blows.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Stopwatch watch;
-      planned[i].plan = world.breaker->plan(world.find(blows[i].key)->compound, commands[i]);
-      planned[i].plan_ms = watch.ms();
-    }
-  });
-  return planned;
-}
+/// A probe under way.
+struct Trial {
+  BreakProbe probe;
+  std::vector<ProbeLoad> loads;
+  std::vector<Planned> planned;
+};
 
 /// Energy that the new crack surface takes; each crack has two sides.
 double crack_energy_J(const World& world, const BreakPlan& plan) {
@@ -167,80 +49,201 @@ double crack_energy_J(const World& world, const BreakPlan& plan) {
   return energy;
 }
 
-/// Takes `energy_J` out of the relative motion along the blow, by an impulse on both.
-void pay(World& world, const Blow& blow, const Encounter& met, double energy_J) {
-  if (met.effective_mass_kg <= 0) return;
-  const double left = met.speed_m_s * met.speed_m_s - 2 * energy_J / met.effective_mass_kg;
-  const double impulse = met.effective_mass_kg * (met.speed_m_s - std::sqrt(std::max(0.0, left)));
-  const Vec3 impulse_W = impulse * blow.direction_W;
-  if (const Actor* other = world.find(blow.other_key)) {
-    world.physics->apply_impulse(other->body, -impulse_W, blow.point_W);
-  }
-  world.physics->apply_impulse(world.find(blow.key)->body, impulse_W, blow.point_W);
+void prepare(World& world, Planned& planned) {
+  const Blow& blow = planned.blow;
+  const Actor& actor = *world.find(blow.key);
+  const Pose X_WB = world.physics->state(actor.body).X_WB;
+  Hit hit;
+  hit.point_R = X_WB.inverse() * blow.point_W + actor.weight.com_R;
+  hit.direction_R = X_WB.rotation.conjugate() * blow.direction_W;
+  hit.convex = blow.convex;
+  hit.energy_J = blow.energy_J;
+  const std::uint64_t event = world.next_event++;
+  planned.command = world.breaker->command(
+      actor.compound, world.material(actor.compound.convexes[blow.convex]->material), hit, event,
+      combine(world.scene.seed, event));
 }
 
-/// Breaks the actor if the blow, as it is now, has the energy that the plan needs.
-bool commit(World& world, Planned& planned) {
+void plan_all(World& world, std::span<Planned* const> all) {
+  for (Planned* planned : all) prepare(world, *planned);
+  for_chunks(all.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Planned& planned = *all[i];
+      const Stopwatch watch;
+      planned.plan = world.breaker->plan(world.find(planned.blow.key)->compound, planned.command);
+      planned.plan_ms = watch.ms();
+      planned.needed_J = crack_energy_J(world, planned.plan);
+    }
+  });
+}
+
+/// Whether the frame's budget allows for cutting by the pattern of the blow; what does not fit is
+/// decided first in the next frame.
+bool afford(World& world, const Blow& blow) {
+  const Actor& actor = *world.find(blow.key);
+  const Material& material = world.material(actor.compound.convexes[blow.convex]->material);
+  const auto cells = static_cast<std::uint32_t>(material.pattern.cell_count());
+  if (cells <= world.pieces_left) {
+    world.pieces_left -= cells;
+    return true;
+  }
+  world.waiting.push_back(blow);
+  return false;
+}
+
+/// Breaks the actor of a blow that has paid for it.
+void carry_out(World& world, Planned& planned) {
   const Blow& blow = planned.blow;
-  Actor* actor = world.find(blow.key);
-  const Actor* other = world.find(blow.other_key);
-  const Encounter met = encounter(world, other, actor, blow.point_W, blow.direction_W);
-  const double needed_J = crack_energy_J(world, planned.plan);
-  // A blow that had to wait was stopped by the solve meanwhile: its energy is already gone.
-  const double available_J = blow.waited ? blow.energy_J : met.energy_J();
-  if (!planned.plan.broke() || available_J <= needed_J) {
-    actor->needs_J = planned.plan.broke() ? needed_J : 2 * blow.energy_J;
-    return false;
-  }
-  if (world.actors.size() + planned.plan.pieces.size() > world.scene.limits.bodies) {
-    ++world.report.limits_hit;
-    return false;
-  }
-  pay(world, blow, met, std::min(needed_J, met.energy_J()));
   const auto pieces = static_cast<std::uint32_t>(planned.plan.pieces.size());
-  world.breaks.push_back({world.time_s(), actor->key, blow.point_W, needed_J,
+  world.breaks.push_back({world.time_s(), blow.key, blow.point_W, planned.needed_J,
                           planned.plan.new_area_m2, planned.plan_ms, pieces});
   replace_by_pieces(world, blow.key, planned.plan);
+}
+
+bool has_room(World& world, const BreakPlan& plan) {
+  if (world.actors.size() + plan.pieces.size() <= world.scene.limits.bodies) return true;
+  ++world.report.limits_hit;
+  return false;
+}
+
+/// Whether the blow's plan could be carried out; remembers what it asked for, if not.
+bool worth(World& world, const Planned& planned) {
+  Actor& actor = *world.find(planned.blow.key);
+  const double energy_J = planned.blow.energy_J;
+  if (planned.plan.broke() && energy_J > planned.needed_J) return has_room(world, planned.plan);
+  actor.least_J = std::max(
+      actor.least_J, planned.plan.broke() ? kWorthPlanning * planned.needed_J : 1.4 * energy_J);
+  return false;
+}
+
+/// What had to wait: the solve has stopped the blow meanwhile, so its energy is paid already.
+bool break_those_waiting(World& world) {
+  std::vector<Planned> all;
+  for (Blow& blow : std::exchange(world.waiting, {})) {
+    const auto same = [&](const Planned& known) { return known.blow.key == blow.key; };
+    if (!world.find(blow.key) || std::any_of(all.begin(), all.end(), same)) continue;
+    if (afford(world, blow)) all.emplace_back().blow = blow;
+  }
+  std::vector<Planned*> pointers;
+  for (Planned& planned : all) pointers.push_back(&planned);
+  plan_all(world, pointers);
+  bool broke = false;
+  for (Planned& planned : all) {
+    if (!worth(world, planned)) continue;
+    carry_out(world, planned);
+    broke = true;
+  }
+  return broke;
+}
+
+/// The blows that a probe's loads amount to, if they are strong enough for the material.
+void add_blows(World& world, Trial& trial) {
+  trial.planned.clear();
+  for (std::uint32_t i = 0; i < trial.loads.size(); ++i) {
+    const ProbeLoad& load = trial.loads[i];
+    const Actor& actor = *world.find(trial.probe.bodies()[load.body].key);
+    const Material& material = world.material(actor.compound.convexes[load.shape]->material);
+    if (!material.breakable() || load.impulse_Ns < material.strength_Ns) continue;
+    Planned planned;
+    planned.load = i;
+    planned.blow.key = actor.key;
+    planned.blow.convex = load.shape;
+    planned.blow.point_W = world.physics->state(actor.body).X_WB.position + load.arm_W;
+    planned.blow.direction_W = load.direction_W;
+    planned.blow.energy_J = load.work_J;
+    if (afford(world, planned.blow)) trial.planned.push_back(std::move(planned));
+  }
+}
+
+Quat turned(const Quat& rotation, const Vec3& turn) {
+  const double angle = turn.norm();
+  if (angle <= 0) return rotation;
+  const SinCos half = sin_cos(0.5 * angle);
+  const Vec3 axis = half.sin / angle * turn;
+  return (Quat(half.cos, axis.x(), axis.y(), axis.z()) * rotation).normalized();
+}
+
+/// Takes over how the bodies move now that something gave way.
+void take_over(World& world, const BreakProbe& probe) {
+  for (std::size_t b = 0; b < probe.bodies().size(); ++b) {
+    const ProbeMotion& motion = probe.motions()[b];
+    if (!motion.changed) continue;
+    const Actor& actor = *world.find(probe.bodies()[b].key);
+    BodyState state = world.physics->state(actor.body);
+    state.X_WB.position += motion.shift_W;
+    state.X_WB.rotation = turned(state.X_WB.rotation, motion.turn_W);
+    state.velocity_W = motion.velocity_W;
+    state.angular_velocity_W = motion.angular_velocity_W;
+    world.physics->set_state(actor.body, state);
+  }
+}
+
+/// Whether another trial has broken a solid of this one.
+bool is_stale(World& world, const Trial& trial) {
+  const auto gone = [&](const ProbeBody& body) {
+    return body.key != kGroundKey && !world.find(body.key);
+  };
+  return std::any_of(trial.probe.bodies().begin(), trial.probe.bodies().end(), gone);
+}
+
+/// Breaks what a trial can pay for, if anything.
+bool settle(World& world, Trial& trial) {
+  std::vector<ProbeBreak> wanted;
+  std::vector<std::uint32_t> of_load(trial.loads.size());
+  for (std::uint32_t i = 0; i < trial.planned.size(); ++i) {
+    of_load[trial.planned[i].load] = i;
+    if (worth(world, trial.planned[i])) {
+      wanted.push_back({trial.planned[i].load, trial.planned[i].needed_J});
+    }
+  }
+  const std::vector<std::uint32_t> broken = trial.probe.release(wanted);
+  if (broken.empty()) return false;
+  take_over(world, trial.probe);
+  for (const std::uint32_t load : broken) carry_out(world, trial.planned[of_load[load]]);
   return true;
 }
 
-/// The blows to decide in this round, those put off first; what exceeds the budget is put off.
-std::vector<Blow> choose_blows(World& world) {
-  std::vector<Blow> blows = std::exchange(world.waiting, {});
-  std::erase_if(blows, [&](const Blow& blow) { return !world.find(blow.key); });
-  for (const Blow& blow : find_blows(world)) {
-    const auto same = [&](const Blow& known) { return known.key == blow.key; };
-    if (std::none_of(blows.begin(), blows.end(), same)) blows.push_back(blow);
-  }
-  std::vector<Blow> chosen;
-  for (Blow& blow : blows) {
-    const Actor& actor = *world.find(blow.key);
-    const Material& material = world.material(actor.compound.convexes[blow.convex]->material);
-    const auto cells = static_cast<std::uint32_t>(material.pattern.cell_count());
-    if (cells <= world.pieces_left) {
-      world.pieces_left -= cells;
-      chosen.push_back(blow);
-    } else {
-      blow.waited = true;
-      world.waiting.push_back(blow);
+/// Follows all probes until each has broken something or come to the end of the step; true if
+/// another round is due. What another trial has broken meanwhile is hit again in that round, as
+/// what became of it.
+bool decide(World& world, std::vector<Trial>& trials) {
+  bool again = false;
+  while (!trials.empty()) {
+    for_chunks(trials.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t i = begin; i < end; ++i) trials[i].loads = trials[i].probe.next();
+    });
+    std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
+    again |= std::erase_if(trials, [&](const Trial& trial) { return is_stale(world, trial); }) > 0;
+    std::vector<Planned*> planned;
+    for (Trial& trial : trials) add_blows(world, trial);
+    for (Trial& trial : trials) {
+      for (Planned& one : trial.planned) planned.push_back(&one);
     }
+    plan_all(world, planned);
+    std::vector<Trial> held;
+    for (Trial& trial : trials) {
+      if (is_stale(world, trial) || settle(world, trial)) {
+        again = true;
+        continue;
+      }
+      trial.probe.hold();
+      held.push_back(std::move(trial));
+    }
+    trials = std::move(held);
   }
-  return chosen;
+  return again;
 }
 
 }  // namespace
 
 void break_stage(World& world) {
+  const auto collide = [&] { world.physics->collide(world.scene.accuracy.dt_s); };
+  if (break_those_waiting(world)) collide();
   for (int round = 0; round < kRounds; ++round) {
-    bool broke = false;
-    for (Planned& planned : plan_breaks(world, choose_blows(world))) {
-      const Blow& blow = planned.blow;
-      const bool hitter_gone = !world.find(blow.other_key) && blow.other_key != kGroundKey;
-      if (hitter_gone && !blow.waited) continue;  // it broke just now: its pieces try next round
-      broke |= commit(world, planned);
-    }
-    if (!broke) return;
-    world.physics->collide(world.scene.accuracy.dt_s);
+    std::vector<Trial> trials;
+    for (BreakProbe& probe : find_clusters(world)) trials.push_back({std::move(probe), {}, {}});
+    if (!decide(world, trials)) return;
+    collide();
   }
 }
 

@@ -39,7 +39,6 @@ struct BodyDesc {
   Mat3 inertia_B = Mat3::Zero();  ///< kg·m², about the centre of mass; unless static.
   std::vector<ShapeDesc> shapes;
   std::uint32_t tag = 0;    ///< Opaque; comes back in contacts.
-  bool breakable = false;   ///< Its approaches are reported.
   bool bears_load = false;  ///< What presses on it is reported.
   std::uint32_t group = 0;  ///< Bodies of one non-zero group ignore each other until separated.
 };
@@ -61,8 +60,8 @@ struct BodyState {
   bool asleep = false;
 };
 
-/// A contact that closes, or would close within the step, and touches a breakable body.
-/// Ordered by a key that does not depend on threads.
+/// A contact that closes, or would close within the step. Ordered by a key that does not depend on
+/// threads.
 struct Approach {
   BodyId a, b;
   std::uint32_t body_tag_a = 0, body_tag_b = 0;
@@ -72,6 +71,15 @@ struct Approach {
   double separation_m = 0;        ///< Negative: penetrating.
   double speed_m_s = 0;           ///< Approach speed along the normal, > 0.
   double effective_mass_kg = 0;   ///< Of the pair at the point along the normal.
+};
+
+/// A point where two bodies touch, or would within the step.
+struct Touch {
+  std::uint32_t body_tag_a = 0, body_tag_b = 0;
+  std::uint32_t shape_tag_a = 0, shape_tag_b = 0;
+  Vec3 arm_a_W = Vec3::Zero(), arm_b_W = Vec3::Zero();  ///< From the centres of mass.
+  Vec3 normal_W = Vec3::UnitY();                        ///< Unit, from a to b.
+  double separation_m = 0;
 };
 
 /// What a contact did to a body that bears load, over one solve.
@@ -101,8 +109,13 @@ class Physics {
   virtual void edit(const BodyEdit& edit) = 0;
   /// Finds contacts and what may touch within dt_s; new bodies are included when called again.
   virtual void collide(double dt_s) = 0;
-  /// Approaches found by the last collide(); valid until the next call that changes anything.
-  virtual std::span<const Approach> approaches() const = 0;
+  /// Approaches among the contacts of the last collide(), with the velocities as they are now.
+  virtual std::vector<Approach> approaches() = 0;
+  /// Contact points of any of `bodies`, each once, as the last collide() found them and in order of
+  /// keys; valid until the next call that changes anything.
+  virtual std::vector<Touch> touches(std::span<const BodyId> bodies) = 0;
+  /// Puts a body into a state of motion and wakes it; static bodies ignore it.
+  virtual void set_state(BodyId body, const BodyState& state) = 0;
   /// Changes a body's momentum by an impulse at a point and wakes it; static bodies ignore it.
   virtual void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) = 0;
   /// Advances by dt_s in `substeps` equal parts, using the contacts of the last collide().

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -42,8 +43,10 @@ struct Actor {
   Weight weight;
   double volume_m3 = 0;
   std::uint64_t born_step = 0;
-  /// Least energy that its last fruitless plan asked for; weaker blows need not be planned.
-  double needs_J = 0;
+  /// No blow with less energy can break it: it is too tough, or its last fruitless plan asked for
+  /// more. Infinite if nothing can.
+  double least_J = std::numeric_limits<double>::infinity();
+  double least_Ns = 0;  ///< No blow with less impulse can break it.
   Bearing bearing;
   std::vector<MeshIndex> meshes;                  ///< Per convex; none() where nothing shows.
   std::vector<std::vector<std::uint8_t>> hidden;  ///< Per convex, a flag for each face.
@@ -59,10 +62,7 @@ struct Blow {
   std::uint32_t convex = 0;     ///< The convex that is hit.
   Vec3 point_W = Vec3::Zero();
   Vec3 direction_W = Vec3::UnitY();  ///< Unit, into the actor.
-  double speed_m_s = 0;              ///< Approach speed along the direction.
-  double effective_mass_kg = 0;
-  double energy_J = 0;  ///< ½ · effective mass · speed².
-  bool waited = false;  ///< Put off from an earlier frame for want of budget.
+  double energy_J = 0;               ///< The work it would do.
 };
 
 /// What breaks laid bare since the particles last moved, where it was when this frame began.

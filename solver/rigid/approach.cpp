@@ -82,7 +82,6 @@ std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bo
                for (std::size_t i = begin; i < end; ++i) {
                  const Manifold& m = contacts.manifolds[i];
                  if (m.count == 0 || (!bodies.awake(m.body_a) && !bodies.awake(m.body_b))) continue;
-                 if (!bodies.breakable[m.body_a] && !bodies.breakable[m.body_b]) continue;
                  const Pair& pair = contacts.pairs[m.pair];
                  Approach approach;
                  if (make_approach(pair, m, bodies, shapes, dt_s, approach))
@@ -97,6 +96,55 @@ std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bo
   approaches.reserve(all.size());
   for (Keyed& keyed : all) approaches.push_back(std::move(keyed.second));
   return approaches;
+}
+
+ContactsOfBodies::ContactsOfBodies(const Contacts& contacts, const Bodies& bodies)
+    : first_(bodies.size() + 1, 0) {
+  const auto visit = [&](auto&& use) {
+    for (std::uint32_t i = 0; i < contacts.manifolds.size(); ++i) {
+      const Manifold& m = contacts.manifolds[i];
+      if (m.count == 0) continue;
+      if (bodies.dynamic(m.body_a)) use(m.body_a, i);
+      if (bodies.dynamic(m.body_b)) use(m.body_b, i);
+    }
+  };
+  visit([&](std::uint32_t body, std::uint32_t) { ++first_[body + 1]; });
+  for (std::size_t body = 0; body < bodies.size(); ++body) first_[body + 1] += first_[body];
+  manifolds_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  visit([&](std::uint32_t body, std::uint32_t m) { manifolds_[next[body]++] = m; });
+}
+
+std::vector<Touch> find_touches(const Contacts& contacts, const Bodies& bodies,
+                                const Shapes& shapes, const ContactsOfBodies& contacts_of_bodies,
+                                std::span<const std::uint32_t> of) {
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t body : of) {
+    const auto manifolds = contacts_of_bodies.of(body);
+    found.insert(found.end(), manifolds.begin(), manifolds.end());
+  }
+  const auto key = [&](std::uint32_t i) {
+    return contacts.pairs[contacts.manifolds[i].pair].key();
+  };
+  std::sort(found.begin(), found.end(),
+            [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  std::vector<Touch> touches;
+  for (const std::uint32_t i : found) {
+    const Manifold& m = contacts.manifolds[i];
+    const Pair& pair = contacts.pairs[m.pair];
+    Touch touch;
+    touch.body_tag_a = bodies.tag[m.body_a], touch.body_tag_b = bodies.tag[m.body_b];
+    touch.shape_tag_a = shapes[pair.shape_a].tag, touch.shape_tag_b = shapes[pair.shape_b].tag;
+    touch.normal_W = m.normal_W.cast<double>().normalized();
+    for (std::size_t p = 0; p < m.count; ++p) {
+      touch.arm_a_W = m.points[p].arm_A.cast<double>();
+      touch.arm_b_W = m.points[p].arm_B.cast<double>();
+      touch.separation_m = double{m.points[p].separation_m};
+      touches.push_back(touch);
+    }
+  }
+  return touches;
 }
 
 }  // namespace sunder::solver

@@ -79,7 +79,6 @@ void Bodies::resize(std::uint32_t count) {
   rest_position.resize(count);
   rest_rotation.resize(count);
   changed.resize(count);
-  breakable.resize(count);
   bears_load.resize(count);
   group.resize(count);
   tag.resize(count);
@@ -117,7 +116,6 @@ std::uint32_t Bodies::add(const BodyDesc& desc) {
   rest_position[body] = position[body];
   rest_rotation[body] = rotation[body];
   changed[body] = 1;
-  breakable[body] = desc.breakable;
   bears_load[body] = desc.bears_load;
   group[body] = desc.group;
   tag[body] = desc.tag;

@@ -45,7 +45,6 @@ struct Bodies {
   std::vector<Vec3> rest_position;
   std::vector<Quat> rest_rotation;
   std::vector<std::uint8_t> changed;  ///< Moved, pushed or new since the last collide.
-  std::vector<std::uint8_t> breakable;
   std::vector<std::uint8_t> bears_load;
   std::vector<std::uint32_t> group;
   std::vector<std::uint32_t> tag;

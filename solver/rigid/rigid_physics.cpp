@@ -26,7 +26,9 @@ class RigidPhysics final : public Physics {
                               std::span<const BodyDesc> add) override;
   void edit(const BodyEdit& edit) override;
   void collide(double dt_s) override;
-  std::span<const Approach> approaches() const override { return approaches_; }
+  std::vector<Approach> approaches() override;
+  std::vector<Touch> touches(std::span<const BodyId> bodies) override;
+  void set_state(BodyId body, const BodyState& state) override;
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
   SolveReport solve(double dt_s, int substeps) override;
   BodyState state(BodyId body) const override;
@@ -47,7 +49,8 @@ class RigidPhysics final : public Physics {
   BroadPhase broad_phase_;
   Sleep sleep_;
   ContactSolver contact_solver_;
-  std::vector<Approach> approaches_;
+  ContactsOfBodies contacts_of_bodies_;
+  double dt_s_ = 0;           ///< Of the last collide.
   std::uint32_t frozen_ = 0;  ///< Since the last solve began.
   std::vector<std::pair<const char*, double>> timings_ms_ = {
       {"broad phase", 0}, {"narrow phase", 0}, {"contacts", 0}, {"sleep", 0}};
@@ -115,7 +118,8 @@ void RigidPhysics::collide(double dt_s) {
   timings_ms_[0].second += watch.lap_ms();
   update_contacts(dt_s);
   sleep_.wake_hit(contacts_, dt_s, bodies_);
-  approaches_ = find_approaches(contacts_, bodies_, shapes_, dt_s);
+  contacts_of_bodies_.clear();
+  dt_s_ = dt_s;
   timings_ms_[1].second += watch.lap_ms();
 }
 
@@ -171,6 +175,32 @@ Vec3 RigidPhysics::freeze_broken() {
   return taken;
 }
 
+std::vector<Approach> RigidPhysics::approaches() {
+  return find_approaches(contacts_, bodies_, shapes_, dt_s_);
+}
+
+std::vector<Touch> RigidPhysics::touches(std::span<const BodyId> bodies) {
+  if (contacts_of_bodies_.empty()) contacts_of_bodies_ = ContactsOfBodies(contacts_, bodies_);
+  std::vector<std::uint32_t> slots;
+  for (const BodyId id : bodies) {
+    SUNDER_CHECK(bodies_.holds(id));
+    slots.push_back(id.slot);
+  }
+  return find_touches(contacts_, bodies_, shapes_, contacts_of_bodies_, slots);
+}
+
+void RigidPhysics::set_state(BodyId id, const BodyState& state) {
+  SUNDER_CHECK(bodies_.holds(id));
+  const std::uint32_t body = id.slot;
+  if (!bodies_.dynamic(body)) return;
+  bodies_.wake(body);
+  bodies_.place(body, state.X_WB.position, state.X_WB.rotation);
+  bodies_.velocity[body] = state.velocity_W;
+  bodies_.angular_velocity[body] = state.angular_velocity_W;
+  bodies_.changed[body] = 1;
+  bodies_.slow_s[body] = 0;
+}
+
 void RigidPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) {
   SUNDER_CHECK(bodies_.holds(id));
   const std::uint32_t body = id.slot;
@@ -207,7 +237,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
         sleep_.put_to_sleep(options_.gravity_W, dt_s, h_s, bodies_, contacts_);
   }
   timings_ms_[3].second += watch.lap_ms();
-  approaches_.clear();
+  contacts_of_bodies_.clear();
   report.contacts = solved.manifolds;
   report.contact_points = solved.points;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) report.awake += bodies_.awake(body);

@@ -1,6 +1,7 @@
 // A scripted Physics and Breaker: the world's stages under test, without solver or fracture.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -39,7 +40,27 @@ class ScriptedPhysics final : public Physics {
     shapes.insert(shapes.end(), edit.added.begin(), edit.added.end());
   }
   void collide(double) override { approaches_ = script_(*this, collides_++); }
-  std::span<const Approach> approaches() const override { return approaches_; }
+  std::vector<Approach> approaches() override { return approaches_; }
+  std::vector<Touch> touches(std::span<const BodyId> of) override {
+    std::vector<Touch> touches;
+    for (const Approach& approach : approaches_) {
+      const auto among = [&](std::uint32_t tag) {
+        return std::any_of(of.begin(), of.end(),
+                           [&](BodyId id) { return bodies[id.slot].desc.tag == tag; });
+      };
+      if (!among(approach.body_tag_a) && !among(approach.body_tag_b)) continue;
+      const auto arm = [&](std::uint32_t tag) {
+        return Vec3(approach.point_W - find(tag)->state.X_WB.position);
+      };
+      touches.push_back({approach.body_tag_a, approach.body_tag_b, approach.shape_tag_a,
+                         approach.shape_tag_b, arm(approach.body_tag_a), arm(approach.body_tag_b),
+                         approach.normal_W, approach.separation_m});
+    }
+    return touches;
+  }
+  void set_state(BodyId id, const BodyState& state) override {
+    if (!bodies[id.slot].desc.is_static) bodies[id.slot].state = state;
+  }
   void apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) override {
     Body& body = bodies[id.slot];
     if (body.desc.is_static) return;
@@ -69,6 +90,8 @@ class ScriptedPhysics final : public Physics {
     approach.normal_W = normal_W;
     approach.speed_m_s = normal_W.dot(a->state.velocity_W - b->state.velocity_W);
     if (approach.speed_m_s <= 0) return {};
+    approach.effective_mass_kg =
+        1 / (inverse_mass(*a, point_W, normal_W) + inverse_mass(*b, point_W, normal_W));
     return {approach};
   }
   const Body* find(std::uint32_t tag) const {
@@ -82,6 +105,13 @@ class ScriptedPhysics final : public Physics {
   std::vector<ContactLoad> loads;  ///< What contact_loads() answers.
 
  private:
+  static double inverse_mass(const Body& body, const Vec3& point_W, const Vec3& normal_W) {
+    if (body.desc.is_static) return 0;
+    const Vec3 lever_B =
+        body.state.X_WB.rotation.conjugate() * (point_W - body.state.X_WB.position).cross(normal_W);
+    return 1 / body.desc.mass_kg + lever_B.dot(body.desc.inertia_B.inverse() * lever_B);
+  }
+
   Script script_;
   std::vector<Approach> approaches_;
   int collides_ = 0;

@@ -192,7 +192,6 @@ TEST(RigidPhysics, ANotFiniteBodyIsFrozenAndCounted) {
 TEST(RigidPhysics, ReportsApproachesToBreakableBodiesBeforeTheyTouch) {
   RigidWorld world(weightless());
   BodyDesc wall = W::fixed(W::box(Vec3(0.1, 2, 2), Vec3::Zero()));
-  wall.breakable = true;
   wall.tag = 4;
   world.add(wall);
   BodyDesc ball = W::sphere(0.2, Vec3(-0.5, 0.3, 0), 7800);

@@ -1,0 +1,16 @@
+// Which bodies a break probe looks at: those connected by contacts to an approach that could reach
+// something breakable. Internal to engine/world.
+#pragma once
+
+#include <vector>
+
+#include "engine/world/break_probe.h"
+#include "engine/world/world.h"
+
+namespace sunder {
+
+/// Clusters around the approaches of the last collide(); a body that can move is in one at most.
+/// Ordered by their hardest approach.
+std::vector<BreakProbe> find_clusters(World& world);
+
+}  // namespace sunder
