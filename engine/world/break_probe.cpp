@@ -18,6 +18,9 @@ constexpr double kFaster = 2;  // than before, no contact closes once others hav
 constexpr double kLeastEvent = 0.1;
 // Contacts give a little, against the heaviest body, so that supports share what they bear.
 constexpr double kGive = 1e-5;
+constexpr std::size_t kMostExact = 32;  // contacts that are solved exactly; more, by sweeps
+constexpr int kMostSweeps = 20;
+constexpr double kConverged = 1e-6;  // of the greatest closing speed squared
 
 }  // namespace
 
@@ -101,31 +104,84 @@ double BreakProbe::closing_energy_J() const {
   return energy;
 }
 
+/// One sweep of projected Gauss-Seidel, there and back; `change` is what it did to the impulses.
+void BreakProbe::sweep(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed,
+                       std::vector<double>& change) const {
+  const auto n = in_way.size();
+  std::fill(change.begin(), change.end(), 0.0);
+  for (std::size_t k = 0; k < 2 * n; ++k) {
+    const std::size_t i = in_way[k < n ? k : 2 * n - 1 - k];
+    const Row& row = rows_[closed_[i]];
+    double& sum = relaxed.impulses_Ns[i];
+    const double wanted =
+        (row.speed(relaxed.velocities) - give_ * sum) / (row.inverse_mass + give_);
+    const double impulse = std::max(sum + wanted, 0.0) - sum;
+    if (impulse == 0) continue;
+    sum += impulse;
+    change[i] += impulse;
+    row.push(relaxed.velocities, impulse);
+  }
+}
+
 /// The closed contacts solved without rebound, those of `removed` bodies left out.
 BreakProbe::Relaxed BreakProbe::relax(const std::vector<std::uint8_t>& removed) const {
-  std::vector<std::size_t> in_way;  // of closed_
-  for (std::size_t i = 0; i < closed_.size(); ++i) {
+  std::vector<std::uint32_t> in_way;  // of closed_
+  for (std::uint32_t i = 0; i < closed_.size(); ++i) {
     if (!rows_[closed_[i]].touches(removed)) in_way.push_back(i);
   }
+  Relaxed relaxed{velocities_, std::vector<double>(closed_.size(), 0)};
+  if (in_way.size() <= kMostExact) {
+    relax_exactly(in_way, relaxed);
+  } else {
+    relax_by_sweeps(in_way, relaxed);
+  }
+  return relaxed;
+}
+
+void BreakProbe::relax_exactly(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed) const {
   const auto n = static_cast<Eigen::Index>(in_way.size());
   Eigen::MatrixXd A(n, n);
   Eigen::VectorXd closing(n);
+  const auto row = [&](Eigen::Index i) -> const Row& {
+    return rows_[closed_[in_way[static_cast<std::size_t>(i)]]];
+  };
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Row& row = rows_[closed_[in_way[static_cast<std::size_t>(i)]]];
-    closing[i] = row.speed(velocities_);
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      A(i, j) = A(j, i) = row.coupling(rows_[closed_[in_way[static_cast<std::size_t>(j)]]]);
-    }
-    A(i, i) = row.inverse_mass + give_;
+    closing[i] = row(i).speed(velocities_);
+    for (Eigen::Index j = 0; j < i; ++j) A(i, j) = A(j, i) = row(i).coupling(row(j));
+    A(i, i) = row(i).inverse_mass + give_;
   }
-  Relaxed relaxed{velocities_, std::vector<double>(closed_.size(), 0)};
   const Eigen::VectorXd impulses = solve_complementarity(A, closing);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const std::size_t at = in_way[static_cast<std::size_t>(i)];
-    relaxed.impulses_Ns[at] = impulses[i];
-    rows_[closed_[at]].push(relaxed.velocities, impulses[i]);
+    relaxed.impulses_Ns[in_way[static_cast<std::size_t>(i)]] = impulses[i];
+    row(i).push(relaxed.velocities, impulses[i]);
   }
-  return relaxed;
+}
+
+/// Nonlinear conjugate gradients over sweeps (Silcowitz-Hansen, Niebe and Erleben 2010).
+void BreakProbe::relax_by_sweeps(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed) const {
+  std::vector<double> change(closed_.size(), 0), direction(closed_.size(), 0);
+  double last = 0;
+  for (int round = 0; round < kMostSweeps; ++round) {
+    sweep(in_way, relaxed, change);
+    double size = 0, worst = 0;
+    for (const std::uint32_t i : in_way) {
+      const double scaled = change[i] * change[i] * rows_[closed_[i]].inverse_mass;
+      size += scaled;
+      worst = std::max(worst, scaled * rows_[closed_[i]].inverse_mass);
+    }
+    if (worst <= kConverged * fastest_m_s_ * fastest_m_s_) return;
+    const double beta = last > 0 && size <= last ? size / last : 0;
+    for (const std::uint32_t i : in_way) {
+      direction[i] *= beta;
+      if (direction[i] != 0) {
+        relaxed.impulses_Ns[i] += direction[i];
+        rows_[closed_[i]].push(relaxed.velocities, direction[i]);
+      }
+      direction[i] += change[i];
+    }
+    last = size;
+  }
+  sweep(in_way, relaxed, change);
 }
 
 /// The undecided body that a contact's work counts for: the weaker, if both are.

@@ -136,6 +136,10 @@ class BreakProbe {
   bool advance_to_event();
   double closing_energy_J() const;
   bool may_load() const;
+  void sweep(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed,
+             std::vector<double>& change) const;
+  void relax_exactly(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed) const;
+  void relax_by_sweeps(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed) const;
   Relaxed relax(const std::vector<std::uint8_t>& removed) const;
   std::uint32_t charged(const ProbeContact& c) const;
   std::vector<ProbeLoad> loads() const;

@@ -8,7 +8,9 @@
 namespace sunder {
 namespace {
 
-constexpr std::size_t kMostBodies = 32;  // of a cluster; those nearest to the approach
+// Of a cluster, those nearest to the approach; fewer where what approaches cannot break itself, and
+// a blow can only be passed on.
+constexpr std::size_t kMostBodies = 32, kMostPassingOn = 12;
 
 /// The approaches between two bodies as one.
 struct Seed {
@@ -50,13 +52,16 @@ class Reach {
       const Actor* actor = world_.find(key);
       if (actor && !actor->is_static && taken_.contains(key)) return false;
     }
+    const bool direct = may_break(world_, world_.find(seed.a), seed.energy_J) ||
+                        may_break(world_, world_.find(seed.b), seed.energy_J);
+    most_ = direct ? kMostBodies : kMostPassingOn;
     add(seed.a);
     add(seed.b);
     return true;
   }
 
   void grow() {
-    for (std::size_t done = 0; done < moving_.size() && moving_.size() < kMostBodies;) {
+    for (std::size_t done = 0; done < moving_.size() && moving_.size() < most_;) {
       std::vector<BodyId> layer;
       for (; done < moving_.size(); ++done) layer.push_back(world_.find(moving_[done])->body);
       for (const Touch& touch : world_.physics->touches(layer)) {
@@ -96,7 +101,7 @@ class Reach {
   void add(std::uint32_t key) {
     const Actor* actor = world_.find(key);
     const bool moves = actor && !actor->is_static;
-    if (moves && moving_.size() >= kMostBodies) return;
+    if (moves && moving_.size() >= most_) return;
     if (moves && taken_.contains(key)) return;
     if (!keys_.insert(key).second || !moves) return;
     moving_.push_back(key);
@@ -125,6 +130,7 @@ class Reach {
   std::set<std::uint32_t>& taken_;     ///< Moving bodies of all clusters.
   std::set<std::uint32_t> keys_;       ///< Of this cluster, held ones too.
   std::vector<std::uint32_t> moving_;  ///< Nearest first.
+  std::size_t most_ = kMostBodies;
 };
 
 }  // namespace
