@@ -118,6 +118,16 @@ void store(const Reading& reading, void* object) {
     case Kind::kMaterial:
       static_cast<MaterialRef*>(key.field(object))->name = reading.exactly<std::string>();
       break;
+    case Kind::kCountOrFile: {
+      auto& either = *static_cast<CountOrFile*>(key.field(object));
+      either = {};
+      if (std::holds_alternative<std::string>(reading.value.data)) {
+        either.file = reading.text();
+      } else {
+        either.count = reading.integer<std::uint32_t>();
+      }
+      break;
+    }
     case Kind::kChoice:
       key.choose(object, reading.choice());
       break;
@@ -207,6 +217,8 @@ std::string allowed(const Key& key) {
       return "a text that is not empty";
     case Kind::kMaterial:
       return "the name of a material";
+    case Kind::kCountOrFile:
+      return "a whole number" + bounds(key.range) + ", or a file that lists them";
     case Kind::kChoice:
       return join(key.choices, " | ");
     case Kind::kTable:

@@ -25,6 +25,12 @@ struct MaterialRef {
   MaterialIndex index;
 };
 
+/// A number of something, or a file that lists it.
+struct CountOrFile {
+  std::uint32_t count = 0;  ///< 0: what is usual.
+  std::string file;
+};
+
 /// Allowed values, both ends included; of every component of a vector.
 struct Range {
   double low = -std::numeric_limits<double>::max();
@@ -43,8 +49,9 @@ struct Key {
     kColor,     ///< Vec3f
     kText,      ///< std::string
     kMaterial,  ///< MaterialRef
-    kChoice,    ///< an enumeration
-    kTable,     ///< read by whoever asks for it: allowed, and documented elsewhere
+    kCountOrFile,
+    kChoice,  ///< an enumeration
+    kTable,   ///< read by whoever asks for it: allowed, and documented elsewhere
   };
 
   std::string_view name;  ///< Ending in _rad: may also be given in degrees, ending in _deg.
@@ -96,6 +103,7 @@ constexpr Key::Kind kind_of() {
   if constexpr (std::is_same_v<T, Vec3f>) return Kind::kColor;
   if constexpr (std::is_same_v<T, std::string>) return Kind::kText;
   if constexpr (std::is_same_v<T, MaterialRef>) return Kind::kMaterial;
+  if constexpr (std::is_same_v<T, CountOrFile>) return Kind::kCountOrFile;
   if constexpr (std::is_enum_v<T>) return Kind::kChoice;
 }
 

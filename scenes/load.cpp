@@ -7,6 +7,8 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
+#include "scenes/body.h"
+#include "scenes/patterns.h"
 #include "scenes/schema.h"
 #include "scenes/structures/structure.h"
 
@@ -29,10 +31,11 @@ Accuracy preset_accuracy(const std::string& name) {
 /// The loader's state: the document and the scene it is becoming.
 class Loader {
  public:
-  explicit Loader(const Value& document) : document_(document) {}
+  Loader(const Value& document, std::filesystem::path folder)
+      : document_(document), folder_(std::move(folder)) {}
 
   Scene load(const LoadOptions& options);
-  void add_materials(const Value& document);
+  void add_materials(const Value& document, const std::filesystem::path& folder);
 
  private:
   template <class T>
@@ -43,12 +46,14 @@ class Loader {
   }
   void read_accuracy();
   void add_solid(const Value& table);
+  void add_body(const Value& table);
   void add_ball(const Value& table);
   void add_script();
   void add_shot(const Value& table);
   void check_names() const;
 
   const Value& document_;
+  std::filesystem::path folder_;  ///< Where the files it names are sought.
   Scene scene_;
 };
 
@@ -67,8 +72,9 @@ Scene Loader::load(const LoadOptions& options) {
     throw InputError(document_.where +
                      ": [view] needs a sun that is not zero, and an eye that is not at its target");
   }
-  add_materials(document_);
+  add_materials(document_, folder_);
   for (const Value* table : tables(document_, "solid")) add_solid(*table);
+  for (const Value* table : tables(document_, "body")) add_body(*table);
   for (const Value* table : tables(document_, "ball")) add_ball(*table);
   add_script();
   check_names();
@@ -104,7 +110,7 @@ void read_crumbling(const Value& table, Crumbling& crumbling) {
 }
 
 /// A material of the same name is replaced: a scene may change what the library says.
-void Loader::add_materials(const Value& document) {
+void Loader::add_materials(const Value& document, const std::filesystem::path& folder) {
   const Schema& s = schema();
   std::set<std::string> seen;
   for (const Value* table : tables(document, "material")) {
@@ -131,7 +137,8 @@ void Loader::add_materials(const Value& document) {
     material.name = head.name;
     read_keys(*table, s.material.table, s.material.keys, {}, &material);
     const Table& entries = std::get<Table>(table->data);
-    if (const Value* v = find(entries, "pattern")) read(s.pattern, *v, {}, material.pattern);
+    if (const Value* v = find(entries, "pattern")) read_pattern(*v, folder, material.pattern);
+    read_stronger(*table, folder, material);
     if (const Value* v = find(entries, "crumbling")) read_crumbling(*v, material.crumbling);
     if (const Value* v = find(entries, "surface")) read(s.look, *v, {}, material.surface);
     if (const Value* v = find(entries, "interior")) read(s.look, *v, {}, material.interior);
@@ -142,16 +149,6 @@ void Loader::add_materials(const Value& document) {
       *namesake = material;
     }
   }
-}
-
-Quat rotation(const Vec3& angles_rad) {
-  Quat q = Quat::Identity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const SinCos half = sin_cos(angles_rad[axis] / 2);
-    const Vec3 v = half.sin * Vec3::Unit(axis);
-    q = Quat(half.cos, v.x(), v.y(), v.z()) * q;
-  }
-  return q.normalized();
 }
 
 /// A block under every part that reaches the structure's lowest level; the world holds the blocks.
@@ -227,6 +224,16 @@ void Loader::add_solid(const Value& table) {
   }
 }
 
+void Loader::add_body(const Value& table) {
+  BodyText text;
+  read(body_keys(), table, scene_.materials, text);
+  try {
+    for (Solid& solid : make_body(text, folder_)) scene_.solids.push_back(std::move(solid));
+  } catch (const InputError& error) {
+    throw InputError(table.where + ": " + error.what());
+  }
+}
+
 void Loader::add_ball(const Value& table) {
   BallText ball;
   read(schema().ball, table, scene_.materials, ball);
@@ -282,8 +289,8 @@ Scene parse_scene(const std::string& text, const std::string& file, const LoadOp
   for (const std::string& assignment : options.set) set_value(document, assignment);
   const std::filesystem::path library = scenes_folder() / "materials.toml";
   const Value materials = parse_toml(read_text(library), library.string());
-  Loader loader(document);
-  loader.add_materials(materials);
+  Loader loader(document, std::filesystem::path(file).parent_path());
+  loader.add_materials(materials, library.parent_path());
   Scene scene = loader.load(options);
   scene.name = std::filesystem::path(file).stem().string();
   return scene;

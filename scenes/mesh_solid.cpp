@@ -10,6 +10,7 @@
 #include "engine/io/mesh_reader.h"
 #include "fracture/solids.h"
 #include "scenes/load.h"
+#include "scenes/mesh_cache.h"
 
 namespace sunder::scenes {
 namespace {
@@ -43,6 +44,41 @@ bool is_number(const std::string& text) {
   });
 }
 
+void scale_mesh(RawMesh& mesh, const MeshOptions& options, fracture::VacdOptions& vacd) {
+  double scale = options.scale;
+  if (options.size_m) {
+    Box box;
+    for (const std::uint32_t vertex : mesh.corners) box.extend(mesh.vertices[vertex]);
+    scale = *options.size_m / std::max(box.empty() ? 0 : box.extent().maxCoeff(), 1e-300);
+  }
+  for (Vec3& vertex : mesh.vertices) vertex *= scale;
+  for (Vec3& node : vacd.nodes) node *= scale;
+}
+
+/// Reads, repairs and decomposes a file, or recalls what that once gave.
+MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
+  fracture::VacdOptions vacd_of = vacd_options(options);
+  RawMesh raw = read_mesh(file);
+  scale_mesh(raw, options, vacd_of);
+  const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
+  std::optional<MeshSolid> known = options.cached ? recall(key) : std::nullopt;
+  MeshSolid solid = known ? std::move(*known) : MeshSolid();
+  solid.name = std::filesystem::path(file).filename().string();
+  if (known) return solid;
+  solid.vertices = raw.vertices.size();
+  solid.faces = raw.polygons.size();
+  RepairOptions repair;
+  repair.repair = options.repair != "off";
+  RepairedMesh repaired = repair_mesh(std::move(raw), file, repair);
+  fracture::Vacd vacd = fracture::decompose(repaired, vacd_of);
+  solid.closed = repaired.closed;
+  solid.repairs = std::move(repaired.repairs);
+  solid.compound = std::move(vacd.compound);
+  solid.vacd = vacd.figures;
+  if (options.cached) keep(key, solid);
+  return solid;
+}
+
 }  // namespace
 
 bool names_built_in(const std::string& mesh) {
@@ -71,17 +107,6 @@ fracture::VacdOptions vacd_options(const MeshOptions& options) {
   return vacd;
 }
 
-SoundMesh read_sound_mesh(const std::string& file, const std::string& repair) {
-  RawMesh raw = read_mesh(file);
-  SoundMesh mesh;
-  mesh.vertices = raw.vertices.size();
-  mesh.faces = raw.polygons.size();
-  RepairOptions options;
-  options.repair = repair != "off";
-  mesh.repaired = repair_mesh(std::move(raw), file, options);
-  return mesh;
-}
-
 MeshSolid as_mesh_solid(const std::string& name, Compound compound) {
   MeshSolid solid;
   solid.name = name;
@@ -95,20 +120,15 @@ MeshSolid as_mesh_solid(const std::string& name, Compound compound) {
 
 MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options) {
   const Stopwatch watch;
-  const fracture::VacdOptions vacd_of = vacd_options(options);
   MeshSolid solid;
   if (names_built_in(mesh)) {
+    vacd_options(options);
+    if (options.scale != 1 || options.size_m) {
+      throw InputError(mesh + ": is built in; give it its size there, in place of a scale");
+    }
     solid = as_mesh_solid(mesh, fracture::make_solid(mesh));
   } else {
-    SoundMesh sound = read_sound_mesh(mesh, options.repair);
-    fracture::Vacd vacd = fracture::decompose(sound.repaired, vacd_of);
-    solid.name = std::filesystem::path(mesh).filename().string();
-    solid.vertices = sound.vertices;
-    solid.faces = sound.faces;
-    solid.closed = sound.repaired.closed;
-    solid.repairs = std::move(sound.repaired.repairs);
-    solid.compound = std::move(vacd.compound);
-    solid.vacd = vacd.figures;
+    solid = decomposed(mesh, options);
   }
   solid.prepare_ms = watch.ms();
   return solid;

@@ -19,17 +19,11 @@ struct MeshOptions {
   std::string nodes;           ///< How many, or a file of them; empty: as fracture/vacd.h has it.
   std::uint32_t convexes = 0;  ///< At most so many; 0: what the nodes make.
   std::string fit = "hull:24";
-  std::string repair = "auto";  ///< off: a mesh that needs repair is refused.
+  std::string repair = "auto";   ///< off: a mesh that needs repair is refused.
+  double scale = 1;              ///< Metres a unit of the file.
+  std::optional<double> size_m;  ///< In place of it: the longest side of the bounding box.
+  bool cached = false;           ///< Whether a decomposition is kept, and recalled (mesh_cache.h).
 };
-
-/// A mesh that encloses something, and what was done to make it so.
-struct SoundMesh {
-  RepairedMesh repaired;
-  std::size_t vertices = 0;  ///< As it was given.
-  std::size_t faces = 0;
-};
-/// Throws InputError for a file that is not there, is no mesh, or encloses nothing.
-SoundMesh read_sound_mesh(const std::string& file, const std::string& repair);
 
 /// A compound, and what it was made of.
 struct MeshSolid {

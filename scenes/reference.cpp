@@ -1,4 +1,5 @@
 // The reference of scene files, written by the reader's own tables.
+#include "scenes/body.h"
 #include "scenes/load.h"
 #include "scenes/schema.h"
 #include "scenes/structures/structure.h"
@@ -42,6 +43,8 @@ std::string default_of(const Key& key, void* fresh) {
       return text(*static_cast<const std::string*>(field));
     case Kind::kMaterial:
       return text(static_cast<const MaterialRef*>(field)->name);
+    case Kind::kCountOrFile:
+      return "automatic";
     default:
       return "";
   }
@@ -100,14 +103,14 @@ std::string key_reference() {
   const Schema& s = schema();
   std::string text = section(s.scene) + section(s.accuracy) + preset_list() + section(s.limits) +
                      section(s.ground) + section(s.view) + section(s.material_head) +
-                     section(s.material) + section(s.pattern) + section(s.crumbling) +
-                     section(s.look) + section(s.solid);
+                     section(s.material) + section(s.pattern) + section(s.stronger) +
+                     section(s.crumbling) + section(s.look) + section(s.solid);
   for (const Structure& structure : structures()) {
     text += "#### structure = \"" + std::string(structure.name) + "\"\n\n" +
             std::string(structure.help) + "\n\n" +
             rows(structure.keys, structure.parameters().get());
   }
-  return text + section(s.ball) + section(s.script) + section(s.shot);
+  return text + section(body_keys()) + section(s.ball) + section(s.script) + section(s.shot);
 }
 
 }  // namespace sunder::scenes

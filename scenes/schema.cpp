@@ -11,7 +11,8 @@ constexpr Range kRadius{0.001, 100};
 constexpr Range kFraction{0, 1};
 constexpr Range kTurn{-6.2832, 6.2832};
 
-constexpr std::string_view kPatterns[] = {"none", "voronoi", "web"};
+constexpr std::string_view kPatterns[] = {"none",  "voronoi", "web",  "radial",
+                                          "brick", "slabs",   "grid", "file"};
 constexpr std::string_view kTextures[] = {"plain", "brick", "concrete", "plaster",
                                           "wood",  "glass", "metal"};
 constexpr std::string_view kAnchored[] = {"none", "bottom"};
@@ -21,8 +22,8 @@ Keys<Scene> top_keys() {
           {table_key("scene", "What it is."), table_key("accuracy", "Overrides the preset."),
            table_key("limits", "How much may exist."), table_key("ground", "The floor."),
            table_key("view", "Camera and sun."), table_key("material", "Materials."),
-           table_key("solid", "What stands there."), table_key("ball", "Balls from the start."),
-           table_key("script", "What happens.")}};
+           table_key("solid", "What stands there."), table_key("body", "Meshes that stand there."),
+           table_key("ball", "Balls from the start."), table_key("script", "What happens.")}};
 }
 
 Keys<Scene> scene_keys() {
@@ -56,21 +57,43 @@ Keys<Material> material_keys() {
                                          "Smaller pieces no longer break."),
        key<&Material::smallest_piece_m3>("smallest_piece_m3", "m³", Range{0, kInfinity},
                                          "Smaller pieces are debris, no bodies."),
-       table_key("pattern", "How it breaks."),
+       table_key("pattern", "How it breaks."), table_key("stronger", "Patterns of harder blows."),
        table_key("crumbling", "What comes off where it broke."),
        table_key("surface", "How it looks outside."),
        table_key("interior", "How it looks where it broke.")}};
 }
 
 Keys<PatternSpec> pattern_keys() {
-  return {"[material.pattern]",
-          {choice<&PatternSpec::kind>("kind", kPatterns, "none never breaks."),
-           key<&PatternSpec::cells>("cells", "", Range{2, 5000}, "voronoi: number of cells."),
-           key<&PatternSpec::falloff>("falloff", "", Range{1, 10},
-                                      "voronoi: 1 = uniform, more = smaller near the impact."),
-           key<&PatternSpec::rings>("rings", "", Range{1, 100}, "web: rings."),
-           key<&PatternSpec::spokes>("spokes", "", Range{3, 200}, "web: spokes."),
-           key<&PatternSpec::jitter>("jitter", "", kFraction, "web: 0 = regular.")}};
+  return {
+      "[material.pattern]",
+      {choice<&PatternSpec::kind>("kind", kPatterns, "none never breaks."),
+       key<&PatternSpec::cells>(
+           "cells", "", Range{2, 5000},
+           "voronoi: sites; radial: sectors; slabs: how many; grid: along each side, at most 30."),
+       key<&PatternSpec::falloff>("falloff", "", Range{1, 10},
+                                  "voronoi: 1 = uniform, more = smaller near the impact."),
+       key<&PatternSpec::rings>("rings", "", Range{1, 100}, "web: rings."),
+       key<&PatternSpec::spokes>("spokes", "", Range{3, 200}, "web: spokes."),
+       key<&PatternSpec::jitter>("jitter", "", kFraction, "web, radial, slabs: 0 = regular."),
+       key<&PatternSpec::brick_m>("brick_m", "m", Range{1e-3, 1000},
+                                  "brick: its length, height and depth."),
+       key<&PatternSpec::file>("file",
+                               "file: an .obj of convex cells, one a group, that fill a box around "
+                               "the impact; from the scene's folder on."),
+       key<&PatternSpec::colors>(
+           "colors", "", Range{0, 5000},
+           "Cells are joined into so many pieces, which need not be convex; 0: each is one.")}};
+}
+
+Keys<StrongerBlow> stronger_keys() {
+  return {"[[material.stronger]]",
+          {key<&StrongerBlow::energy_J>(
+               "energy_J", "J", Range{0, kInfinity},
+               "From this on, a blow breaks the material as follows; ascending.")
+               .must(),
+           key<&StrongerBlow::impact_radius_m>("impact_radius_m", "m", Range{0.001, kInfinity},
+                                               "In place of the material's, which is the default."),
+           table_key("pattern", "In place of the material's; starts from that.")}};
 }
 
 Keys<Crumbling> crumbling_keys() {
@@ -151,6 +174,7 @@ Schema make_schema() {
        key<&MaterialHead::like>("like", "The material it starts from; its namesake by default.")}};
   s.material = material_keys();
   s.pattern = pattern_keys();
+  s.stronger = stronger_keys();
   s.crumbling = crumbling_keys();
   s.look = {"[material.surface], [material.interior]",
             {choice<&Look::texture>("texture", kTextures, "Procedural texture."),

@@ -72,6 +72,7 @@ struct Schema {
   Keys<MaterialHead> material_head;
   Keys<Material> material;
   Keys<PatternSpec> pattern;
+  Keys<StrongerBlow> stronger;
   Keys<Crumbling> crumbling;
   Keys<Look> look;
   Keys<SolidHead> solid;

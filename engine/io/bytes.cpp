@@ -2,6 +2,8 @@
 
 #include <fstream>
 
+#include <xxhash.h>
+
 namespace sunder {
 
 std::vector<std::byte> read_file(const std::filesystem::path& path) {
@@ -14,6 +16,10 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!in) throw InputError(path.string() + ": cannot be read to its end");
   return bytes;
+}
+
+std::uint64_t hash_bytes(const std::vector<std::byte>& bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
 }
 
 void write_file(const std::filesystem::path& path, const std::vector<std::byte>& bytes) {

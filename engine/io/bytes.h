@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <span>
@@ -75,6 +76,8 @@ class ByteReader {
 
 /// The whole file; throws InputError if it cannot be read.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
+/// A hash (XXH3) of bytes; the same on every machine.
+std::uint64_t hash_bytes(const std::vector<std::byte>& bytes);
 /// Writes under a temporary name and renames; throws InputError if that fails.
 void write_file(const std::filesystem::path& path, const std::vector<std::byte>& bytes);
 
