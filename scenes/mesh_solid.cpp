@@ -91,6 +91,7 @@ fracture::VacdOptions vacd_options(const MeshOptions& options) {
   fracture::VacdOptions vacd;
   vacd.fit = fit_of(options.fit);
   vacd.convexes = options.convexes;
+  vacd.material = MaterialIndex(0u);
   if (is_number(options.nodes)) {
     vacd.node_count = whole_number(options.nodes, 1, fracture::kMostNodes);
     if (!vacd.node_count) {

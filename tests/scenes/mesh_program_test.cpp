@@ -176,6 +176,17 @@ TEST(Vacd, GivesItsFiguresAndNamesRepairs) {
   EXPECT_NE(refused.err.find("planar holes"), std::string::npos) << refused.err;
 }
 
+TEST(Fracture, WritesThePiecesOfAFilesMesh) {
+  const Folder folder;
+  std::ofstream(folder / "t.obj") << open_tetrahedron();
+  const std::string command = "fracture " + folder / "t.obj" + " --nodes 2 --pattern grid:2 -o ";
+  for (const std::string out : {"x.glb", "x.png", "x/"}) {
+    const Outcome outcome = sunder(command + folder / out);
+    EXPECT_EQ(outcome.exit_code, 0) << out << "\n" << outcome.err;
+  }
+  EXPECT_GT(read_mesh(folder / "x.glb").polygons.size(), 8u);
+}
+
 TEST(Vacd, TakesNodesFromAFile) {
   const Folder folder;
   std::ofstream(folder / "t.obj") << open_tetrahedron();
