@@ -64,14 +64,14 @@ std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& o
   }
 }
 
-/// A part per piece: fitted to its mesh, which goes with it unless it is internal.
+/// A part per piece: fitted to its mesh, which goes with it unless the part looks the same alone.
 std::vector<Part> fitted_parts(std::vector<VacdPiece> pieces, const VacdOptions& options) {
   std::vector<Part> parts(pieces.size());
   for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
     VacdPiece& piece = pieces[p];
     parts[p].polyhedron = fitted_region(piece, options.fit);
     parts[p].material = options.material;
-    if (!piece.is_internal()) {
+    if (!piece.is_internal() && !shows_all(parts[p].polyhedron, piece.mesh)) {
       parts[p].visual = std::make_shared<PolygonMesh>(std::move(piece.mesh));
     }
   });

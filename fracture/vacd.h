@@ -51,10 +51,11 @@ struct Vacd {
 };
 
 /// Convexes that each own one connected watertight piece of a shell, within disjoint convex
-/// regions; pieces sum to the mesh. A region wholly inside the mesh is an internal convex. Regions
+/// regions; pieces sum to the mesh. Without visual mesh are regions wholly inside the mesh, and
+/// pieces that are flat-shaded convexes without texture: seen alone, they look the same. Regions
 /// that touch share plane ids and bonds, and hulls that overlap (of different shells, or of islands
-/// in one region) ghosts. Throws InputError if the options ask for more
-/// than kMostNodes or for coordinates that are not finite.
+/// in one region) ghosts. Throws InputError if the options ask for more than kMostNodes, for nodes
+/// by hand that make more convexes than allowed, or for coordinates that are not finite.
 Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options = {});
 
 /// Nodes from a file: `x y z` a line, what follows a # is left out. Throws InputError naming `name`

@@ -107,7 +107,30 @@ ConvexPolyhedron fitted_region(const VacdPiece& piece, const Fit& fit) {
   drop_own_directions(piece.region, directions);
   const std::vector<Plane> planes = touching_planes(points, directions);
   const std::vector<PlaneId> none(planes.size());
-  return clip_all(piece.region, planes, none, region_tolerance(bounds(piece.region)));
+  ConvexPolyhedron fitted =
+      clip_all(piece.region, planes, none, region_tolerance(bounds(piece.region)));
+  for (ConvexPolyhedron::Face& face : fitted.faces) {
+    face.kind = face.id.none() ? FaceKind::kSurface : FaceKind::kInterior;
+  }
+  return fitted;
+}
+
+bool shows_all(const ConvexPolyhedron& polyhedron, const PolygonMesh& mesh) {
+  constexpr double kSameVolume = 1e-13;
+  constexpr float kFlat = 0.9999f;
+  const double volume = mass_properties(mesh).volume_m3;
+  if (!mesh.corner_uvs.empty()) return false;
+  if (std::abs(mass_properties(polyhedron).volume_m3 - volume) > kSameVolume * volume) return false;
+  for (const PolygonMesh::Face& face : mesh.faces) {
+    const Vec3f normal = face.plane.normal.cast<float>();
+    for (std::uint32_t k = 0; k < face.contour_count; ++k) {
+      const PolygonMesh::Contour& contour = mesh.contours[face.first_contour + k];
+      for (std::uint32_t c = 0; c < contour.corner_count; ++c) {
+        if (mesh.corner_normals[contour.first_corner + c].dot(normal) < kFlat) return false;
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace sunder::fracture

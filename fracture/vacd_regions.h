@@ -43,4 +43,7 @@ std::vector<VacdPiece> voronoi_pieces(const PolygonMesh& mesh, std::span<const V
 /// region's outermost ones, are left without names.
 ConvexPolyhedron fitted_region(const VacdPiece& piece, const Fit& fit);
 
+/// Whether a polyhedron shows all that a mesh does: the same solid, flat-shaded, without texture.
+bool shows_all(const ConvexPolyhedron& polyhedron, const PolygonMesh& mesh);
+
 }  // namespace sunder::fracture
