@@ -14,8 +14,7 @@ namespace sunder::test {
 /// SUNDER_MESHES, or the folder that lies beside the sources; may not exist.
 inline std::filesystem::path meshes_folder() {
   if (const char* folder = std::getenv("SUNDER_MESHES")) return folder;
-  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-  return root.parent_path() / "shared" / "meshes";
+  return SUNDER_MESHES_FOLDER;
 }
 
 /// The files of a set ("good" or "nasty"), in order.
