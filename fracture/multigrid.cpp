@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::size_t kGroup = 8;  // nodes that move as one on the next coarser level
 // Groups that move rigidly are too stiff: their correction is lengthened by this much.
-constexpr double kOvercorrection = 1.4;
+constexpr float kOvercorrection = 1.4f;
 constexpr std::size_t kDenseNodes = 48;  // few enough for a dense factorization
-constexpr double kDamping = 2.0 / 3;     // of block Jacobi; the blocks bound the spectrum by 2
+constexpr float kDamping = 2.0f / 3;     // of block Jacobi; the blocks bound the spectrum by 2
 constexpr std::size_t kChunk = 1024;
 
 /// Sum over nodes in an order that threads do not change.
@@ -29,30 +29,81 @@ double ordered_sum(std::size_t nodes, const Term& term) {
   return sum;
 }
 
-double dot(const Nodal& x, const Nodal& y) {
+double dot(const Nodal<double>& x, const Nodal<double>& y) {
   return ordered_sum(x.size(), [&](std::size_t i) { return dot(x[i], y[i]); });
+}
+
+/// x += factor · y
+template <class Real>
+void add(Real factor, const Nodal<Real>& y, Nodal<Real>& x) {
+  for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      x[i].linear += splat<Real>(factor) * y[i].linear;
+      x[i].angular += splat<Real>(factor) * y[i].angular;
+    }
+  });
+}
+
+/// x = y + factor · x
+void lengthen(double factor, const Nodal<double>& y, Nodal<double>& x) {
+  for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      x[i].linear = y[i].linear + splat<double>(factor) * x[i].linear;
+      x[i].angular = y[i].angular + splat<double>(factor) * x[i].angular;
+    }
+  });
+}
+
+/// y = x / unit as floats; what is rounding beside the unit becomes zero (see SpringLevel).
+void to_float(const Nodal<double>& x, double unit, Nodal<float>& y) {
+  constexpr double kLeast = 1e-15;
+  const auto one = [&](Quad<double> part) {
+    part *= splat<double>(1 / unit);
+    const auto keep = (part > splat<double>(kLeast)) | (part < splat<double>(-kLeast));
+    return __builtin_convertvector(keep ? part : Quad<double>{}, Quad<float>);
+  };
+  for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) y[i] = {one(x[i].linear), one(x[i].angular)};
+  });
+}
+
+/// y = unit · x
+void to_double(const Nodal<float>& x, double unit, Nodal<double>& y) {
+  const auto one = [&](Quad<float> part) {
+    return splat<double>(unit) * __builtin_convertvector(part, Quad<double>);
+  };
+  for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) y[i] = {one(x[i].linear), one(x[i].angular)};
+  });
 }
 
 }  // namespace
 
-Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs) {
+Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
+    : springs_(nodes, springs), unit_N_m_(0) {
+  for (const Spring& spring : springs) unit_N_m_ += spring.stretch_N_m;
+  unit_N_m_ /= static_cast<double>(springs.size());
+  for (Spring& spring : springs) {
+    spring.stretch_N_m /= unit_N_m_;
+    spring.turn /= unit_N_m_;
+  }
   levels_.emplace_back(nodes, std::move(springs));
   factorize();
 }
 
 void Multigrid::factorize() {
   while (levels_.back().size() > kDenseNodes) {
-    SpringLevel coarse = levels_.back().coarsen(kGroup);
+    SpringLevel<float> coarse = levels_.back().coarsen(kGroup);
     if (coarse.size() == levels_.back().size()) break;  // no two hang together
     levels_.push_back(std::move(coarse));
   }
-  const SpringLevel& last = levels_.back();
+  const SpringLevel<float>& last = levels_.back();
   const auto rows = static_cast<Eigen::Index>(6 * last.size());
   Eigen::MatrixXd matrix(rows, rows);
-  Nodal unit = last.zero(), column;
+  Nodal<float> unit = last.zero(), column;
   for (std::size_t j = 0; j < last.size(); ++j) {
     for (int k = 0; k < 6; ++k) {
-      Quad& part = k < 3 ? unit[j].linear : unit[j].angular;
+      Quad<float>& part = k < 3 ? unit[j].linear : unit[j].angular;
       part[k % 3] = 1;
       last.multiply(unit, column);
       part[k % 3] = 0;
@@ -67,7 +118,7 @@ void Multigrid::factorize() {
   SUNDER_CHECK(coarsest_.info() == Eigen::Success);
 }
 
-void Multigrid::solve_coarsest(const Nodal& r, Nodal& z) const {
+void Multigrid::solve_coarsest(const Nodal<float>& r, Nodal<float>& z) const {
   const std::size_t nodes = levels_.back().size();
   Eigen::VectorXd flat(static_cast<Eigen::Index>(6 * nodes));
   for (std::size_t i = 0; i < nodes; ++i) {
@@ -77,42 +128,45 @@ void Multigrid::solve_coarsest(const Nodal& r, Nodal& z) const {
   coarsest_.solveInPlace(flat);
   z.resize(nodes + 1);
   for (std::size_t i = 0; i < nodes; ++i) {
-    z[i].linear = quad(flat.segment<3>(static_cast<Eigen::Index>(6 * i)));
-    z[i].angular = quad(flat.segment<3>(static_cast<Eigen::Index>(6 * i + 3)));
+    z[i].linear = quad<float>(flat.segment<3>(static_cast<Eigen::Index>(6 * i)));
+    z[i].angular = quad<float>(flat.segment<3>(static_cast<Eigen::Index>(6 * i + 3)));
   }
 }
 
-void Multigrid::cycle(std::size_t level, const Nodal& r, Nodal& z,
+void Multigrid::cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,
                       std::span<Scratch> scratch) const {
   if (level + 1 == levels_.size()) return solve_coarsest(r, z);
-  const SpringLevel& here = levels_[level];
-  const SpringLevel& coarse = levels_[level + 1];
+  const SpringLevel<float>& here = levels_[level];
   Scratch& s = scratch[level];
   here.relax(kDamping, r, z, false);
   here.residual(r, z, s.rest);
-  here.restrict_to(coarse, s.rest, s.coarse_r);
+  here.restrict_to(s.rest, s.coarse_r);
   cycle(level + 1, s.coarse_r, s.coarse_z, scratch);
   if (level + 2 < levels_.size()) {  // once more, for what is left
-    coarse.residual(s.coarse_r, s.coarse_z, s.rest);
-    cycle(level + 1, s.rest, s.correction, scratch);
-    for (std::size_t i = 0; i < coarse.size(); ++i) {
-      s.coarse_z[i].linear += s.correction[i].linear;
-      s.coarse_z[i].angular += s.correction[i].angular;
-    }
+    levels_[level + 1].residual(s.coarse_r, s.coarse_z, s.coarse_rest);
+    cycle(level + 1, s.coarse_rest, s.correction, scratch);
+    add(1.0f, s.correction, s.coarse_z);
   }
-  here.prolong_from(coarse, kOvercorrection, s.coarse_z, z);
+  here.prolong(kOvercorrection, s.coarse_z, z);
   here.residual(r, z, s.rest);
   here.relax(kDamping, s.rest, z, true);
 }
 
-SolveResult Multigrid::solve(const Nodal& f, double tolerance, int most_iterations,
-                             Nodal& x) const {
-  const SpringLevel& fine = finest();
-  const std::size_t nodes = fine.size();
+std::vector<Multigrid::Scratch> Multigrid::scratch() const {
   std::vector<Scratch> scratch(levels_.size());
-  Nodal r, z = fine.zero(), p = fine.zero(), product = fine.zero();
-  fine.residual(f, x, r);
-  r.back() = Six{};
+  for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
+    const Nodal<float> coarse = levels_[level + 1].zero();
+    scratch[level] = {levels_[level].zero(), coarse, coarse, coarse, coarse};
+  }
+  return scratch;
+}
+
+SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, int most_iterations,
+                             Nodal<double>& x) const {
+  std::vector<Scratch> memory = scratch();
+  Nodal<double> r = springs_.zero(), z = r, p = r, product = r;
+  Nodal<float> r_f = levels_.front().zero(), z_f = r_f;
+  springs_.residual(f, x, r);
   SolveResult result;
   const double force = std::sqrt(dot(f, f));
   double rz = 0;
@@ -121,27 +175,20 @@ SolveResult Multigrid::solve(const Nodal& f, double tolerance, int most_iteratio
     result.residual = force > 0 ? left / force : 0;
     if (left == 0) result.converged = true;
     if (result.converged) break;
-    cycle(0, r, z, scratch);
+    to_float(r, left, r_f);
+    cycle(0, r_f, z_f, memory);
+    to_double(z_f, left / unit_N_m_, z);
     const double rz_new = dot(r, z), energy = dot(x, f);
     result.error = energy > 0 ? std::sqrt(std::max(0.0, rz_new) / energy) : 1;
     result.converged = result.residual <= tolerance && result.error <= tolerance;
     if (result.converged || result.iterations >= most_iterations) break;
-    const double keep = result.iterations > 0 ? rz_new / rz : 0;
+    lengthen(result.iterations > 0 ? rz_new / rz : 0, z, p);
     rz = rz_new;
-    for (std::size_t i = 0; i < nodes; ++i) {
-      p[i].linear = z[i].linear + splat(keep) * p[i].linear;
-      p[i].angular = z[i].angular + splat(keep) * p[i].angular;
-    }
-    fine.multiply(p, product);
+    springs_.multiply(p, product);
     const double curvature = dot(p, product);
     if (!(curvature > 0)) break;  // nothing but rounding is left
-    const double step = rz / curvature;
-    for (std::size_t i = 0; i < nodes; ++i) {
-      x[i].linear += splat(step) * p[i].linear;
-      x[i].angular += splat(step) * p[i].angular;
-      r[i].linear -= splat(step) * product[i].linear;
-      r[i].angular -= splat(step) * product[i].angular;
-    }
+    add(rz / curvature, p, x);
+    add(-rz / curvature, product, r);
   }
   return result;
 }

@@ -1,5 +1,6 @@
 // Solves K x = f for the springs of a compound: conjugate gradients, preconditioned by a W-cycle
-// over coarser and coarser levels of springs.
+// over coarser and coarser levels of springs. The cycle is in single precision: it decides how fast
+// the answer comes, not what it is.
 //
 // Read first: Multigrid::solve(), then cycle().
 #pragma once
@@ -25,22 +26,27 @@ class Multigrid {
   /// Every node hangs on the world, by springs over other nodes perhaps.
   Multigrid(std::size_t nodes, std::vector<Spring> springs);
 
-  const SpringLevel& finest() const { return levels_.front(); }
+  const SpringLevel<double>& springs() const { return springs_; }
   /// Improves x until residual and error are at most `tolerance`, or for so many iterations.
-  SolveResult solve(const Nodal& f, double tolerance, int most_iterations, Nodal& x) const;
+  SolveResult solve(const Nodal<double>& f, double tolerance, int most_iterations,
+                    Nodal<double>& x) const;
 
  private:
   /// Memory of one level of a cycle.
   struct Scratch {
-    Nodal rest, coarse_r, coarse_z, correction;
+    Nodal<float> rest, coarse_r, coarse_z, coarse_rest, correction;
   };
 
   void factorize();
+  std::vector<Scratch> scratch() const;
   /// z = (about) K⁻¹ r, on one level and those below it; symmetric.
-  void cycle(std::size_t level, const Nodal& r, Nodal& z, std::span<Scratch> scratch) const;
-  void solve_coarsest(const Nodal& r, Nodal& z) const;
+  void cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,
+             std::span<Scratch> scratch) const;
+  void solve_coarsest(const Nodal<float>& r, Nodal<float>& z) const;
 
-  std::vector<SpringLevel> levels_;  ///< Finest first.
+  SpringLevel<double> springs_;
+  double unit_N_m_;  ///< The levels' unit of stiffness: their numbers are about one.
+  std::vector<SpringLevel<float>> levels_;  ///< The same springs, then coarser ones.
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
 };
 

@@ -1,6 +1,7 @@
 #include "fracture/spring_level.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <Eigen/Dense>
 
@@ -10,6 +11,23 @@ namespace sunder::fracture {
 namespace {
 
 constexpr std::uint32_t kRun = 1024;  // nodes a thread takes at a time
+constexpr double kLeastTurn = 1e-9;   // of a block's eigenvalues, as part of their sum
+
+/// As stored in `Real`, without what is rounding beside `size`: products of such numbers end up
+/// below what a processor multiplies fast.
+template <class Real>
+Quad<Real> rounded(const Vec3& v, double size) {
+  const double least = size * double{std::numeric_limits<Real>::epsilon()};
+  return quad<Real>((v.array().abs() > least).select(v, Vec3::Zero()));
+}
+
+template <class Real>
+Symmetric<Real> rounded(const Mat3& m) {
+  Symmetric<Real> result;
+  result.diagonal = quad<Real>(m.diagonal());
+  result.rest = rounded<Real>(Vec3(m(1, 2), m(0, 2), m(0, 1)), m.trace());
+  return result;
+}
 
 Mat3 lever(const Vec3& arm) { return arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose(); }
 
@@ -136,14 +154,16 @@ std::vector<Spring> merge(std::vector<Spring> springs) {
 
 }  // namespace
 
-SpringLevel::SpringLevel(std::size_t nodes, std::vector<Spring> springs)
+template <class Real>
+SpringLevel<Real>::SpringLevel(std::size_t nodes, std::vector<Spring> springs)
     : places_(nodes, Vec3::Zero()), springs_(std::move(springs)) {
   place_nodes();
   make_runs();
   invert_blocks();
 }
 
-void SpringLevel::place_nodes() {
+template <class Real>
+void SpringLevel<Real>::place_nodes() {
   std::vector<double> stretch(size(), 0);
   for (const Spring& spring : springs_) {
     for (const std::uint32_t end : {spring.a, spring.b}) {
@@ -155,19 +175,24 @@ void SpringLevel::place_nodes() {
   for (std::size_t i = 0; i < size(); ++i) places_[i] /= stretch[i];
 }
 
-void SpringLevel::make_runs() {
+template <class Real>
+void SpringLevel<Real>::make_runs() {
   const auto nodes = static_cast<std::uint32_t>(size());
   for (std::uint32_t begin = 0; begin < nodes; begin += kRun) {
     runs_.push_back({begin, std::min(nodes, begin + kRun), {}});
   }
   for (const Spring& spring : springs_) {
+    const auto arm = [&](std::uint32_t node) {
+      const Vec3 way = spring.place - places_[node];
+      return rounded<Real>(way, way.norm());
+    };
     Link link;
     link.a = std::min(spring.a, nodes);
     link.b = std::min(spring.b, nodes);
-    link.arm_a = link.a < nodes ? quad(spring.place - places_[link.a]) : Quad{};
-    link.arm_b = link.b < nodes ? quad(spring.place - places_[link.b]) : Quad{};
-    link.turn = Symmetric(spring.turn);
-    link.turn.diagonal[3] = spring.stretch_N_m;
+    link.arm_a = link.a < nodes ? arm(link.a) : Quad<Real>{};
+    link.arm_b = link.b < nodes ? arm(link.b) : Quad<Real>{};
+    link.turn = rounded<Real>(spring.turn);
+    link.turn.diagonal[3] = static_cast<Real>(spring.stretch_N_m);
     if (link.a < nodes) runs_[link.a / kRun].links.push_back(link);
     if (link.b < nodes && (link.a == nodes || link.b / kRun != link.a / kRun)) {
       runs_[link.b / kRun].links.push_back(link);
@@ -175,7 +200,8 @@ void SpringLevel::make_runs() {
   }
 }
 
-void SpringLevel::invert_blocks() {
+template <class Real>
+void SpringLevel<Real>::invert_blocks() {
   std::vector<double> push(size(), 0);
   std::vector<Mat3> turn(size(), Mat3::Zero());
   for (const Spring& spring : springs_) {
@@ -187,24 +213,28 @@ void SpringLevel::invert_blocks() {
   }
   inverse_.resize(size());
   for (std::size_t i = 0; i < size(); ++i) {
-    inverse_[i] = Symmetric(Mat3(turn[i].inverse()));
-    inverse_[i].diagonal[3] = 1 / push[i];
+    // Slivers turn about their length almost freely.
+    turn[i].diagonal().array() += kLeastTurn * turn[i].trace();
+    inverse_[i] = rounded<Real>(Mat3(turn[i].inverse()));
+    inverse_[i].diagonal[3] = static_cast<Real>(1 / push[i]);
   }
 }
 
+template <class Real>
 template <class Start>
-void SpringLevel::apply(const Nodal& x, Nodal& y, double sign, const Start& start) const {
+void SpringLevel<Real>::apply(const Nodal<Real>& x, Nodal<Real>& y, Real sign,
+                              const Start& start) const {
   y.resize(size() + 1);
   for_chunks(runs_.size(), 1, [&](std::size_t r, std::size_t, std::size_t) {
     const Run& run = runs_[r];
     for (std::uint32_t i = run.begin; i < run.end; ++i) y[i] = start(i);
     for (const Link& link : run.links) {
-      const Six &at_a = x[link.a], &at_b = x[link.b];
-      const Quad turned = at_b.angular - at_a.angular;
-      const Quad shifted = at_b.linear - at_a.linear + cross(at_b.angular, link.arm_b) -
-                           cross(at_a.angular, link.arm_a);
-      const Quad force = splat(sign * link.turn.diagonal[3]) * shifted;
-      const Quad torque = splat(sign) * (link.turn * turned);
+      const Six<Real>&at_a = x[link.a], &at_b = x[link.b];
+      const Quad<Real> turned = at_b.angular - at_a.angular;
+      const Quad<Real> shifted = at_b.linear - at_a.linear + cross(at_b.angular, link.arm_b) -
+                                 cross(at_a.angular, link.arm_a);
+      const Quad<Real> force = splat<Real>(sign * link.turn.diagonal[3]) * shifted;
+      const Quad<Real> torque = splat<Real>(sign) * (link.turn * turned);
       if (link.a - run.begin < run.end - run.begin) {
         y[link.a].linear -= force;
         y[link.a].angular -= cross(link.arm_a, force) + torque;
@@ -217,28 +247,32 @@ void SpringLevel::apply(const Nodal& x, Nodal& y, double sign, const Start& star
   });
 }
 
-void SpringLevel::multiply(const Nodal& x, Nodal& y) const {
-  apply(x, y, 1, [](std::uint32_t) { return Six{}; });
+template <class Real>
+void SpringLevel<Real>::multiply(const Nodal<Real>& x, Nodal<Real>& y) const {
+  apply(x, y, 1, [](std::uint32_t) { return Six<Real>{}; });
 }
 
-void SpringLevel::residual(const Nodal& f, const Nodal& x, Nodal& y) const {
+template <class Real>
+void SpringLevel<Real>::residual(const Nodal<Real>& f, const Nodal<Real>& x, Nodal<Real>& y) const {
   apply(x, y, -1, [&](std::uint32_t i) { return f[i]; });
 }
 
-void SpringLevel::relax(double factor, const Nodal& r, Nodal& x, bool add) const {
+template <class Real>
+void SpringLevel<Real>::relax(Real factor, const Nodal<Real>& r, Nodal<Real>& x, bool add) const {
   x.resize(size() + 1);
   for_chunks(size(), kRun, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Symmetric& inverse = inverse_[i];
-      const Quad push = splat(factor * inverse.diagonal[3]) * r[i].linear;
-      const Quad turn = splat(factor) * (inverse * r[i].angular);
+      const Symmetric<Real>& inverse = inverse_[i];
+      const Quad<Real> push = splat<Real>(factor * inverse.diagonal[3]) * r[i].linear;
+      const Quad<Real> turn = splat<Real>(factor) * (inverse * r[i].angular);
       x[i].linear = add ? x[i].linear + push : push;
       x[i].angular = add ? x[i].angular + turn : turn;
     }
   });
 }
 
-SpringLevel SpringLevel::coarsen(std::size_t group_size) {
+template <class Real>
+SpringLevel<Real> SpringLevel<Real>::coarsen(std::size_t group_size) {
   const Couplings couplings(size(), springs_);
   Groups growing(couplings, size());
   const std::uint32_t groups = growing.grow(group_size);
@@ -251,29 +285,36 @@ SpringLevel SpringLevel::coarsen(std::size_t group_size) {
     if (spring.a > spring.b) std::swap(spring.a, spring.b);
     between.push_back(spring);
   }
-  return SpringLevel(groups, merge(std::move(between)));
+  SpringLevel coarse(groups, merge(std::move(between)));
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Vec3 way = places_[i] - coarse.places_[group_[i]];
+    arms_.push_back(rounded<Real>(way, way.norm()));
+  }
+  return coarse;
 }
 
-void SpringLevel::restrict_to(const SpringLevel& coarse, const Nodal& forces, Nodal& sums) const {
-  sums.assign(coarse.size() + 1, Six{});
+template <class Real>
+void SpringLevel<Real>::restrict_to(const Nodal<Real>& forces, Nodal<Real>& sums) const {
+  std::fill(sums.begin(), sums.end(), Six<Real>{});
   for (std::size_t i = 0; i < size(); ++i) {
-    Six& sum = sums[group_[i]];
-    const Quad arm = quad(places_[i] - coarse.places_[group_[i]]);
+    Six<Real>& sum = sums[group_[i]];
     sum.linear += forces[i].linear;
-    sum.angular += forces[i].angular + cross(arm, forces[i].linear);
+    sum.angular += forces[i].angular + cross(arms_[i], forces[i].linear);
   }
 }
 
-void SpringLevel::prolong_from(const SpringLevel& coarse, double factor, const Nodal& motions,
-                               Nodal& x) const {
+template <class Real>
+void SpringLevel<Real>::prolong(Real factor, const Nodal<Real>& motions, Nodal<Real>& x) const {
   for_chunks(size(), kRun, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Six& motion = motions[group_[i]];
-      const Quad arm = quad(places_[i] - coarse.places_[group_[i]]);
-      x[i].linear += splat(factor) * (motion.linear + cross(motion.angular, arm));
-      x[i].angular += splat(factor) * motion.angular;
+      const Six<Real>& motion = motions[group_[i]];
+      x[i].linear += splat<Real>(factor) * (motion.linear + cross(motion.angular, arms_[i]));
+      x[i].angular += splat<Real>(factor) * motion.angular;
     }
   });
 }
+
+template class SpringLevel<float>;
+template class SpringLevel<double>;
 
 }  // namespace sunder::fracture

@@ -24,8 +24,11 @@ struct Spring {
 };
 
 /// Per node, and one more for the world, which is zero.
-using Nodal = std::vector<Six>;
+template <class Real>
+using Nodal = std::vector<Six<Real>>;
 
+/// `Real` is float or double.
+template <class Real>
 class SpringLevel {
  public:
   /// Every node has a spring.
@@ -35,28 +38,28 @@ class SpringLevel {
   std::size_t spring_count() const { return springs_.size(); }
   /// The centre of a node's springs: its displacement and torque are about there.
   const Vec3& place(std::size_t node) const { return places_[node]; }
-  Nodal zero() const { return Nodal(size() + 1); }
+  Nodal<Real> zero() const { return Nodal<Real>(size() + 1); }
 
   /// y = K x
-  void multiply(const Nodal& x, Nodal& y) const;
+  void multiply(const Nodal<Real>& x, Nodal<Real>& y) const;
   /// y = f − K x
-  void residual(const Nodal& f, const Nodal& x, Nodal& y) const;
+  void residual(const Nodal<Real>& f, const Nodal<Real>& x, Nodal<Real>& y) const;
   /// x = or += factor · D⁻¹ r, D the nodes' own blocks of K.
-  void relax(double factor, const Nodal& r, Nodal& x, bool add) const;
+  void relax(Real factor, const Nodal<Real>& r, Nodal<Real>& x, bool add) const;
 
-  /// Groups of about `size` neighbouring nodes as the nodes of a coarser level.
+  /// Groups of about `size` neighbouring nodes as the nodes of a coarser level, for the two below.
   SpringLevel coarsen(std::size_t size);
   /// Forces on nodes as forces on groups.
-  void restrict_to(const SpringLevel& coarse, const Nodal& forces, Nodal& sums) const;
+  void restrict_to(const Nodal<Real>& forces, Nodal<Real>& sums) const;
   /// Adds `factor` times the groups' rigid motions to the nodes.
-  void prolong_from(const SpringLevel& coarse, double factor, const Nodal& motions, Nodal& x) const;
+  void prolong(Real factor, const Nodal<Real>& motions, Nodal<Real>& x) const;
 
  private:
   /// A spring made ready to be multiplied. Its stretch is the fourth lane of turn.diagonal.
   struct Link {
     std::uint32_t a = 0, b = 0;  ///< The world is the number after the last node.
-    Quad arm_a, arm_b;
-    Symmetric turn;
+    Quad<Real> arm_a, arm_b;
+    Symmetric<Real> turn;
   };
   /// Links that reach into one run of nodes; those between two runs are in both.
   struct Run {
@@ -68,12 +71,14 @@ class SpringLevel {
   void make_runs();
   void invert_blocks();
   template <class Start>
-  void apply(const Nodal& x, Nodal& y, double sign, const Start& start) const;
+  void apply(const Nodal<Real>& x, Nodal<Real>& y, Real sign, const Start& start) const;
 
   std::vector<Vec3> places_;
   std::vector<Spring> springs_;
   std::vector<Run> runs_;
-  std::vector<Symmetric> inverse_;    ///< Of D's turns; the fourth lane of diagonal is of its push.
+  std::vector<Symmetric<Real>>
+      inverse_;                       ///< Of D's turns; the fourth lane of diagonal is of its push.
+  std::vector<Quad<Real>> arms_;      ///< Per node: from the place of its group.
   std::vector<std::uint32_t> group_;  ///< Per node: its node on the next coarser level.
 };
 

@@ -188,16 +188,16 @@ SolveResult StressSystem::solve(std::span<const Load> loads, const Vec3& gravity
   if (!multigrid_) return {0, 0, 0, true};
   std::vector<Vec3> forces_N, torques_Nm;
   weigh_down(loads, gravity_R, forces_N, torques_Nm);
-  const SpringLevel& level = multigrid_->finest();
-  Nodal f = level.zero(), x = level.zero();
+  const SpringLevel<double>& level = multigrid_->springs();
+  Nodal<double> f = level.zero(), x = level.zero();
   // Nodes stand where their springs have their centre, which is not the centroid.
   for (std::size_t c = 0; c < centroids_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];
     if (node == Spring::kWorld) continue;
     const Vec3 arm = centroids_[c] - level.place(node);
-    f[node] = {quad(forces_N[c]), quad(torques_Nm[c] + arm.cross(forces_N[c]))};
+    f[node] = {quad<double>(forces_N[c]), quad<double>(torques_Nm[c] + arm.cross(forces_N[c]))};
     const Displacement& d = displacements[c];
-    x[node] = {quad(d.shift_R - d.turn_R.cross(arm)), quad(d.turn_R)};
+    x[node] = {quad<double>(d.shift_R - d.turn_R.cross(arm)), quad<double>(d.turn_R)};
   }
   const SolveResult result = multigrid_->solve(f, tolerance, most_iterations, x);
   for (std::size_t c = 0; c < centroids_.size(); ++c) {

@@ -42,10 +42,12 @@ std::span<const Structure> structures();
 
 Structure box_structure();
 Structure brick_wall_structure();
+Structure bridge_structure();
 Structure column_structure();
 Structure house_structure();
 Structure pane_structure();
 Structure stack_structure();
+Structure temple_structure();
 
 /// The box [min, max] cut into equal blocks no longer than `longest_m`, appended to `parts`.
 void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max,

@@ -147,9 +147,9 @@ Structure pane_structure() {
 }
 
 std::span<const Structure> structures() {
-  static const std::vector<Structure> all = {box_structure(),    brick_wall_structure(),
-                                             column_structure(), house_structure(),
-                                             pane_structure(),   stack_structure()};
+  static const std::vector<Structure> all = {
+      box_structure(),   brick_wall_structure(), bridge_structure(), column_structure(),
+      house_structure(), pane_structure(),       stack_structure(),  temple_structure()};
   return all;
 }
 
