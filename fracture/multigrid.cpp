@@ -97,13 +97,14 @@ void Multigrid::factorize() {
     if (coarse.size() == levels_.back().size()) break;  // no two hang together
     levels_.push_back(std::move(coarse));
   }
-  const SpringLevel<float>& last = levels_.back();
+  // In double precision: how softly all of it hangs on the world is lost beside its stiffness.
+  const SpringLevel<double> last(levels_.back().size(), levels_.back().springs());
   const auto rows = static_cast<Eigen::Index>(6 * last.size());
   Eigen::MatrixXd matrix(rows, rows);
-  Nodal<float> unit = last.zero(), column;
+  Nodal<double> unit = last.zero(), column = unit;
   for (std::size_t j = 0; j < last.size(); ++j) {
     for (int k = 0; k < 6; ++k) {
-      Quad<float>& part = k < 3 ? unit[j].linear : unit[j].angular;
+      Quad<double>& part = k < 3 ? unit[j].linear : unit[j].angular;
       part[k % 3] = 1;
       last.multiply(unit, column);
       part[k % 3] = 0;
@@ -114,8 +115,14 @@ void Multigrid::factorize() {
       }
     }
   }
-  coarsest_.compute(matrix);
-  SUNDER_CHECK(coarsest_.info() == Eigen::Success);
+  // What hangs by next to nothing gets a little ground of its own, as much as it takes.
+  const double size = matrix.diagonal().maxCoeff();
+  for (double ground = 1e-13; ground < 1; ground *= 100) {
+    coarsest_.compute(matrix);
+    if (coarsest_.info() == Eigen::Success) return;
+    matrix.diagonal().array() += ground * size;
+  }
+  SUNDER_CHECK(false);
 }
 
 void Multigrid::solve_coarsest(const Nodal<float>& r, Nodal<float>& z) const {

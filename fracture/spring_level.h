@@ -35,7 +35,7 @@ class SpringLevel {
   SpringLevel(std::size_t nodes, std::vector<Spring> springs);
 
   std::size_t size() const { return places_.size(); }
-  std::size_t spring_count() const { return springs_.size(); }
+  const std::vector<Spring>& springs() const { return springs_; }
   /// The centre of a node's springs: its displacement and torque are about there.
   const Vec3& place(std::size_t node) const { return places_[node]; }
   Nodal<Real> zero() const { return Nodal<Real>(size() + 1); }

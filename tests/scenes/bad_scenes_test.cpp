@@ -116,8 +116,8 @@ constexpr Fault kFaults[] = {
     // Names
     {"[[solid]]\nstructure = \"hose\"",
      "bad.toml:4: unknown structure 'hose'; did you mean "
-     "'house'?; allowed: box | brick_wall | column | house | "
-     "pane | stack"},
+     "'house'?; allowed: box | brick_wall | bridge | column | "
+     "house | pane | stack | temple"},
     {"[[solid]]\nstructure = \"box\"\nmaterial = \"stel\"",
      "bad.toml:5: unknown material 'stel'; "
      "did you mean 'steel'?; there are: "

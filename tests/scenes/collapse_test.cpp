@@ -1,0 +1,68 @@
+// Scenes about own weight: they stand as long as nobody shoots, and come down when their support
+// is gone.
+#include <gtest/gtest.h>
+
+#include "engine/world/simulation.h"
+#include "fracture/pattern_breaker.h"
+#include "scenes/load.h"
+#include "solver/rigid/rigid_physics.h"
+
+namespace sunder::tests {
+namespace {
+
+std::unique_ptr<Simulation> simulation_of(const std::string& scene, std::vector<std::string> set) {
+  Scene loaded = scenes::load_scene(scene, {"draft", std::move(set)});
+  solver::RigidOptions options;
+  options.gravity_W = loaded.gravity_W;
+  return std::make_unique<Simulation>(std::move(loaded), solver::make_rigid_physics(options),
+                                      fracture::make_pattern_breaker());
+}
+
+/// Middle of the highest mesh of what was built, over the middle of the scene.
+double height_m(const Frame& frame) {
+  double highest = 0;
+  for (const Instance& instance : frame.instances) {
+    const FrameBody& body = frame.bodies[instance.body];
+    const Vec3 place = body.X_WB * ((*frame.meshes)[instance.mesh.value]->origin_R - body.com_R);
+    const bool ball = body.com_R.isZero();
+    if (!ball && std::abs(place.x()) < 2) highest = std::max(highest, place.y());
+  }
+  return highest;
+}
+
+class Standing : public testing::TestWithParam<const char*> {};
+
+TEST_P(Standing, StandsForAMinuteWhileNobodyShoots) {
+  const auto simulation =
+      simulation_of(GetParam(), {"script.enabled=false", "scene.duration_s=60"});
+  int frames = 0;
+  while (const FramePtr frame = simulation->next()) {
+    ASSERT_TRUE(frame->breaks.empty()) << frame->time_s;
+    ASSERT_EQ(frame->report.counts.bodies, 0u);
+    ++frames;
+  }
+  EXPECT_EQ(frames, 3601);
+}
+
+INSTANTIATE_TEST_SUITE_P(Collapse, Standing, testing::Values("house", "bridge", "temple"));
+
+TEST(Collapse, ABridgeFallsWithoutItsPier) {
+  const auto simulation = simulation_of("bridge", {});
+  FramePtr frame = simulation->next();
+  const double before = height_m(*frame);
+  for (int i = 0; i < 180; ++i) frame = simulation->next();
+  EXPECT_GT(before, 6);
+  EXPECT_LT(height_m(*frame), 0.75 * before);
+}
+
+TEST(Collapse, ATempleFallsWithoutItsFrontRow) {
+  const auto simulation = simulation_of("temple", {});
+  FramePtr frame = simulation->next();
+  const double before = height_m(*frame);
+  for (int i = 0; i < 250; ++i) frame = simulation->next();
+  EXPECT_GT(before, 5);
+  EXPECT_LT(height_m(*frame), 0.75 * before);
+}
+
+}  // namespace
+}  // namespace sunder::tests
