@@ -1,0 +1,79 @@
+// How long it takes to know what own weight and slow load do to a compound.
+//
+//   build/stress_bench
+//
+// The mark: 8,000 convexes to a residual of 1e-3 in 10 ms on two cores when the load has changed.
+// What did not change costs nothing: the world does not ask (tests/engine/load_test.cpp).
+#include <benchmark/benchmark.h>
+
+#include "engine/base/parallel.h"
+#include "fracture/bear.h"
+#include "fracture/solids.h"
+#include "fracture/stress.h"
+
+namespace sunder::fracture {
+namespace {
+
+const Vec3 kDown(0, -9.81, 0);
+
+StressSystem system_of(const Compound& compound, const std::vector<Material>& materials) {
+  std::vector<BondGeometry> geometry;
+  for (const Bond& bond : compound.bonds) geometry.push_back(bond_geometry(compound, bond));
+  return StressSystem(compound, std::move(geometry), materials);
+}
+
+/// Threads, then convexes along an edge of the block.
+void arguments(benchmark::internal::Benchmark* bench) {
+  for (const int side : {10, 20}) {
+    for (const int count : {1, 2}) bench->Args({count, side});
+  }
+  bench->ArgNames({"threads", "side"})->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+}
+
+void Stress_from_nothing(benchmark::State& state) {
+  set_threads(static_cast<int>(state.range(0)));
+  const auto side = static_cast<int>(state.range(1));
+  const StressSystem system =
+      system_of(grid_compound(side, side, side, Vec3::Ones(), true), {Material()});
+  SolveResult result;
+  for (auto _ : state) {
+    std::vector<Displacement> displacements;
+    result = system.solve({}, kDown, 1e-3, 500, displacements);
+  }
+  state.counters["iterations"] = result.iterations;
+  state.counters["residual"] = result.residual;
+}
+BENCHMARK(Stress_from_nothing)->Apply(arguments);
+
+/// A tenth of its weight comes to stand on a corner of the roof.
+void Stress_when_the_load_has_changed(benchmark::State& state) {
+  set_threads(static_cast<int>(state.range(0)));
+  const auto side = static_cast<int>(state.range(1));
+  const Compound compound = grid_compound(side, side, side, Vec3::Ones(), true);
+  const StressSystem system = system_of(compound, {Material()});
+  std::vector<Displacement> settled;
+  system.solve({}, kDown, 1e-3, 500, settled);
+  const auto roof = static_cast<std::uint32_t>(compound.convexes.size() - 1);
+  const Vec3 top = compound.convexes[roof]->solid.centroid;
+  const Load load{roof, 100.0 * side * side * side * kDown, top, Vec3::Zero()};
+  SolveResult result;
+  for (auto _ : state) {
+    std::vector<Displacement> displacements = settled;
+    result = system.solve(std::span(&load, 1), kDown, 1e-3, 500, displacements);
+  }
+  state.counters["iterations"] = result.iterations;
+  state.counters["residual"] = result.residual;
+}
+BENCHMARK(Stress_when_the_load_has_changed)->Apply(arguments);
+
+/// All that follows a break: the bonds' shapes and the levels made anew.
+void Set_up_after_a_break(benchmark::State& state) {
+  set_threads(static_cast<int>(state.range(0)));
+  const auto side = static_cast<int>(state.range(1));
+  const Compound compound = grid_compound(side, side, side, Vec3::Ones(), true);
+  for (auto _ : state) benchmark::DoNotOptimize(system_of(compound, {Material()}));
+}
+BENCHMARK(Set_up_after_a_break)->Apply(arguments);
+
+}  // namespace
+}  // namespace sunder::fracture
