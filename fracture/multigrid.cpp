@@ -168,8 +168,8 @@ std::vector<Multigrid::Scratch> Multigrid::scratch() const {
   return scratch;
 }
 
-SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, int most_iterations,
-                             Nodal<double>& x) const {
+SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double nothing_N,
+                             int most_iterations, Nodal<double>& x) const {
   std::vector<Scratch> memory = scratch();
   Nodal<double> r = springs_.zero(), z = r, p = r, product = r;
   Nodal<float> r_f = levels_.front().zero(), z_f = r_f;
@@ -180,8 +180,10 @@ SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, int most_
   for (;; ++result.iterations) {
     const double left = std::sqrt(dot(r, r));
     result.residual = force > 0 ? left / force : 0;
-    if (left == 0) result.converged = true;
-    if (result.converged) break;
+    if (left <= nothing_N) {
+      result.converged = true;
+      break;
+    }
     to_float(r, left, r_f);
     cycle(0, r_f, z_f, memory);
     to_double(z_f, left / unit_N_m_, z);

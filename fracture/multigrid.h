@@ -27,8 +27,9 @@ class Multigrid {
   Multigrid(std::size_t nodes, std::vector<Spring> springs);
 
   const SpringLevel<double>& springs() const { return springs_; }
-  /// Improves x until residual and error are at most `tolerance`, or for so many iterations.
-  SolveResult solve(const Nodal<double>& f, double tolerance, int most_iterations,
+  /// Improves x until residual and error are at most `tolerance`, what is left is rounding
+  /// (`nothing_N`), or so many iterations are done.
+  SolveResult solve(const Nodal<double>& f, double tolerance, double nothing_N, int most_iterations,
                     Nodal<double>& x) const;
 
  private:

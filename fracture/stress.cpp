@@ -12,6 +12,7 @@ namespace {
 
 // A bond is no stiffer than one between convexes this share of its width apart.
 constexpr double kLeastDistance = 0.05;
+constexpr double kNothing = 1e-11;  // of all forces: rounding
 // Bonds of one plane within so many cells make one section.
 constexpr double kWindowCells = 2;
 
@@ -199,7 +200,12 @@ SolveResult StressSystem::solve(std::span<const Load> loads, const Vec3& gravity
     const Displacement& d = displacements[c];
     x[node] = {quad<double>(d.shift_R - d.turn_R.cross(arm)), quad<double>(d.turn_R)};
   }
-  const SolveResult result = multigrid_->solve(f, tolerance, most_iterations, x);
+  // What falls freely has forces that cancel but for rounding.
+  double applied_N = 0;
+  for (const double mass : masses_kg_) applied_N += mass * gravity_R.norm();
+  for (const Load& load : loads) applied_N += load.force_N.norm();
+  const SolveResult result =
+      multigrid_->solve(f, tolerance, kNothing * applied_N, most_iterations, x);
   for (std::size_t c = 0; c < centroids_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];
     displacements[c] = {};
