@@ -50,6 +50,11 @@ class Loader {
   void add_ball(const Value& table);
   void add_script();
   void add_shot(const Value& table);
+  void add_wrecking_ball(const Value& table);
+  void add_blast(const Value& table);
+  void add_removal(const Value& table);
+  void add_drive(const Value& table);
+  std::vector<std::uint32_t> roots_named(const std::string& name, const Value& value) const;
   void check_names() const;
 
   const Value& document_;
@@ -248,9 +253,87 @@ void Loader::add_script() {
   read(schema().script, *table, {}, script);
   // Read even if it is not enabled: a scene is right or wrong whatever is switched off.
   for (const Value* shot : tables(*table, "shot")) add_shot(*shot);
-  if (!script.enabled) scene_.shots.clear();
-  std::stable_sort(scene_.shots.begin(), scene_.shots.end(),
-                   [](const Shot& a, const Shot& b) { return a.time_s < b.time_s; });
+  for (const Value* ball : tables(*table, "wrecking_ball")) add_wrecking_ball(*ball);
+  for (const Value* blast : tables(*table, "blast")) add_blast(*blast);
+  for (const Value* removal : tables(*table, "remove")) add_removal(*removal);
+  for (const Value* drive : tables(*table, "drive")) add_drive(*drive);
+  if (!script.enabled) {
+    scene_.shots.clear();
+    scene_.blasts.clear();
+    scene_.removals.clear();
+    scene_.drives.clear();
+  }
+  const auto sort = [](auto& acts) {
+    std::ranges::stable_sort(acts, {}, [](const auto& act) { return act.time_s; });
+  };
+  sort(scene_.shots);
+  sort(scene_.blasts);
+  sort(scene_.removals);
+  sort(scene_.drives);
+}
+
+void Loader::add_wrecking_ball(const Value& table) {
+  WreckingBallText text;
+  read(schema().wrecking_ball, table, scene_.materials, text);
+  if (text.hangs_from == text.from) {
+    throw InputError(table.where +
+                     ": from and hangs_from in [[script.wrecking_ball]] are the same point");
+  }
+  scene_.shots.push_back({text.time_s,
+                          {text.name, text.radius_m, text.material.index, text.from, text.velocity},
+                          text.hangs_from});
+}
+
+void Loader::add_blast(const Value& table) {
+  BlastText text;
+  read(schema().blast, table, {}, text);
+  scene_.blasts.push_back({text.time_s, text.at, text.radius_m, text.impulse_Ns_m2});
+}
+
+void Loader::add_removal(const Value& table) {
+  RemoveText text;
+  read(schema().remove, table, {}, text);
+  if (text.name.has_value() == (text.from || text.to) ||
+      text.from.has_value() != text.to.has_value()) {
+    throw InputError(table.where + ": [[script.remove]] needs either name, or from and to");
+  }
+  Removal removal;
+  removal.time_s = text.time_s;
+  if (text.name) {
+    removal.roots = roots_named(*text.name, *find(std::get<Table>(table.data), "name"));
+  } else {
+    removal.anchors_W.extend(*text.from);
+    removal.anchors_W.extend(*text.to);
+  }
+  scene_.removals.push_back(removal);
+}
+
+void Loader::add_drive(const Value& table) {
+  DriveText text;
+  read(schema().drive, table, {}, text);
+  scene_.drives.push_back({text.time_s, text.until_s,
+                           roots_named(text.name, *find(std::get<Table>(table.data), "name")),
+                           text.velocity, text.force_N});
+}
+
+/// Solids, then balls; the parts "wall.0", "wall.1" … of a structure go by "wall" together.
+std::vector<std::uint32_t> Loader::roots_named(const std::string& name, const Value& value) const {
+  std::vector<std::uint32_t> roots;
+  std::vector<std::string_view> names;
+  const auto consider = [&](const std::string& candidate) {
+    const auto dot = candidate.rfind('.');
+    if (candidate == name || candidate.substr(0, dot) == name) {
+      roots.push_back(static_cast<std::uint32_t>(names.size()));
+    }
+    names.push_back(candidate);
+  };
+  for (const Solid& solid : scene_.solids) consider(solid.name);
+  for (const Ball& ball : scene_.balls) consider(ball.name);
+  if (roots.empty()) {
+    throw InputError(value.where + ": no solid or ball is named '" + name + "'" +
+                     did_you_mean(name, names));
+  }
+  return roots;
 }
 
 void Loader::add_shot(const Value& table) {
@@ -266,7 +349,7 @@ void Loader::add_shot(const Value& table) {
   const Vec3 velocity =
       text.velocity ? *text.velocity : text.speed_m_s * (*text.at - text.from).normalized();
   scene_.shots.push_back(
-      {text.time_s, {text.name, text.radius_m, text.material.index, text.from, velocity}});
+      {text.time_s, {text.name, text.radius_m, text.material.index, text.from, velocity}, {}});
 }
 
 void Loader::check_names() const {

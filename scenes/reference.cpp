@@ -110,7 +110,8 @@ std::string key_reference() {
             std::string(structure.help) + "\n\n" +
             rows(structure.keys, structure.parameters().get());
   }
-  return text + section(body_keys()) + section(s.ball) + section(s.script) + section(s.shot);
+  return text + section(body_keys()) + section(s.ball) + section(s.script) + section(s.shot) +
+         section(s.wrecking_ball) + section(s.blast) + section(s.remove) + section(s.drive);
 }
 
 }  // namespace sunder::scenes

@@ -140,6 +140,52 @@ Keys<ShotText> shot_keys() {
            key<&ShotText::name>("name", "Shown in messages.")}};
 }
 
+constexpr Range kTime{0, 600};
+
+Keys<WreckingBallText> wrecking_ball_keys() {
+  using Text = WreckingBallText;
+  return {"[[script.wrecking_ball]]",
+          {key<&Text::time_s>("time_s", "s", kTime, "When the ball appears."),
+           key<&Text::from>("from", "m", kPlace, "Where.").must(),
+           key<&Text::hangs_from>("hangs_from", "m", kPlace,
+                                  "Where its rope is held; as long as the way there.")
+               .must(),
+           key<&Text::velocity>("velocity", "m/s", kSpeed, "At the start."),
+           key<&Text::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
+           key<&Text::material>("material", "What the ball is made of."),
+           key<&Text::name>("name", "Shown in messages.")}};
+}
+
+Keys<BlastText> blast_keys() {
+  return {"[[script.blast]]",
+          {key<&BlastText::time_s>("time_s", "s", kTime, "When.").must(),
+           key<&BlastText::at>("at", "m", kPlace, "Its centre.").must(),
+           key<&BlastText::radius_m>("radius_m", "m", Range{0.01, 1000},
+                                     "How far it reaches; nothing stands in its way."),
+           key<&BlastText::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0, 1e9},
+                                          "On a face turned to the centre, there; less with "
+                                          "distance and slant.")}};
+}
+
+Keys<RemoveText> remove_keys() {
+  return {"[[script.remove]]",
+          {key<&RemoveText::time_s>("time_s", "s", kTime, "When.").must(),
+           key<&RemoveText::name>("name", "A solid or ball that goes with all its pieces; or:"),
+           key<&RemoveText::from>("from", "m", kPlace,
+                                  "A corner of a box; what is held by the world in it is let go."),
+           key<&RemoveText::to>("to", "m", kPlace, "The opposite corner.")}};
+}
+
+Keys<DriveText> drive_keys() {
+  return {
+      "[[script.drive]]",
+      {key<&DriveText::name>("name", "The solid or ball that is driven until it breaks.").must(),
+       key<&DriveText::time_s>("time_s", "s", kTime, "From when."),
+       key<&DriveText::until_s>("until_s", "s", kTime, "Until when."),
+       key<&DriveText::velocity>("velocity", "m/s", kSpeed, "How it is to move.").must(),
+       key<&DriveText::force_N>("force_N", "N", Range{0, 1e12}, "Most that drives it.")}};
+}
+
 Schema make_schema() {
   Schema s;
   s.top = top_keys();
@@ -151,6 +197,10 @@ Schema make_schema() {
   s.limits = {
       "[limits]",
       {key<&Limits::bodies>("bodies", "", Range{1, 200000}, "Bodies that may exist."),
+       key<&Limits::ageing>(
+           "ageing", "", Range{0, 200000},
+           "From so many on, the smallest fragments at rest become debris; 0: when "
+           "room is short."),
        key<&Limits::cells_a_frame>("cells_a_frame", "", Range{1, 1000000},
                                    "Pattern cells to cut by; breaks beyond it wait a frame."),
        key<&Limits::load_work_a_frame>("load_work_a_frame", "", Range{1, 4e9},
@@ -186,10 +236,17 @@ Schema make_schema() {
              key<&BallText::velocity>("velocity", "m/s", kSpeed, "At the start."),
              key<&BallText::radius_m>("radius_m", "m", kRadius, "Radius."),
              key<&BallText::material>("material", "What it is made of.")}};
-  s.script = {"[script]",
-              {key<&Script::enabled>("enabled", "false: nothing of it happens."),
-               table_key("shot", "Balls that are shot.")}};
+  s.script = {
+      "[script]",
+      {key<&Script::enabled>("enabled", "false: nothing of it happens."),
+       table_key("shot", "Balls that are shot."), table_key("wrecking_ball", "Balls on ropes."),
+       table_key("blast", "Blasts."), table_key("remove", "Supports that go."),
+       table_key("drive", "Bodies that are driven.")}};
   s.shot = shot_keys();
+  s.wrecking_ball = wrecking_ball_keys();
+  s.blast = blast_keys();
+  s.remove = remove_keys();
+  s.drive = drive_keys();
   return s;
 }
 

@@ -61,6 +61,37 @@ struct ShotText {
   MaterialRef material{"steel", {}};
 };
 
+struct BlastText {
+  double time_s = 0;
+  Vec3 at = Vec3::Zero();
+  double radius_m = 4;
+  double impulse_Ns_m2 = 1000;
+};
+
+struct RemoveText {
+  double time_s = 0;
+  std::optional<std::string> name;
+  std::optional<Vec3> from, to;
+};
+
+struct DriveText {
+  double time_s = 0;
+  double until_s = 600;
+  std::string name;
+  Vec3 velocity = Vec3::Zero();
+  double force_N = 1e6;
+};
+
+struct WreckingBallText {
+  std::string name;
+  double time_s = 0;
+  Vec3 from = Vec3::Zero();
+  Vec3 hangs_from = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
+  double radius_m = 0.5;
+  MaterialRef material{"steel", {}};
+};
+
 /// The tables themselves; `top` lists the names of all others.
 struct Schema {
   Keys<Scene> top;
@@ -79,6 +110,10 @@ struct Schema {
   Keys<BallText> ball;
   Keys<Script> script;
   Keys<ShotText> shot;
+  Keys<WreckingBallText> wrecking_ball;
+  Keys<BlastText> blast;
+  Keys<RemoveText> remove;
+  Keys<DriveText> drive;
 };
 const Schema& schema();
 

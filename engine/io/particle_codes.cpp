@@ -6,7 +6,7 @@
 namespace sunder {
 namespace {
 
-constexpr float kDebrisSteps_m = 256;  // positions to 4 mm
+constexpr float kDebrisSteps_m = 128;  // positions to 8 mm
 constexpr float kDustSteps_m = 32;     // 31 mm
 constexpr float kChipSteps_m = 4096;   // radii to 0.2 mm
 constexpr float kPuffSteps_m = 64;     // 16 mm

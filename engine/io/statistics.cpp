@@ -46,6 +46,11 @@ struct Statistics::Series {
     for (const FrameReport& report : reports) sum += report.limits_hit;
     return sum;
   }
+  std::uint32_t aged() const {
+    std::uint32_t sum = 0;
+    for (const FrameReport& report : reports) sum += report.aged;
+    return sum;
+  }
   std::uint32_t carried_over() const {
     std::uint32_t sum = 0;
     for (const FrameReport& report : reports) sum += report.carried_over;
@@ -181,6 +186,7 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["momentum_residual"] = s.momentum_residual();
   json["mass_kg"] = {{"initial", s.first.mass_kg}, {"final", s.last.mass_kg}};
   json["limits_hit"] = s.limits_hit();
+  json["aged"] = s.aged();
   json["modelled"] = s.info.modelled;
   json["cpu"] = cpu_name();
   json["sunder_version"] = SUNDER_VERSION;

@@ -79,7 +79,7 @@ MeshIndex World::add_mesh(std::shared_ptr<const Mesh> mesh) {
 
 Actor make_actor(World& world, Compound compound) {
   Actor actor;
-  actor.key = world.next_key++;
+  actor.key = actor.root_key = world.next_key++;
   actor.is_static = compound.is_anchored();
   actor.weight = weigh(compound, *world.materials);
   actor.volume_m3 = volume(compound);
@@ -157,7 +157,7 @@ void add_ball(World& world, const Ball& ball) {
   const Material& material = world.material(ball.material);
   const double radius = ball.radius_m;
   Actor actor;
-  actor.key = world.next_key++;
+  actor.key = actor.root_key = world.next_key++;
   actor.volume_m3 = ball_volume_m3(radius);
   actor.weight.mass_kg = ball_mass_kg(world, ball);
   actor.weight.inertia_R = 0.4 * actor.weight.mass_kg * radius * radius * Mat3::Identity();

@@ -89,13 +89,14 @@ struct Counts {
 struct FrameReport {
   double stage_ms[kStages] = {};  ///< Summed over the frame's steps.
   Counts counts;
-  double mass_kg = 0;  ///< Everything: debris and shots yet to come included.
+  double mass_kg = 0;  ///< Everything: debris, what the script took and shots yet to come included.
   double kinetic_J = 0;
   double potential_J = 0;
   /// |change of momentum − external impulses| of the frame over the momentum that changed hands.
   double momentum_residual = 0;
   std::uint32_t carried_over = 0;  ///< Breaks waiting for the next step's budget.
   std::uint32_t limits_hit = 0;
+  std::uint32_t aged = 0;  ///< Fragments that became debris to make room.
   std::uint32_t frozen = 0;
   std::vector<float> penetrations_m;
 };

@@ -53,6 +53,7 @@ void replace_by_pieces(World& world, std::uint32_t key, BreakPlan& plan) {
     }
     pieces.push_back(make_actor(world, std::move(compound)));
     pieces.back().born_step = world.step + 1;
+    pieces.back().root_key = parent.root_key;
     if (pieces.back().bearing.bears) pieces.back().bearing.memory = parent.bearing.memory;
     world.debris_mass_kg -= pieces.back().weight.mass_kg;
     bodies.push_back(describe(world, pieces.back(), motion));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,36 @@ struct Ball {
   Vec3 velocity_W = Vec3::Zero();
 };
 
-/// A ball that appears at a time.
+/// A ball that appears at a time; a wrecking ball hangs on a rope (without weight, never slack for
+/// want of strength), as long as the way to what it hangs from.
 struct Shot {
   double time_s = 0;
   Ball ball;
+  std::optional<Vec3> hangs_from_W = std::nullopt;
+};
+
+/// An impulse on every face that sees the centre: per square metre, falling with the square of the
+/// distance left to `radius_m`, and with slant. It breaks what its energy can.
+struct Blast {
+  double time_s = 0;
+  Vec3 center_W = Vec3::Zero();
+  double radius_m = 4;
+  double impulse_Ns_m2 = 1000;  ///< At the centre.
+};
+
+/// Supports go: solids with all that came off them, or else the anchors in a box.
+struct Removal {
+  double time_s = 0;
+  std::vector<std::uint32_t> roots;  ///< Indices of solids, then of balls, ascending.
+  Box anchors_W;
+};
+
+/// What holds a body's velocity, as far as the force goes.
+struct Drive {
+  double time_s = 0, until_s = 0;
+  std::vector<std::uint32_t> roots;  ///< As in Removal; driven until they break.
+  Vec3 velocity_W = Vec3::Zero();
+  double force_N = 1e6;
 };
 
 /// The horizontal plane y = height_m, without end.
@@ -49,6 +76,8 @@ struct Accuracy {
 
 struct Limits {
   std::uint32_t bodies = 20000;
+  /// From so many bodies on, the smallest fragments at rest become debris; 0: when room is short.
+  std::uint32_t ageing = 0;
   std::uint32_t cells_a_frame = 2000;  ///< Pattern cells to cut by; breaks beyond it wait a frame.
   /// Visits of bonds to find out what load breaks; what is beyond it waits a frame.
   std::uint32_t load_work_a_frame = 400000;
@@ -69,7 +98,11 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Solid> solids;
   std::vector<Ball> balls;
-  std::vector<Shot> shots;  ///< In order of time.
+  // The script, each in order of time.
+  std::vector<Shot> shots;
+  std::vector<Blast> blasts;
+  std::vector<Removal> removals;
+  std::vector<Drive> drives;
 };
 
 }  // namespace sunder

@@ -11,16 +11,6 @@ namespace {
 
 constexpr double kFrame_s = 1.0 / 60;
 
-/// Adds what the script brings in at this time.
-void act(World& world) {
-  const double until_s = world.time_s() + 0.5 * world.scene.accuracy.dt_s;
-  for (; world.next_shot < world.scene.shots.size() &&
-         world.scene.shots[world.next_shot].time_s <= until_s;
-       ++world.next_shot) {
-    add_ball(world, world.scene.shots[world.next_shot].ball);
-  }
-}
-
 void collide(World& world) { world.physics->collide(world.scene.accuracy.dt_s); }
 
 struct Momentum {
@@ -115,9 +105,10 @@ void Simulation::advance() {
     work(world);
     world.report.stage_ms[static_cast<int>(name)] += watch.ms();
   };
-  stage(Stage::kAct, act);
+  stage(Stage::kAct, act_stage);
   stage(Stage::kCollide, collide);
   stage(Stage::kBreak, break_stage);
+  stage(Stage::kAct, push_stage);
   stage(Stage::kSolve, solve);
   stage(Stage::kLoad, load_stage);
   stage(Stage::kParticles, particle_stage);

@@ -70,7 +70,7 @@ std::shared_ptr<Frame> snapshot(World& world) {
     count(world, actor, frame->bodies.back(), report);
   }
   add_particles(world, *frame);
-  report.mass_kg += world.debris_mass_kg;
+  report.mass_kg += world.debris_mass_kg + world.removed_mass_kg;
   for (std::size_t i = world.next_shot; i < world.scene.shots.size(); ++i) {
     report.mass_kg += ball_mass_kg(world, world.scene.shots[i].ball);
   }

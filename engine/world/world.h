@@ -36,7 +36,8 @@ struct Bearing {
 
 /// A solid in the world: a body, what it is made of, and what is drawn of it.
 struct Actor {
-  std::uint32_t key = 0;  ///< Unique in a run, ascending with age; the tag of its body.
+  std::uint32_t key = 0;       ///< Unique in a run, ascending with age; the tag of its body.
+  std::uint32_t root_key = 0;  ///< Of what it came off in the end: a solid or ball of the scene.
   BodyId body;
   bool is_static = false;
   Compound compound;  ///< Without convexes for a ball.
@@ -54,6 +55,8 @@ struct Actor {
 
 /// The body tag of the ground, which is no actor.
 inline constexpr std::uint32_t kGroundKey = 0xffffffff;
+/// What hits where nobody does: a blast.
+inline constexpr std::uint32_t kNobodyKey = 0xfffffffe;
 
 /// A blow that may break an actor, as decided from the approaches of a body pair.
 struct Blow {
@@ -73,6 +76,20 @@ struct Crumbs {
   std::vector<Chip> chips;
 };
 
+/// A blast under way: it breaks, one place of each solid a step, then it pushes.
+struct Burst {
+  Blast blast;
+  double pushes_at_s = 0;
+  std::vector<Vec3> tried_W;  ///< Where it has broken something, or failed to.
+};
+
+/// A ball on a rope.
+struct Hanging {
+  std::uint32_t key = 0;
+  Vec3 from_W = Vec3::Zero();
+  double rope_m = 0;
+};
+
 struct World {
   Scene scene;
   std::unique_ptr<Physics> physics;
@@ -88,12 +105,15 @@ struct World {
   std::uint64_t step = 0;
   std::uint64_t frame = 0;
   bool started = false;  ///< Frame 0 has been given out.
-  std::size_t next_shot = 0;
+  std::size_t next_shot = 0, next_blast = 0, next_removal = 0;
+  std::vector<Burst> bursts;
+  std::vector<Hanging> hanging;
   std::vector<Blow> waiting;         ///< Over the frame's budget: decided first in the next frame.
   std::uint32_t pieces_left = 0;     ///< Of the frame's budget, in cells of patterns to cut by.
   std::uint64_t load_work_left = 0;  ///< Of the frame's budget, in visits of bonds.
   std::uint32_t loads_waiting = 0;   ///< Actors whose load is not judged yet.
   double debris_mass_kg = 0;
+  double removed_mass_kg = 0;  ///< By the script.
   int steps_per_frame = 1;
   Crumbs crumbs;
   std::uint64_t particles_ignored = 0;  ///< Up to the last frame, for want of room.
@@ -108,6 +128,14 @@ struct World {
   Actor* find(std::uint32_t key);
   MeshIndex add_mesh(std::shared_ptr<const Mesh> mesh);
 };
+
+/// Stage `act`: what the script brings in, takes away or lights now, and room when it is short.
+void act_stage(World& world);
+/// After breaks: what blasts, ropes and drives push.
+void push_stage(World& world);
+/// Parts of both: what the blasts due now can break, and what they push.
+void light_blasts(World& world);
+void push_blasts(World& world);
 
 /// Stage `break`: approaches become breaks, before the solve.
 void break_stage(World& world);

@@ -43,13 +43,15 @@ RunInfo run_info(const Scene& scene, const scenes::LoadOptions& load) {
                          return scene.materials[convex->material.value].breakable();
                        });
   };
+  const bool scripted = !scene.shots.empty() || !scene.blasts.empty() || !scene.removals.empty() ||
+                        !scene.drives.empty();
   const bool any = std::any_of(scene.solids.begin(), scene.solids.end(), breaks);
   return {scene.name,
           load.preset,
           threads(),
           scene.accuracy,
           {{"fracture", any ? "on" : "off: nothing here is breakable"},
-           {"script", scene.shots.empty() ? "off: no shots" : "on"},
+           {"script", scripted ? "on" : "off: nothing happens"},
            {"sleeping", "on"}}};
 }
 

@@ -1,0 +1,219 @@
+// What scripts do: blasts, supports that go, driven bodies, balls on ropes; and making room.
+#include <gtest/gtest.h>
+
+#include "tests/engine/scripted.h"
+
+namespace sunder {
+namespace {
+
+using testing::ScriptedBreaker;
+using testing::ScriptedPhysics;
+
+std::vector<Approach> none(const ScriptedPhysics&, int) { return {}; }
+
+Scene empty_scene() {
+  Scene scene;
+  Material stone;
+  stone.density_kg_m3 = 1000;
+  stone.toughness_J_m2 = 100;
+  stone.pattern.kind = PatternSpec::Kind::kVoronoi;
+  scene.materials = {stone};
+  scene.gravity_W = Vec3::Zero();
+  scene.accuracy = {1.0 / 60, 1};
+  return scene;
+}
+
+/// `count` unit boxes in a row along x, one compound.
+Solid row(const Vec3& low, int count, bool anchored) {
+  Solid solid;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 min = low + Vec3(i, 0, 0);
+    solid.compound.convexes.push_back(
+        make_convex(make_box(min, min + Vec3::Ones()), MaterialIndex(0)));
+    solid.compound.anchored.push_back(anchored ? kAnchoredAllRound : 0);
+  }
+  return solid;
+}
+
+/// A run with its physics in reach.
+struct ActRun {
+  explicit ActRun(Scene scene, double crack_m2 = 1, ScriptedPhysics::Script script = none) {
+    auto owned = std::make_unique<ScriptedPhysics>(std::move(script));
+    physics = owned.get();
+    simulation = std::make_unique<Simulation>(std::move(scene), std::move(owned),
+                                              std::make_unique<ScriptedBreaker>(crack_m2));
+    simulation->next();
+  }
+  const BodyState& state(std::uint32_t key) const { return physics->find(key)->state; }
+
+  ScriptedPhysics* physics;
+  std::unique_ptr<Simulation> simulation;
+};
+
+TEST(Blast, PushesEachFaceThatSeesItByAreaAndDistance) {
+  Scene scene = empty_scene();
+  scene.materials[0].pattern.kind = PatternSpec::Kind::kNone;
+  scene.solids = {row(Vec3(2, -0.5, -0.5), 1, false), row(Vec3(-4, -0.5, -0.5), 1, false),
+                  row(Vec3(20, 0, 0), 1, false)};
+  scene.blasts = {{0, Vec3::Zero(), 5, 1000}};
+  ActRun run(scene);
+  for (int i = 0; i < 5; ++i) run.simulation->next();
+  // Only the face at x = 2 faces it: 1 m², 2 of 5 metres away; 1000 kg.
+  EXPECT_NEAR(run.state(0).velocity_W.x(), 0.6 * 0.6, 1e-9);
+  EXPECT_NEAR(run.state(1).velocity_W.x(), -0.4 * 0.4, 1e-9);
+  EXPECT_EQ(run.state(2).velocity_W.norm(), 0) << "out of reach";
+  for (int i = 0; i < 5; ++i) run.simulation->next();
+  EXPECT_NEAR(run.state(0).velocity_W.x(), 0.6 * 0.6, 1e-9) << "once";
+}
+
+TEST(Blast, BreaksWhatItsEnergyCanAndPushesThePieces) {
+  // Each box gets 0.36 i N·s: 0.065 i² / 1000 J together; the crack takes 100 J.
+  for (const double impulse : {500.0, 5000.0}) {
+    Scene scene = empty_scene();
+    scene.materials[0].impact_radius_m = 10;
+    scene.solids = {row(Vec3(-1, -0.5, 2), 2, true)};
+    scene.blasts = {{0, Vec3::Zero(), 5, impulse}};
+    ActRun run(scene, 1);
+    const FramePtr frame = run.simulation->next();
+    EXPECT_EQ(frame->breaks.size(), impulse > 1000 ? 1u : 0u) << impulse;
+    EXPECT_EQ(frame->report.mass_kg, 2000);
+  }
+}
+
+TEST(Blast, OfTwoAtOnceBothPush) {
+  Scene scene = empty_scene();
+  scene.solids = {row(Vec3(2, -0.5, -0.5), 1, false)};
+  scene.blasts = {{0, Vec3::Zero(), 5, 1000}, {0, Vec3::Zero(), 5, 500}};
+  ActRun run(scene);
+  for (int i = 0; i < 5; ++i) run.simulation->next();
+  EXPECT_NEAR(run.physics->bodies.back().state.velocity_W.norm(), 1.5 * 0.36, 1e-9);
+}
+
+TEST(Removal, OfASolidTakesItsPiecesTooAndTheBooksKeepTheMass) {
+  Scene scene = empty_scene();
+  scene.solids = {row(Vec3::Zero(), 2, false), row(Vec3(0, 5, 0), 1, false)};
+  scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(-0.3, 0.5, 0.5), Vec3(60, 0, 0)}};
+  scene.removals = {{1.5 / 60, {0}, {}}};
+  ActRun run(scene, 0.1, [](const ScriptedPhysics& physics, int) {
+    return physics.approach(2, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX());
+  });
+  FramePtr frame = run.simulation->next();
+  ASSERT_EQ(frame->bodies.size(), 4u) << "two pieces, the other solid, the ball";
+  const double mass = frame->report.mass_kg;
+  run.simulation->next();
+  frame = run.simulation->next();
+  ASSERT_EQ(frame->bodies.size(), 2u);
+  EXPECT_EQ(frame->bodies[0].key, 1u);
+  EXPECT_NEAR(frame->report.mass_kg, mass, 1e-9);
+}
+
+TEST(Removal, OfAnchorsLetsGoWhatNothingElseHolds) {
+  Scene scene = empty_scene();
+  scene.solids = {row(Vec3::Zero(), 3, true), row(Vec3(0, 3, 0), 2, true)};
+  Removal removal;
+  removal.anchors_W.extend(Vec3(-1, -1, -1));
+  removal.anchors_W.extend(Vec3(2, 5, 2));  // two of the first three, both of the others
+  scene.removals = {removal};
+  ActRun run(scene);
+  const FramePtr frame = run.simulation->next();
+  ASSERT_EQ(frame->bodies.size(), 2u);
+  EXPECT_TRUE(frame->bodies[0].is_static) << "its third box is held still";
+  EXPECT_FALSE(frame->bodies[1].is_static);
+}
+
+TEST(Drive, HoldsAVelocityAsFarAsItsForceGoes) {
+  Scene scene = empty_scene();
+  scene.solids = {row(Vec3::Zero(), 1, false)};  // 1000 kg
+  scene.drives = {{0.5, 1.5, {0}, Vec3(2, 0, 0), 3000}};
+  ActRun run(scene);
+  for (int i = 0; i < 60; ++i) run.simulation->next();
+  EXPECT_NEAR(run.state(0).velocity_W.x(), 1.5, 0.06) << "half a second at 3 m/s²";
+  for (int i = 0; i < 20; ++i) run.simulation->next();
+  EXPECT_NEAR(run.state(0).velocity_W.x(), 2, 1e-9);
+}
+
+TEST(WreckingBall, SwingsAtTheEndOfItsRope) {
+  Scene scene = empty_scene();  // without gravity: it goes round, no slower
+  scene.duration_s = 20;
+  scene.shots = {
+      {0, {"ball", 0.5, MaterialIndex(0), Vec3(3, 0, 0), Vec3(0, 2, 0)}, Vec3(Vec3::Zero())}};
+  ActRun run(scene);
+  double farthest = 0, slowest = 100, lowest = 0;
+  for (int i = 0; i < 600; ++i) {
+    run.simulation->next();
+    const BodyState& ball = run.state(0);
+    farthest = std::max(farthest, ball.X_WB.position.norm());
+    lowest = std::min(lowest, ball.X_WB.position.y());
+    slowest = std::min(slowest, ball.velocity_W.norm());
+  }
+  EXPECT_LT(farthest, 3.001);
+  EXPECT_GT(slowest, 1.95) << "ten seconds cost it little";
+  EXPECT_LT(lowest, -2.9) << "it has been at the far side";
+}
+
+/// Twenty unit boxes, one larger than the other, parted from one another and at rest.
+struct Rubble : ActRun {
+  static Scene scene_of(Limits limits) {
+    Scene scene = empty_scene();
+    Solid solid;
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 min(2 * i, 0, 0);
+      solid.compound.convexes.push_back(make_convex(
+          make_box(min, min + Vec3(1, 1, 0.1 + 0.05 * ((7 * i) % 20))), MaterialIndex(0)));
+      solid.compound.anchored.push_back(0);
+    }
+    scene.solids = {solid};
+    scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(-0.3, 0.5, 0.05), Vec3(60, 0, 0)}};
+    scene.limits = limits;
+    return scene;
+  }
+  explicit Rubble(Limits limits)
+      : ActRun(scene_of(limits), 0.01, [](const ScriptedPhysics& scripted, int) {
+          return scripted.approach(1, 0, Vec3(0, 0.5, 0.05), Vec3::UnitX());
+        }) {
+    parted = simulation->next();
+    for (auto& body : physics->bodies) body.state.asleep = body.desc.tag != 1;
+  }
+  FramePtr parted;
+};
+
+TEST(Ageing, MakesDebrisOfTheSmallestFragmentsAtRestAndKeepsTheMass) {
+  Limits limits;
+  limits.ageing = 16;
+  Rubble rubble(limits);
+  ASSERT_EQ(rubble.parted->bodies.size(), 21u);
+  const FramePtr frame = rubble.simulation->next();
+  EXPECT_EQ(frame->bodies.size(), 14u) << "room for two more than there may be";
+  EXPECT_EQ(frame->report.aged, 7u);
+  EXPECT_NEAR(frame->report.mass_kg, rubble.parted->report.mass_kg, 1e-9);
+  double smallest_left = 1e9;
+  for (const auto& body : rubble.physics->bodies) {
+    if (body.alive && !body.desc.is_static && body.desc.tag > 1) {
+      smallest_left = std::min(smallest_left, body.desc.mass_kg);
+    }
+  }
+  EXPECT_NEAR(smallest_left, 1000 * (0.1 + 0.05 * 7), 1e-6) << "the seven smallest went";
+  EXPECT_EQ(rubble.simulation->next()->report.aged, 0u);
+}
+
+TEST(Ageing, LeavesWhatMovesAndWhatIsNoFragment) {
+  Limits limits;
+  limits.ageing = 16;
+  Rubble rubble(limits);
+  for (auto& body : rubble.physics->bodies) body.state.asleep = false;
+  EXPECT_EQ(rubble.simulation->next()->report.aged, 0u);
+  Scene scene = empty_scene();
+  for (int i = 0; i < 20; ++i) scene.solids.push_back(row(Vec3(2 * i, 0, 0), 1, false));
+  scene.limits.ageing = 16;
+  ActRun whole(scene);
+  for (auto& body : whole.physics->bodies) body.state.asleep = true;
+  EXPECT_EQ(whole.simulation->next()->bodies.size(), 20u);
+}
+
+TEST(Ageing, WithRoomEnoughDoesNothing) {
+  Rubble rubble(Limits{});
+  EXPECT_EQ(rubble.simulation->next()->bodies.size(), 21u);
+}
+
+}  // namespace
+}  // namespace sunder
