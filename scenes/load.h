@@ -14,7 +14,7 @@ namespace sunder::scenes {
 
 /// How the user changes a scene without editing it.
 struct LoadOptions {
-  std::string preset = "realtime";  ///< draft | realtime
+  std::string preset = "realtime";  ///< draft | realtime | accurate | reference
   std::vector<std::string> set;     ///< key=value, a dotted key of the file.
 };
 

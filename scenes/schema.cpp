@@ -256,6 +256,8 @@ std::span<const Preset> presets() {
   static constexpr Preset kPresets[] = {
       {"draft", {1.0 / 60, 4}, "fastest"},
       {"realtime", {1.0 / 120, 4}, "the default"},
+      {"accurate", {1.0 / 120, 8}, "a quarter of the penetration"},
+      {"reference", {1.0 / 480, 4}, "a sixteenth of it"},
   };
   return kPresets;
 }

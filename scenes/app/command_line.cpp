@@ -31,7 +31,8 @@ struct Subcommand {
   }
   /// Ways to change a scene without editing it.
   void add_changes() {
-    app->add_option("--preset", options->load.preset, "Speed against accuracy: draft | realtime")
+    app->add_option("--preset", options->load.preset,
+                    "Speed against accuracy: draft | realtime | accurate | reference")
         ->capture_default_str();
     app->add_option("--set", options->load.set,
                     "Change a key of the scene: key=value, as often as wanted")

@@ -176,23 +176,24 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
   std::copy(start, start + kKeys, next);
   for_each([&](std::uint32_t i, const Manifold& m) { touching_[next[key(m)]++] = i; });
 
-  blocks_.clear();
+  std::uint32_t used = 0;  // blocks of the last step are written over, not cleared
   colors_.clear();
   for (std::size_t color = 0; color <= kMaxColors; ++color) {
     const std::uint32_t begin = start[color * 4], end = start[color * 4 + 4];
     if (begin == end) continue;
     // Overflow: bodies may repeat, so one manifold a block, and one thread for all.
     const std::uint32_t width = color < kMaxColors ? kLanes : 1;
-    const auto first = static_cast<std::uint32_t>(blocks_.size());
+    const std::uint32_t first = used;
     for (std::uint32_t i = begin; i < end; i += width) {
-      ConstraintBlock& block = blocks_.emplace_back();
+      if (used == blocks_.size()) blocks_.emplace_back();
+      ConstraintBlock& block = blocks_[used++];
       block.lanes = std::min(width, end - i);
       block.points = contacts.manifolds[touching_[i]].count;
       std::copy_n(touching_.begin() + i, block.lanes, block.manifold);
     }
-    const auto count = static_cast<std::uint32_t>(blocks_.size()) - first;
-    colors_.push_back({0, first, count, color < kMaxColors ? kBlockGrain : count});
+    colors_.push_back({0, first, used - first, color < kMaxColors ? kBlockGrain : used - first});
   }
+  blocks_.resize(used);
 }
 
 void ContactSolver::collect_bodies(const Bodies& bodies) {
@@ -233,7 +234,7 @@ void ContactSolver::finish_body(std::uint32_t body, Bodies& bodies) const {
     bodies.angular_velocity[body] = turn * bodies.angular_velocity[body];
   bodies.place(body, bodies.position[body] + way.cast<double>(), turn * bodies.rotation[body]);
   bodies.travelled_m[body] +=
-      way.norm() + 1.1f * angle.norm() * static_cast<float>(bodies.reach_m[body]);
+      double{way.norm()} + 1.1 * double{angle.norm()} * bodies.reach_m[body];
 }
 
 ContactSolveReport ContactSolver::report() const {

@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kMargin = 0.05f;         // of the smaller inner radius: contact before touch
 constexpr float kAxisTolerance = 0.01f;  // of it: how much better another axis must be
+constexpr float kStill = 1e-6f;          // of it: a way that is not worth a look
 constexpr int kImpactRounds = 24;
 
 using Kind = ShapeDesc::Kind;
@@ -143,7 +144,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
 
 /// Whether the axis that parted the pair last still does, and by how much.
 bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, const AxisReach& reach,
-                  float travelled_m, Pair& pair, NarrowScratch& scratch) {
+                  double travelled_m, Pair& pair, NarrowScratch& scratch) {
   if (pair.axis_A.isZero(0) || b.kind != Kind::kHull || a.kind != Kind::kHull) return false;
   place_in_each_other(a.hull, b.hull, motion.pose, scratch.hulls);
   const float separation_m = separation_along(pair.axis_A, a.hull, scratch.hulls);
@@ -155,6 +156,15 @@ bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, cons
 
 }  // namespace
 
+bool same_as_before(const Bodies& bodies, std::span<const float> reach_m, const Pair& pair,
+                    const Manifold* m) {
+  if (pair.fresh) return false;
+  const std::uint32_t a = pair.body_a, b = pair.body_b;
+  const double moved_m = bodies.travelled_m[a] + bodies.travelled_m[b] - pair.travelled_m;
+  if (m) return m->reusable && m->sticking && moved_m < double{kStill * m->size_m};
+  return double{pair.clearance_m} - moved_m > double{pair.margin_m + reach_m[a] + reach_m[b]};
+}
+
 void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep& step, Pair& pair,
                     Manifold& m, NarrowScratch& scratch) {
   const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
@@ -162,9 +172,10 @@ void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep
   const float size_m = std::min(a.inner_radius_m, b.inner_radius_m);
   const Reach reach = reach_of(a, b, pair, bodies, motion, step, size_m);
   const float limit = reach.margin_m + reach.spin_m + reach.way_m;
-  const float travelled = bodies.travelled_m[pair.body_a] + bodies.travelled_m[pair.body_b];
-  if (m.count == 0 && pair.clearance_m - (travelled - pair.travelled_m) > limit) return;
+  const double travelled = bodies.travelled_m[pair.body_a] + bodies.travelled_m[pair.body_b];
+  pair.margin_m = reach.margin_m;
   if (m.count > 0 && m.reusable && barely_moved(m, bodies, motion)) {
+    pair.travelled_m = travelled;
     refresh_manifold(bodies, motion, m);
     forgive_overlap(pair, m);
     return;

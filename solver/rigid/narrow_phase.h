@@ -1,6 +1,9 @@
 // What two near shapes do: nothing, touch, or will touch within the step.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "solver/rigid/bodies.h"
 #include "solver/rigid/contacts.h"
 #include "solver/rigid/manifold_build.h"
@@ -17,6 +20,11 @@ struct NarrowStep {
   double dt_s = 0;
   float fall_m = 0;  ///< What gravity adds to a body's way within the step.
 };
+
+/// Whether a pair needs no look: it touches (`m` is given) and has not moved since the last one, or
+/// is too far apart to touch within the step. `reach_m`: how far each body may reach in the step.
+bool same_as_before(const Bodies& bodies, std::span<const float> reach_m, const Pair& pair,
+                    const Manifold* m);
 
 /// Brings the manifold of a pair up to date: carried along while the pair barely moves, otherwise
 /// made anew. Pairs that close fast are moved to the time of impact first, so that the normal is

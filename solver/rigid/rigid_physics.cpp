@@ -40,6 +40,7 @@ class RigidPhysics final : public Physics {
   void remove_bodies(std::span<const BodyId> ids);
   void remove_shapes(std::span<const std::uint32_t> shapes);
   void update_contacts(double dt_s);
+  void find_reaches(double dt_s);
   Vec3 freeze_broken();
 
   RigidOptions options_;
@@ -52,6 +53,9 @@ class RigidPhysics final : public Physics {
   ContactsOfBodies contacts_of_bodies_;
   double dt_s_ = 0;           ///< Of the last collide.
   std::uint32_t frozen_ = 0;  ///< Since the last solve began.
+  std::vector<Approach> approaches_;
+  std::vector<float> reach_m_;  ///< How far a body may reach within the step.
+  std::uint32_t frozen_ = 0;    ///< Since the last solve began.
   std::vector<std::pair<const char*, double>> timings_ms_ = {
       {"broad phase", 0}, {"narrow phase", 0}, {"contacts", 0}, {"sleep", 0}};
 };
@@ -123,6 +127,15 @@ void RigidPhysics::collide(double dt_s) {
   timings_ms_[1].second += watch.lap_ms();
 }
 
+void RigidPhysics::find_reaches(double dt_s) {
+  reach_m_.resize(bodies_.size());
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    const double turn = std::min(1.0, dt_s * bodies_.angular_velocity[i].norm());
+    const double way = dt_s * bodies_.velocity[i].norm() + turn * bodies_.reach_m[i];
+    reach_m_[i] = static_cast<float>(way) * 1.00001f;
+  }
+}
+
 /// Narrow phase over pairs of which a body changed; then, in order of slots, what came to touch
 /// gets a manifold and what drifted apart goes.
 void RigidPhysics::update_contacts(double dt_s) {
@@ -134,6 +147,7 @@ void RigidPhysics::update_contacts(double dt_s) {
   auto& pairs = contacts_.pairs;
   std::vector<Changes> changes((pairs.size() + kChunk - 1) / kChunk);
   const NarrowStep step{dt_s, static_cast<float>(options_.gravity_W.norm() * dt_s * dt_s)};
+  find_reaches(dt_s);
   for_chunks(pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
     NarrowScratch scratch;
     Manifold fresh;
@@ -141,9 +155,11 @@ void RigidPhysics::update_contacts(double dt_s) {
       Pair& pair = pairs[i];
       if (!pair.present()) continue;
       if (!pair.fresh && !bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b]) continue;
-      pair.fresh = false;
-      const bool touched = pair.touching(), near = broad_phase_.near(pair);
+      const bool touched = pair.touching();
       Manifold& m = touched ? contacts_.manifolds[pair.manifold] : fresh;
+      if (same_as_before(bodies_, reach_m_, pair, touched ? &m : nullptr)) continue;
+      pair.fresh = false;
+      const bool near = broad_phase_.near(pair);
       if (near) update_contact(shapes_, bodies_, step, pair, m, scratch);
       if (touched && (!near || m.count == 0)) changes[c].parted.push_back(i);
       if (!touched && m.count > 0) changes[c].touched.emplace_back(i, std::exchange(fresh, {}));

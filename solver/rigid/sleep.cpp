@@ -10,8 +10,10 @@
 namespace sunder::solver {
 namespace {
 
-constexpr double kSlow_m_s = 0.05;
-constexpr double kDrift = 0.002;  // of the radius, within the time of rest
+// Rest is judged by the way, not by speed: a light piece pinched by heavy ones trembles on the spot
+// at centimetres a second for ever, and would keep its neighbours awake.
+constexpr double kSlow_m_s = 0.5;
+constexpr double kDrift = 0.005;  // of the radius, within the time of rest
 constexpr float kRestTime_s = 0.5f;
 constexpr double kHit_m_s = 0.15;
 constexpr float kChange = 0.3f;      // of the sleeper's weight: what wakes it
