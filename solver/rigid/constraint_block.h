@@ -56,7 +56,13 @@ struct Softness {
   float rate = 0;  ///< Of correction, 1/s.
   float mass_scale = 1;
   float impulse_scale = 0;
-  float inverse_h = 0;  ///< 1/s, of the substep.
+};
+
+/// How soft contacts are in a substep.
+struct SoftStep {
+  Softness press[4];    ///< Along the normal, by the number of points less one.
+  Softness slide[4];    ///< Of friction that sticks.
+  float inverse_h = 0;  ///< 1/s.
   float push_m_s = 0;   ///< Fastest correction.
 };
 

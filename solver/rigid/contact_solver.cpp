@@ -11,10 +11,12 @@ namespace {
 
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kBlockGrain = 8;
-// Contact frequency times substep. Two sweeps a substep keep up with contacts this soft: rubble of
-// 2,000 hulls comes to 5e-7 m/s and a wall of 500 bricks to sleep. At 0.25 they sink a quarter as
-// far, but rubble keeps 2e-3 m/s and the wall sways without end.
-constexpr double kStiffness = 0.125;
+// Contact frequency times substep, by the number of points less one: see docs/decisions/003. Two
+// sweeps keep up with 0.25 where pieces touch in a point or two, as rubble does. Faces that meet in
+// four are four springs side by side, and friction as stiff as they are makes a standing wave of a
+// wall.
+constexpr double kPressStiffness[4] = {0.25, 0.25, 0.2, 0.18};
+constexpr double kSlideStiffness[4] = {0.25, 0.25, 0.125, 0.125};
 constexpr double kDamping = 5;   // ratio to critical
 constexpr double kPush_m_s = 4;  // fastest correction of an overlap
 // Farthest turn of a touching body within a step: beyond, contacts that are straight lines for the
@@ -37,11 +39,22 @@ enum StageKind {
   kFinish
 };
 
-Softness softness(double h) {
-  const double omega_h = 2 * kPi * kStiffness;
+Softness softness(double stiffness, double h) {
+  const double omega_h = 2 * kPi * stiffness;
   const double a1 = 2 * kDamping + omega_h, a2 = omega_h * a1, a3 = 1 / (1 + a2);
-  return {static_cast<float>(omega_h / h / a1), static_cast<float>(a2 * a3), static_cast<float>(a3),
-          static_cast<float>(1 / h), static_cast<float>(kPush_m_s)};
+  return {static_cast<float>(omega_h / h / a1), static_cast<float>(a2 * a3),
+          static_cast<float>(a3)};
+}
+
+SoftStep soft_step(double h) {
+  SoftStep step;
+  for (int i = 0; i < 4; ++i) {
+    step.press[i] = softness(kPressStiffness[i], h);
+    step.slide[i] = softness(kSlideStiffness[i], h);
+  }
+  step.inverse_h = static_cast<float>(1 / h);
+  step.push_m_s = static_cast<float>(kPush_m_s);
+  return step;
 }
 
 void limit_spin(Vec3& angular_velocity, double dt_s) {
@@ -59,7 +72,7 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
   collect_blocks(bodies, contacts);
   collect_bodies(bodies);
   const double h = dt_s / substeps;
-  const Softness soft = softness(h);
+  const SoftStep soft = soft_step(h);
   PrepareStep step;
   step.gravity_W = gravity_W.cast<float>();
   step.impulse_scale = last_h_s_ > 0 ? static_cast<float>(h / last_h_s_) : 1.f;

@@ -53,18 +53,19 @@ Wide total_impulse(const ConstraintBlock& c) {
 
 /// Coulomb friction at the middle of the patch, both directions at once, limited to a circle.
 template <bool kBiased>
-void slide(ConstraintBlock& c, Motion& v, const Motion& x, const Softness& soft) {
+void slide(ConstraintBlock& c, Motion& v, const Motion& x, const SoftStep& soft) {
   const Wide limit = c.friction * total_impulse(c);
+  const Softness& stick = soft.slide[c.points - 1];
   Wide u1 = v.along(c.tangent_1, c.slide_1_a, c.slide_1_b);
   Wide u2 = v.along(c.tangent_2, c.slide_2_a, c.slide_2_b);
   if constexpr (kBiased) {
-    u1 += soft.rate * (c.drift_1 + x.along(c.tangent_1, c.slide_1_a, c.slide_1_b));
-    u2 += soft.rate * (c.drift_2 + x.along(c.tangent_2, c.slide_2_a, c.slide_2_b));
+    u1 += stick.rate * (c.drift_1 + x.along(c.tangent_1, c.slide_1_a, c.slide_1_b));
+    u2 += stick.rate * (c.drift_2 + x.along(c.tangent_2, c.slide_2_a, c.slide_2_b));
   }
   Wide d1 = -(c.slide_11 * u1 + c.slide_12 * u2), d2 = -(c.slide_12 * u1 + c.slide_22 * u2);
   if constexpr (kBiased) {
-    d1 = d1 * soft.mass_scale - c.slide_impulse_1 * soft.impulse_scale;
-    d2 = d2 * soft.mass_scale - c.slide_impulse_2 * soft.impulse_scale;
+    d1 = d1 * stick.mass_scale - c.slide_impulse_1 * stick.impulse_scale;
+    d2 = d2 * stick.mass_scale - c.slide_impulse_2 * stick.impulse_scale;
   }
   Wide new_1 = c.slide_impulse_1 + d1, new_2 = c.slide_impulse_2 + d2;
   const Wide square = new_1 * new_1 + new_2 * new_2;
@@ -89,8 +90,9 @@ void twist(ConstraintBlock& c, Motion& v) {
 }
 
 template <bool kBiased>
-void press(ConstraintBlock& c, Motion& v, const Motion& x, const Softness& soft) {
+void press(ConstraintBlock& c, Motion& v, const Motion& x, const SoftStep& soft) {
   const Wide zero = splat(0), one = splat(1);
+  const Softness& press = soft.press[c.points - 1];
   for (int i = 0; i < c.points; ++i) {
     PointLanes& p = c.point[i];
     const Wide s = p.separation + x.along(c.normal, p.turn_a, p.turn_b);
@@ -98,9 +100,9 @@ void press(ConstraintBlock& c, Motion& v, const Motion& x, const Softness& soft)
     Wide u = v.along(c.normal, p.turn_a, p.turn_b);
     Wide change;
     if constexpr (kBiased) {
-      u += apart ? s * soft.inverse_h : max(s * soft.rate, splat(-soft.push_m_s));
-      const Wide mass_scale = apart ? one : splat(soft.mass_scale);
-      const Wide impulse_scale = apart ? zero : splat(soft.impulse_scale);
+      u += apart ? s * soft.inverse_h : max(s * press.rate, splat(-soft.push_m_s));
+      const Wide mass_scale = apart ? one : splat(press.mass_scale);
+      const Wide impulse_scale = apart ? zero : splat(press.impulse_scale);
       change = -p.mass * mass_scale * u - impulse_scale * p.impulse;
     } else {
       u += apart ? s * soft.inverse_h : zero;
@@ -113,7 +115,7 @@ void press(ConstraintBlock& c, Motion& v, const Motion& x, const Softness& soft)
 }
 
 template <bool kBiased>
-void sweep(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
+void sweep(ConstraintBlock& c, BodyRow* rows, const SoftStep& soft) {
   Motion v(c, rows, &BodyRow::velocity);
   const Motion x(c, rows, &BodyRow::position);
   slide<kBiased>(c, v, x, soft);
@@ -141,12 +143,12 @@ void warm_start(ConstraintBlock& c, BodyRow* rows) {
   store_velocity(v.b, c.row_b, rows);
 }
 
-void sweep_biased(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
+void sweep_biased(ConstraintBlock& c, BodyRow* rows, const SoftStep& soft) {
   sweep<true>(c, rows, soft);
   if (c.bouncy) note_impacts(c);
 }
 
-void sweep_relaxed(ConstraintBlock& c, BodyRow* rows, const Softness& soft) {
+void sweep_relaxed(ConstraintBlock& c, BodyRow* rows, const SoftStep& soft) {
   sweep<false>(c, rows, soft);
   if (c.bouncy) note_impacts(c);
   if (!c.summed) return;

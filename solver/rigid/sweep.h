@@ -8,9 +8,9 @@ namespace sunder::solver {
 /// Applies last step's impulses.
 void warm_start(ConstraintBlock& block, BodyRow* rows);
 /// One Gauss-Seidel pass with the soft bias: pushes overlaps apart.
-void sweep_biased(ConstraintBlock& block, BodyRow* rows, const Softness& soft);
+void sweep_biased(ConstraintBlock& block, BodyRow* rows, const SoftStep& soft);
 /// One pass without it: takes out the velocity the push left behind.
-void sweep_relaxed(ConstraintBlock& block, BodyRow* rows, const Softness& soft);
+void sweep_relaxed(ConstraintBlock& block, BodyRow* rows, const SoftStep& soft);
 /// Once, after all substeps: points that took an impulse leave with their rebound velocity.
 void bounce(ConstraintBlock& block, BodyRow* rows);
 /// Speed of b from a along the normal at a point.

@@ -203,9 +203,9 @@ TEST(BadFlags, AreRefusedByTheirOwnName) {
   }
   LoadOptions options;
   options.preset = "realtme";
-  EXPECT_EQ(
-      refusal(kGood, options),
-      "--preset realtme: unknown preset; did you mean 'realtime'?; allowed: draft | realtime");
+  EXPECT_EQ(refusal(kGood, options),
+            "--preset realtme: unknown preset; did you mean 'realtime'?; allowed: draft | realtime "
+            "| accurate | reference");
 }
 
 TEST(BadFiles, AreNamed) {
