@@ -51,11 +51,9 @@ class RigidPhysics final : public Physics {
   Sleep sleep_;
   ContactSolver contact_solver_;
   ContactsOfBodies contacts_of_bodies_;
-  double dt_s_ = 0;           ///< Of the last collide.
-  std::uint32_t frozen_ = 0;  ///< Since the last solve began.
-  std::vector<Approach> approaches_;
-  std::vector<float> reach_m_;  ///< How far a body may reach within the step.
+  double dt_s_ = 0;             ///< Of the last collide.
   std::uint32_t frozen_ = 0;    ///< Since the last solve began.
+  std::vector<float> reach_m_;  ///< How far a body may reach within the step.
   std::vector<std::pair<const char*, double>> timings_ms_ = {
       {"broad phase", 0}, {"narrow phase", 0}, {"contacts", 0}, {"sleep", 0}};
 };
@@ -99,6 +97,7 @@ void RigidPhysics::remove_shapes(std::span<const std::uint32_t> shapes) {
   for (const std::uint32_t pair : pairs)
     if (contacts_.pairs[pair].touching()) manifolds.push_back(contacts_.pairs[pair].manifold);
   sleep_.wake_left(manifolds, options_.gravity_W, contacts_, bodies_);
+  contacts_of_bodies_.clear();
   for (const std::uint32_t pair : pairs) contacts_.remove(pair);
   broad_phase_.remove(shapes);
   shapes_.remove(shapes, bodies_);
