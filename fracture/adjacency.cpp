@@ -7,14 +7,19 @@
 #include <cmath>
 #include <tuple>
 
+#include "engine/base/check.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
+#include "engine/geometry/polygon_mesh.h"
 #include "fracture/polygon.h"
 
 namespace sunder::fracture {
 namespace {
 
 constexpr double kLeastOverlap = 1e-10;  // of the squared size of the smaller convex
+// Corners of caps this near are one, over the size of the smaller convex: from either side, the
+// cuts that made them came in another order.
+constexpr double kSameMeshCorner = 1e-10;
 
 /// A face without the coordinate in which its normal is longest.
 struct FlatFace {
@@ -24,7 +29,8 @@ struct FlatFace {
   double size = 0;               ///< Of its convex.
   std::uint32_t convex = 0, face = 0;
   std::uint32_t first_point = 0, point_count = 0;  ///< In its bin.
-  std::uint8_t dropped = 0;                        ///< That coordinate.
+  std::uint32_t cap = FaceEntry::kNoCap;
+  std::uint8_t dropped = 0;  ///< That coordinate.
   bool known = false;
 
   std::span<const Vec2> polygon() const { return {points, point_count}; }
@@ -32,15 +38,24 @@ struct FlatFace {
 
 double size_of(const Convex& convex) { return convex.box.extent().maxCoeff(); }
 
-/// Appends the polygon of a face without coordinate `dropped`, counter-clockwise from either side.
-void lay_flat(const ConvexPolyhedron& polyhedron, std::size_t face, int dropped,
+/// Appends the polygon of a face, or of the cap in it, without coordinate `dropped`,
+/// counter-clockwise from either side.
+void lay_flat(const Convex& convex, std::size_t face, std::uint32_t cap, int dropped,
               std::vector<Vec2>& points) {
-  const auto corners = polyhedron.face_corners(face);
-  const bool mirrored = polyhedron.faces[face].plane.normal[dropped] < 0;
+  const bool mirrored = convex.polyhedron.faces[face].plane.normal[dropped] < 0;
   const int u = (dropped + 1) % 3, v = (dropped + 2) % 3;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vec3& point = polyhedron.vertices[corners[mirrored ? corners.size() - 1 - k : k]];
-    points.emplace_back(point[u], point[v]);
+  const auto add = [&](const std::vector<Vec3>& vertices, std::span<const std::uint32_t> corners) {
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3& point = vertices[corners[mirrored ? corners.size() - 1 - k : k]];
+      points.emplace_back(point[u], point[v]);
+    }
+  };
+  if (cap == FaceEntry::kNoCap) {
+    return add(convex.polyhedron.vertices, convex.polyhedron.face_corners(face));
+  }
+  const PolygonMesh::Face& of = convex.visual->faces[cap];
+  for (std::uint32_t k = of.first_contour; k < of.first_contour + of.contour_count; ++k) {
+    add(convex.visual->vertices, convex.visual->contour_corners(k));
   }
 }
 
@@ -60,7 +75,8 @@ struct Bin {
     flat.convex = entry.convex;
     flat.face = entry.face;
     flat.first_point = static_cast<std::uint32_t>(points.size());
-    lay_flat(convex.polyhedron, entry.face, dropped, points);
+    flat.cap = entry.cap;
+    lay_flat(convex, entry.face, entry.cap, dropped, points);
     flat.point_count = static_cast<std::uint32_t>(points.size()) - flat.first_point;
     flat.dropped = static_cast<std::uint8_t>(dropped);
     flat.known = entry.known;
@@ -116,7 +132,7 @@ class PlaneSweep {
     if (face.dropped == dropped) return;
     const ConvexPolyhedron& polyhedron = convexes_[face.convex]->polyhedron;
     turned_.emplace_back();
-    lay_flat(polyhedron, face.face, dropped, turned_.back());
+    lay_flat(*convexes_[face.convex], face.face, face.cap, dropped, turned_.back());
     face.points = turned_.back().data();
     face.dropped = dropped;
     face.scale = 1 / std::abs(polyhedron.faces[face.face].plane.normal[dropped]);
@@ -128,14 +144,34 @@ class PlaneSweep {
     const FlatFace& even = a.id < b.id ? a : b;
     const FlatFace& odd = a.id < b.id ? b : a;
     const double size = std::min(a.size, b.size);
-    const double flat_area = are_twins(even.polygon(), odd.polygon(), size)
-                                 ? polygon_area(even.polygon())
-                                 : overlap_area(even.polygon(), odd.polygon(), scratch_);
-    const double area = even.scale * flat_area;
+    const double area = even.scale * flat_overlap(even, odd, size);
     if (area <= kLeastOverlap * size * size) return;
     const FlatFace& low = a.convex < b.convex ? a : b;
     const FlatFace& high = a.convex < b.convex ? b : a;
     bonds.push_back({low.convex, high.convex, low.face, high.face, area});
+  }
+
+  double flat_overlap(const FlatFace& even, const FlatFace& odd, double size) {
+    if (even.cap != FaceEntry::kNoCap || odd.cap != FaceEntry::kNoCap) {
+      contours_of(even, contours_even_);
+      contours_of(odd, contours_odd_);
+      return overlap_area(contours_even_, contours_odd_, kSameMeshCorner * size);
+    }
+    return are_twins(even.polygon(), odd.polygon(), size)
+               ? polygon_area(even.polygon())
+               : overlap_area(even.polygon(), odd.polygon(), scratch_);
+  }
+
+  void contours_of(const FlatFace& face, std::vector<std::span<const Vec2>>& contours) const {
+    contours.clear();
+    if (face.cap == FaceEntry::kNoCap) return contours.push_back(face.polygon());
+    const PolygonMesh& visual = *convexes_[face.convex]->visual;
+    const PolygonMesh::Face& cap = visual.faces[face.cap];
+    std::size_t first = 0;
+    for (std::uint32_t k = cap.first_contour; k < cap.first_contour + cap.contour_count; ++k) {
+      contours.push_back(face.polygon().subspan(first, visual.contours[k].corner_count));
+      first += visual.contours[k].corner_count;
+    }
   }
 
   /// The common case of two faces that are one polygon seen from either side.
@@ -158,6 +194,7 @@ class PlaneSweep {
   std::vector<Spread> spread_;
   std::vector<std::uint32_t> active_;
   std::vector<std::vector<Vec2>> turned_;
+  std::vector<std::span<const Vec2>> contours_even_, contours_odd_;
   OverlapScratch scratch_;
 };
 
@@ -287,13 +324,33 @@ void sort_bonds(std::vector<Bond>& bonds) {
   }
 }
 
-void add_faces(const ConvexPolyhedron& polyhedron, std::uint32_t index,
-               std::vector<FaceEntry>& entries) {
-  for (std::uint32_t f = 0; f < polyhedron.faces.size(); ++f) {
-    if (!polyhedron.faces[f].id.none()) {
-      entries.push_back({polyhedron.faces[f].id, index, f, false});
+void add_faces(const Convex& convex, std::uint32_t index, std::vector<FaceEntry>& entries) {
+  const std::vector<ConvexPolyhedron::Face>& faces = convex.polyhedron.faces;
+  if (convex.is_internal()) {
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      if (!faces[f].id.none()) entries.push_back({faces[f].id, index, f});
     }
+    return;
   }
+  const PolygonMesh& visual = *convex.visual;
+  for (std::size_t cap = first_cap(visual); cap < visual.faces.size(); ++cap) {
+    const PlaneId id = visual.faces[cap].id;
+    const auto face = std::find_if(faces.begin(), faces.end(),
+                                   [&](const ConvexPolyhedron::Face& f) { return f.id == id; });
+    if (face == faces.end()) continue;
+    const auto f = static_cast<std::uint32_t>(face - faces.begin());
+    entries.push_back({id, index, f, false, static_cast<std::uint32_t>(cap)});
+  }
+}
+
+FaceEntry known_face(const Convex& convex, std::uint32_t index, std::uint32_t face) {
+  FaceEntry entry{convex.polyhedron.faces[face].id, index, face, true};
+  if (convex.is_internal()) return entry;
+  std::size_t cap = convex.visual->faces.size();
+  while (cap > 0 && convex.visual->faces[cap - 1].id != entry.id) --cap;
+  SUNDER_CHECK(cap > 0);
+  entry.cap = static_cast<std::uint32_t>(cap - 1);
+  return entry;
 }
 
 std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes,
@@ -311,19 +368,16 @@ std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes) {
   constexpr std::size_t kConvexesAtOnce = 1024;
   std::size_t faces = 0;
   for (const ConvexPtr& convex : convexes) faces += convex->polyhedron.faces.size();
-  return contacts(
-      convexes, convexes.size(), kConvexesAtOnce, faces,
-      [&](std::size_t begin, std::size_t end, std::vector<Bin>& bins) {
-        for (std::size_t c = begin; c < end; ++c) {
-          fetch_ahead(convexes.subspan(c, end - c));
-          const ConvexPolyhedron& polyhedron = convexes[c]->polyhedron;
-          for (std::uint32_t f = 0; f < polyhedron.faces.size(); ++f) {
-            const PlaneId id = polyhedron.faces[f].id;
-            if (id.none()) continue;
-            add_to_bins(*convexes[c], {id, static_cast<std::uint32_t>(c), f, false}, bins);
-          }
-        }
-      });
+  return contacts(convexes, convexes.size(), kConvexesAtOnce, faces,
+                  [&](std::size_t begin, std::size_t end, std::vector<Bin>& bins) {
+                    std::vector<FaceEntry> entries;
+                    for (std::size_t c = begin; c < end; ++c) {
+                      fetch_ahead(convexes.subspan(c, end - c));
+                      entries.clear();
+                      add_faces(*convexes[c], static_cast<std::uint32_t>(c), entries);
+                      for (const FaceEntry& entry : entries) add_to_bins(*convexes[c], entry, bins);
+                    }
+                  });
 }
 
 }  // namespace sunder::fracture

@@ -6,11 +6,13 @@
 #include <ostream>
 
 #include "engine/base/check.h"
+#include "engine/geometry/polygon_mesh.h"
 
 namespace sunder::fracture {
 namespace {
 
-constexpr const char* kFirstLine = "sunder-break-case-2";
+constexpr const char* kFirstLine = "sunder-break-case-3";
+constexpr std::uint64_t kMost = 10000000;  // of anything
 
 class Writer {
  public:
@@ -117,6 +119,76 @@ ConvexPolyhedron read_polyhedron(Reader& in, std::uint64_t vertices, std::uint64
   return polyhedron;
 }
 
+void write_mesh(Writer& out, const PolygonMesh& mesh) {
+  for (const std::size_t count : {mesh.vertices.size(), mesh.faces.size(), mesh.contours.size(),
+                                  mesh.corners.size(), mesh.corner_uvs.size()}) {
+    out.put(count);
+  }
+  out.end_line();
+  for (const Vec3& vertex : mesh.vertices) out.put(vertex);
+  out.end_line();
+  for (const PolygonMesh::Face& face : mesh.faces) {
+    out.put(face.id.value);
+    out.put(face.kind == FaceKind::kInterior ? 1 : 0);
+    out.put(face.plane.normal);
+    out.put(face.plane.d);
+    out.put(face.contour_count);
+  }
+  out.end_line();
+  for (const PolygonMesh::Contour& contour : mesh.contours) out.put(contour.corner_count);
+  out.end_line();
+  for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+    out.put(mesh.corners[c]);
+    out.put(mesh.corner_normals[c]);
+    if (!mesh.corner_uvs.empty()) out.put(mesh.corner_uvs[c]);
+  }
+  out.end_line();
+}
+
+PolygonMesh read_mesh(Reader& in, std::uint64_t vertices) {
+  const std::uint64_t faces = in.integer(kMost), contours = in.integer(kMost);
+  const std::uint64_t corners = in.integer(kMost), uvs = in.integer(kMost);
+  if (uvs != 0 && uvs != corners) in.fail("a mesh has some texture coordinates only");
+  PolygonMesh mesh;
+  for (std::uint64_t i = 0; i < vertices; ++i) mesh.vertices.push_back(in.matrix<Vec3>());
+  std::uint64_t next = 0;
+  for (std::uint64_t i = 0; i < faces; ++i) {
+    PolygonMesh::Face face;
+    face.id.value = in.integer(~std::uint64_t{0});
+    face.kind = in.integer(1) == 1 ? FaceKind::kInterior : FaceKind::kSurface;
+    face.plane.normal = in.matrix<Vec3>();
+    face.plane.d = in.number();
+    face.first_contour = static_cast<std::uint32_t>(next);
+    face.contour_count = static_cast<std::uint32_t>(in.integer(contours - next));
+    if (face.contour_count == 0) in.fail("a face without a contour");
+    next += face.contour_count;
+    mesh.faces.push_back(face);
+  }
+  if (next != contours) in.fail("a mesh has contours of no face");
+  next = 0;
+  for (std::uint64_t i = 0; i < contours; ++i) {
+    const auto count = static_cast<std::uint32_t>(in.integer(corners - next));
+    if (count < 3) in.fail("a contour has less than three corners");
+    mesh.contours.push_back({static_cast<std::uint32_t>(next), count});
+    next += count;
+  }
+  if (next != corners) in.fail("a mesh has corners of no contour");
+  for (std::uint64_t i = 0; i < corners; ++i) {
+    mesh.corners.push_back(in.index(vertices));
+    mesh.corner_normals.push_back(in.matrix<Vec3f>());
+    if (uvs != 0) mesh.corner_uvs.push_back(in.matrix<Vec2f>());
+  }
+  if (open_edges(mesh) != 0) in.fail("a mesh is not closed");
+  return mesh;
+}
+
+/// The visual mesh of a convex, if it has one.
+std::shared_ptr<const PolygonMesh> read_visual(Reader& in) {
+  in.expect("visual");
+  const std::uint64_t vertices = in.integer(kMost);
+  return vertices == 0 ? nullptr : std::make_shared<const PolygonMesh>(read_mesh(in, vertices));
+}
+
 void write_ghost(Writer& out, const Ghost& ghost) {
   const ConvexPolyhedron& polyhedron = ghost.convex->polyhedron;
   out.word("ghost");
@@ -130,7 +202,6 @@ void write_ghost(Writer& out, const Ghost& ghost) {
 }
 
 Ghost read_ghost(Reader& in, std::uint64_t convexes) {
-  constexpr std::uint64_t kMost = 10000000;
   Ghost ghost;
   in.expect("ghost");
   ghost.sign = static_cast<std::int8_t>(static_cast<int>(in.integer(2)) - 1);
@@ -155,6 +226,7 @@ void write_command(Writer& out, const BreakCommand& command) {
   out.put(command.X_RP.position);
   out.put(command.X_RP.rotation.coeffs());
   out.put(command.stretch_P);
+  out.word(name_of(command.fit));
   out.word("pattern");
   out.put(static_cast<int>(pattern.kind));
   for (const int count : {pattern.cells, pattern.rings, pattern.spokes, pattern.colors}) {
@@ -177,6 +249,9 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   command.X_RP.position = in.matrix<Vec3>();
   command.X_RP.rotation.coeffs() = in.matrix<Eigen::Vector4d>();
   command.stretch_P = in.matrix<Mat3>();
+  const std::optional<Fit> fit = parse_fit(in.word());
+  if (!fit) in.fail("a fit is one of " + std::string(kFitNames));
+  command.fit = *fit;
   in.expect("pattern");
   PatternSpec& pattern = command.pattern;
   pattern.kind = static_cast<PatternSpec::Kind>(
@@ -209,6 +284,12 @@ void write_case(std::ostream& stream, const BreakCase& example) {
     out.put(convex.polyhedron.vertices.size());
     out.put(convex.polyhedron.faces.size());
     write_polyhedron(out, convex.polyhedron);
+    out.word("visual");
+    if (convex.visual) {
+      write_mesh(out, *convex.visual);
+    } else {
+      out.put(0);
+    }
   }
   for (const Ghost& ghost : compound.ghosts) write_ghost(out, ghost);
   for (const Bond& bond : compound.bonds) {
@@ -220,7 +301,6 @@ void write_case(std::ostream& stream, const BreakCase& example) {
 }
 
 BreakCase read_case(std::istream& stream, const std::string& name) {
-  constexpr std::uint64_t kMost = 10000000;
   Reader in(stream, name);
   BreakCase example;
   Compound& compound = example.compound;
@@ -232,7 +312,8 @@ BreakCase read_case(std::istream& stream, const std::string& name) {
     const MaterialIndex material(in.integer(kMost));
     compound.anchored.push_back(static_cast<std::uint8_t>(in.integer(kAnchoredAllRound)));
     const std::uint64_t vertices = in.integer(kMost), faces = in.integer(kMost);
-    compound.convexes.push_back(make_convex(read_polyhedron(in, vertices, faces), material));
+    ConvexPolyhedron polyhedron = read_polyhedron(in, vertices, faces);
+    compound.convexes.push_back(make_convex(std::move(polyhedron), material, read_visual(in)));
   }
   for (std::uint64_t i = 0; i < ghosts; ++i) compound.ghosts.push_back(read_ghost(in, convexes));
   for (std::uint64_t i = 0; i < bonds; ++i) {

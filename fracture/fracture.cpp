@@ -36,14 +36,14 @@ void append(BreakPlan island, BreakPlan& plan) {
 
 BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
                           const Placement& placement, const ImpactSphere& sphere,
-                          std::uint64_t event) {
+                          std::uint64_t event, const Fit& fit) {
   std::vector<std::uint32_t> touched = structure.touched(sphere);
   if (touched.empty()) return {};
   Stopwatch watch;
   Box reach;
   for (const std::uint32_t slot : touched) reach.extend(structure.convex(slot)->box);
   const AlignedPattern aligned = align(pattern, placement, event, reach);
-  const Fragments fragments = make_fragments(structure, touched, aligned, sphere);
+  const Fragments fragments = make_fragments(structure, touched, aligned, sphere, fit);
   const double clip_ms = watch.lap_ms();
   BreakEdit edit;
   if (!touched.empty()) edit = Rubble(structure, touched, fragments).edit();
@@ -61,17 +61,17 @@ BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
 }
 
 BreakPlan fracture(const Compound& compound, const Pattern& pattern, const Placement& placement,
-                   const ImpactSphere& sphere, std::uint64_t event) {
+                   const ImpactSphere& sphere, std::uint64_t event, const Fit& fit) {
   const std::vector<Compound> islands = split_islands(compound);
   if (islands.size() > 1) {
     BreakPlan plan;
     for (const Compound& island : islands) {
-      append(fracture(island, pattern, placement, sphere, event), plan);
+      append(fracture(island, pattern, placement, sphere, event, fit), plan);
     }
     return plan;
   }
   Structure structure(compound);
-  BreakEdit edit = break_structure(structure, pattern, placement, sphere, event);
+  BreakEdit edit = break_structure(structure, pattern, placement, sphere, event, fit);
   if (!edit.changed) {
     BreakPlan plan = unbroken(compound);
     plan.failed = edit.loose.failed;

@@ -18,12 +18,12 @@ namespace sunder::fracture {
 /// What a pattern at its place does to a structure, which is left as it is.
 BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
                           const Placement& placement, const ImpactSphere& sphere,
-                          std::uint64_t event);
+                          std::uint64_t event, const Fit& fit = {});
 
 /// The same for a compound, as pieces: what is left of it first. Gives it back as it was, if
 /// nothing came off. Islands that do not hang together (a compound given in may have several) break
 /// each on its own, and are pieces in any case.
 BreakPlan fracture(const Compound& compound, const Pattern& pattern, const Placement& placement,
-                   const ImpactSphere& sphere, std::uint64_t event);
+                   const ImpactSphere& sphere, std::uint64_t event, const Fit& fit = {});
 
 }  // namespace sunder::fracture

@@ -6,12 +6,18 @@
 #include <tuple>
 
 #include "engine/base/parallel.h"
+#include "engine/geometry/polygon_mesh.h"
 #include "fracture/ghosts.h"
 #include "fracture/intersect.h"
 #include "fracture/weld.h"
 
 namespace sunder::fracture {
 namespace {
+
+/// The box of what a convex holds, to which its polyhedron may be fitted loosely.
+Box solid_box(const Convex& convex) {
+  return convex.is_internal() ? convex.box : bounds(*convex.visual);
+}
 
 /// The group of a part: its cell's colour where the impact reaches it.
 std::uint32_t group_of(const CellPart& part, const AlignedPattern& pattern,
@@ -126,11 +132,12 @@ std::uint8_t inherited_anchors(std::uint8_t anchored, const Box& parent, const B
 }
 
 Fragments make_fragments(const Structure& structure, std::vector<std::uint32_t>& touched,
-                         const AlignedPattern& pattern, const ImpactSphere& sphere) {
+                         const AlignedPattern& pattern, const ImpactSphere& sphere,
+                         const Fit& fit) {
   std::vector<Intersection> cut(touched.size());
   for_chunks(touched.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
-      cut[i] = intersect(pattern, structure.convex(touched[i]));
+      cut[i] = intersect(pattern, structure.convex(touched[i]), fit);
     }
   });
   Fragments fragments;
@@ -145,10 +152,12 @@ Fragments make_fragments(const Structure& structure, std::vector<std::uint32_t>&
     }
     touched[kept++] = source;
     fragments.debris_volume_m3 += cut[i].debris_volume_m3;
+    const std::uint8_t anchored = structure.anchored(source);
     for (const CellPart& part : cut[i].parts) {
-      fragments.all.push_back(
-          {part.convex, source, part.cell, group_of(part, pattern, sphere),
-           inherited_anchors(structure.anchored(source), parent.box, part.convex->box)});
+      fragments.all.push_back({part.convex, source, part.cell, group_of(part, pattern, sphere), 0});
+      if (anchored == 0) continue;  // boxes of meshes take time
+      fragments.all.back().anchored =
+          inherited_anchors(anchored, solid_box(parent), solid_box(*part.convex));
     }
   }
   touched.resize(kept);

@@ -17,7 +17,8 @@ struct CellPart {
   ConvexPtr convex;               ///< The very convex given, where nothing was cut off.
 };
 
-/// A convex cut by a pattern. The parts' volumes and the debris sum to the convex's volume.
+/// A convex cut by a pattern: several parts a cell where its visual mesh is in several there. The
+/// parts' volumes and the debris sum to the convex's volume.
 struct Intersection {
   std::vector<CellPart> parts;
   double debris_volume_m3 = 0;  ///< Parts below the floor that no neighbour could take.
@@ -28,7 +29,8 @@ struct Intersection {
 /// neighbour: the cut that would leave them is not made.
 inline constexpr double kVolumeFloor = 1e-6;
 
-/// Cuts `convex` by all cells. Depends on nothing but its arguments; any thread may call it.
-Intersection intersect(const AlignedPattern& pattern, const ConvexPtr& convex);
+/// Cuts `convex` by all cells; what it owns of a visual mesh is cut with it, and new convexes are
+/// fitted to that. Depends on nothing but its arguments; any thread may call it.
+Intersection intersect(const AlignedPattern& pattern, const ConvexPtr& convex, const Fit& fit = {});
 
 }  // namespace sunder::fracture

@@ -80,6 +80,7 @@ class PatternBreaker final : public Breaker {
     command.seed = seed;
     command.pattern = material.pattern;
     command.radius_m = material.impact_radius_m;
+    command.fit = material.fit;
     for (const StrongerBlow& stronger : material.stronger) {
       if (hit.energy_J < stronger.energy_J) break;
       command.pattern = stronger.pattern;
@@ -92,8 +93,8 @@ class PatternBreaker final : public Breaker {
 
   BreakPlan plan(const Compound& compound, const BreakCommand& command) const override {
     const ReadyBreak ready = make_ready(command, bounds(compound), library_);
-    BreakPlan plan =
-        fracture(compound, *ready.pattern, ready.placement, ready.sphere, command.event);
+    BreakPlan plan = fracture(compound, *ready.pattern, ready.placement, ready.sphere,
+                              command.event, command.fit);
     if (log_) log_->add(compound, command, plan);
     return plan;
   }

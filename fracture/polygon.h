@@ -18,6 +18,13 @@ struct OverlapScratch {
 /// Area that two convex counter-clockwise polygons have in common (Sutherland and Hodgman 1974).
 double overlap_area(std::span<const Vec2> a, std::span<const Vec2> b, OverlapScratch& scratch);
 
+/// The outer contours of a polygon, counter-clockwise, and its holes, clockwise.
+using Contours = std::span<const std::span<const Vec2>>;
+/// Area that any two polygons have in common; contours of which every corner has one of the other
+/// within `near` are the same. It changes as little as the polygons do, even where edges coincide
+/// but for rounding.
+double overlap_area(Contours a, Contours b, double near);
+
 /// Distance from a point to a convex solid; 0 inside.
 double distance(const Vec3& point, const ConvexPolyhedron& convex);
 

@@ -39,7 +39,7 @@ void Rubble::add_neighbours(std::vector<ConvexPtr>& convexes, std::vector<FaceEn
     for (const Link& link : structure_.links(neighbours_[i])) {
       if (!is_touched(link.other) || link.face == last_face) continue;
       last_face = link.face;
-      faces.push_back({convexes.back()->polyhedron.faces[link.face].id, i, link.face, true});
+      faces.push_back(known_face(*convexes.back(), i, link.face));
     }
   }
   const auto same = [](const FaceEntry& x, const FaceEntry& y) {
@@ -73,7 +73,7 @@ std::vector<Ghost> Rubble::add_ghosts(std::vector<ConvexPtr>& convexes,
   for (const Ghost& ghost : ghosts) {
     const auto index = static_cast<std::uint32_t>(convexes.size());
     const std::size_t first = faces.size();
-    add_faces(ghost.convex->polyhedron, index, faces);
+    add_faces(*ghost.convex, index, faces);
     convexes.push_back(ghost.convex);
     if (is_fragment(ghost.of.back())) continue;
     const auto at = faces.begin() + static_cast<std::ptrdiff_t>(first);
@@ -92,7 +92,7 @@ void Rubble::find_contacts_of_fragments() {
   std::vector<FaceEntry> faces;
   add_neighbours(convexes, faces);
   for (const Fragment& fragment : fragments_) {
-    add_faces(fragment.convex->polyhedron, static_cast<std::uint32_t>(convexes.size()), faces);
+    add_faces(*fragment.convex, static_cast<std::uint32_t>(convexes.size()), faces);
     convexes.push_back(fragment.convex);
   }
   const auto count = static_cast<std::uint32_t>(convexes.size());

@@ -32,7 +32,7 @@ ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
                std::span<const ConvexPtr> parts, std::span<const Ghost> ghosts) {
   double volume = 0;
   for (const ConvexPtr& part : parts) {
-    if (part->material != parts[0]->material) return nullptr;
+    if (!part->is_internal() || part->material != parts[0]->material) return nullptr;
     volume += part->solid.volume_m3;
   }
   for (const Ghost& ghost : ghosts) volume += ghost.sign * ghost.convex->solid.volume_m3;

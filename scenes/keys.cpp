@@ -80,6 +80,12 @@ struct Reading {
     return static_cast<std::size_t>(found - key.choices.begin());
   }
 
+  Fit fit() const {
+    const std::optional<Fit> fit = parse_fit(exactly<std::string>());
+    if (!fit) fail();
+    return *fit;
+  }
+
   std::string text() const {
     const std::string& text = exactly<std::string>();
     if (text.empty()) fail();
@@ -128,6 +134,9 @@ void store(const Reading& reading, void* object) {
       }
       break;
     }
+    case Kind::kFit:
+      *static_cast<Fit*>(key.field(object)) = reading.fit();
+      break;
     case Kind::kChoice:
       key.choose(object, reading.choice());
       break;
@@ -219,6 +228,8 @@ std::string allowed(const Key& key) {
       return "the name of a material";
     case Kind::kCountOrFile:
       return "a whole number" + bounds(key.range) + ", or a file that lists them";
+    case Kind::kFit:
+      return std::string(kFitNames);
     case Kind::kChoice:
       return join(key.choices, " | ");
     case Kind::kTable:

@@ -49,6 +49,7 @@ struct Key {
     kColor,     ///< Vec3f
     kText,      ///< std::string
     kMaterial,  ///< MaterialRef
+    kFit,       ///< Fit
     kCountOrFile,
     kChoice,  ///< an enumeration
     kTable,   ///< read by whoever asks for it: allowed, and documented elsewhere
@@ -104,6 +105,7 @@ constexpr Key::Kind kind_of() {
   if constexpr (std::is_same_v<T, std::string>) return Kind::kText;
   if constexpr (std::is_same_v<T, MaterialRef>) return Kind::kMaterial;
   if constexpr (std::is_same_v<T, CountOrFile>) return Kind::kCountOrFile;
+  if constexpr (std::is_same_v<T, Fit>) return Kind::kFit;
   if constexpr (std::is_enum_v<T>) return Kind::kChoice;
 }
 

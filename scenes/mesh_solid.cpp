@@ -27,15 +27,8 @@ std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t l
 }
 
 Fit fit_of(const std::string& text) {
-  if (text == "aabb") return {Fit::Kind::kAabb, 0};
-  if (text == "14dop") return {Fit::Kind::k14Dop, 0};
-  if (text == "26dop") return {Fit::Kind::k26Dop, 0};
-  if (text.starts_with("hull:")) {
-    if (const auto count = whole_number(std::string_view(text).substr(5), 4, 1000)) {
-      return {Fit::Kind::kHull, *count};
-    }
-  }
-  throw InputError("fit " + text + ": expected aabb | 14dop | 26dop | hull:N, N from 4 to 1000");
+  if (const std::optional<Fit> fit = parse_fit(text)) return *fit;
+  throw InputError("fit " + text + ": expected " + std::string(kFitNames));
 }
 
 bool is_number(const std::string& text) {

@@ -45,6 +45,8 @@ std::string default_of(const Key& key, void* fresh) {
       return text(static_cast<const MaterialRef*>(field)->name);
     case Kind::kCountOrFile:
       return "automatic";
+    case Kind::kFit:
+      return name_of(*static_cast<const Fit*>(field));
     default:
       return "";
   }

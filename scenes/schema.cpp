@@ -57,6 +57,7 @@ Keys<Material> material_keys() {
                                          "Smaller pieces no longer break."),
        key<&Material::smallest_piece_m3>("smallest_piece_m3", "m³", Range{0, kInfinity},
                                          "Smaller pieces are debris, no bodies."),
+       key<&Material::fit>("fit", "How tightly what collides encloses broken meshes."),
        table_key("pattern", "How it breaks."), table_key("stronger", "Patterns of harder blows."),
        table_key("crumbling", "What comes off where it broke."),
        table_key("surface", "How it looks outside."),

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <optional>
+#include <system_error>
 #include <utility>
 
 namespace sunder {
@@ -193,6 +194,34 @@ std::array<Vec3, 26> make_dop_directions() {
 
 }  // namespace
 
+std::string name_of(const Fit& fit) {
+  switch (fit.kind) {
+    case Fit::Kind::kAabb:
+      return "aabb";
+    case Fit::Kind::k14Dop:
+      return "14dop";
+    case Fit::Kind::k26Dop:
+      return "26dop";
+    case Fit::Kind::kHull:
+      break;
+  }
+  return "hull:" + std::to_string(fit.vertex_count);
+}
+
+std::optional<Fit> parse_fit(std::string_view name) {
+  for (const Fit::Kind kind : {Fit::Kind::kAabb, Fit::Kind::k14Dop, Fit::Kind::k26Dop}) {
+    if (name == name_of({kind})) return Fit{kind};
+  }
+  constexpr std::string_view kHull = "hull:";
+  if (!name.starts_with(kHull)) return std::nullopt;
+  Fit fit{Fit::Kind::kHull};
+  const char* const end = name.data() + name.size();
+  const auto [rest, error] = std::from_chars(name.data() + kHull.size(), end, fit.vertex_count);
+  const bool good = error == std::errc() && rest == end && fit.vertex_count >= 4 &&
+                    fit.vertex_count <= kMostFitVertices;
+  return good ? std::optional(fit) : std::nullopt;
+}
+
 std::span<const Vec3> dop_directions() {
   static const std::array<Vec3, 26> directions = make_dop_directions();
   return directions;
@@ -221,10 +250,18 @@ std::vector<Vec3> fit_directions(std::span<const Vec3> points, const Fit& fit) {
 std::vector<Plane> touching_planes(std::span<const Vec3> points, std::span<const Vec3> directions) {
   std::vector<Plane> planes;
   planes.reserve(directions.size());
-  for (const Vec3& direction : directions) {
-    double most = -1e300;
-    for (const Vec3& p : points) most = std::max(most, direction.dot(p));
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const Vec3& direction = directions[i];
+    double least = 1e300, most = -1e300;
+    for (const Vec3& p : points) {
+      const double at = direction.dot(p);
+      least = std::min(least, at);
+      most = std::max(most, at);
+    }
     planes.push_back({direction, -most});
+    if (i + 1 < directions.size() && directions[i + 1] == -direction) {  // as those of dops do
+      planes.push_back({directions[++i], least});
+    }
   }
   return planes;
 }

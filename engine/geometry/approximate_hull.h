@@ -6,7 +6,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -21,6 +24,14 @@ struct Fit {
   Kind kind = Kind::k26Dop;
   std::uint32_t vertex_count = 24;  ///< Of algorithm 1's hull, for kHull.
 };
+
+/// What a fit is called: aabb, 14dop, 26dop or hull:N, N from 4 to kMostFitVertices.
+std::string name_of(const Fit& fit);
+/// The fit of that name; none if there is no such.
+std::optional<Fit> parse_fit(std::string_view name);
+inline constexpr std::uint32_t kMostFitVertices = 1000;
+/// The names that there are, for messages.
+inline constexpr std::string_view kFitNames = "aabb | 14dop | 26dop | hull:N, N from 4 to 1000";
 
 /// The first 6, 14 or 26 are the unit directions of the box, 14-dop and 26-dop (equations 1 to 3),
 /// each followed by its negative.

@@ -7,6 +7,25 @@
 
 namespace sunder {
 
+std::size_t first_cap(const PolygonMesh& mesh) {
+  std::size_t first = mesh.faces.size();
+  while (first > 0 && !mesh.faces[first - 1].id.none()) --first;
+  return first;
+}
+
+double face_area(const PolygonMesh& mesh, std::size_t face) {
+  const PolygonMesh::Face& of = mesh.faces[face];
+  Vec3 twice = Vec3::Zero();
+  for (std::uint32_t k = of.first_contour; k < of.first_contour + of.contour_count; ++k) {
+    const auto corners = mesh.contour_corners(k);
+    const Vec3& apex = mesh.vertices[corners[0]];
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      twice += (mesh.vertices[corners[i - 1]] - apex).cross(mesh.vertices[corners[i]] - apex);
+    }
+  }
+  return 0.5 * twice.norm();
+}
+
 PolygonMesh polygon_mesh(const ConvexPolyhedron& convex) {
   PolygonMesh mesh;
   mesh.vertices = convex.vertices;

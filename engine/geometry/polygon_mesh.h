@@ -17,10 +17,10 @@ using Vec2f = Eigen::Vector2f;
 
 /// A surface of polygons in the rest frame R. A face has one outer contour, counter-clockwise seen
 /// from outside, and any number of further contours (holes clockwise, islands counter-clockwise);
-/// what is inside follows from even-odd counting. Contours of face f are
-/// [first_contour, +contour_count) of `contours`; corners of a contour likewise of the corner
-/// arrays, which run in parallel. All are in order without gaps: the contours of face after face,
-/// the corners of contour after contour.
+/// what is inside follows from even-odd counting. Faces made by cuts, the caps, follow all others.
+/// Contours of face f are [first_contour, +contour_count) of `contours`; corners of a contour
+/// likewise of the corner arrays, which run in parallel. All are in order without gaps: the
+/// contours of face after face, the corners of contour after contour.
 struct PolygonMesh {
   struct Contour {
     std::uint32_t first_corner = 0;
@@ -47,6 +47,9 @@ struct PolygonMesh {
   }
 };
 
+/// The first of the caps, or the number of faces if there are none.
+std::size_t first_cap(const PolygonMesh& mesh);
+double face_area(const PolygonMesh& mesh, std::size_t face);
 /// The surface of a convex.
 PolygonMesh polygon_mesh(const ConvexPolyhedron& convex);
 /// Texture coordinates along a plane's two flattest axes, in metres of the rest frame.

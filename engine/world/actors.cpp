@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "engine/base/check.h"
+#include "engine/base/parallel.h"
 #include "engine/world/piece_mesh.h"
 
 namespace sunder {
@@ -58,6 +59,13 @@ void set_least(const World& world, Actor& actor) {
     actor.least_Ns = std::min(actor.least_Ns, material.strength_Ns);
   }
 }
+
+/// A convex that is to be drawn anew.
+struct NewMesh {
+  Actor* actor;
+  std::size_t convex;
+  std::shared_ptr<const Mesh> mesh;
+};
 
 }  // namespace
 
@@ -117,6 +125,7 @@ void add_meshes(World& world, std::span<Actor> actors, const Actor* parent) {
       parent_convex.emplace(parent->compound.convexes[c].get(), c);
     }
   }
+  std::vector<NewMesh> fresh;
   for (Actor& actor : actors) {
     const auto& convexes = actor.compound.convexes;
     actor.meshes.resize(convexes.size());
@@ -124,10 +133,19 @@ void add_meshes(World& world, std::span<Actor> actors, const Actor* parent) {
       const auto old = parent_convex.find(convexes[c].get());
       if (old != parent_convex.end() && parent->hidden[old->second] == actor.hidden[c]) {
         actor.meshes[c] = parent->meshes[old->second];
-      } else if (auto mesh = make_mesh(*convexes[c], actor.hidden[c])) {
-        actor.meshes[c] = world.add_mesh(std::move(mesh));
+      } else {
+        fresh.push_back({&actor, c, nullptr});
       }
     }
+  }
+  for_chunks(fresh.size(), 8, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [actor, c, mesh] = fresh[i];
+      fresh[i].mesh = make_mesh(*actor->compound.convexes[c], actor->hidden[c]);
+    }
+  });
+  for (NewMesh& made : fresh) {
+    if (made.mesh) made.actor->meshes[made.convex] = world.add_mesh(std::move(made.mesh));
   }
 }
 

@@ -27,6 +27,7 @@ struct BreakCommand {
   Mat3 stretch_P = Mat3::Identity();  ///< Deforms the pattern first; of positive determinant.
   Pose X_RP;                          ///< Pose of the pattern; its origin is the impact.
   double radius_m = 1;                ///< Of the impact sphere; infinity breaks the whole compound.
+  Fit fit;                            ///< How new convexes are fitted to their visual meshes.
 };
 
 /// A face that a break laid bare, in the rest frame R.

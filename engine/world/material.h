@@ -7,6 +7,7 @@
 
 #include "engine/base/index.h"
 #include "engine/base/types.h"
+#include "engine/geometry/approximate_hull.h"
 
 namespace sunder {
 
@@ -81,6 +82,8 @@ struct Material {
   double compressive_Pa = 0;
   /// Stiffness: how convexes share a load between them.
   double youngs_Pa = 3e10;
+  /// How the convexes of a break are fitted to the visual meshes in them (paper 3.3).
+  Fit fit;
   /// Pieces below this volume no longer break.
   double smallest_break_m3 = 1e-3;
   /// Pieces below this volume are debris, no bodies: they would unsettle the solver (paper 5).

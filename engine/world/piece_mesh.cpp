@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/base/trigonometry.h"
+#include "engine/geometry/triangulate_face.h"
 
 namespace sunder {
 namespace {
@@ -33,6 +34,84 @@ std::vector<std::uint32_t> heaps(const Compound& compound) {
   return lowest;
 }
 
+std::vector<std::uint8_t> covered_faces(const ConvexPolyhedron& polyhedron,
+                                        const std::vector<double>& covered_m2) {
+  std::vector<std::uint8_t> covered(covered_m2.size(), 0);
+  for (std::size_t f = 0; f < covered.size(); ++f) {
+    covered[f] = covered_m2[f] > 0 && covered_m2[f] >= kCovered * face_area(polyhedron, f);
+  }
+  return covered;
+}
+
+/// Marks the faces whose caps are covered: of a surface convex, caps are what touches.
+std::vector<std::uint8_t> covered_caps(const Convex& convex,
+                                       const std::vector<double>& covered_m2) {
+  const auto& faces = convex.polyhedron.faces;
+  std::vector<std::uint8_t> covered(covered_m2.size(), 0);
+  for (std::size_t cap = first_cap(*convex.visual); cap < convex.visual->faces.size(); ++cap) {
+    double sum_m2 = 0;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (faces[f].id == convex.visual->faces[cap].id) sum_m2 += covered_m2[f];
+    }
+    if (sum_m2 <= 0 || sum_m2 < kCovered * face_area(*convex.visual, cap)) continue;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (faces[f].id == convex.visual->faces[cap].id) covered[f] = 1;
+    }
+  }
+  return covered;
+}
+
+void add_polyhedron(const ConvexPolyhedron& polyhedron, const std::vector<std::uint8_t>& hidden,
+                    Mesh& mesh) {
+  for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
+    if (hidden[f]) continue;
+    const ConvexPolyhedron::Face& face = polyhedron.faces[f];
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) {
+      const std::uint32_t corner = face.first_corner + k;
+      const Vec3 position = polyhedron.vertices[polyhedron.corners[corner]] - mesh.origin_R;
+      mesh.vertices.push_back({position.cast<float>(), polyhedron.corner_normals[corner],
+                               face.kind == FaceKind::kInterior ? 1u : 0u});
+      if (k >= 2) {
+        mesh.indices.insert(mesh.indices.end(), {first, first + k - 1, first + k});
+      }
+    }
+  }
+}
+
+bool is_hidden(const Convex& convex, const std::vector<std::uint8_t>& hidden, PlaneId id) {
+  for (std::size_t f = 0; f < hidden.size(); ++f) {
+    if (convex.polyhedron.faces[f].id == id) return hidden[f] != 0;
+  }
+  return false;
+}
+
+/// The triangles of a visual mesh; corners that look alike share a vertex.
+void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, Mesh& mesh) {
+  constexpr std::uint32_t kNone = 0xffffffff;
+  const PolygonMesh& visual = *convex.visual;
+  std::vector<std::uint32_t> latest(visual.vertices.size(), kNone);  // of each of its vertices
+  for (std::size_t f = 0; f < visual.faces.size(); ++f) {
+    const PolygonMesh::Face& face = visual.faces[f];
+    if (!face.id.none() && is_hidden(convex, hidden, face.id)) continue;
+    const std::uint32_t interior = face.kind == FaceKind::kInterior ? 1 : 0;
+    for (const Triangle& triangle : triangulate(visual, f)) {
+      for (const std::uint32_t corner : triangle) {
+        const std::uint32_t vertex = visual.corners[corner];
+        const Vec3f& normal = visual.corner_normals[corner];
+        std::uint32_t& drawn = latest[vertex];
+        if (drawn == kNone || mesh.vertices[drawn].interior != interior ||
+            mesh.vertices[drawn].normal != normal) {
+          drawn = static_cast<std::uint32_t>(mesh.vertices.size());
+          const Vec3 position = visual.vertices[vertex] - mesh.origin_R;
+          mesh.vertices.push_back({position.cast<float>(), normal, interior});
+        }
+        mesh.indices.push_back(drawn);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound) {
@@ -57,34 +136,22 @@ std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound) {
   for (const auto& [at, area] : most_m2) covered_m2[at[0]][at[1]] += area;
   std::vector<std::vector<std::uint8_t>> hidden(compound.convexes.size());
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-    hidden[c].resize(covered_m2[c].size());
-    for (std::size_t f = 0; f < hidden[c].size(); ++f) {
-      hidden[c][f] = covered_m2[c][f] > 0 &&
-                     covered_m2[c][f] >= kCovered * face_area(compound.convexes[c]->polyhedron, f);
-    }
+    const Convex& convex = *compound.convexes[c];
+    hidden[c] = convex.is_internal() ? covered_faces(convex.polyhedron, covered_m2[c])
+                                     : covered_caps(convex, covered_m2[c]);
   }
   return hidden;
 }
 
 std::shared_ptr<const Mesh> make_mesh(const Convex& convex,
                                       const std::vector<std::uint8_t>& hidden) {
-  const ConvexPolyhedron& polyhedron = convex.polyhedron;
   auto mesh = std::make_shared<Mesh>();
   mesh->origin_R = convex.box.center();
   mesh->material = convex.material;
-  for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
-    if (hidden[f]) continue;
-    const ConvexPolyhedron::Face& face = polyhedron.faces[f];
-    const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
-    for (std::uint32_t k = 0; k < face.corner_count; ++k) {
-      const std::uint32_t corner = face.first_corner + k;
-      const Vec3 position = polyhedron.vertices[polyhedron.corners[corner]] - mesh->origin_R;
-      mesh->vertices.push_back({position.cast<float>(), polyhedron.corner_normals[corner],
-                                face.kind == FaceKind::kInterior ? 1u : 0u});
-      if (k >= 2) {
-        mesh->indices.insert(mesh->indices.end(), {first, first + k - 1, first + k});
-      }
-    }
+  if (convex.is_internal()) {
+    add_polyhedron(convex.polyhedron, hidden, *mesh);
+  } else {
+    add_visual(convex, hidden, *mesh);
   }
   return mesh->indices.empty() ? nullptr : mesh;
 }

@@ -1,5 +1,6 @@
 // Convexes and balls become meshes to draw. A convex is drawn without the faces that its
-// neighbours cover (paper 3.1, figure 5: only faces with s < 1 are rendered).
+// neighbours cover (paper 3.1, figure 5: only faces with s < 1 are rendered), a surface convex as
+// its visual mesh without the caps that are covered.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +11,12 @@
 
 namespace sunder {
 
-/// Per convex of a compound, a flag for each face: 1 where bonds cover the whole of it.
+/// Per convex of a compound, a flag for each face of its polyhedron: 1 where bonds cover the whole
+/// of it, or of the cap of the visual mesh that lies in it.
 std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound);
 
-/// The faces of `convex` whose flag in `hidden` is 0; null if that leaves none.
+/// What is seen of `convex` but for the faces, or caps in faces, whose flag in `hidden` is 1; null
+/// if that leaves nothing.
 std::shared_ptr<const Mesh> make_mesh(const Convex& convex,
                                       const std::vector<std::uint8_t>& hidden);
 

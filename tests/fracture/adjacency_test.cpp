@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/trigonometry.h"
 #include "fracture/islands.h"
 #include "fracture/polygon.h"
 #include "tests/fracture/solids.h"
@@ -77,9 +78,44 @@ TEST(Islands, are_those_of_brute_force) {
 TEST(Polygon, overlap_of_squares_is_the_common_rectangle) {
   const std::vector<Vec2> a{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   const std::vector<Vec2> b{{.5, .25}, {2, .25}, {2, 2}, {.5, 2}};
+  const std::span<const Vec2> only_a[] = {a}, only_b[] = {b};
   OverlapScratch scratch;
   EXPECT_DOUBLE_EQ(overlap_area(a, b, scratch), .375);
   EXPECT_DOUBLE_EQ(overlap_area(b, a, scratch), .375);
+  EXPECT_DOUBLE_EQ(overlap_area(only_a, only_b, 0), .375);
+}
+
+TEST(Polygon, overlap_of_any_polygons_is_that_of_their_convex_parts) {
+  Random random(6);
+  OverlapScratch scratch;
+  for (int round = 0; round < 200; ++round) {
+    // A star, which a fan from its middle divides into triangles, and a triangle with a hole.
+    std::vector<Vec2> star;
+    for (int i = 0; i < 9; ++i) {
+      const SinCos angle = sin_cos(2 * 3.14159265358979 * i / 9);
+      star.push_back(random.uniform(.2, 1) * Vec2(angle.cos, angle.sin));
+    }
+    const Vec2 shift(random.uniform(-1, 1), random.uniform(-1, 1));
+    const std::vector<Vec2> outer{Vec2(-1, -.9) + shift, Vec2(1, -.8) + shift, Vec2(0, 1) + shift};
+    const std::vector<Vec2> hole{.3 * outer[0] + .7 * shift, .3 * outer[2] + .7 * shift,
+                                 .3 * outer[1] + .7 * shift};
+    const std::vector<Vec2> filled{hole[0], hole[2], hole[1]};
+    double expected = 0;
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      const std::vector<Vec2> part{Vec2::Zero(), star[i], star[(i + 1) % star.size()]};
+      expected += overlap_area(part, outer, scratch) - overlap_area(part, filled, scratch);
+    }
+    const std::span<const Vec2> a[] = {star}, b[] = {outer, hole};
+    ASSERT_NEAR(overlap_area(a, b, 0), expected, 1e-14);
+    ASSERT_NEAR(overlap_area(b, a, 0), expected, 1e-14);
+    // The same but for rounding, whether that is looked for or not.
+    std::vector<Vec2> rounded = outer;
+    for (Vec2& point : rounded) point += 1e-15 * Vec2(random.uniform(-1, 1), random.uniform(-1, 1));
+    const std::span<const Vec2> c[] = {hole, rounded};
+    const double area = polygon_area(outer) + polygon_area(hole);
+    ASSERT_NEAR(overlap_area(b, c, 1e-12), area, 1e-14);
+    ASSERT_NEAR(overlap_area(b, c, 0), area, 1e-14);
+  }
 }
 
 TEST(Polygon, distance_to_a_box_is_that_of_its_nearest_point) {

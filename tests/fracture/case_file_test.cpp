@@ -81,6 +81,30 @@ TEST(CaseFile, is_not_written_where_all_goes_well) {
   EXPECT_EQ(log->files(), 0u);
 }
 
+TEST(CaseFile, keeps_visual_meshes_and_the_fit) {
+  PolygonMesh mesh = polygon_mesh(make_box(Vec3(0, 0, 0), Vec3(1, 2, 3)));
+  for (const std::uint32_t corner : mesh.corners) {
+    mesh.corner_uvs.push_back(mesh.vertices[corner].head<2>().cast<float>());
+  }
+  BreakCase written = example();
+  ConvexPolyhedron hull = make_box(Vec3(-.1, 0, 0), Vec3(1, 2.1, 3));
+  auto visual = std::make_shared<const PolygonMesh>(mesh);
+  written.compound = make_compound({{hull, MaterialIndex(1u), 0, visual}});
+  written.command.fit = {Fit::Kind::kHull, 12};
+  written.command.radius_m = std::numeric_limits<double>::infinity();
+  std::stringstream file;
+  write_case(file, written);
+  const BreakCase read = read_case(file, "a.case");
+  EXPECT_EQ(hash_of(read.compound), hash_of(written.compound));
+  ASSERT_TRUE(read.compound.convexes[0]->visual);
+  EXPECT_EQ(read.compound.convexes[0]->visual->corner_uvs, mesh.corner_uvs);
+  EXPECT_EQ(name_of(read.command.fit), "hull:12");
+  const auto breaker = make_pattern_breaker();
+  const BreakPlan again = breaker->plan(read.compound, read.command);
+  EXPECT_TRUE(again.broke());
+  EXPECT_EQ(hash_of(again), hash_of(breaker->plan(written.compound, written.command)));
+}
+
 TEST(CaseFile, cut_short_anywhere_is_an_error) {
   std::stringstream file;
   write_case(file, example("hall:2"));

@@ -10,6 +10,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/random.h"
+#include "engine/geometry/polygon_mesh.h"
 #include "engine/world/breaker.h"
 #include "fracture/adjacency.h"
 #include "fracture/compound_builder.h"
@@ -60,6 +61,11 @@ inline std::uint64_t hash_of(const Compound& compound) {
       for (int k = 0; k < 3; ++k) hash = combine(hash, bits_of(vertex[k]));
     }
     for (const auto& face : convex->polyhedron.faces) hash = combine(hash, face.id.value);
+    if (convex->is_internal()) continue;
+    for (const Vec3& vertex : convex->visual->vertices) {
+      for (int k = 0; k < 3; ++k) hash = combine(hash, bits_of(vertex[k]));
+    }
+    for (const std::uint32_t corner : convex->visual->corners) hash = combine(hash, corner);
   }
   for (const Ghost& ghost : compound.ghosts) {
     for (const std::uint32_t of : ghost.of) hash = combine(hash, of);

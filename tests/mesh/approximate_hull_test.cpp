@@ -29,6 +29,20 @@ void expect_encloses(const ConvexPolyhedron& hull, std::span<const Vec3> points)
   }
 }
 
+TEST(ApproximateHull, AFitIsReadByItsNameAndNoOther) {
+  for (const Fit& fit : {Fit{Fit::Kind::kAabb}, Fit{Fit::Kind::k14Dop}, Fit{Fit::Kind::k26Dop},
+                         Fit{Fit::Kind::kHull, 4}, Fit{Fit::Kind::kHull, 1000}}) {
+    const std::optional<Fit> read = parse_fit(name_of(fit));
+    ASSERT_TRUE(read.has_value());
+    EXPECT_EQ(read->kind, fit.kind);
+    EXPECT_EQ(read->vertex_count, fit.vertex_count);
+  }
+  for (const char* name : {"", "dop", "26dop ", "hull", "hull:", "hull:3", "hull:1001", "hull:-4",
+                           "hull:8x", "hull:99999999999"}) {
+    EXPECT_FALSE(parse_fit(name)) << name;
+  }
+}
+
 TEST(ApproximateHull, EveryFitEnclosesEveryPoint) {
   const std::vector<Vec3> points = ball_points(500, 1);
   for (const Fit& fit : {Fit{Fit::Kind::kAabb}, Fit{Fit::Kind::k14Dop}, Fit{Fit::Kind::k26Dop},
