@@ -35,6 +35,7 @@ std::uint8_t inherited_anchors(std::uint8_t anchored, const Box& parent, const B
 /// touches; what overlaps stays together. Convexes that it turns out to leave whole and in place
 /// are taken out of `touched`.
 Fragments make_fragments(const Structure& structure, std::vector<std::uint32_t>& touched,
-                         const AlignedPattern& pattern, const ImpactSphere& sphere, const Fit& fit);
+                         const AlignedPattern& pattern, const ImpactSphere& sphere,
+                         const Fit& fit = {});
 
 }  // namespace sunder::fracture
