@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/geometry/polygon_mesh.h"
 #include "engine/world/piece_mesh.h"
 #include "fracture/adjacency.h"
 #include "fracture/islands.h"
@@ -66,6 +67,23 @@ void join_faces(const ConvexPolyhedron& a, std::uint32_t first_a, const ConvexPo
   }
 }
 
+/// Gives the caps of a visual mesh the new names of the faces that they lie in; those that lie in
+/// none get `spare` names.
+std::shared_ptr<const PolygonMesh> renamed_caps(const PolygonMesh& visual,
+                                                std::span<const PlaneId> old_names,
+                                                const ConvexPolyhedron& renamed,
+                                                std::uint64_t& spare) {
+  auto mesh = std::make_shared<PolygonMesh>(visual);
+  for (std::size_t cap = first_cap(*mesh); cap < mesh->faces.size(); ++cap) {
+    PlaneId& id = mesh->faces[cap].id;
+    const auto old = std::find(old_names.begin(), old_names.end(), id);
+    id = old == old_names.end()
+             ? PlaneId{2 * ++spare}
+             : renamed.faces[static_cast<std::size_t>(old - old_names.begin())].id;
+  }
+  return mesh;
+}
+
 /// Names the planes of all faces; those back to back share one.
 void name_planes(std::vector<Part>& parts, const PartPairs& pairs, double tolerance) {
   std::vector<std::uint32_t> first_face;
@@ -79,11 +97,18 @@ void name_planes(std::vector<Part>& parts, const PartPairs& pairs, double tolera
     join_faces(parts[i].polyhedron, first_face[i], parts[j].polyhedron, first_face[j], tolerance,
                planes);
   }
+  std::uint64_t spare = faces;
+  std::vector<PlaneId> old_names;
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    old_names.clear();
     for (std::uint32_t f = 0; f < parts[i].polyhedron.faces.size(); ++f) {
+      PlaneId& id = parts[i].polyhedron.faces[f].id;
+      old_names.push_back(id);
       const auto [root, side] = planes.find(first_face[i] + f);
-      parts[i].polyhedron.faces[f].id = {2 * (std::uint64_t{root} + 1) + side};
+      id = {2 * (std::uint64_t{root} + 1) + side};
     }
+    if (!parts[i].visual || first_cap(*parts[i].visual) == parts[i].visual->faces.size()) continue;
+    parts[i].visual = renamed_caps(*parts[i].visual, old_names, parts[i].polyhedron, spare);
   }
 }
 

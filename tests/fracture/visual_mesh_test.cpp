@@ -93,6 +93,10 @@ TEST(RealMeshes, break_where_they_are_hit_and_nowhere_else) {
   options.node_count = 12;
   const Compound solid =
       decompose(read_repaired(test::meshes_folder() / "good" / "bunny_12k.off"), options).compound;
+  BreakPlan unbroken;
+  unbroken.pieces = {solid};
+  EXPECT_EQ(broken_visual_truth(solid, unbroken), "");
+  EXPECT_GE(solid.bonds.size(), 12u);
   const Box box = bounds(solid);
   const BreakCommand command =
       blow(30, box.center() + 0.3 * box.extent(), 0.15 * box.extent().norm());
