@@ -1,6 +1,7 @@
 #include "fracture/failure_log.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
@@ -17,6 +18,8 @@ void FailureLog::add(const Compound& compound, const BreakCommand& command, cons
   if (folder_.empty() || asked_++ >= most_files_) return;
   const std::string name = folder_ + "/break-" + std::to_string(command.event) + ".case";
   const std::string unfinished = name + ".part";
+  std::error_code no_folder;
+  std::filesystem::create_directories(folder_, no_folder);
   {
     std::ofstream file(unfinished);
     write_case(file, {compound, command});

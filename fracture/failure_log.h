@@ -16,7 +16,7 @@ class FailureLog {
  public:
   static constexpr std::size_t kMostFiles = 20;
 
-  /// Writes up to `most_files` cases to `folder`, which must be there; none without a name.
+  /// Writes up to `most_files` cases to `folder`, made when needed; none without a name.
   explicit FailureLog(std::string folder = {}, std::size_t most_files = kMostFiles);
 
   /// Notes a break if it failed anywhere: to the file break-EVENT.case.

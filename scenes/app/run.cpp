@@ -18,6 +18,22 @@ namespace {
 /// Of the air that carries dust: what the largest scenes need, and what a frame can spare.
 const Eigen::Vector3i kAirCells(40, 24, 40);
 
+constexpr const char* kCases = "sunder-cases";
+
+/// Writes breaks that went wrong to files, and says so when the run is over.
+std::shared_ptr<fracture::FailureLog> failure_log() {
+  const auto tell = [](fracture::FailureLog* log) {
+    if (log->failed() > 0) {
+      std::fprintf(stderr,
+                   "%llu convexes were left whole because their parts did not add up; "
+                   "%zu breaks are kept in %s/, to look into by `sunder fracture`\n",
+                   static_cast<unsigned long long>(log->failed()), log->files(), kCases);
+    }
+    delete log;
+  };
+  return {new fracture::FailureLog(kCases), tell};
+}
+
 }  // namespace
 
 std::unique_ptr<Simulation> make_simulation(Scene scene) {
@@ -33,7 +49,8 @@ std::unique_ptr<Simulation> make_simulation(Scene scene) {
     particles = solver::make_debris_and_dust(options);
   }
   return std::make_unique<Simulation>(std::move(scene), solver::make_rigid_physics(rigid),
-                                      fracture::make_pattern_breaker(), std::move(particles));
+                                      fracture::make_pattern_breaker(failure_log()),
+                                      std::move(particles));
 }
 
 RunInfo run_info(const Scene& scene, const scenes::LoadOptions& load) {
