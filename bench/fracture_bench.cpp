@@ -33,11 +33,11 @@ BreakCommand blow(const Vec3& at, double radius_m, int cells = 50) {
 }
 
 void Pattern_of_100_cells(benchmark::State& state) {
-  set_threads(1);
+  set_threads(static_cast<int>(state.range(0)));
   std::uint64_t seed = 0;
   for (auto _ : state) benchmark::DoNotOptimize(voronoi_pattern(100, 2, false, ++seed));
 }
-BENCHMARK(Pattern_of_100_cells)->Unit(benchmark::kMillisecond);
+BENCHMARK(Pattern_of_100_cells)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
 
 void run_event(benchmark::State& state, const Compound& solid, const BreakCommand& command) {
   set_threads(1);

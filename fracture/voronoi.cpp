@@ -59,9 +59,9 @@ Plane bisector(const Vec3& low, const Vec3& high) {
 
 /// One cell; until planes have their indices, a face made by site j is named kFirstLocalName + j.
 ConvexPolyhedron clip_cell(std::span<const Vec3> sites, std::uint32_t site, const Bvh& tree,
-                           double ring_m, const ConvexPolyhedron& solid, double tolerance) {
+                           double ring_m, const ConvexPolyhedron& solid, double tolerance,
+                           ClipScratch& scratch) {
   ConvexPolyhedron cell = solid, cut;
-  ClipScratch scratch;
   Neighbours neighbours(sites, tree, site, ring_m);
   std::vector<std::pair<double, std::uint32_t>> ring;
   double reach_m = reach(cell, sites[site]);
@@ -95,9 +95,11 @@ std::vector<ConvexPolyhedron> voronoi_cells(std::span<const Vec3> sites,
   const double ring_m = 2 * std::cbrt(extent.prod() / static_cast<double>(sites.size() + 1));
   const double tolerance = 1e-14 * extent.maxCoeff();
   std::vector<ConvexPolyhedron> cells(sites.size());
-  for_chunks(sites.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+  for_chunks(sites.size(), 32, [&](std::size_t begin, std::size_t end, std::size_t) {
+    ClipScratch scratch;
     for (std::size_t i = begin; i < end; ++i) {
-      cells[i] = clip_cell(sites, static_cast<std::uint32_t>(i), tree, ring_m, solid, tolerance);
+      cells[i] =
+          clip_cell(sites, static_cast<std::uint32_t>(i), tree, ring_m, solid, tolerance, scratch);
     }
   });
 
