@@ -81,14 +81,30 @@ class Reader {
   std::string name_;
 };
 
+/// The name, kind and plane of a face, of a polyhedron or of a mesh.
+template <class Face>
+void write_plane(Writer& out, const Face& face) {
+  out.put(face.id.value);
+  out.put(face.kind == FaceKind::kInterior ? 1 : 0);
+  out.put(face.plane.normal);
+  out.put(face.plane.d);
+}
+
+template <class Face>
+Face read_plane(Reader& in) {
+  Face face;
+  face.id.value = in.integer(~std::uint64_t{0});
+  face.kind = in.integer(1) == 1 ? FaceKind::kInterior : FaceKind::kSurface;
+  face.plane.normal = in.matrix<Vec3>();
+  face.plane.d = in.number();
+  return face;
+}
+
 void write_polyhedron(Writer& out, const ConvexPolyhedron& polyhedron) {
   for (const Vec3& vertex : polyhedron.vertices) out.put(vertex);
   out.end_line();
   for (const ConvexPolyhedron::Face& face : polyhedron.faces) {
-    out.put(face.id.value);
-    out.put(face.kind == FaceKind::kInterior ? 1 : 0);
-    out.put(face.plane.normal);
-    out.put(face.plane.d);
+    write_plane(out, face);
     out.put(face.corner_count);
     for (std::uint32_t c = face.first_corner; c < face.first_corner + face.corner_count; ++c) {
       out.put(polyhedron.corners[c]);
@@ -102,11 +118,7 @@ ConvexPolyhedron read_polyhedron(Reader& in, std::uint64_t vertices, std::uint64
   ConvexPolyhedron polyhedron;
   for (std::uint64_t i = 0; i < vertices; ++i) polyhedron.vertices.push_back(in.matrix<Vec3>());
   for (std::uint64_t i = 0; i < faces; ++i) {
-    ConvexPolyhedron::Face face;
-    face.id.value = in.integer(~std::uint64_t{0});
-    face.kind = in.integer(1) == 1 ? FaceKind::kInterior : FaceKind::kSurface;
-    face.plane.normal = in.matrix<Vec3>();
-    face.plane.d = in.number();
+    auto face = read_plane<ConvexPolyhedron::Face>(in);
     face.first_corner = static_cast<std::uint32_t>(polyhedron.corners.size());
     face.corner_count = static_cast<std::uint32_t>(in.integer(vertices));
     for (std::uint32_t c = 0; c < face.corner_count; ++c) {
@@ -128,10 +140,7 @@ void write_mesh(Writer& out, const PolygonMesh& mesh) {
   for (const Vec3& vertex : mesh.vertices) out.put(vertex);
   out.end_line();
   for (const PolygonMesh::Face& face : mesh.faces) {
-    out.put(face.id.value);
-    out.put(face.kind == FaceKind::kInterior ? 1 : 0);
-    out.put(face.plane.normal);
-    out.put(face.plane.d);
+    write_plane(out, face);
     out.put(face.contour_count);
   }
   out.end_line();
@@ -153,11 +162,7 @@ PolygonMesh read_mesh(Reader& in, std::uint64_t vertices) {
   for (std::uint64_t i = 0; i < vertices; ++i) mesh.vertices.push_back(in.matrix<Vec3>());
   std::uint64_t next = 0;
   for (std::uint64_t i = 0; i < faces; ++i) {
-    PolygonMesh::Face face;
-    face.id.value = in.integer(~std::uint64_t{0});
-    face.kind = in.integer(1) == 1 ? FaceKind::kInterior : FaceKind::kSurface;
-    face.plane.normal = in.matrix<Vec3>();
-    face.plane.d = in.number();
+    auto face = read_plane<PolygonMesh::Face>(in);
     face.first_contour = static_cast<std::uint32_t>(next);
     face.contour_count = static_cast<std::uint32_t>(in.integer(contours - next));
     if (face.contour_count == 0) in.fail("a face without a contour");

@@ -192,7 +192,7 @@ std::uint32_t BreakProbe::charged(const ProbeContact& c) const {
   return std::pair(a.least_J, a.key) < std::pair(b.least_J, b.key) ? c.a : c.b;
 }
 
-std::vector<ProbeLoad> BreakProbe::loads() const {
+std::vector<ProbeLoad> BreakProbe::loads(const Relaxed& without) const {
   std::vector<ProbeLoad> all(bodies_.size());
   std::vector<double> most(bodies_.size(), 0);
   for (std::uint32_t b = 0; b < all.size(); ++b) all[b].body = b;
@@ -204,13 +204,12 @@ std::vector<ProbeLoad> BreakProbe::loads() const {
     if (impulse <= 0 || !row.touches(undecided_)) continue;
     const std::uint32_t body = charged(c);
     ProbeLoad& load = all[body];
-    load.work_J += 0.5 * impulse * (row.speed(without_->velocities) + row.speed(with_->velocities));
+    load.work_J += 0.5 * impulse * (row.speed(without.velocities) + row.speed(with_->velocities));
     load.impulse_Ns += impulse;
     load.arm_W += impulse * (body == c.b ? c.arm_b_W : c.arm_a_W);
     load.direction_W += (body == c.b ? impulse : -impulse) * c.normal_W;
     if (impulse <= most[body]) continue;
     most[body] = impulse;
-    load.other = body == c.b ? c.a : c.b;
     load.shape = body == c.b ? c.shape_b : c.shape_a;
   }
   std::erase_if(all, [&](const ProbeLoad& load) {
@@ -248,8 +247,7 @@ std::vector<ProbeLoad> BreakProbe::next() {
       with_ = relax(std::vector<std::uint8_t>(bodies_.size(), 0));
     }
     if (may_load()) {
-      without_ = relax(undecided_);
-      loads_ = loads();
+      loads_ = loads(relax(undecided_));
       if (!loads_.empty()) return loads_;
     }
     velocities_ = with_->velocities;

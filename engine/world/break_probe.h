@@ -40,8 +40,7 @@ struct ProbeContact {
 /// What a breakable body would have to bear.
 struct ProbeLoad {
   std::uint32_t body = 0;            ///< By index.
-  std::uint32_t other = 0;           ///< That bears on it the most, by index.
-  std::uint32_t shape = 0;           ///< Where it does.
+  std::uint32_t shape = 0;           ///< Where it bears the most.
   Vec3 arm_W = Vec3::Zero();         ///< From the body's centre of mass.
   Vec3 direction_W = Vec3::UnitY();  ///< Into the body.
   double work_J = 0;
@@ -75,8 +74,7 @@ class BreakProbe {
   void hold();
   /// Breaks those of `wanted` that the event can pay for, all told, and ends the probe. Takes
   /// exactly their energy: v = v₁ + s·(v₀ − v₁), with v₁ and v₀ the motion with and without them in
-  /// the way. The answer is the indices of those that broke; none leaves the probe
-  /// as it was.
+  /// the way. The answer is the indices of those that broke; none leaves the probe as it was.
   std::vector<std::uint32_t> release(std::span<const ProbeBreak> wanted);
 
   /// After release(): per body.
@@ -142,7 +140,7 @@ class BreakProbe {
   void relax_by_sweeps(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed) const;
   Relaxed relax(const std::vector<std::uint8_t>& removed) const;
   std::uint32_t charged(const ProbeContact& c) const;
-  std::vector<ProbeLoad> loads() const;
+  std::vector<ProbeLoad> loads(const Relaxed& without) const;
   Release released(const Relaxed& without) const;
   void finish(const Relaxed& without, double share);
 
@@ -160,7 +158,7 @@ class BreakProbe {
   double fastest_m_s_ = 0;               ///< Of the contacts that closed at this event.
   std::vector<std::uint8_t> undecided_;  ///< Per body, of this event.
   std::vector<ProbeLoad> loads_;         ///< Of this event.
-  std::optional<Relaxed> with_, without_;
+  std::optional<Relaxed> with_;          ///< Nothing removed; empty between events.
   std::vector<ProbeMotion> motions_;
 };
 

@@ -100,12 +100,6 @@ void carry_out(World& world, Planned& planned) {
   replace_by_pieces(world, blow.key, planned.plan);
 }
 
-bool has_room(World& world, const BreakPlan& plan) {
-  if (world.actors.size() + plan.pieces.size() <= world.scene.limits.bodies) return true;
-  ++world.report.limits_hit;
-  return false;
-}
-
 /// Whether the blow's plan could be carried out; remembers what it asked for, if not.
 bool worth(World& world, const Planned& planned) {
   Actor& actor = *world.find(planned.blow.key);

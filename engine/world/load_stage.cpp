@@ -173,8 +173,7 @@ void apply(World& world, Judged& judged) {
   BreakPlan& plan = answer.plan;
   if (plan.pieces.size() == 1) actor.compound.bonds = std::move(plan.pieces[0].bonds);
   if (!plan.broke()) return;
-  if (world.actors.size() + plan.pieces.size() > world.scene.limits.bodies) {
-    ++world.report.limits_hit;
+  if (!has_room(world, plan)) {
     actor.bearing.settled = true;
     return;
   }

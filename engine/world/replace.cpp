@@ -36,6 +36,12 @@ Vec3 debris_momentum(const Actor& parent, std::span<const Actor> pieces, const M
 
 }  // namespace
 
+bool has_room(World& world, const BreakPlan& plan) {
+  if (world.actors.size() + plan.pieces.size() <= world.scene.limits.bodies) return true;
+  ++world.report.limits_hit;
+  return false;
+}
+
 void replace_by_pieces(World& world, std::uint32_t key, BreakPlan& plan) {
   const std::size_t at = static_cast<std::size_t>(world.find(key) - world.actors.data());
   Actor& parent = world.actors[at];
