@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "engine/base/check.h"
 #include "engine/base/index.h"
 #include "engine/base/types.h"
 #include "engine/geometry/convex_polyhedron.h"
@@ -58,6 +60,31 @@ struct BodyState {
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
   bool asleep = false;
+};
+
+struct JointTag;
+using JointId = Id<JointTag>;
+
+/// What holds two bodies, or a body and the world, together. Places and directions are in the rest
+/// frame R of their body; in W where there is none.
+struct JointDesc {
+  enum class Kind : std::uint8_t {
+    kBall,      ///< The anchors stay in one place.
+    kHinge,     ///< And the axes stay parallel.
+    kFixed,     ///< And neither body turns against the other.
+    kDistance,  ///< The anchors stay `length_m` apart.
+    kRope,      ///< No farther than that.
+  };
+  Kind kind = Kind::kBall;
+  BodyId a, b;  ///< None: the world.
+  Vec3 anchor_a_R = Vec3::Zero(), anchor_b_R = Vec3::Zero();
+  Vec3 axis_a_R = Vec3::UnitZ(), axis_b_R = Vec3::UnitZ();  ///< kHinge: unit.
+  Quat rotation_RaRb = Quat::Identity();                    ///< kFixed: of b as a sees it.
+  double length_m = 0;                                      ///< kDistance, kRope.
+  /// It breaks when it would have to bear more, within any substep.
+  double breaking_N = std::numeric_limits<double>::infinity();
+  double breaking_Nm = std::numeric_limits<double>::infinity();
+  bool collide = false;  ///< Whether the two bodies touch each other.
 };
 
 /// A contact that closes, or would close within the step. Ordered by a key that does not depend on
@@ -118,6 +145,17 @@ class Physics {
   virtual void set_state(BodyId body, const BodyState& state) = 0;
   /// Changes a body's momentum by an impulse at a point and wakes it; static bodies ignore it.
   virtual void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) = 0;
+  /// Joins two bodies and wakes them. When a body is removed, its ends of joints hold nothing until
+  /// attach() or cut().
+  virtual JointId join(const JointDesc&) {
+    throw InputError("this physics has no joints: take [[joint]] out of the scene");
+  }
+  /// Moves an end of a joint (a, or else b) to another body with the same rest frame.
+  virtual void attach(JointId, bool /*end_a*/, BodyId) {}
+  /// Takes a joint away and wakes what it held.
+  virtual void cut(JointId) {}
+  /// The joints that broke under load since the last call, which are gone; ascending.
+  virtual std::vector<JointId> take_broken() { return {}; }
   /// Advances by dt_s in `substeps` equal parts, using the contacts of the last collide().
   virtual SolveReport solve(double dt_s, int substeps) = 0;
 

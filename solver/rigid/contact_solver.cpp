@@ -36,7 +36,13 @@ enum StageKind {
   kRelaxed,
   kBounce,
   kStore,
-  kFinish
+  kFinish,
+  kJointBegin,
+  kJointWarmStart,
+  kJointPush,
+  kJointTurn,
+  kJointRelax,
+  kJointTest
 };
 
 Softness softness(double stiffness, double h) {
@@ -68,8 +74,9 @@ Vec3f angular(Wide v) { return {v[3], v[4], v[5]}; }
 }  // namespace
 
 ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& gravity_W,
-                                        Bodies& bodies, Contacts& contacts) {
+                                        Bodies& bodies, Contacts& contacts, Joints& joints) {
   collect_blocks(bodies, contacts);
+  joint_solver_.collect(bodies, joints, in_contact_);
   collect_bodies(bodies);
   const double h = dt_s / substeps;
   const SoftStep soft = soft_step(h);
@@ -80,6 +87,7 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
   const Vec3f kick = (h * gravity_W).cast<float>();
   const Wide gravity = {kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
   const auto h_f = static_cast<float>(h);
+  const JointStep joint_step{h, double{step.impulse_scale}};
   BodyRow* rows = rows_.data();
 
   auto work = [&](int kind, std::uint32_t begin, std::uint32_t end) {
@@ -129,12 +137,32 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
         case kFinish:
           finish_body(active_[i], bodies);
           break;
+        case kJointBegin:
+          joint_solver_.begin(i, bodies, joints, root_W_, rows);
+          break;
+        case kJointWarmStart:
+          joint_solver_.warm_start(i, joint_step, rows);
+          break;
+        case kJointPush:
+          joint_solver_.push(i, joint_step, rows);
+          break;
+        case kJointTurn:
+          joint_solver_.turn(i, rows);
+          break;
+        case kJointRelax:
+          joint_solver_.relax(i, joint_step, rows);
+          break;
+        case kJointTest:
+          joint_solver_.test(i, joint_step, rows);
+          break;
       }
     }
   };
   run_stages(plan(substeps), work);
   last_h_s_ = h;
-  return report();
+  ContactSolveReport solved = report();
+  solved.outside_impulse_Ns += joint_solver_.finish(bodies, joints);
+  return solved;
 }
 
 std::vector<Stage> ContactSolver::plan(int substeps) const {
@@ -155,12 +183,18 @@ std::vector<Stage> ContactSolver::plan(int substeps) const {
   if (active_.empty()) return stages;
   all_bodies(kBegin);
   all_blocks(kPrepare);
+  joint_solver_.each_color(kJointBegin, stages);
   for (int s = 0; s < substeps; ++s) {
     all_bodies(s == 0 ? kFirstKick : kKick);
+    if (s == 0) joint_solver_.each_color(kJointWarmStart, stages);
     if (s == 0) each_color(kWarmStart);
+    joint_solver_.each_color(kJointPush, stages);
     each_color(kBiased);
     all_bodies(kMove);
+    joint_solver_.each_color(kJointTurn, stages);
+    joint_solver_.each_color(kJointRelax, stages);
     each_color(kRelaxed);
+    joint_solver_.each_color(kJointTest, stages);
   }
   each_color(kBounce);
   all_blocks(kStore);

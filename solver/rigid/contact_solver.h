@@ -1,4 +1,4 @@
-// Solves the contacts of a step: coloured projected Gauss-Seidel in soft substeps.
+// Solves the contacts and joints of a step: coloured projected Gauss-Seidel in soft substeps.
 // Read first: ContactSolver::solve(), the list of stages.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include "solver/rigid/bodies.h"
 #include "solver/rigid/constraint_block.h"
 #include "solver/rigid/contacts.h"
+#include "solver/rigid/joint_solver.h"
 #include "solver/rigid/prepare.h"
 #include "solver/rigid/stage_runner.h"
 
@@ -22,8 +23,9 @@ struct ContactSolveReport {
 class ContactSolver {
  public:
   /// Moves every awake body by dt_s: those in contact by substeps, the others by free flight.
+  /// Joints that bear too much go.
   ContactSolveReport solve(double dt_s, int substeps, const Vec3& gravity_W, Bodies& bodies,
-                           Contacts& contacts);
+                           Contacts& contacts, Joints& joints);
 
  private:
   void collect_blocks(const Bodies& bodies, const Contacts& contacts);
@@ -33,6 +35,7 @@ class ContactSolver {
   void finish_body(std::uint32_t body, Bodies& bodies) const;
   ContactSolveReport report() const;
 
+  JointSolver joint_solver_;
   std::vector<ConstraintBlock> blocks_;
   std::vector<Stage> colors_;            ///< Where each colour's blocks are; the overflow last.
   std::vector<std::uint32_t> touching_;  ///< Manifolds to solve, by colour and point count.

@@ -12,6 +12,7 @@
 #include "solver/rigid/broad_phase.h"
 #include "solver/rigid/contact_solver.h"
 #include "solver/rigid/contacts.h"
+#include "solver/rigid/joint.h"
 #include "solver/rigid/narrow_phase.h"
 #include "solver/rigid/sleep.h"
 
@@ -30,6 +31,10 @@ class RigidPhysics final : public Physics {
   std::vector<Touch> touches(std::span<const BodyId> bodies) override;
   void set_state(BodyId body, const BodyState& state) override;
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
+  JointId join(const JointDesc& joint) override;
+  void attach(JointId joint, bool end_a, BodyId body) override;
+  void cut(JointId joint) override;
+  std::vector<JointId> take_broken() override { return joints_.take_broken(); }
   SolveReport solve(double dt_s, int substeps) override;
   BodyState state(BodyId body) const override;
   std::vector<ContactLoad> contact_loads() const override;
@@ -42,11 +47,13 @@ class RigidPhysics final : public Physics {
   void update_contacts(double dt_s);
   void find_reaches(double dt_s);
   Vec3 freeze_broken();
+  void look_again(JointId joint);
 
   RigidOptions options_;
   Bodies bodies_;
   Shapes shapes_;
   Contacts contacts_;
+  Joints joints_;
   BroadPhase broad_phase_;
   Sleep sleep_;
   ContactSolver contact_solver_;
@@ -85,6 +92,7 @@ void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
   remove_shapes(shapes);
   for (const BodyId id : ids) {
     SUNDER_CHECK(bodies_.holds(id));  // each once
+    if (!joints_.empty()) joints_.lose(id.slot, bodies_);
     bodies_.remove(id.slot);
     contacts_.body_colors[id.slot] = 0;
   }
@@ -157,8 +165,9 @@ void RigidPhysics::update_contacts(double dt_s) {
       const bool touched = pair.touching();
       Manifold& m = touched ? contacts_.manifolds[pair.manifold] : fresh;
       if (same_as_before(bodies_, reach_m_, pair, touched ? &m : nullptr)) continue;
-      pair.fresh = false;
-      const bool near = broad_phase_.near(pair);
+      const bool apart = joints_.apart(pair.body_a, pair.body_b);
+      pair.fresh = apart;  // looked at again when they cease to ignore each other
+      const bool near = !apart && broad_phase_.near(pair);
       if (near) update_contact(shapes_, bodies_, step, pair, m, scratch);
       if (touched && (!near || m.count == 0)) changes[c].parted.push_back(i);
       if (!touched && m.count > 0) changes[c].touched.emplace_back(i, std::exchange(fresh, {}));
@@ -229,11 +238,34 @@ void RigidPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& p
   bodies_.slow_s[body] = 0;
 }
 
+/// Pairs that begin to ignore each other are looked at, even if they rest.
+void RigidPhysics::look_again(JointId id) {
+  const Joint& joint = joints_[id.slot];
+  for (Pair& pair : contacts_.pairs) {
+    const bool same = pair.body_a == joint.body_a && pair.body_b == joint.body_b;
+    if (same || (pair.body_a == joint.body_b && pair.body_b == joint.body_a)) pair.fresh = true;
+  }
+}
+
+JointId RigidPhysics::join(const JointDesc& joint) {
+  const JointId id = joints_.add(joint, bodies_);
+  look_again(id);
+  return id;
+}
+
+void RigidPhysics::attach(JointId id, bool end_a, BodyId body) {
+  joints_.attach(id, end_a, body, bodies_);
+  look_again(id);
+}
+
+void RigidPhysics::cut(JointId id) { joints_.cut(id, bodies_); }
+
 SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   SUNDER_CHECK(dt_s > 0 && substeps > 0);
   Stopwatch watch;
   SolveReport report;
   report.external_impulse_Ns = freeze_broken();
+  joints_.wake(bodies_);
   double awake_mass = 0;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     if (!bodies_.awake(body)) continue;
@@ -241,7 +273,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     bodies_.changed[body] = 1;
   }
   const ContactSolveReport solved =
-      contact_solver_.solve(dt_s, substeps, options_.gravity_W, bodies_, contacts_);
+      contact_solver_.solve(dt_s, substeps, options_.gravity_W, bodies_, contacts_, joints_);
   report.external_impulse_Ns += solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
   timings_ms_[2].second += watch.lap_ms();
@@ -249,7 +281,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     const double h_s = dt_s / substeps;
     sleep_.wake_changed(options_.gravity_W, h_s, contacts_, bodies_);
     report.external_impulse_Ns +=
-        sleep_.put_to_sleep(options_.gravity_W, dt_s, h_s, bodies_, contacts_);
+        sleep_.put_to_sleep(options_.gravity_W, dt_s, h_s, joints_, bodies_, contacts_);
   }
   timings_ms_[3].second += watch.lap_ms();
   contacts_of_bodies_.clear();

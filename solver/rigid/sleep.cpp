@@ -58,8 +58,40 @@ void Sleep::note_rest(double dt_s, Bodies& bodies) {
   }
 }
 
-Vec3 Sleep::put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, Bodies& bodies,
-                         Contacts& contacts) {
+/// What is joined to something that moves does not rest.
+void Sleep::keep_joined_awake(const Bodies& bodies, const Joints& joints) {
+  for (bool again = true; again;) {
+    again = false;
+    for (const Joint& joint : joints.all()) {
+      if (!joint.holds() || joint.body_a == kNone || joint.body_b == kNone) continue;
+      for (const auto& [one, other] :
+           {std::pair(joint.body_a, joint.body_b), {joint.body_b, joint.body_a}}) {
+        if (!candidate_[one] || candidate_[other] || !bodies.awake(other)) continue;
+        candidate_[one] = 0;
+        again = true;
+      }
+    }
+  }
+}
+
+void Sleep::hold_by_joints(const Bodies& bodies, const Joints& joints) {
+  for (const Joint& joint : joints.all()) {
+    if (!joint.holds()) continue;
+    const auto rests = [&](std::uint32_t body) {
+      return body != kNone && (candidate_[body] || asleep(bodies, body));
+    };
+    const auto immovable = [&](std::uint32_t body) {
+      return body == kNone || !bodies.dynamic(body);
+    };
+    const std::uint32_t a = joint.body_a, b = joint.body_b;
+    if (rests(a) && rests(b)) parent_[std::max(root(a), root(b))] = std::min(root(a), root(b));
+    if (rests(a) && immovable(b)) held_[a] = 1;
+    if (rests(b) && immovable(a)) held_[b] = 1;
+  }
+}
+
+Vec3 Sleep::put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, const Joints& joints,
+                         Bodies& bodies, Contacts& contacts) {
   note_rest(dt_s, bodies);
   const std::uint32_t n = bodies.size();
   candidate_.assign(n, 0);
@@ -69,6 +101,7 @@ Vec3 Sleep::put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, Bodies&
     any = any || candidate_[i];
   }
   if (!any) return Vec3::Zero();
+  keep_joined_awake(bodies, joints);
   parent_.resize(n);
   for (std::uint32_t i = 0; i < n; ++i) parent_[i] = i;
   held_.assign(n, gravity_W.isZero(0));
@@ -85,6 +118,7 @@ Vec3 Sleep::put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, Bodies&
       held_[m.body_b] = 1;
     }
   }
+  hold_by_joints(bodies, joints);
   for (std::uint32_t i = 0; i < n; ++i)
     if (held_[i] && rests(i)) held_[root(i)] = 1;
   Vec3 taken = Vec3::Zero();

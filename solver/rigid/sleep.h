@@ -9,16 +9,17 @@
 
 #include "solver/rigid/bodies.h"
 #include "solver/rigid/contacts.h"
+#include "solver/rigid/joint.h"
 
 namespace sunder::solver {
 
 class Sleep {
  public:
   /// Puts bodies to sleep that have been at rest for half a second and stand on something, by
-  /// loaded contacts through other sleepers, that cannot move. `h_s` is the last substep. The
-  /// answer is the momentum that was taken away.
-  Vec3 put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, Bodies& bodies,
-                    Contacts& contacts);
+  /// loaded contacts or joints through other sleepers, that cannot move; what is joined, only
+  /// together. `h_s` is the last substep. The answer is the momentum that was taken away.
+  Vec3 put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, const Joints& joints,
+                    Bodies& bodies, Contacts& contacts);
   /// Wakes sleepers that something awake is about to hit.
   void wake_hit(const Contacts& contacts, double dt_s, Bodies& bodies) const;
   /// Wakes sleepers on which the load has changed in the last solve, and what stood on them if it
@@ -30,6 +31,8 @@ class Sleep {
 
  private:
   void note_rest(double dt_s, Bodies& bodies);
+  void hold_by_joints(const Bodies& bodies, const Joints& joints);
+  void keep_joined_awake(const Bodies& bodies, const Joints& joints);
   std::uint32_t root(std::uint32_t body);
   /// Wakes the seeds and all sleepers that stand on them, by sleepers between.
   void wake_above(std::vector<std::uint32_t> seeds, const Vec3& gravity_W, const Contacts& contacts,

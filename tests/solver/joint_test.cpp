@@ -1,0 +1,347 @@
+// Joints against closed forms, and what they promise: loads, momentum, sleep, the same bits.
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "engine/base/trigonometry.h"
+#include "tests/solver/rigid_world.h"
+
+namespace sunder::solver {
+namespace {
+
+using W = RigidWorld;
+using Kind = JointDesc::Kind;
+constexpr double kG = 9.81, kPi = 3.14159265358979323846;
+constexpr double kDt_s = 1.0 / 120;  // the preset `accurate`
+constexpr int kSubsteps = 8;
+
+RigidOptions awake(const Vec3& gravity_W = Vec3(0, -kG, 0)) {
+  RigidOptions options;
+  options.gravity_W = gravity_W;
+  options.sleeping = false;
+  return options;
+}
+
+/// A joint of bodies where they are now, at a place in the world. No id: the world.
+JointDesc joint_at(const RigidWorld& world, Kind kind, BodyId a, BodyId b, const Vec3& at_W,
+                   const Vec3& axis_W = Vec3::UnitZ()) {
+  JointDesc joint;
+  joint.kind = kind;
+  joint.a = a, joint.b = b;
+  const Pose X_WA = a.none() ? Pose{} : world.state(a).X_WB;
+  const Pose X_WB = b.none() ? Pose{} : world.state(b).X_WB;
+  joint.anchor_a_R = X_WA.inverse() * at_W, joint.anchor_b_R = X_WB.inverse() * at_W;
+  joint.axis_a_R = X_WA.rotation.conjugate() * axis_W;
+  joint.axis_b_R = X_WB.rotation.conjugate() * axis_W;
+  joint.rotation_RaRb = X_WA.rotation.conjugate() * X_WB.rotation;
+  return joint;
+}
+
+/// How far the ends of a joint are apart.
+double gap(const RigidWorld& world, const JointDesc& joint) {
+  const Vec3 a = joint.a.none() ? joint.anchor_a_R : world.state(joint.a).X_WB * joint.anchor_a_R;
+  const Vec3 b = joint.b.none() ? joint.anchor_b_R : world.state(joint.b).X_WB * joint.anchor_b_R;
+  return (b - a).norm();
+}
+
+TEST(Joint, APendulumSwingsWithItsPeriod) {
+  RigidWorld world(awake());
+  const double side = 0.2, arm = 1, angle = 0.02;
+  const SinCos a = sin_cos(angle);
+  BodyDesc bob = W::box(Vec3(side, side, side), arm * Vec3(a.sin, -a.cos, 0));
+  bob.X_WB.rotation = Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
+  const BodyId id = world.add(bob);
+  world.physics().join(joint_at(world, Kind::kBall, {}, id, Vec3::Zero()));
+  // About the pivot: side²/6 + arm² per mass; the amplitude adds angle²/16.
+  const double truth =
+      2 * kPi * std::sqrt((side * side / 6 + arm * arm) / (kG * arm)) * (1 + angle * angle / 16);
+  double first_s = 0, last_s = 0, before = angle;
+  int crossings = 0;
+  for (int i = 1; i <= 120 * 21; ++i) {
+    world.step(kDt_s, kSubsteps);
+    const double x = world.state(id).X_WB.position.x();
+    if (before > 0 && x <= 0) {
+      last_s = (i - x / (x - before)) * kDt_s;
+      if (crossings++ == 0) first_s = last_s;
+    }
+    before = x;
+  }
+  const double period = (last_s - first_s) / (crossings - 1);
+  std::printf("pendulum: period %.6f s, truth %.6f s, error %.1e\n", period, truth,
+              period / truth - 1);
+  EXPECT_NEAR(period / truth, 1, 1e-3);
+}
+
+double energy(const RigidWorld& world, const std::vector<BodyId>& ids,
+              const std::vector<double>& masses) {
+  double sum = world.kinetic_energy();
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    sum += masses[i] * kG * world.state(ids[i]).X_WB.position.y();
+  return sum;
+}
+
+TEST(Joint, ADoublePendulumKeepsItsEnergy) {
+  RigidWorld world(awake());
+  const Vec3 size(1, 0.1, 0.1);
+  const BodyDesc upper = W::box(size, Vec3(0.5, 0, 0)), lower = W::box(size, Vec3(1.5, 0, 0));
+  const BodyId a = world.add(upper), b = world.add(lower);
+  world.physics().join(joint_at(world, Kind::kHinge, {}, a, Vec3::Zero()));
+  world.physics().join(joint_at(world, Kind::kHinge, a, b, Vec3(1, 0, 0)));
+  const double start = energy(world, {a, b}, {upper.mass_kg, lower.mass_kg});
+  const double scale = 2 * upper.mass_kg * kG;  // falls about a metre
+  double least = 0, most = 0;
+  for (int i = 0; i < 120 * 20; ++i) {
+    world.step(kDt_s, kSubsteps);
+    const double now = energy(world, {a, b}, {upper.mass_kg, lower.mass_kg}) - start;
+    least = std::min(least, now / scale), most = std::max(most, now / scale);
+  }
+  std::printf("double pendulum, 20 s: energy %+.4f to %+.4f of what it falls\n", least, most);
+  EXPECT_GT(least, -0.02);
+  EXPECT_LT(most, 0.02);
+}
+
+TEST(Joint, AHingeKeepsItsAxis) {
+  RigidWorld world(awake());
+  const BodyId door = world.add(W::box(Vec3(1, 2, 0.1), Vec3(0.5, 0, 0)));
+  const JointDesc joint = joint_at(world, Kind::kHinge, {}, door, Vec3::Zero(), Vec3::UnitY());
+  world.physics().join(joint);
+  const double mass = 200;
+  world.physics().apply_impulse(door, Vec3(0, 0, 2 * mass), Vec3(0.7, 0.6, 0));
+  double lean = 0, open = 0;
+  for (int i = 0; i < 600; ++i) {
+    world.step(kDt_s, kSubsteps);
+    const Vec3 axis = world.state(door).X_WB.rotation * joint.axis_b_R;
+    lean = std::max(lean, axis.cross(Vec3::UnitY()).norm());
+    EXPECT_LT(gap(world, joint), 1e-4);
+    open = world.state(door).angular_velocity_W.y();
+  }
+  std::printf("hinge: axis leans by %.1e rad at most, turns at %.3f rad/s\n", lean, open);
+  EXPECT_LT(lean, 1e-3);
+  // ΔL about the axis: 2·m·0.7 over m (1 + 0.01)/12 + m/4.
+  EXPECT_NEAR(std::abs(open), 1.4 / (1.01 / 12 + 0.25), 0.01 * std::abs(open));
+}
+
+TEST(Joint, AnUprightDoorOnTwoHingesIsNotTornByOneTooMany) {
+  RigidWorld world(awake());
+  const BodyId door = world.add(W::box(Vec3(1, 2, 0.1), Vec3(0.5, 0, 0)));
+  for (const double y : {-0.8, 0.8}) {
+    world.physics().join(joint_at(world, Kind::kHinge, {}, door, Vec3(0, y, 0), Vec3::UnitY()));
+  }
+  world.run(5, kDt_s, kSubsteps);
+  EXPECT_LT((world.state(door).X_WB.position - Vec3(0.5, 0, 0)).norm(), 1e-3);
+  EXPECT_LT(world.state(door).velocity_W.norm(), 1e-3);
+}
+
+TEST(Joint, ADistanceIsHeldAndARopeOnlyPulls) {
+  for (const Kind kind : {Kind::kDistance, Kind::kRope}) {
+    RigidWorld world(awake());
+    BodyDesc ball = W::sphere(0.1, Vec3(0, 1, 0));
+    ball.velocity_W = Vec3(1, 0, 0);
+    const BodyId id = world.add(ball);
+    JointDesc joint = joint_at(world, kind, {}, id, Vec3::Zero());
+    joint.anchor_b_R = Vec3::Zero();
+    joint.length_m = 1;
+    world.physics().join(joint);
+    double longest = 0, shortest = 9;
+    for (int i = 0; i < 360; ++i) {
+      world.step(kDt_s, kSubsteps);
+      longest = std::max(longest, gap(world, joint));
+      shortest = std::min(shortest, gap(world, joint));
+    }
+    EXPECT_NEAR(longest, 1, 2e-3);
+    if (kind == Kind::kDistance) {
+      EXPECT_NEAR(shortest, 1, 2e-3);
+    } else {
+      EXPECT_LT(shortest, 0.9);
+    }
+  }
+}
+
+TEST(Joint, ACantileverOfFixedJointsStaysStraight) {
+  RigidWorld world(awake());
+  BodyId last;
+  std::vector<JointDesc> joints;
+  for (int i = 0; i < 10; ++i) {
+    const BodyId next = world.add(W::box(Vec3(0.2, 0.1, 0.1), Vec3(0.1 + 0.2 * i, 0, 0)));
+    joints.push_back(joint_at(world, Kind::kFixed, last, next, Vec3(0.2 * i, 0, 0)));
+    world.physics().join(joints.back());
+    last = next;
+  }
+  world.run(3, kDt_s, kSubsteps);
+  std::printf("cantilever of 2 m: tip sinks %.2e m\n", -world.state(last).X_WB.position.y());
+  EXPECT_LT(std::abs(world.state(last).X_WB.position.y()), 1e-3);
+}
+
+/// A chain of links from the origin towards +x with a ball at its end; the ball last.
+struct Chain {
+  std::vector<BodyId> bodies;
+  std::vector<JointDesc> joints;
+};
+Chain add_chain(RigidWorld& world, int links, double ball_ratio) {
+  Chain chain;
+  const BodyDesc link = W::box(Vec3(0.2, 0.05, 0.05), Vec3::Zero());
+  BodyId last;
+  for (int i = 0; i <= links; ++i) {
+    const Vec3 at(0.2 * i, 0, 0);
+    BodyDesc desc = link;
+    if (i == links) {
+      const double radius = 0.3;
+      desc = W::sphere(radius, at + Vec3(radius, 0, 0),
+                       ball_ratio * link.mass_kg / (4.0 / 3 * kPi * radius * radius * radius));
+    } else {
+      desc.X_WB.position = at + Vec3(0.1, 0, 0);
+    }
+    chain.bodies.push_back(world.add(desc));
+    chain.joints.push_back(joint_at(world, Kind::kBall, last, chain.bodies.back(), at));
+    world.physics().join(chain.joints.back());
+    last = chain.bodies.back();
+  }
+  return chain;
+}
+
+TEST(Joint, AChainOfTwentyDoesNotStretchUnderAHundredfoldBall) {
+  for (const double ratio : {1.0, 100.0, 1000.0}) {
+    RigidWorld world(awake());
+    const Chain chain = add_chain(world, 20, ratio);
+    double stretch = 0;
+    for (int i = 0; i < 120 * 5; ++i) {
+      world.step(kDt_s, kSubsteps);
+      double sum = 0;
+      for (const JointDesc& joint : chain.joints) sum += gap(world, joint);
+      stretch = std::max(stretch, sum / 4);
+    }
+    std::printf("chain of 20, ball x %.0f: stretches by %.1e of its length\n", ratio, stretch);
+    EXPECT_LT(stretch, 1e-2);
+  }
+}
+
+TEST(Joint, ALoadBreaksAJointAtItsLimitAndMomentumStays) {
+  for (const bool heavy : {false, true}) {
+    RigidWorld world(awake());
+    const BodyDesc box = W::box(Vec3(0.5, 0.5, 0.5), Vec3(0, 0, 0));
+    const BodyId id = world.add(box);
+    JointDesc joint = joint_at(world, Kind::kBall, {}, id, Vec3(0, 0.25, 0));
+    joint.breaking_N = box.mass_kg * kG * (heavy ? 0.98 : 1.02);
+    world.physics().join(joint);
+    world.run(1, kDt_s, kSubsteps);
+    EXPECT_EQ(world.physics().take_broken().size(), heavy ? 1u : 0u);
+    EXPECT_EQ(world.state(id).X_WB.position.y() < -1, heavy);
+  }
+  for (const bool heavy : {false, true}) {  // a beam held at its end: m g L/2
+    RigidWorld world(awake());
+    const BodyDesc beam = W::box(Vec3(1, 0.1, 0.1), Vec3(0.5, 0, 0));
+    const BodyId id = world.add(beam);
+    JointDesc joint = joint_at(world, Kind::kFixed, {}, id, Vec3::Zero());
+    joint.breaking_Nm = beam.mass_kg * kG * 0.5 * (heavy ? 0.98 : 1.02);
+    world.physics().join(joint);
+    world.run(1, kDt_s, kSubsteps);
+    EXPECT_EQ(world.physics().take_broken().size(), heavy ? 1u : 0u);
+  }
+  RigidWorld world(awake(Vec3::Zero()));  // two that spin about each other, faster and faster
+  BodyDesc a = W::sphere(0.1, Vec3(-0.5, 0, 0)), b = W::sphere(0.1, Vec3(0.5, 0, 0));
+  a.velocity_W = Vec3(1, -2, 0), b.velocity_W = Vec3(1, 2, 0);
+  const BodyId one = world.add(a), two = world.add(b);
+  JointDesc joint = joint_at(world, Kind::kDistance, one, two, Vec3::Zero());
+  joint.anchor_a_R = joint.anchor_b_R = Vec3::Zero();
+  joint.length_m = 1;
+  joint.breaking_N = 0.9 * a.mass_kg * 4 / 0.5;
+  world.physics().join(joint);
+  const Vec3 before = world.momentum(), spin = world.angular_momentum();
+  world.run(0.5, kDt_s, kSubsteps);
+  EXPECT_EQ(world.physics().take_broken().size(), 1u);
+  EXPECT_LT((world.momentum() - before).norm(), 1e-6 * before.norm());
+  EXPECT_LT((world.angular_momentum() - spin).norm(), 1e-5 * spin.norm());
+}
+
+TEST(Joint, AccountsForTheMomentumThatTheWorldGives) {
+  RigidWorld world(awake());
+  add_chain(world, 5, 20);
+  for (int i = 0; i < 120; ++i) {
+    const Vec3 before = world.momentum();
+    const SolveReport report = world.step(kDt_s, kSubsteps);
+    const Vec3 error = world.momentum() - before - report.external_impulse_Ns;
+    EXPECT_LT(error.norm(), 2e-5 * (before.norm() + 1));
+  }
+}
+
+TEST(Joint, WhatIsJoinedSleepsAndWakesTogether) {
+  RigidWorld world;
+  world.add(W::ground());
+  const BodyId a = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(0, 0.25, 0)));
+  const BodyId b = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(2, 0.25, 0)));
+  const BodyId hanging = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(4, 2, 0)));
+  JointDesc rod = joint_at(world, Kind::kDistance, a, b, Vec3(0, 0.25, 0));
+  rod.anchor_a_R = rod.anchor_b_R = Vec3::Zero();
+  rod.length_m = 2;
+  const JointId id = world.physics().join(rod);
+  world.physics().join(joint_at(world, Kind::kBall, {}, hanging, Vec3(4, 2.25, 0)));
+  world.run(3, kDt_s, 4);
+  EXPECT_TRUE(world.state(a).asleep && world.state(b).asleep && world.state(hanging).asleep);
+  world.physics().apply_impulse(a, Vec3(0, 5, 0), Vec3(0, 0.25, 0));
+  world.step(kDt_s, 4);
+  EXPECT_FALSE(world.state(b).asleep);
+  EXPECT_TRUE(world.state(hanging).asleep);
+  world.run(3, kDt_s, 4);
+  EXPECT_TRUE(world.state(a).asleep && world.state(b).asleep);
+  world.physics().cut(id);
+  world.physics().apply_impulse(a, Vec3(0, 5, 0), Vec3(0, 0.25, 0));
+  world.run(2, kDt_s, 4);
+  world.physics().apply_impulse(a, Vec3(0, 5, 0), Vec3(0, 0.25, 0));
+  EXPECT_TRUE(world.state(b).asleep) << "they are parted";
+}
+
+TEST(Joint, JoinedBodiesIgnoreEachOtherUntilCut) {
+  RigidWorld world(awake(Vec3::Zero()));
+  const BodyId a = world.add(W::box(Vec3(1, 1, 1), Vec3::Zero()));
+  const BodyId b = world.add(W::box(Vec3(1, 1, 1), Vec3(0.8, 0, 0)));
+  const JointId id = world.physics().join(joint_at(world, Kind::kBall, a, b, Vec3(0.4, 0, 0)));
+  EXPECT_EQ(world.step(kDt_s, 4).contacts, 0u);
+  world.physics().cut(id);
+  EXPECT_EQ(world.step(kDt_s, 4).contacts, 1u);
+}
+
+TEST(Joint, AnEndMovesToAnotherBodyOrIsLost) {
+  RigidWorld world(awake());
+  const BodyDesc box = W::box(Vec3(0.5, 0.5, 0.5), Vec3(0, -0.25, 0));
+  const BodyId old = world.add(box);
+  const JointId id = world.physics().join(joint_at(world, Kind::kBall, {}, old, Vec3::Zero()));
+  world.run(0.5, kDt_s, 4);
+  world.remove(old);
+  const BodyId piece = world.add(box);
+  world.physics().attach(id, false, piece);
+  world.run(0.5, kDt_s, 4);
+  EXPECT_NEAR(world.state(piece).X_WB.position.y(), -0.25, 1e-3);
+  world.remove(piece);
+  const BodyId other = world.add(box);
+  world.run(0.5, kDt_s, 4);
+  EXPECT_LT(world.state(other).X_WB.position.y(), -1);
+}
+
+TEST(Joint, ChainsGiveTheSameBitsForAnyNumberOfThreads) {
+  std::uint64_t hashes[3];
+  const int before = threads();
+  for (int run = 0; run < 3; ++run) {
+    set_threads(run == 0 ? 1 : run == 1 ? 2 : 4);
+    RigidWorld world;
+    world.add(W::ground());
+    for (int i = 0; i < 20; ++i) {
+      BodyId last;
+      for (int k = 0; k < 6; ++k) {
+        const BodyId next =
+            world.add(W::box(Vec3(0.2, 0.1, 0.1), Vec3(0.1 + 0.2 * k, 1, 0.15 * i)));
+        world.physics().join(joint_at(world, k % 2 == 0 ? Kind::kBall : Kind::kHinge, last, next,
+                                      Vec3(0.2 * k, 1, 0.15 * i)));
+        last = next;
+      }
+    }
+    world.run(1, kDt_s, 4);
+    hashes[run] = world.hash();
+  }
+  set_threads(before);
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+}  // namespace
+}  // namespace sunder::solver
