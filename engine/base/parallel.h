@@ -1,12 +1,12 @@
 // Loops over fixed chunks: what a chunk is never depends on the number of threads, so neither
-// does any result.
+// does any result. Read first: for_chunks().
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
-
-#include <omp.h>
+#include <mutex>
 
 namespace sunder {
 
@@ -14,6 +14,20 @@ namespace sunder {
 void set_threads(int count);
 /// Threads in use.
 int threads();
+/// Whether more than this thread would work on a loop: not with one thread, nor within a loop.
+bool may_share_work();
+
+namespace detail {
+void work_together(void (*call)(const void*), const void* work);
+}  // namespace detail
+
+/// Calls `work()` on this thread, and on every other that comes while it runs; returns when all
+/// calls have. `work` itself hands out what there is to do, and does not throw. Nothing waits for
+/// a thread that has not begun: on a busy machine this one does all of it.
+template <class Work>
+void work_together(const Work& work) {
+  detail::work_together([](const void* all) { (*static_cast<const Work*>(all))(); }, &work);
+}
 
 /// Calls `work(begin, end, chunk)` for the chunks [0, n) is cut into; chunks run in any order on
 /// any thread, so `work` writes only what belongs to its chunk. Rethrows one exception, if any.
@@ -21,20 +35,23 @@ template <class Work>
 void for_chunks(std::size_t n, std::size_t chunk_size, const Work& work) {
   const std::size_t chunks = (n + chunk_size - 1) / chunk_size;
   auto run = [&](std::size_t c) { work(c * chunk_size, std::min(n, (c + 1) * chunk_size), c); };
-  if (chunks <= 1 || threads() == 1 || omp_in_parallel()) {
+  if (chunks <= 1 || !may_share_work()) {
     for (std::size_t c = 0; c < chunks; ++c) run(c);
     return;
   }
+  std::atomic<std::size_t> next{0};
+  std::mutex failing;
   std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads())
-  for (std::size_t c = 0; c < chunks; ++c) {
-    try {
-      run(c);
-    } catch (...) {
-#pragma omp critical(sunder_for_chunks)
-      failure = std::current_exception();
+  work_together([&] {
+    for (std::size_t c; (c = next.fetch_add(1, std::memory_order_relaxed)) < chunks;) {
+      try {
+        run(c);
+      } catch (...) {
+        const std::lock_guard lock(failing);
+        failure = std::current_exception();
+      }
     }
-  }
+  });
   if (failure) std::rethrow_exception(failure);
 }
 

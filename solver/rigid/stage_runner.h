@@ -1,4 +1,4 @@
-// Runs a list of stages inside one parallel region. Any thread claims blocks of the current stage;
+// Runs a list of stages on all threads. Any thread claims blocks of the current stage;
 // a stage begins when all blocks of the one before are done (not when all threads have arrived, so
 // that a thread that lost its processor holds up nobody unless it holds a block).
 #pragma once
@@ -8,8 +8,6 @@
 #include <memory>
 #include <span>
 #include <thread>
-
-#include <omp.h>
 
 #include "engine/base/parallel.h"
 
@@ -39,7 +37,7 @@ void run_stages(std::span<const Stage> stages, const Work& work) {
     const std::uint32_t begin = block * stage.grain;
     work(stage.kind, stage.first + begin, stage.first + std::min(stage.count, begin + stage.grain));
   };
-  if (widest < kLeastParallelGrains || threads() == 1 || omp_in_parallel()) {
+  if (widest < kLeastParallelGrains || !may_share_work()) {
     for (const Stage& stage : stages)
       for (std::uint32_t block = 0; block < stage.blocks(); ++block) run(stage, block);
     return;
@@ -49,17 +47,19 @@ void run_stages(std::span<const Stage> stages, const Work& work) {
     std::atomic<std::uint32_t> done{0};
   };
   const std::unique_ptr<Progress[]> progress(new Progress[stages.size()]);
-#pragma omp parallel num_threads(threads())
-  for (std::size_t s = 0; s < stages.size(); ++s) {
-    const std::uint32_t blocks = stages[s].blocks();
-    Progress& p = progress[s];
-    for (std::uint32_t block; (block = p.next.fetch_add(1, std::memory_order_relaxed)) < blocks;) {
-      run(stages[s], block);
-      p.done.fetch_add(1, std::memory_order_release);
+  work_together([&] {
+    for (std::size_t s = 0; s < stages.size(); ++s) {
+      const std::uint32_t blocks = stages[s].blocks();
+      Progress& p = progress[s];
+      for (std::uint32_t block;
+           (block = p.next.fetch_add(1, std::memory_order_relaxed)) < blocks;) {
+        run(stages[s], block);
+        p.done.fetch_add(1, std::memory_order_release);
+      }
+      for (int spins = 0; p.done.load(std::memory_order_acquire) < blocks; ++spins)
+        if (spins > 200) std::this_thread::yield();
     }
-    for (int spins = 0; p.done.load(std::memory_order_acquire) < blocks; ++spins)
-      if (spins > 200) std::this_thread::yield();
-  }
+  });
 }
 
 }  // namespace sunder::solver

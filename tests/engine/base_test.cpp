@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <set>
 #include <stdexcept>
+#include <thread>
 #include <type_traits>
 #include <vector>
 
@@ -178,6 +179,32 @@ TEST_P(ForChunks, MayBeNested) {
                [&](std::size_t inner, std::size_t, std::size_t) { ++visits[outer * 10 + inner]; });
   });
   EXPECT_EQ(visits, std::vector<int>(100, 1));
+}
+
+TEST_P(ForChunks, MayRunOnSeveralThreadsOfTheCallersAtOnce) {
+  std::vector<std::size_t> sums(3, 0);
+  const auto loops = [&](std::size_t& sum) {
+    for (int round = 0; round < 300; ++round) {
+      std::vector<std::size_t> parts(8, 0);
+      for_chunks(800, 100, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        for (std::size_t i = begin; i < end; ++i) parts[chunk] += i;
+      });
+      for (const std::size_t part : parts) sum += part;
+    }
+  };
+  std::thread first(loops, std::ref(sums[0])), second(loops, std::ref(sums[1]));
+  loops(sums[2]);
+  first.join();
+  second.join();
+  EXPECT_EQ(sums, std::vector<std::size_t>(3, 300 * (799 * 800 / 2)));
+}
+
+TEST_P(ForChunks, SharesItsWorkOnlyOnce) {
+  EXPECT_EQ(may_share_work(), GetParam() > 1);
+  for_chunks(8, 1, [](std::size_t, std::size_t, std::size_t) {
+    if (GetParam() > 1) EXPECT_FALSE(may_share_work());
+  });
+  EXPECT_EQ(may_share_work(), GetParam() > 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, ForChunks, testing::Values(1, 2, 4));
