@@ -2,8 +2,10 @@
 // thousands of touching cubes that appear at once. Beside each figure stands what other engines
 // were measured at (one thread, a like machine).
 //
-//   solver_bench [--scene NAME] [--threads N] [--substeps N] [--frames N] [--rate HZ] [--sleep]
+//   solver_bench [--scene NAME] [--threads N] [--substeps N] [--sweeps N] [--frames N] [--rate HZ]
+//                [--colors N] [--lanes N] [--sleep]
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -12,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
 #include "engine/geometry/convex_polyhedron.h"
@@ -24,6 +27,9 @@ struct Options {
   std::string scene = "all";
   int threads = 1;
   int substeps = 4;
+  int sweeps = 1;
+  int colors = 64;
+  int lanes = 0;
   int frames = 0;  ///< 0: the scene's own.
   double rate_Hz = 60;
   bool sleep = false;
@@ -163,6 +169,9 @@ void advance(Run& run, int frames, const Options& options) {
 Run begin(const Set& set, const Options& options) {
   RigidOptions rigid;
   rigid.sleeping = options.sleep;
+  rigid.max_colors = options.colors;
+  rigid.sweeps = options.sweeps;
+  rigid.lanes = options.lanes;
   Run run;
   run.physics = make_rigid_physics(rigid);
   const double start = cpu_ms();
@@ -182,20 +191,25 @@ void print(const char* name, const Run& run, const char* peers) {
   double depth = 0, square = 0;
   for (const float d : depths) depth += static_cast<double>(d);
   std::size_t moving = 0;
+  std::uint64_t hash = 0;
   for (const BodyId id : run.ids) {
-    square += run.physics->state(id).velocity_W.squaredNorm();
+    const Vec3 v = run.physics->state(id).velocity_W;
+    square += v.squaredNorm();
+    for (const double part : {v.x(), v.y(), v.z()})
+      hash = combine(hash, std::bit_cast<std::uint64_t>(part));
     moving += 1;
   }
   const double deepest = depths.empty() ? 0 : static_cast<double>(depths.back());
   const double p99 = depths.empty() ? 0 : static_cast<double>(depths[depths.size() * 99 / 100]);
   std::printf(
       "%-14s %6zu bodies  ms: first %7.2f  average %6.2f  worst %6.2f  last60 %6.2f  | mm: mean "
-      "%.3f p99 %.2f max %.1f  | rms %.1e m/s | awake %u contacts %u\n%15s%s\n",
+      "%.3f p99 %.2f max %.1f  | rms %.1e m/s | awake %u contacts %u | %016llx\n"
+      "%15s%s\n",
       name, run.ids.size(), ms.front(), sum / static_cast<double>(ms.size()), worst,
       last / static_cast<double>(tail),
       1e3 * depth / std::max<double>(1, static_cast<double>(depths.size())), 1e3 * p99,
       1e3 * deepest, std::sqrt(square / static_cast<double>(moving)), run.last.awake,
-      run.last.contacts, "", peers);
+      run.last.contacts, static_cast<unsigned long long>(hash), "", peers);
   std::fflush(stdout);
 }
 
@@ -262,6 +276,12 @@ bool parse(int argc, char** argv, Options& options) {
       options.threads = std::atoi(value.c_str());
     else if (flag == "--substeps")
       options.substeps = std::atoi(value.c_str());
+    else if (flag == "--sweeps")
+      options.sweeps = std::atoi(value.c_str());
+    else if (flag == "--colors")
+      options.colors = std::atoi(value.c_str());
+    else if (flag == "--lanes")
+      options.lanes = std::atoi(value.c_str());
     else if (flag == "--frames")
       options.frames = std::atoi(value.c_str());
     else if (flag == "--rate")
@@ -269,7 +289,8 @@ bool parse(int argc, char** argv, Options& options) {
     else
       return false;
   }
-  return options.threads > 0 && options.substeps > 0 && options.rate_Hz >= 60;
+  return options.threads > 0 && options.substeps > 0 && options.sweeps > 0 && options.colors >= 0 &&
+         options.colors <= 64 && options.lanes >= 0 && options.rate_Hz >= 60;
 }
 
 }  // namespace
@@ -279,8 +300,8 @@ int main(int argc, char** argv) {
   sunder::solver::Options options;
   if (!sunder::solver::parse(argc, argv, options)) {
     std::fprintf(stderr,
-                 "usage: %s [--scene NAME] [--threads N] [--substeps N] [--frames N] [--rate HZ, "
-                 ">= 60] [--sleep]\n",
+                 "usage: %s [--scene NAME] [--threads N] [--substeps N] [--sweeps N] [--frames N] "
+                 "[--rate HZ, >= 60] [--colors 0..64] [--lanes N] [--sleep]\n",
                  argv[0]);
     return 2;
   }

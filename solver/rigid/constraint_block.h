@@ -1,8 +1,12 @@
-// Contacts as the solver sees them: eight manifolds of one colour side by side, in float.
+// Contacts as the solver sees them: manifolds of one colour side by side, one a lane, in float.
 //
 // Angular motion is in root space (Bodies::root_B): every body has unit inertia there, so that a
 // Jacobian is also the response, and no inertia is multiplied in a sweep. Within a step Jacobians
 // are frozen, so separations move by the same Jacobians as velocities.
+//
+// Mass splitting (Tonge, Benevolenski, Voroshilov 2012) cuts a body into as many equal parts as it
+// has split manifolds. A part is n times easier to move, which is said once, in its roots and
+// inverse mass: the kernels see the part as a body, whose angular space is √n times as coarse.
 #pragma once
 
 #include <array>
@@ -13,42 +17,69 @@
 namespace sunder::solver {
 
 /// A body within a step. Lanes: linear 0 to 2, angular (root space) 3 to 5.
-struct BodyRow {
+struct alignas(64) BodyRow {
   Wide velocity;
   Wide position;  ///< Way and turn since the step began.
   Wide base;      ///< Velocity of the substep before any contact acted.
   Wide start;     ///< Velocity when the step began.
 };
 
+/// What a sweep reads and writes of a point.
+template <std::uint32_t lanes>
 struct PointLanes {
-  Wide3 turn_a, turn_b;  ///< Angular Jacobians along the normal.
-  Wide separation;       ///< When the step began.
-  Wide mass;             ///< Effective; 0 where the lane has no such point.
-  Wide impulse;
-  Wide arm;           ///< From the friction point: the lever of twist.
-  Wide rebound;       ///< Restitution: velocity to leave with; 0: none.
-  Wide most_impulse;  ///< Restitution: largest impulse of a substep.
+  Wide3Of<lanes> turn_a, turn_b;  ///< Angular Jacobians along the normal.
+  WideOf<lanes> separation;       ///< When the step began.
+  WideOf<lanes> mass;             ///< Effective; 0 where the lane has no manifold.
+  WideOf<lanes> arm;              ///< From the friction point: the lever of twist.
+  WideOf<lanes> impulse;
 };
 
-struct ConstraintBlock {
-  std::int32_t row_a[kLanes] = {};  ///< 0: immovable.
-  std::int32_t row_b[kLanes] = {};
-  std::uint32_t manifold[kLanes] = {};
-  std::uint32_t lanes = 0;  ///< In use.
-  int points = 0;           ///< Of the manifold that has most.
-  bool summed = false;      ///< Some lane touches something immovable, or that bears load.
-  bool bouncy = false;      ///< Some point has a rebound.
-  Wide inverse_mass_a, inverse_mass_b;
-  Wide3 normal, tangent_1, tangent_2;
-  Wide friction;
-  Wide3 slide_1_a, slide_1_b, slide_2_a, slide_2_b, twist_a, twist_b;  ///< Angular Jacobians.
-  Wide slide_11, slide_12, slide_22;                                   ///< Effective mass, 2×2.
-  Wide twist_mass;
-  Wide drift_1, drift_2;
-  Wide slide_impulse_1, slide_impulse_2, twist_impulse;
-  Wide outside_sign;  ///< +1: a is immovable, −1: b is.
-  Wide3 total;        ///< Impulse on b over the step, if summed.
-  std::array<PointLanes, 4> point;
+/// What only bouncing needs of a point.
+template <std::uint32_t lanes>
+struct ReboundLanes {
+  WideOf<lanes> speed;         ///< To leave with; 0: none.
+  WideOf<lanes> most_impulse;  ///< Of a substep.
+};
+
+/// What only split manifolds need.
+template <std::uint32_t lanes>
+struct SplitLanes {
+  std::uint32_t part_a[lanes] = {};  ///< Where the change of the body goes.
+  std::uint32_t part_b[lanes] = {};
+  WideOf<lanes> share_a, share_b;  ///< Of a part in its body: 1 / n.
+  WideOf<lanes> root_a, root_b;    ///< Its square root.
+  /// How much softer the parts are than the bodies, along the normal by point, and sliding.
+  std::array<WideOf<lanes>, 4> press_ease;
+  WideOf<lanes> slide_ease;
+};
+
+/// Manifolds with the same number of points. What a sweep touches comes first. Alignment is spelled
+/// out, or it would follow the instruction set that a file is compiled for.
+template <std::uint32_t lanes>
+struct alignas(64) ConstraintBlock {
+  std::int32_t row_a[lanes] = {};  ///< 0: immovable.
+  std::int32_t row_b[lanes] = {};
+  std::uint32_t first = 0;   ///< Of the manifolds in lanes, in the list of those to solve.
+  std::uint32_t count = 0;   ///< Lanes in use.
+  std::uint32_t points = 0;  ///< Of each manifold.
+  bool split = false;
+  bool summed = false;  ///< Some lane touches something immovable, or that bears load.
+  bool bouncy = false;  ///< Some point has a rebound.
+  alignas(4 * lanes) WideOf<lanes> inverse_mass_a;
+  WideOf<lanes> inverse_mass_b;
+  Wide3Of<lanes> normal, tangent_1, tangent_2;
+  WideOf<lanes> friction;
+  Wide3Of<lanes> slide_1_a, slide_1_b, slide_2_a, slide_2_b, twist_a, twist_b;  ///< Jacobians.
+  WideOf<lanes> slide_11, slide_12, slide_22;  ///< Effective mass, 2×2.
+  WideOf<lanes> twist_mass;
+  WideOf<lanes> drift_1, drift_2;
+  WideOf<lanes> slide_impulse_1, slide_impulse_2, twist_impulse;
+  std::array<PointLanes<lanes>, 4> point;
+
+  Wide3Of<lanes> total;        ///< Impulse on b over the step, if summed.
+  WideOf<lanes> outside_sign;  ///< +1: a is immovable, −1: b is.
+  std::array<ReboundLanes<lanes>, 4> rebound;
+  SplitLanes<lanes> parts;
 };
 
 /// A spring and damper in the form of a soft constraint (Catto 2011, "Soft Constraints").

@@ -4,13 +4,12 @@
 #include <algorithm>
 
 #include "solver/rigid/motion.h"
-#include "solver/rigid/sweep.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::uint32_t kBodyGrain = 128;
-constexpr std::uint32_t kBlockGrain = 8;
+constexpr std::uint32_t kManifoldGrain = 64;
 // Contact frequency times substep, by the number of points less one: see docs/decisions/003. Two
 // sweeps keep up with 0.25 where pieces touch in a point or two, as rubble does. Faces that meet in
 // four are four springs side by side, and friction as stiff as they are makes a standing wave of a
@@ -31,9 +30,12 @@ enum StageKind {
   kWarmStart,
   kFirstKick,
   kKick,
+  kJoinAndKick,
   kBiased,
-  kMove,
+  kJoin,
+  kJoinAndMove,
   kRelaxed,
+  kLastRelaxed,
   kBounce,
   kStore,
   kFinish,
@@ -73,14 +75,20 @@ Vec3f angular(Wide v) { return {v[3], v[4], v[5]}; }
 
 }  // namespace
 
+ContactSolver::ContactSolver(const ContactSolverOptions& options)
+    : options_(options), blocks_(make_contact_blocks(options.lanes)) {}
+
 ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& gravity_W,
                                         Bodies& bodies, Contacts& contacts, Joints& joints) {
   collect_blocks(bodies, contacts);
+  split_bodies(bodies, contacts);
   joint_solver_.collect(bodies, joints, in_contact_);
   collect_bodies(bodies);
   const double h = dt_s / substeps;
-  const SoftStep soft = soft_step(h);
-  PrepareStep step;
+  BodyRow* rows = rows_.data();
+  ContactStep step{
+      bodies,      contacts, touching_, first_split_, split_, root_W_, {rows, parts_.data()},
+      soft_step(h)};
   step.gravity_W = gravity_W.cast<float>();
   step.impulse_scale = last_h_s_ > 0 ? static_cast<float>(h / last_h_s_) : 1.f;
   step.bounce_speed_m_s = static_cast<float>(2 * gravity_W.norm() * dt_s) + 1e-3f;
@@ -88,81 +96,81 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
   const Wide gravity = {kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
   const auto h_f = static_cast<float>(h);
   const JointStep joint_step{h, double{step.impulse_scale}};
-  BodyRow* rows = rows_.data();
 
-  auto work = [&](int kind, std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      switch (kind) {
-        case kFly:
-          fly(bodies, flying_[i], gravity_W, dt_s);
-          break;
-        case kBegin:
-          begin_body(active_[i], dt_s, bodies);
-          break;
-        case kPrepare:
-          prepare_block(contacts, bodies, root_W_, rows, step, blocks_[i]);
-          break;
-        case kWarmStart:
-          warm_start(blocks_[i], rows);
-          break;
-        case kFirstKick: {
-          BodyRow& row = rows[active_[i] + 1];
-          row.velocity = row.base = row.velocity + gravity;
-          break;
-        }
-        case kKick: {
-          // All impulses of a substep, warm start included, act on `base`: what they did to the
-          // velocity is the warm start of the next substep.
-          BodyRow& row = rows[active_[i] + 1];
-          const Wide impulses = row.velocity - row.base;
-          row.base = row.velocity + gravity;
-          row.velocity = row.base + impulses;
-          break;
-        }
-        case kBiased:
-          sweep_biased(blocks_[i], rows, soft);
-          break;
-        case kMove:
-          rows[active_[i] + 1].position += h_f * rows[active_[i] + 1].velocity;
-          break;
-        case kRelaxed:
-          sweep_relaxed(blocks_[i], rows, soft);
-          break;
-        case kBounce:
-          if (blocks_[i].bouncy) bounce(blocks_[i], rows);
-          break;
-        case kStore:
-          store_block(blocks_[i], rows, contacts);
-          break;
-        case kFinish:
-          finish_body(active_[i], bodies);
-          break;
-        case kJointBegin:
-          joint_solver_.begin(i, bodies, joints, root_W_, rows);
-          break;
-        case kJointWarmStart:
-          joint_solver_.warm_start(i, joint_step, rows);
-          break;
-        case kJointPush:
-          joint_solver_.push(i, joint_step, rows);
-          break;
-        case kJointTurn:
-          joint_solver_.turn(i, rows);
-          break;
-        case kJointRelax:
-          joint_solver_.relax(i, joint_step, rows);
-          break;
-        case kJointTest:
-          joint_solver_.test(i, joint_step, rows);
-          break;
+  auto work_on_body = [&](int kind, std::uint32_t i) {
+    const std::uint32_t body = (kind == kFly ? flying_ : active_)[i];
+    BodyRow& row = rows[body + 1];
+    switch (kind) {
+      case kFly:
+        return fly(bodies, body, gravity_W, dt_s);
+      case kBegin:
+        return begin_body(body, dt_s, bodies);
+      case kFirstKick:
+        row.velocity = row.base = row.velocity + gravity;
+        return;
+      case kJoinAndKick:
+        join_parts(body);
+        [[fallthrough]];
+      case kKick: {
+        // All impulses of a substep, warm start included, act on `base`: what they did to the
+        // velocity is the warm start of the next substep.
+        const Wide impulses = row.velocity - row.base;
+        row.base = row.velocity + gravity;
+        row.velocity = row.base + impulses;
+        return;
       }
+      case kJoin:
+        return join_parts(body);
+      case kJoinAndMove:
+        join_parts(body);
+        row.position += h_f * row.velocity;
+        return;
+      case kFinish:
+        return finish_body(body, bodies);
     }
+  };
+  auto work_on_joints = [&](int kind, std::uint32_t i) {
+    switch (kind) {
+      case kJointBegin:
+        return joint_solver_.begin(i, bodies, joints, root_W_, rows);
+      case kJointWarmStart:
+        return joint_solver_.warm_start(i, joint_step, rows);
+      case kJointPush:
+        return joint_solver_.push(i, joint_step, rows);
+      case kJointTurn:
+        return joint_solver_.turn(i, rows);
+      case kJointRelax:
+        return joint_solver_.relax(i, joint_step, rows);
+      case kJointTest:
+        return joint_solver_.test(i, joint_step, rows);
+    }
+  };
+  auto work = [&](int kind, std::uint32_t begin, std::uint32_t end) {
+    switch (kind) {
+      case kPrepare:
+        return blocks_->prepare(begin, end, step);
+      case kWarmStart:
+        return blocks_->warm_start(begin, end, step);
+      case kBiased:
+        return blocks_->sweep_biased(begin, end, step);
+      case kRelaxed:
+        return blocks_->sweep_relaxed(begin, end, step);
+      case kLastRelaxed:
+        blocks_->sweep_relaxed(begin, end, step);
+        return blocks_->sum_impulses(begin, end);
+      case kBounce:
+        return blocks_->bounce(begin, end, step);
+      case kStore:
+        return blocks_->store(begin, end, step);
+    }
+    for (std::uint32_t i = begin; i < end; ++i)
+      kind >= kJointBegin ? work_on_joints(kind, i) : work_on_body(kind, i);
   };
   run_stages(plan(substeps), work);
   last_h_s_ = h;
-  ContactSolveReport solved = report();
-  solved.outside_impulse_Ns += joint_solver_.finish(bodies, joints);
-  return solved;
+  const Vec3 from_joints_Ns = joint_solver_.finish(bodies, joints);
+  return {blocks_->outside_impulse_Ns() + from_joints_Ns,
+          static_cast<std::uint32_t>(touching_.size()), points_};
 }
 
 std::vector<Stage> ContactSolver::plan(int substeps) const {
@@ -171,7 +179,7 @@ std::vector<Stage> ContactSolver::plan(int substeps) const {
     stages.push_back({kind, 0, static_cast<std::uint32_t>(active_.size()), kBodyGrain});
   };
   auto all_blocks = [&](int kind) {
-    stages.push_back({kind, 0, static_cast<std::uint32_t>(blocks_.size()), kBlockGrain});
+    stages.push_back({kind, 0, blocks_->size(), kManifoldGrain / blocks_->lanes()});
   };
   auto each_color = [&](int kind) {
     for (Stage color : colors_) {
@@ -179,24 +187,37 @@ std::vector<Stage> ContactSolver::plan(int substeps) const {
       stages.push_back(color);
     }
   };
+  auto join = [&] {
+    if (!split_.empty()) all_bodies(kJoin);
+  };
+  // What follows the last sweep sees it joined: the move and the kick do that themselves, so that
+  // mass splitting waits once a sweep.
+  auto sweep = [&](int joint_kind, int kind, int last_kind) {
+    for (int i = 1; i <= options_.sweeps; ++i) {
+      joint_solver_.each_color(joint_kind, stages);
+      each_color(i < options_.sweeps ? kind : last_kind);
+      if (i < options_.sweeps) join();
+    }
+  };
   stages.push_back({kFly, 0, static_cast<std::uint32_t>(flying_.size()), kBodyGrain});
   if (active_.empty()) return stages;
+  const bool joints = !joint_solver_.empty();
   all_bodies(kBegin);
   all_blocks(kPrepare);
   joint_solver_.each_color(kJointBegin, stages);
   for (int s = 0; s < substeps; ++s) {
-    all_bodies(s == 0 ? kFirstKick : kKick);
+    all_bodies(s == 0 ? kFirstKick : joints ? kKick : kJoinAndKick);
     if (s == 0) joint_solver_.each_color(kJointWarmStart, stages);
-    if (s == 0) each_color(kWarmStart);
-    joint_solver_.each_color(kJointPush, stages);
-    each_color(kBiased);
-    all_bodies(kMove);
+    if (s == 0) each_color(kWarmStart), join();
+    sweep(kJointPush, kBiased, kBiased);
+    all_bodies(kJoinAndMove);
     joint_solver_.each_color(kJointTurn, stages);
-    joint_solver_.each_color(kJointRelax, stages);
-    each_color(kRelaxed);
+    sweep(kJointRelax, kRelaxed, kLastRelaxed);
+    if (joints || s + 1 == substeps) join();
     joint_solver_.each_color(kJointTest, stages);
   }
   each_color(kBounce);
+  join();
   all_blocks(kStore);
   all_bodies(kFinish);
   return stages;
@@ -206,6 +227,7 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
   constexpr std::size_t kKeys = (kMaxColors + 1) * 4;
   std::uint32_t start[kKeys + 1] = {};
   in_contact_.assign(bodies.size(), 0);
+  points_ = 0;
   auto key = [](const Manifold& m) { return std::size_t{m.color} * 4 + 4 - m.count; };
   auto for_each = [&](const auto& visit) {
     for (std::uint32_t i = 0; i < contacts.manifolds.size(); ++i) {
@@ -216,6 +238,7 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
   for_each([&](std::uint32_t, const Manifold& m) {
     ++start[key(m) + 1];
     in_contact_[m.body_a] = in_contact_[m.body_b] = 1;
+    points_ += m.count;
   });
   for (std::size_t k = 0; k < kKeys; ++k) start[k + 1] += start[k];
   touching_.resize(start[kKeys]);
@@ -223,24 +246,46 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
   std::copy(start, start + kKeys, next);
   for_each([&](std::uint32_t i, const Manifold& m) { touching_[next[key(m)]++] = i; });
 
-  std::uint32_t used = 0;  // blocks of the last step are written over, not cleared
+  blocks_->clear();
   colors_.clear();
-  for (std::size_t color = 0; color <= kMaxColors; ++color) {
-    const std::uint32_t begin = start[color * 4], end = start[color * 4 + 4];
-    if (begin == end) continue;
-    // Overflow: bodies may repeat, so one manifold a block, and one thread for all.
-    const std::uint32_t width = color < kMaxColors ? kLanes : 1;
-    const std::uint32_t first = used;
-    for (std::uint32_t i = begin; i < end; i += width) {
-      if (used == blocks_.size()) blocks_.emplace_back();
-      ConstraintBlock& block = blocks_[used++];
-      block.lanes = std::min(width, end - i);
-      block.points = contacts.manifolds[touching_[i]].count;
-      std::copy_n(touching_.begin() + i, block.lanes, block.manifold);
+  const std::uint32_t grain = kManifoldGrain / blocks_->lanes();
+  for (std::uint32_t color = 0; color <= kMaxColors; ++color) {
+    const std::uint32_t first = blocks_->size();
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t begin = start[color * 4 + k], end = start[color * 4 + k + 1];
+      blocks_->add(begin, end - begin, 4 - k, color == kMaxColors);
     }
-    colors_.push_back({0, first, used - first, color < kMaxColors ? kBlockGrain : used - first});
+    const std::uint32_t count = blocks_->size() - first;
+    if (count > 0) colors_.push_back({0, first, count, grain});
   }
-  blocks_.resize(used);
+  first_split_ = start[std::size_t{kMaxColors} * 4];
+}
+
+/// Cuts awake bodies into as many parts as they have split manifolds, in the order of these.
+void ContactSolver::split_bodies(const Bodies& bodies, const Contacts& contacts) {
+  const auto split = std::span(touching_).subspan(first_split_);
+  split_.assign(split.size(), {});
+  if (split.empty()) return;
+  part_count_.assign(bodies.size(), 0);
+  part_end_.assign(bodies.size(), 0);
+  auto for_each_body = [&](const auto& visit) {
+    for (std::size_t i = 0; i < split.size(); ++i) {
+      const Manifold& m = contacts.manifolds[split[i]];
+      if (bodies.awake(m.body_a)) visit(m.body_a, split_[i].part_a, split_[i].parts_a);
+      if (bodies.awake(m.body_b)) visit(m.body_b, split_[i].part_b, split_[i].parts_b);
+    }
+  };
+  for_each_body([&](std::uint32_t body, auto&, auto&) { ++part_count_[body]; });
+  std::uint32_t all = 0;
+  for (std::uint32_t body = 0; body < bodies.size(); ++body) {
+    part_end_[body] = all;
+    all += part_count_[body];
+  }
+  for_each_body([&](std::uint32_t body, std::uint32_t& part, std::uint32_t& parts) {
+    part = part_end_[body]++;
+    parts = part_count_[body];
+  });
+  parts_.resize(all);
 }
 
 void ContactSolver::collect_bodies(const Bodies& bodies) {
@@ -267,6 +312,14 @@ void ContactSolver::begin_body(std::uint32_t body, double dt_s, Bodies& bodies) 
   row.position = Wide{};
 }
 
+void ContactSolver::join_parts(std::uint32_t body) {
+  if (split_.empty() || part_count_[body] == 0) return;
+  const std::uint32_t end = part_end_[body];
+  Wide sum = parts_[end - part_count_[body]];
+  for (std::uint32_t i = end - part_count_[body] + 1; i < end; ++i) sum += parts_[i];
+  rows_[body + 1].velocity += sum;
+}
+
 void ContactSolver::finish_body(std::uint32_t body, Bodies& bodies) const {
   const BodyRow& row = rows_[body + 1];
   // Only the change goes back, so that the doubles keep what no contact touched.
@@ -282,20 +335,6 @@ void ContactSolver::finish_body(std::uint32_t body, Bodies& bodies) const {
   bodies.place(body, bodies.position[body] + way.cast<double>(), turn * bodies.rotation[body]);
   bodies.travelled_m[body] +=
       double{way.norm()} + 1.1 * double{angle.norm()} * bodies.reach_m[body];
-}
-
-ContactSolveReport ContactSolver::report() const {
-  ContactSolveReport report;
-  report.manifolds = static_cast<std::uint32_t>(touching_.size());
-  for (const ConstraintBlock& c : blocks_) {
-    for (std::uint32_t lane = 0; lane < c.lanes; ++lane) {
-      report.outside_impulse_Ns +=
-          double{c.outside_sign[lane]} * Hull::lane(c.total, lane).cast<double>();
-      for (int i = 0; i < c.points; ++i)
-        report.points += c.point[static_cast<std::size_t>(i)].mass[lane] > 0;
-    }
-  }
-  return report;
 }
 
 }  // namespace sunder::solver

@@ -1,11 +1,12 @@
-// Solves the contacts and joints of a step: coloured projected Gauss-Seidel in soft substeps.
-// Read first: ContactSolver::solve(), the list of stages.
+// Solves the contacts and joints of a step: coloured projected Gauss-Seidel in soft substeps, mass
+// splitting for what finds no colour. Read first: ContactSolver::solve(), the list of stages.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "solver/rigid/bodies.h"
-#include "solver/rigid/constraint_block.h"
+#include "solver/rigid/contact_blocks.h"
 #include "solver/rigid/contacts.h"
 #include "solver/rigid/joint_solver.h"
 #include "solver/rigid/prepare.h"
@@ -20,8 +21,16 @@ struct ContactSolveReport {
   std::uint32_t points = 0;
 };
 
+/// How contacts are solved.
+struct ContactSolverOptions {
+  int sweeps = 1;  ///< Of either kind in a substep.
+  int lanes = 0;   ///< Most to be used; 0: what the processor has. The same bits for any.
+};
+
 class ContactSolver {
  public:
+  explicit ContactSolver(const ContactSolverOptions& options = {});
+
   /// Moves every awake body by dt_s: those in contact by substeps, the others by free flight.
   /// Joints that bear too much go.
   ContactSolveReport solve(double dt_s, int substeps, const Vec3& gravity_W, Bodies& bodies,
@@ -29,22 +38,33 @@ class ContactSolver {
 
  private:
   void collect_blocks(const Bodies& bodies, const Contacts& contacts);
+  void split_bodies(const Bodies& bodies, const Contacts& contacts);
   void collect_bodies(const Bodies& bodies);
   std::vector<Stage> plan(int substeps) const;
   void begin_body(std::uint32_t body, double dt_s, Bodies& bodies);
+  void join_parts(std::uint32_t body);
   void finish_body(std::uint32_t body, Bodies& bodies) const;
-  ContactSolveReport report() const;
 
   JointSolver joint_solver_;
-  std::vector<ConstraintBlock> blocks_;
-  std::vector<Stage> colors_;            ///< Where each colour's blocks are; the overflow last.
+  ContactSolverOptions options_;
+  std::unique_ptr<ContactBlocks> blocks_;
+  std::vector<Stage> colors_;            ///< Where each colour's blocks are; what is split last.
   std::vector<std::uint32_t> touching_;  ///< Manifolds to solve, by colour and point count.
   std::vector<std::uint32_t> active_;    ///< Awake bodies in contact.
   std::vector<std::uint32_t> flying_;    ///< Awake bodies that touch nothing.
   std::vector<std::uint8_t> in_contact_;
   std::vector<BodyRow> rows_;  ///< By body slot + 1; row 0 stays still.
   std::vector<Mat3f> root_W_;
+  std::uint32_t points_ = 0;
   double last_h_s_ = 0;
+
+  // Mass splitting: manifolds that found no colour are solved side by side, and what they do to a
+  // body is summed in the order of its parts.
+  std::uint32_t first_split_ = 0;          ///< In `touching_`.
+  std::vector<SplitSides> split_;          ///< By manifold from there on.
+  std::vector<std::uint32_t> part_count_;  ///< By body slot.
+  std::vector<std::uint32_t> part_end_;    ///< By body slot, of its parts; 0 if it has none.
+  std::vector<Wide> parts_;
 };
 
 }  // namespace sunder::solver

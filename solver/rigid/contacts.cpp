@@ -40,7 +40,8 @@ void Contacts::touch(std::uint32_t pair, const Manifold& manifold, const Bodies&
   pairs[pair].manifold = slot;
   const bool a = bodies.dynamic(m.body_a), b = bodies.dynamic(m.body_b);
   const std::uint64_t used = (a ? body_colors[m.body_a] : 0) | (b ? body_colors[m.body_b] : 0);
-  m.color = static_cast<std::uint8_t>(std::countr_one(used));
+  const int least = std::countr_one(used);
+  m.color = least < colors ? static_cast<std::uint8_t>(least) : kMaxColors;
   if (m.color == kMaxColors) return;
   if (a) body_colors[m.body_a] |= std::uint64_t{1} << m.color;
   if (b) body_colors[m.body_b] |= std::uint64_t{1} << m.color;

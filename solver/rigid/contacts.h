@@ -12,6 +12,7 @@
 namespace sunder::solver {
 
 inline constexpr std::uint8_t kNoColor = 0xff;
+inline constexpr std::uint8_t kMaxColors = 64;  ///< As a colour: none was free.
 
 /// Two shapes whose fat boxes overlap. If their kinds differ, a is the half-space, or the hull.
 struct Pair {
@@ -90,19 +91,18 @@ struct Contacts {
   std::vector<Pair> pairs;
   std::vector<Manifold> manifolds;
   std::vector<std::uint32_t> free_pairs, free_manifolds;
+  std::uint8_t colors = kMaxColors;        ///< That may be given out.
   std::vector<std::uint64_t> body_colors;  ///< Bit c: a manifold of colour c touches the body.
   KeyMap slot_of;                          ///< Pair slots by key.
 
   void add(const Pair& pair);
   /// Removes a pair and its manifold, if it has one.
   void remove(std::uint32_t pair);
-  /// The pair came to touch. Its manifold gets the least colour neither body has; `kMaxColors` is
-  /// the overflow: none was free.
+  /// The pair came to touch. Its manifold gets the least colour neither body has, or `kMaxColors`
+  /// if none was free.
   void touch(std::uint32_t pair, const Manifold& manifold, const Bodies& bodies);
   /// The pair no longer touches.
   void part(std::uint32_t pair);
 };
-
-inline constexpr std::uint8_t kMaxColors = 64;
 
 }  // namespace sunder::solver

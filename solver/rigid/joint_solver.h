@@ -19,6 +19,7 @@ class JointSolver {
  public:
   /// Groups the joints that hold something awake, and marks their bodies in `in_contact`, by slot.
   void collect(const Bodies& bodies, const Joints& joints, std::span<std::uint8_t> in_contact);
+  bool empty() const { return groups_.empty(); }
   /// Stages over all groups of a kind of work, colour by colour.
   void each_color(int kind, std::vector<Stage>& stages) const;
   /// The work on group i; `rows` and `root_W` are those of the step.

@@ -1,29 +1,43 @@
-// From manifolds to constraint blocks.
+// From manifolds to constraint blocks, and back.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "solver/rigid/bodies.h"
-#include "solver/rigid/constraint_block.h"
 #include "solver/rigid/contacts.h"
+#include "solver/rigid/sweep.h"
 
 namespace sunder::solver {
 
-/// What prepare() needs besides the manifolds.
-struct PrepareStep {
+/// Where a split manifold's changes of its bodies go, and into how many parts those are cut.
+struct SplitSides {
+  std::uint32_t part_a = 0, part_b = 0;
+  std::uint32_t parts_a = 1, parts_b = 1;
+};
+
+/// What the blocks of a step are made from, and what they work on.
+struct ContactStep {
+  const Bodies& bodies;
+  Contacts& contacts;
+  std::span<const std::uint32_t> manifolds;  ///< To solve, in the order of blocks.
+  std::uint32_t first_split = 0;             ///< Manifolds from here on are split,
+  std::span<const SplitSides> split;         ///< as this says of each.
+  std::span<const Mat3f> root_W;             ///< By body slot, of those awake.
+  SolverRows rows;
+  SoftStep soft;
   Vec3f gravity_W = Vec3f::Zero();
   float impulse_scale = 1;     ///< Substep over that of the last step.
   float bounce_speed_m_s = 0;  ///< Slower impacts do not bounce.
 };
 
-/// Fills everything but `manifold`, `lanes` and `points`, which say what goes in. `root_W` is by
-/// body slot, for bodies that are awake; rows are by slot + 1.
-void prepare_block(const Contacts& contacts, const Bodies& bodies, std::span<const Mat3f> root_W,
-                   const BodyRow* rows, const PrepareStep& step, ConstraintBlock& block);
+/// Fills everything but `first`, `count`, `points` and `split`, which say what goes in.
+template <std::uint32_t lanes>
+void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& block);
 
 /// Hands impulses and final separations back to the manifolds, and lets friction anchors go where
 /// the patch slid.
-void store_block(const ConstraintBlock& block, const BodyRow* rows, Contacts& contacts);
+template <std::uint32_t lanes>
+void store_block(const ContactStep& step, const ConstraintBlock<lanes>& block);
 
 }  // namespace sunder::solver

@@ -21,7 +21,12 @@ namespace {
 
 class RigidPhysics final : public Physics {
  public:
-  explicit RigidPhysics(const RigidOptions& options) : options_(options) {}
+  explicit RigidPhysics(const RigidOptions& options)
+      : options_(options), contact_solver_({options.sweeps, options.lanes}) {
+    SUNDER_CHECK(options.max_colors >= 0 && options.max_colors <= kMaxColors);
+    SUNDER_CHECK(options.sweeps > 0 && options.lanes >= 0);
+    contacts_.colors = static_cast<std::uint8_t>(options.max_colors);
+  }
 
   std::vector<BodyId> replace(std::span<const BodyId> remove,
                               std::span<const BodyDesc> add) override;

@@ -10,6 +10,13 @@ namespace sunder::solver {
 struct RigidOptions {
   Vec3 gravity_W = Vec3(0, -9.81, 0);
   bool sleeping = true;
+  /// Colours that contacts are solved in, one after another; those that find none are solved side
+  /// by side with their bodies split. 64: coloured Gauss-Seidel; 0: mass splitting alone.
+  int max_colors = 64;
+  int sweeps = 1;  ///< Of either kind in a substep; more serve to measure.
+  /// Manifolds solved side by side by a thread: 1, 4, 8 or 16, or fewer if the processor has not
+  /// so many; 0: the most it has. The same bits for any.
+  int lanes = 0;
 };
 
 /// The same bits for any number of threads (engine/base/parallel.h sets it).

@@ -1,21 +1,53 @@
-// The kernels: one block of eight manifolds against the rows of its bodies.
+// The kernels: one block of manifolds against its bodies, for 1, 4, 8 and 16 lanes (sweep_1.cpp and
+// so on, each compiled for the instruction set it needs). Read first: sweep() in sweep_kernels.h.
 #pragma once
 
 #include "solver/rigid/constraint_block.h"
 
 namespace sunder::solver {
 
+/// What the kernels work on. Rows are by body slot + 1; row 0 stays still.
+struct SolverRows {
+  BodyRow* rows = nullptr;
+  Wide* parts = nullptr;  ///< What split manifolds did to their bodies, to be summed.
+};
+
+/// What a block is made of, besides what is stored in it.
+template <std::uint32_t lanes>
+struct alignas(64) GatheredBlock {
+  Wide3Of<lanes> root_a[3] = {}, root_b[3] = {};  ///< Columns.
+  Wide3Of<lanes> drift = {}, slide_impulse = {}, friction_arm_a = {}, friction_arm_b = {};
+  Wide3Of<lanes> arm_a[4] = {}, arm_b[4] = {};
+  Wide3Of<lanes> gravity = {};  ///< Acceleration of b from a.
+  WideOf<lanes> restitution = {};
+  WideOf<lanes> awake_a = {}, awake_b = {};
+  WideOf<lanes> parts_a = {}, parts_b = {};  ///< Into which a split block cuts its bodies.
+  float bounce_speed_m_s = 0;                ///< Slower impacts do not bounce.
+  bool sleepers = false;
+};
+
+/// Works out Jacobians and masses.
+template <std::uint32_t lanes>
+void derive(GatheredBlock<lanes>& gathered, const SolverRows& bodies,
+            ConstraintBlock<lanes>& block);
 /// Applies last step's impulses.
-void warm_start(ConstraintBlock& block, BodyRow* rows);
+template <std::uint32_t lanes>
+void warm_start(ConstraintBlock<lanes>& block, const SolverRows& bodies);
 /// One Gauss-Seidel pass with the soft bias: pushes overlaps apart.
-void sweep_biased(ConstraintBlock& block, BodyRow* rows, const SoftStep& soft);
+template <std::uint32_t lanes>
+void sweep_biased(ConstraintBlock<lanes>& block, const SolverRows& bodies, const SoftStep& soft);
 /// One pass without it: takes out the velocity the push left behind.
-void sweep_relaxed(ConstraintBlock& block, BodyRow* rows, const SoftStep& soft);
+template <std::uint32_t lanes>
+void sweep_relaxed(ConstraintBlock<lanes>& block, const SolverRows& bodies, const SoftStep& soft);
+/// Adds the impulses of a substep to those of the step, where they are summed.
+template <std::uint32_t lanes>
+void sum_impulses(ConstraintBlock<lanes>& block);
 /// Once, after all substeps: points that took an impulse leave with their rebound velocity.
-void bounce(ConstraintBlock& block, BodyRow* rows);
-/// Speed of b from a along the normal at a point.
-Wide speed_along(const ConstraintBlock& block, int point, const BodyRow* rows);
-/// Separation of a point now.
-Wide separation_now(const ConstraintBlock& block, int point, const BodyRow* rows);
+template <std::uint32_t lanes>
+void bounce(ConstraintBlock<lanes>& block, const SolverRows& bodies);
+/// Writes the separation of every point now, by point and lane.
+template <std::uint32_t lanes>
+void separations_now(const ConstraintBlock<lanes>& block, const SolverRows& bodies,
+                     float (*separation)[lanes]);
 
 }  // namespace sunder::solver

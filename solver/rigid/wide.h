@@ -1,26 +1,57 @@
-// Eight floats at a time: the only place with vector extensions. Every operation is IEEE and
-// lane by lane, so a wide kernel gives the bits of a scalar one.
+// Several floats at a time: the only place with vector extensions. Every operation is IEEE and lane
+// by lane, so a wide kernel gives the bits of a scalar one.
+//
+// Collision works eight at a time (Wide); the contact solver is compiled for 1, 4, 8 and 16 lanes,
+// each with an instruction set of its own. So all of this is inlined by force: what the linker
+// shared between them could be code that this processor does not have.
 #pragma once
 
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+
+#define SUNDER_INLINE [[gnu::always_inline]] inline
 
 namespace sunder::solver {
 
-inline constexpr std::uint32_t kLanes = 8;
-typedef float Wide __attribute__((vector_size(32)));
-typedef std::int32_t WideInt __attribute__((vector_size(32)));
+namespace detail {
+template <std::uint32_t lanes>
+struct Vectors {
+  typedef float Float __attribute__((vector_size(4 * lanes)));
+  typedef std::int32_t Int __attribute__((vector_size(4 * lanes)));
+};
+}  // namespace detail
 
-inline Wide splat(float x) { return Wide{x, x, x, x, x, x, x, x}; }
-inline Wide min(Wide a, Wide b) { return a < b ? a : b; }
-inline Wide max(Wide a, Wide b) { return a > b ? a : b; }
-inline Wide sqrt(Wide x) {
-  for (std::uint32_t i = 0; i < kLanes; ++i) x[i] = std::sqrt(x[i]);
+template <std::uint32_t lanes>
+using WideOf = typename detail::Vectors<lanes>::Float;
+
+inline constexpr std::uint32_t kLanes = 8;
+using Wide = WideOf<kLanes>;
+using WideInt = detail::Vectors<kLanes>::Int;
+
+template <class V>
+inline constexpr std::uint32_t kLanesOf = sizeof(V) / sizeof(float);
+
+template <class V = Wide>
+SUNDER_INLINE V splat(float x) {
+  return x - V{};
+}
+template <class V>
+SUNDER_INLINE V min(V a, V b) {
+  return a < b ? a : b;
+}
+template <class V>
+SUNDER_INLINE V max(V a, V b) {
+  return a > b ? a : b;
+}
+template <class V>
+SUNDER_INLINE V sqrt(V x) {
+  for (std::uint32_t i = 0; i < kLanesOf<V>; ++i) x[i] = __builtin_sqrtf(x[i]);
   return x;
 }
 
 /// Bit i is set where lane i of a comparison is true.
-inline std::uint32_t bits(WideInt mask) {
+SUNDER_INLINE std::uint32_t bits(WideInt mask) {
 #ifdef __AVX__
   return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Wide>(mask)));
 #else
@@ -29,39 +60,142 @@ inline std::uint32_t bits(WideInt mask) {
   return set;
 #endif
 }
+/// Whether some lane of a comparison is true.
+template <class Mask>
+SUNDER_INLINE bool any(Mask mask) {
+  std::int32_t set = 0;
+  for (std::uint32_t i = 0; i < sizeof(Mask) / sizeof(std::int32_t); ++i) set |= mask[i];
+  return set != 0;
+}
 
 /// Chunks of eight that hold n items.
 constexpr std::uint32_t wide_count(std::uint32_t n) { return (n + kLanes - 1) / kLanes; }
 
-/// Eight vectors.
-struct Wide3 {
-  Wide x, y, z;
+/// As many vectors as there are lanes.
+template <class V>
+struct Triple {
+  V x, y, z;
 };
+template <std::uint32_t lanes>
+using Wide3Of = Triple<WideOf<lanes>>;
+using Wide3 = Triple<Wide>;
 
-inline Wide3 operator+(const Wide3& a, const Wide3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Wide3 operator-(const Wide3& a, const Wide3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Wide3 operator*(const Wide3& a, Wide s) { return {a.x * s, a.y * s, a.z * s}; }
-inline Wide dot(const Wide3& a, const Wide3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Wide3 cross(const Wide3& a, const Wide3& b) {
+template <class V>
+SUNDER_INLINE Triple<V> operator+(const Triple<V>& a, const Triple<V>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class V>
+SUNDER_INLINE Triple<V> operator-(const Triple<V>& a, const Triple<V>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class V>
+SUNDER_INLINE Triple<V> operator*(const Triple<V>& a, V s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+template <class V>
+SUNDER_INLINE V dot(const Triple<V>& a, const Triple<V>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class V>
+SUNDER_INLINE Triple<V> cross(const Triple<V>& a, const Triple<V>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Rows become columns, in place.
-inline void transpose(Wide (&m)[8]) {
-  Wide pairs[8], quads[8];
-  for (int i = 0; i < 8; i += 2) {
-    pairs[i] = __builtin_shufflevector(m[i], m[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
-    pairs[i + 1] = __builtin_shufflevector(m[i], m[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+namespace detail {
+
+typedef float Quad __attribute__((vector_size(16), may_alias));
+
+/// The four at `offset` of rows 0, 4, 8 and so on, side by side. A row has eight floats.
+template <class V>
+SUNDER_INLINE V quads(const float* const* row, std::uint32_t offset) {
+  auto quad = [&](int i) { return *reinterpret_cast<const Quad*>(row[i] + offset); };
+  if constexpr (kLanesOf<V> == 4) {
+    return quad(0);
+  } else if constexpr (kLanesOf<V> == 8) {
+    return __builtin_shufflevector(quad(0), quad(4), 0, 1, 2, 3, 4, 5, 6, 7);
+  } else {
+    const Wide low = __builtin_shufflevector(quad(0), quad(4), 0, 1, 2, 3, 4, 5, 6, 7);
+    const Wide high = __builtin_shufflevector(quad(8), quad(12), 0, 1, 2, 3, 4, 5, 6, 7);
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   }
-  for (int i = 0; i < 8; i += 4) {
-    quads[i] = __builtin_shufflevector(pairs[i], pairs[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-    quads[i + 1] = __builtin_shufflevector(pairs[i], pairs[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-    quads[i + 2] = __builtin_shufflevector(pairs[i + 1], pairs[i + 3], 0, 1, 8, 9, 4, 5, 12, 13);
-    quads[i + 3] = __builtin_shufflevector(pairs[i + 1], pairs[i + 3], 2, 3, 10, 11, 6, 7, 14, 15);
+}
+template <class V>
+SUNDER_INLINE void store_quads(V v, float* const* row, const bool* wanted, std::uint32_t offset) {
+  auto put = [&](std::uint32_t i, Quad quad) {
+    if (wanted[i]) *reinterpret_cast<Quad*>(row[i] + offset) = quad;
+  };
+  if constexpr (kLanesOf<V> == 4) {
+    put(0, v);
+  } else {
+    put(0, __builtin_shufflevector(v, v, 0, 1, 2, 3));
+    put(4, __builtin_shufflevector(v, v, 4, 5, 6, 7));
+    if constexpr (kLanesOf<V> == 16) {
+      put(8, __builtin_shufflevector(v, v, 8, 9, 10, 11));
+      put(12, __builtin_shufflevector(v, v, 12, 13, 14, 15));
+    }
   }
-  for (int i = 0; i < 4; ++i) {
-    m[i] = __builtin_shufflevector(quads[i], quads[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-    m[i + 4] = __builtin_shufflevector(quads[i], quads[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+}
+
+/// The same choice within every four lanes: 0 to 3 from a, 4 to 7 from b.
+template <int... choice, class V, std::uint32_t... lane>
+SUNDER_INLINE V choose(V a, V b, std::integer_sequence<std::uint32_t, lane...>) {
+  constexpr int kChoice[4] = {choice...};
+  constexpr int kFromB = static_cast<int>(kLanesOf<V>) - 4;
+  return __builtin_shufflevector(a, b,
+                                 (kChoice[lane % 4] + (kChoice[lane % 4] < 4 ? 0 : kFromB) +
+                                  static_cast<int>(lane / 4 * 4))...);
+}
+template <int... choice, class V>
+SUNDER_INLINE V choose(V a, V b) {
+  return choose<choice...>(a, b, std::make_integer_sequence<std::uint32_t, kLanesOf<V>>());
+}
+
+/// Every four by four becomes its transpose.
+template <class V>
+SUNDER_INLINE void transpose(V& a, V& b, V& c, V& d) {
+  const V ab_low = choose<0, 4, 1, 5>(a, b), ab_high = choose<2, 6, 3, 7>(a, b);
+  const V cd_low = choose<0, 4, 1, 5>(c, d), cd_high = choose<2, 6, 3, 7>(c, d);
+  a = choose<0, 1, 4, 5>(ab_low, cd_low), b = choose<2, 3, 6, 7>(ab_low, cd_low);
+  c = choose<0, 1, 4, 5>(ab_high, cd_high), d = choose<2, 3, 6, 7>(ab_high, cd_high);
+}
+
+}  // namespace detail
+
+/// Linear and angular parts of as many bodies as there are lanes.
+template <class V>
+struct Motion6 {
+  Triple<V> linear, angular;
+};
+
+/// The first six of the eight floats of a row, a lane each.
+template <class V>
+SUNDER_INLINE Motion6<V> load_rows(const float* const* row) {
+  if constexpr (kLanesOf<V> == 1) {
+    const float* r = row[0];
+    return {{V{r[0]}, V{r[1]}, V{r[2]}}, {V{r[3]}, V{r[4]}, V{r[5]}}};
+  } else {
+    V v[8];
+    for (std::uint32_t i = 0; i < 8; ++i) v[i] = detail::quads<V>(row + i % 4, i / 4 * 4);
+    detail::transpose(v[0], v[1], v[2], v[3]);
+    detail::transpose(v[4], v[5], v[6], v[7]);
+    return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+  }
+}
+/// The way back, for the rows that are wanted; the last two of eight become 0.
+template <class V>
+SUNDER_INLINE void store_rows(const Motion6<V>& m, float* const* row, const bool* wanted) {
+  if constexpr (kLanesOf<V> == 1) {
+    if (!wanted[0]) return;
+    const float values[8] = {m.linear.x[0],  m.linear.y[0],  m.linear.z[0],
+                             m.angular.x[0], m.angular.y[0], m.angular.z[0]};
+    for (int i = 0; i < 8; ++i) row[0][i] = values[i];
+  } else {
+    V v[8] = {m.linear.x, m.linear.y, m.linear.z, m.angular.x, m.angular.y, m.angular.z};
+    v[6] = v[7] = V{};
+    detail::transpose(v[0], v[1], v[2], v[3]);
+    detail::transpose(v[4], v[5], v[6], v[7]);
+    for (std::uint32_t i = 0; i < 8; ++i)
+      detail::store_quads(v[i], row + i % 4, wanted + i % 4, i / 4 * 4);
   }
 }
 

@@ -1,0 +1,94 @@
+// Blocks of 1, 4, 8 and 16 lanes, and which of them this processor runs.
+#include "solver/rigid/contact_blocks.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace sunder::solver {
+namespace {
+
+template <std::uint32_t kWidth>
+class BlocksOf final : public ContactBlocks {
+ public:
+  std::uint32_t lanes() const override { return kWidth; }
+  std::uint32_t size() const override { return used_; }
+  void clear() override { used_ = 0; }
+  void add(std::uint32_t first, std::uint32_t count, std::uint32_t points, bool split) override {
+    for (std::uint32_t i = 0; i < count; i += kWidth) {
+      // Blocks of the last step are written over, not cleared.
+      if (used_ == blocks_.size()) blocks_.emplace_back();
+      ConstraintBlock<kWidth>& block = blocks_[used_++];
+      block.first = first + i;
+      block.count = std::min(kWidth, count - i);
+      block.points = points;
+      block.split = split;
+    }
+  }
+
+  void prepare(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) prepare_block(step, blocks_[i]);
+  }
+  void warm_start(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::warm_start(blocks_[i], step.rows);
+  }
+  void sweep_biased(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i)
+      solver::sweep_biased(blocks_[i], step.rows, step.soft);
+  }
+  void sweep_relaxed(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i)
+      solver::sweep_relaxed(blocks_[i], step.rows, step.soft);
+  }
+  void sum_impulses(std::uint32_t begin, std::uint32_t end) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::sum_impulses(blocks_[i]);
+  }
+  void bounce(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::bounce(blocks_[i], step.rows);
+  }
+  void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) store_block(step, blocks_[i]);
+  }
+
+  Vec3 outside_impulse_Ns() const override {
+    Vec3 sum = Vec3::Zero();
+    for (std::uint32_t i = 0; i < used_; ++i) {
+      const ConstraintBlock<kWidth>& c = blocks_[i];
+      if (!c.summed) continue;
+      for (std::uint32_t lane = 0; lane < c.count; ++lane)
+        sum += double{c.outside_sign[lane]} *
+               Vec3(double{c.total.x[lane]}, double{c.total.y[lane]}, double{c.total.z[lane]});
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<ConstraintBlock<kWidth>> blocks_;
+  std::uint32_t used_ = 0;
+};
+
+/// The most lanes that this processor has instructions for.
+int supported_lanes() {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl"))
+    return 16;
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") ? 8 : 4;
+#else
+  return 4;
+#endif
+}
+
+}  // namespace
+
+std::unique_ptr<ContactBlocks> make_contact_blocks(int most_lanes) {
+  static const int kSupported = supported_lanes();
+  const int most = most_lanes == 0 ? kSupported : std::min(most_lanes, kSupported);
+  if (most >= 16) return std::make_unique<BlocksOf<16>>();
+  if (most >= 8) return std::make_unique<BlocksOf<8>>();
+  if (most >= 4) return std::make_unique<BlocksOf<4>>();
+  return std::make_unique<BlocksOf<1>>();
+}
+
+}  // namespace sunder::solver
