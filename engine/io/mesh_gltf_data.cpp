@@ -1,5 +1,6 @@
 #include "engine/io/mesh_gltf_data.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -12,6 +13,8 @@ namespace sunder {
 namespace {
 
 using nlohmann::json;
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 32;
 
 /// A value for a message; what is nested in it may be endless.
 std::string brief(const json& value) {
@@ -46,6 +49,34 @@ std::string decode_base64(std::string_view text) {
     bytes.push_back(static_cast<char>(bits >> held & 0xff));
   }
   return bytes;
+}
+
+/// Whether meshes cannot be read without knowing an extension; those of looks are passed over.
+bool changes_geometry(const std::string& extension) {
+  constexpr std::string_view kLooks[] = {"KHR_materials_", "KHR_texture_",  "KHR_lights_",
+                                         "KHR_xmp",        "EXT_texture_",  "EXT_lights_",
+                                         "MSFT_texture_",  "KHR_animation_"};
+  return extension != "KHR_mesh_quantization" &&
+         std::none_of(std::begin(kLooks), std::end(kLooks),
+                      [&](std::string_view start) { return extension.starts_with(start); });
+}
+
+/// A relative reference with its escapes (%20) resolved.
+std::string unescaped(const std::string& uri) {
+  const auto digit_of = [](char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                                  : -1;
+  };
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const int high = uri[i] == '%' && i + 2 < uri.size() ? digit_of(uri[i + 1]) : -1;
+    const int low = high >= 0 ? digit_of(uri[i + 2]) : -1;
+    text.push_back(low >= 0 ? static_cast<char>(16 * high + low) : uri[i]);
+    if (low >= 0) i += 2;
+  }
+  return text;
 }
 
 /// How an accessor's components are stored.
@@ -92,8 +123,7 @@ GltfData::GltfData(const MeshSource& source) : source_(source) {
   document_ = json::parse(json_chunk(), nullptr, false);
   if (!document_.is_object()) fail("not a glTF file: its JSON cannot be parsed; export it again");
   for (const json& extension : array(document_, "extensionsRequired")) {
-    if (extension != "KHR_texture_transform" && extension != "KHR_materials_unlit" &&
-        extension != "KHR_mesh_quantization") {
+    if (!extension.is_string() || changes_geometry(extension.get<std::string>())) {
       fail("it needs the extension " + brief(extension) + ": export it without (no compression)");
     }
   }
@@ -132,12 +162,14 @@ void GltfData::load_buffers() {
   }
 }
 
-std::string GltfData::load_uri(const std::string& uri) const {
-  if (uri.starts_with("data:")) {
-    const std::size_t comma = uri.find(";base64,");
+std::string GltfData::load_uri(const std::string& reference) const {
+  if (reference.starts_with("data:")) {
+    const std::size_t comma = reference.find(";base64,");
     if (comma == std::string::npos) fail("a buffer is not in base 64: export it again");
-    return decode_base64(std::string_view(uri).substr(comma + 8));
+    return decode_base64(std::string_view(reference).substr(comma + 8));
   }
+  const std::string uri = unescaped(reference);
+  if (uri.find('\0') != std::string::npos) fail("a buffer's uri is no text: export it again");
   // A mesh from elsewhere must not make us read what is not its own.
   const std::filesystem::path path(uri);
   if (path.is_absolute() || uri.find("..") != std::string::npos || uri.find(':') < uri.size()) {
@@ -197,37 +229,62 @@ std::vector<double> GltfData::numbers(const json& parent, const char* name,
   return numbers;
 }
 
-std::vector<double> GltfData::values(std::size_t accessor_index, std::size_t width) const {
-  constexpr std::size_t kMost = std::size_t{1} << 32;
-  const json& accessor = array(document_, "accessors")[accessor_index];
+std::vector<double> GltfData::items(const json& where, std::size_t count, std::size_t width,
+                                    std::size_t type) const {
+  const Component component = component_of(type);
+  if (component.size == 0) fail("an accessor is of an unexpected type: export it again");
   const json& views = array(document_, "bufferViews");
-  if (!accessor.is_object() || accessor.contains("sparse")) {
-    fail("sparse accessors are not read: export it without morph targets");
-  }
-  const json& view = views[index(accessor, "bufferView", views.size())];
+  const json& view = views[index(where, "bufferView", views.size())];
   const std::string_view buffer = buffers_[index(view, "buffer", buffers_.size())];
-  const Component component = component_of(index(accessor, "componentType", kMost));
-  const char* const types[] = {"SCALAR", "VEC2", "VEC3"};
-  if (component.size == 0 || !accessor.contains("type") || accessor["type"] != types[width - 1]) {
-    fail("an accessor is of an unexpected type: export it again");
-  }
-  const std::size_t view_start = index(view, "byteOffset", kMost, 0);
-  const std::size_t view_size = index(view, "byteLength", kMost);
-  const std::size_t start = index(accessor, "byteOffset", kMost, 0);
-  const std::size_t count = index(accessor, "count", source_.limits.corners + 1);
+  const std::size_t view_start = index(view, "byteOffset", kMostBytes, 0);
+  const std::size_t view_size = index(view, "byteLength", kMostBytes);
+  const std::size_t start = index(where, "byteOffset", kMostBytes, 0);
   const std::size_t stride = index(view, "byteStride", 253, component.size * width);
   if (view_start + view_size > buffer.size() || stride < component.size * width ||
       (count > 0 && start + stride * (count - 1) + component.size * width > view_size)) {
     fail("an accessor leaves its buffer: the file is cut short or corrupt");
   }
-  const bool normalized = accessor.contains("normalized") && accessor["normalized"] == true;
   std::vector<double> values;
   values.reserve(count * width);
   for (std::size_t i = 0; i < count; ++i) {
     const char* at = buffer.data() + view_start + start + i * stride;
     for (std::size_t k = 0; k < width; ++k, at += component.size) {
-      values.push_back(component.read(at) * (normalized ? component.scale : 1));
+      values.push_back(component.read(at));
     }
+  }
+  return values;
+}
+
+std::vector<double> GltfData::values(std::size_t accessor_index, std::size_t width) const {
+  const json& accessor = array(document_, "accessors")[accessor_index];
+  const char* const types[] = {"SCALAR", "VEC2", "VEC3"};
+  if (!accessor.is_object() || !accessor.contains("type") || accessor["type"] != types[width - 1]) {
+    fail("an accessor is of an unexpected type: export it again");
+  }
+  const std::size_t type = index(accessor, "componentType", kMostBytes);
+  const std::size_t count = index(accessor, "count", source_.limits.corners + 1);
+  const bool zero = !accessor.contains("bufferView");
+  if (zero && count > source_.bytes.size()) fail("an accessor has more items than the file bytes");
+  std::vector<double> values =
+      zero ? std::vector<double>(count * width) : items(accessor, count, width, type);
+  if (accessor.contains("sparse")) {  // some items replaced
+    const json& sparse = object(accessor, "sparse");
+    const std::size_t changed = index(sparse, "count", count + 1);
+    const json& places = object(sparse, "indices");
+    const std::vector<double> at =
+        items(places, changed, 1, index(places, "componentType", kMostBytes));
+    const std::vector<double> by = items(object(sparse, "values"), changed, width, type);
+    for (std::size_t i = 0; i < changed; ++i) {
+      if (!(at[i] >= 0 && at[i] < static_cast<double>(count))) {
+        fail("a sparse accessor changes what it does not have: export it again");
+      }
+      std::copy_n(
+          by.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+          values.begin() + static_cast<std::ptrdiff_t>(at[i]) * static_cast<std::ptrdiff_t>(width));
+    }
+  }
+  if (accessor.contains("normalized") && accessor["normalized"] == true) {
+    for (double& value : values) value *= component_of(type).scale;
   }
   return values;
 }

@@ -42,7 +42,11 @@ class GltfData {
 
   std::string_view json_chunk();
   void load_buffers();
-  std::string load_uri(const std::string& uri) const;
+  std::string load_uri(const std::string& reference) const;
+  /// `count` times `width` numbers of a component type, from a view of a buffer.
+  std::vector<double> items(const nlohmann::json& where, std::size_t count, std::size_t width,
+                            std::size_t type) const;
+  /// What an accessor says.
   std::vector<double> values(std::size_t accessor, std::size_t width) const;
 
   const MeshSource& source_;

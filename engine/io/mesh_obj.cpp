@@ -38,12 +38,12 @@ class ObjReader {
       mesh_.vertices.push_back(text_.point());
       ++lists_[0].count;
     } else if (keyword == "vt") {
-      const double u = text_.number();
+      const double u = text_.number_or_nan();
       const std::string_view v = text_.word();
-      uvs_.push_back(Vec2(u, v.empty() ? 0 : text_.to_number(v)).cast<float>());
+      uvs_.push_back(Vec2(u, v.empty() ? 0 : text_.to_number_or_nan(v)).cast<float>());
       ++lists_[1].count;
     } else if (keyword == "vn") {
-      normals_.push_back(text_.point().cast<float>());
+      normals_.push_back(text_.point_or_nan().cast<float>());
       ++lists_[2].count;
     } else if (keyword == "f" || keyword == "fo") {
       face();

@@ -1,4 +1,6 @@
 // Object File Format: OFF with optional normals and colours (NOFF, COFF, CNOFF, STOFF), in text.
+#include <string>
+
 #include "engine/io/mesh_text.h"
 
 namespace sunder {
@@ -9,8 +11,13 @@ struct OffLayout {
   bool texture = false, color = false, normal = false;
 };
 
-OffLayout layout_of(std::string_view keyword, const MeshText& text) {
+OffLayout layout_of(std::string_view word, const MeshText& text) {
   OffLayout layout;
+  std::string upper(word);
+  for (char& c : upper) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  std::string_view keyword = upper;
   const auto take = [&](std::string_view prefix) {
     if (!keyword.starts_with(prefix)) return false;
     keyword.remove_prefix(prefix.size());
@@ -19,6 +26,7 @@ OffLayout layout_of(std::string_view keyword, const MeshText& text) {
   layout.texture = take("ST");
   layout.color = take("C");
   layout.normal = take("N");
+  layout.color = layout.color || take("C");  // in either order
   if (keyword != "OFF") {
     text.fail("not an OFF file of points in space: it must begin with OFF, COFF, NOFF or STOFF");
   }
@@ -40,8 +48,12 @@ std::size_t to_count(std::string_view word, const MeshText& text, const MeshSour
 RawMesh read_off(const MeshSource& source) {
   MeshText text(source);
   text.need_line("header");
-  const OffLayout layout = layout_of(text.word(), text);
   std::string_view first = text.word();
+  OffLayout layout;
+  if (first.front() < '0' || first.front() > '9') {  // some files begin with the counts
+    layout = layout_of(first, text);
+    first = text.word();
+  }
   if (first == "BINARY") text.fail("binary OFF is not read: save it as text, or as PLY");
   if (first.empty()) {
     text.need_line("counts");
@@ -55,7 +67,7 @@ RawMesh read_off(const MeshSource& source) {
   for (std::size_t v = 0; v < vertex_count; ++v) {
     text.need_line("vertices");
     mesh.vertices.push_back(text.point());
-    if (layout.normal) normals.push_back(text.point().cast<float>());
+    if (layout.normal) normals.push_back(text.point_or_nan().cast<float>());
   }
   std::vector<std::uint32_t> polygon;
   for (std::size_t f = 0; f < face_count; ++f) {

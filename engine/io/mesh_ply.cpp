@@ -15,7 +15,7 @@ enum class PlyFormat { kText, kLittleEndian, kBigEndian };
 enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
 /// What a property is to us; the first eight are places in a vertex's record.
-enum class PlyRole { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kU, kV, kCorners, kOther };
+enum class PlyRole { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kU, kV, kCorners, kStrips, kOther };
 
 struct PlyProperty {
   PlyType type = PlyType::kFloat;
@@ -78,6 +78,7 @@ PlyRole role_of(std::string_view element, std::string_view name, bool list) {
   if (element == "face" && list && (name == "vertex_indices" || name == "vertex_index")) {
     return PlyRole::kCorners;
   }
+  if (element == "tristrips" && list && name == "vertex_indices") return PlyRole::kStrips;
   if (element == "vertex" && !list) {
     for (const auto& [known, role] : kRoles) {
       if (known == name) return role;
@@ -133,7 +134,7 @@ class TextValues {
  public:
   explicit TextValues(MeshText& text) : text_(text) {}
   void begin() { text_.need_line("last vertex or face"); }
-  double next(PlyType) { return text_.number(); }
+  double next(PlyType) { return text_.number_or_nan(); }
   void need(std::size_t, PlyType) {}
   [[noreturn]] void fail(const std::string& what) const { text_.fail(what); }
 
@@ -241,15 +242,30 @@ class PlyBody {
     const auto n = static_cast<std::size_t>(count);
     values_.need(n, property.type);
     polygon_.clear();
+    const bool strips = property.role == PlyRole::kStrips;
     for (std::size_t i = 0; i < n; ++i) {
       const double v = values_.next(property.type);
-      if (property.role != PlyRole::kCorners) continue;
+      if (property.role != PlyRole::kCorners && !strips) continue;
+      if (strips && v == -1) {
+        add_strip();
+        continue;
+      }
       if (!(v >= 0 && v <= 0x7fffffff)) {
         values_.fail("a face has a corner at no vertex: export the mesh again");
       }
       polygon_.push_back(static_cast<std::uint32_t>(v));
     }
     if (property.role == PlyRole::kCorners) add_polygon(mesh_, polygon_);
+    if (strips) add_strip();
+  }
+
+  /// Triangles of every three vertices in a row, turned to face the same way.
+  void add_strip() {
+    for (std::size_t i = 2; i < polygon_.size(); ++i) {
+      const std::size_t odd = i % 2;
+      add_polygon(mesh_, std::array{polygon_[i - 2], polygon_[i - 1 + odd], polygon_[i - odd]});
+    }
+    polygon_.clear();
   }
 
   const MeshSource& source_;

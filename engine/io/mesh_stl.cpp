@@ -1,5 +1,6 @@
 // STL, in text or binary: triangles that share no vertices. Its facet normals say nothing that the
 // vertices do not, and are passed over.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -11,21 +12,25 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 80, kTriangleBytes = 50;
 
+/// Of a binary file; one whose writer did not know the count when it began says 0.
 std::size_t triangle_count(std::string_view bytes) {
   std::uint32_t count = 0;
-  if (bytes.size() >= kHeaderBytes + sizeof count) {
-    std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof count);
-  }
-  return count;
+  std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof count);
+  return count > 0 ? count : (bytes.size() - kHeaderBytes - 4) / kTriangleBytes;
 }
 
-/// Whether the size is the one that binary triangles give: the text "solid" opens many a binary
-/// file too.
+/// The text "solid" opens many a binary file too; but only in those, the count has a byte that no
+/// text has.
 bool is_binary(std::string_view bytes) {
   return bytes.size() >= kHeaderBytes + 4 &&
          (bytes.size() - kHeaderBytes - 4) / kTriangleBytes >= triangle_count(bytes) &&
          (!bytes.starts_with("solid") ||
-          bytes.size() == kHeaderBytes + 4 + kTriangleBytes * triangle_count(bytes));
+          bytes.substr(kHeaderBytes, 4).find('\0') != std::string_view::npos);
+}
+
+bool is_word(std::string_view text, std::string_view lower) {
+  return std::equal(text.begin(), text.end(), lower.begin(), lower.end(),
+                    [](char a, char b) { return a == b || (a | 0x20) == b; });
 }
 
 RawMesh read_binary(std::string_view bytes) {
@@ -51,13 +56,13 @@ RawMesh read_text(const MeshSource& source) {
   bool any_keyword = false;
   while (text.next_line()) {
     const std::string_view keyword = text.word();
-    if (keyword == "solid") {
+    if (is_word(keyword, "solid")) {
       mesh.groups.emplace_back(text.word());
       any_keyword = true;
-    } else if (keyword == "vertex") {
+    } else if (is_word(keyword, "vertex")) {
       polygon.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
       mesh.vertices.push_back(text.point());
-    } else if (keyword == "endloop") {
+    } else if (is_word(keyword, "endloop")) {
       add_polygon(mesh, polygon);
       polygon.clear();
     }

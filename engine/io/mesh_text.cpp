@@ -1,7 +1,9 @@
 #include "engine/io/mesh_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace sunder {
 namespace {
@@ -37,9 +39,15 @@ void spread_to_corners(RawMesh& mesh, std::span<const Vec3f> normals, std::span<
   }
 }
 
+MeshText::MeshText(const MeshSource& source) : source_(source), text_(source.bytes) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+  if (text_.find('\n') == std::string_view::npos) line_end_ = '\r';
+}
+
 bool MeshText::next_line() {
   if (line_ > 0) {
-    const std::size_t end = text_.find('\n', at_);
+    const std::size_t end = text_.find(line_end_, at_);
     at_ = end == std::string_view::npos ? text_.size() : end + 1;
   }
   ++line_;
@@ -59,19 +67,19 @@ void MeshText::need_line(const std::string& what) {
 
 std::string_view MeshText::word() {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\0'; };
-  for (; at_ < text_.size(); ++at_) {
+  for (; at_ < text_.size() && text_[at_] != line_end_; ++at_) {
     if (text_[at_] == '\\') {
-      const std::size_t end = text_.find_first_not_of('\r', at_ + 1);
-      if (end == std::string_view::npos || text_[end] != '\n') break;
+      const std::size_t end = line_end_ == '\r' ? at_ + 1 : text_.find_first_not_of('\r', at_ + 1);
+      if (end >= text_.size() || text_[end] != line_end_) break;
       ++line_;
       at_ = end;
     } else if (!blank(text_[at_])) {
       break;
     }
   }
-  if (at_ == text_.size() || text_[at_] == '\n' || text_[at_] == '#') return {};
+  if (at_ == text_.size() || text_[at_] == line_end_ || text_[at_] == '#') return {};
   const std::size_t start = at_;
-  while (at_ < text_.size() && text_[at_] != '\n' && !blank(text_[at_])) ++at_;
+  while (at_ < text_.size() && text_[at_] != line_end_ && !blank(text_[at_])) ++at_;
   return text_.substr(start, at_ - start);
 }
 
@@ -89,6 +97,16 @@ double MeshText::to_number(std::string_view word) const {
   return value;
 }
 
+double MeshText::to_number_or_nan(std::string_view word) const {
+  const std::string_view digits = word.substr(std::min(word.find_first_not_of("+-"), word.size()));
+  const auto says = [&](std::string_view start) { return digits.starts_with(start); };
+  if (says("nan") || says("NaN") || says("NAN") || says("inf") || says("Inf") || says("INF") ||
+      says("1.#")) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return to_number(word);
+}
+
 std::int64_t MeshText::to_integer(std::string_view word) const {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -104,8 +122,13 @@ Vec3 MeshText::point() {
   return {x, y, number()};
 }
 
+Vec3 MeshText::point_or_nan() {
+  const double x = number_or_nan(), y = number_or_nan();
+  return {x, y, number_or_nan()};
+}
+
 std::string_view MeshText::rest() const {
-  const std::size_t end = text_.find('\n', at_);
+  const std::size_t end = text_.find(line_end_, at_);
   return end == std::string_view::npos ? std::string_view() : text_.substr(end + 1);
 }
 

@@ -37,10 +37,10 @@ void add_polygon(RawMesh& mesh, std::span<const std::uint32_t> vertices);
 void spread_to_corners(RawMesh& mesh, std::span<const Vec3f> normals, std::span<const Vec2f> uvs);
 
 /// Text by lines and words, numbers parsed alike in every locale. A '#' ends a line; a '\' joins it
-/// to the next.
+/// to the next. Lines end as on any system; a byte order mark is passed over.
 class MeshText {
  public:
-  explicit MeshText(const MeshSource& source) : source_(source), text_(source.bytes) {}
+  explicit MeshText(const MeshSource& source);
 
   /// Moves to the next line, or tells that there is none.
   bool next_line();
@@ -51,10 +51,16 @@ class MeshText {
   /// The line's next word, which must be a finite number.
   double number() { return to_number(word()); }
   double to_number(std::string_view word) const;
+  /// The line's next word, which may say that it is not a number, as exporters write for normals of
+  /// faces without area; an infinity is none either.
+  double number_or_nan() { return to_number_or_nan(word()); }
+  double to_number_or_nan(std::string_view word) const;
   /// The line's next word, which must be an integer.
   std::int64_t integer() { return to_integer(word()); }
   std::int64_t to_integer(std::string_view word) const;
   Vec3 point();
+  /// As point(), of numbers that nothing depends on.
+  Vec3 point_or_nan();
 
   std::size_t line() const { return line_; }
   /// What is left of the text, from the line after this one.
@@ -65,6 +71,7 @@ class MeshText {
  private:
   const MeshSource& source_;
   std::string_view text_;
+  char line_end_ = '\n';
   std::size_t at_ = 0;
   std::size_t line_ = 0;
 };
