@@ -12,13 +12,16 @@ namespace {
 
 constexpr double kTouching_m = 1e-4;      // closer than this, bodies touch
 constexpr double kLeastSpeed_m_s = 0.01;  // slower contacts rest
-constexpr int kMostEvents = 16;
+constexpr int kMostEvents = 24;
+// After so many events each is the hardest yet to come, and takes what closes before it along, so
+// that a ball behind much debris is not forgotten.
+constexpr int kSingleEvents = 12;
 constexpr double kFaster = 2;  // than before, no contact closes once others have been solved
 // A contact alone that closes with less than this part of the least work is no event of its own.
 constexpr double kLeastEvent = 0.1;
 // Contacts give a little, against the heaviest body, so that supports share what they bear.
 constexpr double kGive = 1e-5;
-constexpr std::size_t kMostExact = 32;  // contacts that are solved exactly; more, by sweeps
+constexpr std::size_t kMostExact = 48;  // contacts that are solved exactly; more, by sweeps
 constexpr int kMostSweeps = 20;
 constexpr double kConverged = 1e-6;  // of the greatest closing speed squared
 
@@ -62,27 +65,35 @@ BreakProbe::Row BreakProbe::make_row(const ProbeContact& c) const {
   return row;
 }
 
-/// Moves on to when the next contact closes; false if none does within the step.
-bool BreakProbe::advance_to_event() {
-  if (++events_ > kMostEvents) return false;
-  double wait_s = std::numeric_limits<double>::infinity();
+/// How long until contacts close that may matter; infinite if none does within the step.
+double BreakProbe::wait_s() const {
+  double wait = std::numeric_limits<double>::infinity(), hardest = 0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const double inverse = rows_[i].inverse_mass;
     if (inverse <= 0) continue;
-    const double speed = rows_[i].speed(velocities_);
+    const double speed = rows_[i].speed(velocities_), gap = gap_m(i);
     if (speed < kLeastSpeed_m_s || speed * speed < 2 * kLeastEvent * least_J_ * inverse) continue;
-    const double gap = gap_m(i);
-    if (gap > kTouching_m) {
-      wait_s = std::min(wait_s, gap / speed);
-    } else if (events_ == 1) {
-      wait_s = 0;
+    if (gap <= kTouching_m) {
+      if (events_ == 1) return 0;
+    } else if (events_ <= kSingleEvents) {
+      wait = std::min(wait, gap / speed);
+    } else if (speed * speed > hardest * inverse && time_s_ + gap / speed <= dt_s_) {
+      hardest = speed * speed / inverse;
+      wait = gap / speed;
     }
   }
-  if (time_s_ + wait_s > dt_s_) return false;
-  time_s_ += wait_s;
+  return wait;
+}
+
+/// Moves on to when the next contact closes; false if none does within the step.
+bool BreakProbe::advance_to_event() {
+  if (++events_ > kMostEvents) return false;
+  const double wait = wait_s();
+  if (time_s_ + wait > dt_s_) return false;
+  time_s_ += wait;
   for (std::size_t i = 0; i < way_.size(); ++i) {
-    way_[i].linear += wait_s * velocities_[i].linear;
-    way_[i].angular += wait_s * velocities_[i].angular;
+    way_[i].linear += wait * velocities_[i].linear;
+    way_[i].angular += wait * velocities_[i].angular;
   }
   closed_.clear();
   fastest_m_s_ = 0;

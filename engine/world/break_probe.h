@@ -131,6 +131,7 @@ class BreakProbe {
   double gap_m(std::size_t contact) const {
     return contacts_[contact].separation_m - rows_[contact].speed(way_);
   }
+  double wait_s() const;
   bool advance_to_event();
   double closing_energy_J() const;
   bool may_load() const;

@@ -59,9 +59,12 @@ void prepare(World& world, Planned& planned) {
   hit.convex = blow.convex;
   hit.energy_J = blow.energy_J;
   const std::uint64_t event = world.next_event++;
+  // Of the actor: hit once more, it would break the same way, or a blow that comes in several steps
+  // would be given several chances.
+  const std::uint64_t seed = combine(world.scene.seed, blow.key);
   planned.command = world.breaker->command(
       actor.compound, world.material(actor.compound.convexes[blow.convex]->material), hit, event,
-      combine(world.scene.seed, event));
+      seed);
 }
 
 void plan_all(World& world, std::span<Planned* const> all) {
@@ -231,7 +234,7 @@ bool decide(World& world, std::vector<Trial>& trials) {
 }  // namespace
 
 void break_stage(World& world) {
-  const auto collide = [&] { world.physics->collide(world.scene.accuracy.dt_s); };
+  const auto collide = [&] { world.physics->collide(world.horizon_s()); };
   if (break_those_waiting(world)) collide();
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Trial> trials;

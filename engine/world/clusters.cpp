@@ -88,7 +88,7 @@ class Reach {
       contacts.push_back({a->second, b->second, touch.shape_tag_a, touch.shape_tag_b, touch.arm_a_W,
                           touch.arm_b_W, touch.normal_W, touch.separation_m});
     }
-    return BreakProbe(std::move(bodies), std::move(contacts), world_.scene.accuracy.dt_s);
+    return BreakProbe(std::move(bodies), std::move(contacts), world_.horizon_s());
   }
 
   bool could_break(double energy_J) const {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFrame_s = 1.0 / 60;
 
-void collide(World& world) { world.physics->collide(world.scene.accuracy.dt_s); }
+void collide(World& world) { world.physics->collide(world.horizon_s()); }
 
 struct Momentum {
   double mass_kg = 0;

@@ -122,6 +122,12 @@ struct World {
   std::vector<BreakEvent> breaks;
   double momentum_error_Ns = 0, momentum_moved_Ns = 0;
 
+  /// How far ahead approaches are looked for, and decided: a solve's last substep stops what would
+  /// meet within one substep more.
+  double horizon_s() const {
+    const Accuracy& accuracy = scene.accuracy;
+    return accuracy.dt_s * (1 + 1.0 / accuracy.substeps);
+  }
   double time_s() const { return static_cast<double>(step) * scene.accuracy.dt_s; }
   const Material& material(MaterialIndex index) const { return (*materials)[index.value]; }
   /// Null if the actor is gone.

@@ -1,0 +1,183 @@
+// Whole runs, with the real solver and the real fracture, against what can be worked out by hand:
+// what a hit has to break it breaks, at any length of a step, and it loses what that takes.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/motion/run.h"
+
+namespace sunder::tests {
+namespace {
+
+class AtAnyStep : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Steps, AtAnyStep,
+                         testing::Values(1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 960));
+
+/// A wall across one axis, held at its rim.
+Solid wall(int axis, const Vec3& center_W, double side_m, double thickness_m) {
+  Vec3 size = Vec3::Constant(side_m);
+  size[axis] = thickness_m;
+  std::uint8_t rim = kAnchoredAllRound;
+  for (const bool high : {false, true}) {
+    rim = static_cast<std::uint8_t>(rim & ~anchor_side(axis, high));
+  }
+  return box_solid(center_W, size, rim);
+}
+
+double ball_kg(const Ball& ball) {
+  return 8000 * 4.0 / 3.0 * std::numbers::pi * std::pow(ball.radius_m, 3);
+}
+
+double kinetic_J(double mass_kg, double speed_m_s) { return 0.5 * mass_kg * speed_m_s * speed_m_s; }
+
+/// How fast a mass is that has lost so much energy.
+double speed_left_m_s(double mass_kg, double speed_m_s, double lost_J) {
+  return std::sqrt(std::max(0.0, speed_m_s * speed_m_s - 2 * lost_J / mass_kg));
+}
+
+TEST_P(AtAnyStep, ABallGoesThroughWallsAndLosesWhatTheyTake) {
+  const Ball ball = steel_ball(0.15, Vec3(0, 0.05, 0.03), Vec3(25, 0, 0));
+  for (const double toughness : {3000.0, 9000.0}) {
+    for (int n = 1; n <= 5; ++n) {
+      Scene scene = bare_scene(GetParam(), toughness, 2);
+      for (int i = 0; i < n; ++i) {
+        scene.solids.push_back(wall(0, Vec3(1.0 + 0.5 * i, 0, 0), 2, 0.05));
+      }
+      scene.balls = {ball};
+      Trial run(scene);
+      const auto key = static_cast<std::uint64_t>(n);
+      run.until(
+          1, [&](const FrameBody& b) { return b.X_WB.position.x() > 1.5 + 0.5 * n; }, key);
+      EXPECT_GE(run.breaks.size(), static_cast<std::size_t>(n));
+      EXPECT_GT(run.broken_J, 0.02 * n * kinetic_J(ball_kg(ball), 25));
+      const double left = speed_left_m_s(ball_kg(ball), 25, run.broken_J);
+      EXPECT_NEAR(run.body(key).velocity_W.norm(), left, 0.03 * left)
+          << n << " walls, " << run.breaks.size() << " breaks, " << run.broken_J << " J";
+    }
+  }
+}
+
+TEST_P(AtAnyStep, ABulletBreaksTwoPanesInOneStepAndLosesExactlyTheEnergyBooked) {
+  const Ball bullet = steel_ball(0.01, Vec3::Zero(), Vec3(200, 0, 0));
+  Scene scene = bare_scene(GetParam(), 3000, 0.001);
+  scene.solids = {wall(0, Vec3(0.062, 0.1, 0), 1, 0.004), wall(0, Vec3(0.162, 0.1, 0), 1, 0.004)};
+  scene.balls = {bullet};
+  Trial run(scene);
+  run.step();
+  ASSERT_EQ(run.breaks.size(), 2u);
+  EXPECT_EQ(run.breaks[0].time_s, run.breaks[1].time_s);
+  const double all_J = kinetic_J(ball_kg(bullet), 200);
+  EXPECT_GT(run.broken_J, 0.1 * all_J);
+  const double speed = run.body(2).velocity_W.norm();
+  EXPECT_NEAR(all_J - kinetic_J(ball_kg(bullet), speed), run.broken_J, 1e-3 * run.broken_J);
+}
+
+/// A blow of which `work_J` arrives at what may break, as `scene_of(speed)` has it: what it takes
+/// to break it decides whether it breaks, and that is all that is lost.
+void expect_decided_by_work(const std::function<Scene(double)>& scene_of,
+                            const std::function<double(double)>& work_J) {
+  const auto first_break = [&](double speed) {
+    Trial run(scene_of(speed));
+    while (run.frame->time_s < 0.3 && run.breaks.empty()) run.step();
+    return run;
+  };
+  const Trial strong = first_break(20);
+  ASSERT_EQ(strong.breaks.size(), 1u);
+  const double enough = 20 * std::sqrt(strong.broken_J / work_J(20));
+  EXPECT_TRUE(first_break(0.93 * enough).breaks.empty());
+  const Trial barely = first_break(1.07 * enough);
+  ASSERT_EQ(barely.breaks.size(), 1u);
+  EXPECT_DOUBLE_EQ(barely.broken_J, strong.broken_J);
+  EXPECT_NEAR(strong.kinetic_J(), work_J(20) - strong.broken_J, 0.03 * work_J(20));
+  EXPECT_NEAR(barely.kinetic_J(), work_J(1.07 * enough) - strong.broken_J,
+              0.03 * work_J(1.07 * enough));
+}
+
+TEST_P(AtAnyStep, APlateOnAPanePassesABlowOn) {
+  const Ball ball = steel_ball(0.1, Vec3(0, 0.3, 0), Vec3::Zero());
+  const double plate_kg = 8000 * 0.3 * 0.3 * 0.04;
+  expect_decided_by_work(
+      [&](double speed) {
+        Scene scene = bare_scene(GetParam(), 1000, 10);
+        scene.solids = {wall(1, Vec3::Zero(), 1, 0.05),
+                        box_solid(Vec3(0, 0.045, 0), Vec3(0.3, 0.04, 0.3), 0, kSteel)};
+        scene.balls = {ball};
+        scene.balls[0].velocity_W.y() = -speed;
+        return scene;
+      },
+      [&](double speed) {
+        const double m = ball_kg(ball);
+        return kinetic_J(m, speed) * m / (m + plate_kg);
+      });
+}
+
+TEST_P(AtAnyStep, ARowOfBallsPassesABlowOnToItsEnd) {
+  constexpr int kBalls = 5;
+  const Ball ball = steel_ball(0.1, Vec3::Zero(), Vec3::Zero());
+  expect_decided_by_work(
+      [&](double speed) {
+        Scene scene = bare_scene(GetParam(), 500, 10);
+        scene.solids = {wall(0, Vec3(0.125, 0, 0), 1, 0.05)};
+        for (int i = 0; i < kBalls; ++i) {
+          scene.balls.push_back(ball);
+          scene.balls.back().center_W.x() = -0.2 * i;
+        }
+        scene.balls.back().center_W.x() -= 0.1;
+        scene.balls.back().velocity_W.x() = speed;
+        return scene;
+      },
+      [&](double speed) { return kinetic_J(ball_kg(ball), speed) / kBalls; });
+}
+
+TEST_P(AtAnyStep, ACrumbInFrontOfABallDoesNotKeepItFromTheNextWall) {
+  const Ball ball = steel_ball(0.15, Vec3::Zero(), Vec3(25, 0, 0));
+  const Ball crumb = steel_ball(0.01, Vec3(0.16, 0, 0), Vec3(25, 0, 0));
+  Scene scene = bare_scene(GetParam(), 9000, 10);
+  scene.solids = {wall(0, Vec3(1, 0, 0), 2, 0.05)};
+  scene.balls = {ball, crumb};
+  Trial run(scene);
+  run.until(
+      1, [&](const FrameBody& b) { return b.X_WB.position.x() > 1.5; }, 1);
+  EXPECT_GE(run.breaks.size(), 1u);
+  const double left = speed_left_m_s(ball_kg(ball), 25, run.broken_J);
+  EXPECT_NEAR(run.body(1).velocity_W.norm(), left, 0.03 * left);
+}
+
+/// A steel slab that lands flat on ten columns at a speed, or has landed on what is left of them.
+Trial land(double dt_s, double speed_m_s) {
+  Scene scene = bare_scene(dt_s, 3000, 10);
+  scene.materials[0].strength_Ns = 1;
+  const auto foot = anchor_side(1, false);
+  for (int i = 0; i < 10; ++i) {
+    scene.solids.push_back(
+        box_solid(Vec3(i % 5 - 2.0, 0.5, i < 5 ? -1 : 1), Vec3(0.2, 1, 0.2), foot));
+  }
+  scene.solids.push_back(box_solid(Vec3(0, 1.2, 0), Vec3(5, 0.2, 3), 0, kSteel));
+  scene.solids.back().velocity_W.y() = -speed_m_s;
+  Trial run(scene);
+  while (run.frame->time_s < 1 && run.breaks.empty()) run.step();
+  return run;
+}
+
+TEST_P(AtAnyStep, AFlatSlabBreaksTenColumnsOrNone) {
+  const double slab_kg = 8000 * 5 * 0.2 * 3;
+  const Trial strong = land(GetParam(), 3);
+  ASSERT_EQ(strong.breaks.size(), 10u);
+  EXPECT_NEAR(strong.kinetic_J(), kinetic_J(slab_kg, 3) - strong.broken_J,
+              0.03 * kinetic_J(slab_kg, 3));
+  double least_J = strong.broken_J, most_J = 0;
+  for (const BreakEvent& event : strong.breaks) {
+    least_J = std::min(least_J, event.energy_J);
+    most_J = std::max(most_J, event.energy_J);
+  }
+  const auto speed = [&](double each_J) { return std::sqrt(2 * 10 * each_J / slab_kg); };
+  EXPECT_TRUE(land(GetParam(), 0.93 * speed(least_J)).breaks.empty());
+  const Trial barely = land(GetParam(), 1.07 * speed(most_J));
+  EXPECT_EQ(barely.breaks.size(), 10u);
+  const double before_J = kinetic_J(slab_kg, 1.07 * speed(most_J));
+  EXPECT_NEAR(barely.kinetic_J(), before_J - barely.broken_J, 0.03 * before_J);
+}
+
+}  // namespace
+}  // namespace sunder::tests
