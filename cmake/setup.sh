@@ -4,7 +4,7 @@
 # Debian's names. `tools` build and run the program; `checks` test and time it.
 tools=(g++ cmake ninja-build ccache pkg-config
   libeigen3-dev libstb-dev libzstd-dev libxxhash-dev nlohmann-json3-dev
-  libtomlplusplus-dev libcli11-dev libegl-dev libgl-dev
+  libtomlplusplus-dev libcli11-dev libbox2d-dev libegl-dev libgl-dev
   libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6 ffmpeg)
 checks=(libgtest-dev librapidcheck-dev libbenchmark-dev python3)
 

@@ -9,6 +9,7 @@
 #include "engine/base/trigonometry.h"
 #include "scenes/body.h"
 #include "scenes/patterns.h"
+#include "scenes/planar.h"
 #include "scenes/schema.h"
 #include "scenes/structures/structure.h"
 
@@ -83,6 +84,7 @@ Scene Loader::load(const LoadOptions& options) {
   for (const Value* table : tables(document_, "ball")) add_ball(*table);
   add_script();
   check_names();
+  if (scene_.planar) check_planar(scene_, find(std::get<Table>(scene->data), "planar")->where);
   const std::size_t bodies = scene_.solids.size() + scene_.balls.size() + scene_.shots.size();
   if (bodies > scene_.limits.bodies) {
     throw InputError(document_.where + ": " + std::to_string(bodies) + " bodies exceed bodies = " +

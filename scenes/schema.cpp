@@ -31,7 +31,10 @@ Keys<Scene> scene_keys() {
           {key<&Scene::description>("description", "One line for `sunder list`.").must(),
            key<&Scene::duration_s>("duration_s", "s", Range{0.1, 600}, "How long it runs."),
            key<&Scene::seed>("seed", "", Range{0, 9e15}, "Changes every random choice."),
-           key<&Scene::gravity_W>("gravity", "m/s²", Range{-100, 100}, "Acceleration of all.")}};
+           key<&Scene::gravity_W>("gravity", "m/s²", Range{-100, 100}, "Acceleration of all."),
+           key<&Scene::planar>("planar",
+                               "Nothing moves along z: all are prisms through the plane z = 0, or "
+                               "balls about it.")}};
 }
 
 Keys<Material> material_keys() {

@@ -91,6 +91,7 @@ struct Scene {
   double duration_s = 6;
   Vec3 gravity_W = Vec3(0, -9.81, 0);
   std::uint64_t seed = 1;
+  bool planar = false;  ///< Moves in the plane z = 0 alone: the third dimension is not simulated.
   Accuracy accuracy;
   Limits limits;
   Ground ground;

@@ -8,7 +8,9 @@
 
 #include "engine/base/parallel.h"
 #include "fracture/pattern_breaker.h"
+#include "scenes/planar.h"
 #include "solver/particles/debris_and_dust.h"
+#include "solver/planar/planar_physics.h"
 #include "solver/rigid/rigid_physics.h"
 
 namespace sunder::app {
@@ -34,11 +36,22 @@ std::shared_ptr<fracture::FailureLog> failure_log() {
   return {new fracture::FailureLog(kCases), tell};
 }
 
+/// As many dimensions as the scene needs.
+std::unique_ptr<Physics> make_physics(const Scene& scene) {
+  if (scene.planar) {
+    solver::PlanarOptions planar;
+    planar.gravity_W = scene.gravity_W;
+    planar.piece_m = scenes::planar_piece_m(scene);
+    return solver::make_planar_physics(planar);
+  }
+  solver::RigidOptions rigid;
+  rigid.gravity_W = scene.gravity_W;
+  return solver::make_rigid_physics(rigid);
+}
+
 }  // namespace
 
 std::unique_ptr<Simulation> make_simulation(Scene scene) {
-  solver::RigidOptions rigid;
-  rigid.gravity_W = scene.gravity_W;
   std::unique_ptr<Particles> particles;
   if (scene.limits.debris + scene.limits.dust > 0) {
     solver::DebrisAndDustOptions options;
@@ -48,7 +61,8 @@ std::unique_ptr<Simulation> make_simulation(Scene scene) {
     options.limits = {scene.limits.debris, scene.limits.dust};
     particles = solver::make_debris_and_dust(options);
   }
-  return std::make_unique<Simulation>(std::move(scene), solver::make_rigid_physics(rigid),
+  std::unique_ptr<Physics> physics = make_physics(scene);
+  return std::make_unique<Simulation>(std::move(scene), std::move(physics),
                                       fracture::make_pattern_breaker(failure_log()),
                                       std::move(particles));
 }
@@ -69,7 +83,8 @@ RunInfo run_info(const Scene& scene, const scenes::LoadOptions& load) {
           scene.accuracy,
           {{"fracture", any ? "on" : "off: nothing here is breakable"},
            {"script", scripted ? "on" : "off: nothing happens"},
-           {"sleeping", "on"}}};
+           {"sleeping", "on"},
+           {"third_dimension", scene.planar ? "off: planar = true, so Box2D moves it" : "on"}}};
 }
 
 int last_frame(const Scene& scene, int wanted) {

@@ -202,7 +202,9 @@ TEST_P(ForChunks, MayRunOnSeveralThreadsOfTheCallersAtOnce) {
 TEST_P(ForChunks, SharesItsWorkOnlyOnce) {
   EXPECT_EQ(may_share_work(), GetParam() > 1);
   for_chunks(8, 1, [](std::size_t, std::size_t, std::size_t) {
-    if (GetParam() > 1) EXPECT_FALSE(may_share_work());
+    if (GetParam() > 1) {
+      EXPECT_FALSE(may_share_work());
+    }
   });
   EXPECT_EQ(may_share_work(), GetParam() > 1);
 }

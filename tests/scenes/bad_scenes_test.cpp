@@ -29,7 +29,7 @@ constexpr Fault kFaults[] = {
     // Keys and tables
     {"duratoin_s = 3",
      "bad.toml:3: unknown key 'duratoin_s' in [scene]; did you mean 'duration_s'?"
-     "; allowed: description, duration_s, seed, gravity"},
+     "; allowed: description, duration_s, seed, gravity, planar"},
     {"[grund]\nheight_m = 1",
      "bad.toml:3: unknown key 'grund' in the scene file; did you mean "
      "'ground'?"},
@@ -157,6 +157,21 @@ constexpr Fault kFaults[] = {
     {"[[solid]]\nstructure = \"house\"\nwindows = 40",
      "bad.toml:3: house: windows of window_m do "
      "not fit side by side"},
+    // Planar scenes
+    {"planar = true\n[[solid]]\nstructure = \"box\"\nmaterial = \"clay\"",
+     "bad.toml:3: planar = true in [scene], but solid 'box' is made of clay, whose pattern would "
+     "break it along z; say pattern = { kind = \"none\" } in a [[material]] of that name"},
+    {"planar = true\n[[solid]]\nname = \"post\"\nstructure = \"column\"",
+     "bad.toml:3: planar = true in [scene], but solid 'post' is no prism along z; turn it"},
+    {"planar = true\n[[solid]]\nstructure = \"box\"\nposition = [0, 0, 2]",
+     "bad.toml:3: planar = true in [scene], but solid 'box' has parts that do not reach through "
+     "the plane z = 0; move it there"},
+    {"planar = true\n[[ball]]\nname = \"b\"\nvelocity = [0, 0, 1]",
+     "bad.toml:3: planar = true in [scene], but ball 'b' has a velocity that has a z of its own"},
+    {"planar = true\ngravity = [0, -9, 1]",
+     "bad.toml:3: planar = true in [scene], but gravity has a z of its own; make it 0"},
+    {"planar = true\n[script]\n[[script.shot]]\ntime_s = 1\nfrom = [0, 0, 5]\nat = [0, 0, 0]",
+     "bad.toml:3: planar = true in [scene], but a ball of [script] is at a place that has a z of"},
     // Syntax
     {"duration_s = ", "bad.toml:3: "},
     {"duration_s = 1\nduration_s = 2", "bad.toml:4: "},

@@ -117,6 +117,15 @@ TEST(Program, ChangesOnTheCommandLineChangeTheRun) {
   EXPECT_EQ(std::get<std::int64_t>(json.at("/counts/bodies")), 3);
 }
 
+TEST(Program, APlanarSceneRunsWithoutAThirdDimensionAndSaysSo) {
+  const Figures json = figures("simulate planar_wall --frames 40 --preset draft");
+  EXPECT_EQ(std::get<std::string>(json.at("/modelled/third_dimension")),
+            "off: planar = true, so Box2D moves it");
+  EXPECT_LT(std::get<double>(json.at("/momentum_residual")), 1e-4);
+  const Figures solid = figures("simulate stack --frames 2");
+  EXPECT_EQ(std::get<std::string>(solid.at("/modelled/third_dimension")), "on");
+}
+
 TEST(Program, QuietPrintsNothingAndJsonGoesToAFile) {
   const Folder folder;
   const Outcome outcome = sunder("simulate stack --frames 2 --quiet --json " + folder / "x.json");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/base/hash.h"
@@ -17,6 +18,7 @@ namespace sunder::solver {
 class RigidWorld {
  public:
   explicit RigidWorld(const RigidOptions& options = {}) : physics_(make_rigid_physics(options)) {}
+  explicit RigidWorld(std::unique_ptr<Physics> physics) : physics_(std::move(physics)) {}
 
   static BodyDesc box(const Vec3& size, const Vec3& center_W, double density = 1000) {
     BodyDesc desc;

@@ -1,0 +1,21 @@
+// Prisms along z: solids that a plane scene can stand for by their outline.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/geometry/convex_polyhedron.h"
+
+namespace sunder {
+
+/// A convex polygon in the xy-plane, swept from `low` to `high` along z.
+struct ZPrism {
+  std::vector<Vec2> outline;  ///< Counter-clockwise seen from +z, without needless corners.
+  double low = 0, high = 0;
+};
+
+/// The convex, placed in W, as a prism along z; nothing if it is none within a millionth of its
+/// size.
+std::optional<ZPrism> prism_along_z(const ConvexPolyhedron& convex, const Pose& X_WR);
+
+}  // namespace sunder

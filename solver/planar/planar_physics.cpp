@@ -1,0 +1,352 @@
+// Box2D behind the seam. Read first: replace(), then solve().
+#include "solver/planar/planar_physics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "engine/base/check.h"
+#include "engine/base/trace.h"
+#include "engine/base/trigonometry.h"
+#include "solver/planar/books.h"
+#include "solver/planar/nearby.h"
+
+namespace sunder::solver {
+namespace {
+
+// Box2D's own, of which it is called well tried.
+constexpr int kVelocityIterations = 8, kPositionIterations = 3;
+constexpr double kLeastSpeed_m_s = 0.01;  // slower contacts rest
+constexpr double kBounce_s = 0.05;        // a contact bounces if faster than falls in this
+constexpr double kFastest_m_s = 1e9;      // as good as infinite
+constexpr float kLeastWay = 0.02f, kMostWay = 0.9f * b2_maxTranslation;  // units a step
+constexpr int kMostSteps = 4096;
+
+class PlanarPhysics final : public Physics {
+ public:
+  explicit PlanarPhysics(const PlanarOptions& options);
+
+  std::vector<BodyId> replace(std::span<const BodyId> remove,
+                              std::span<const BodyDesc> add) override;
+  void edit(const BodyEdit& edit) override;
+  void collide(double dt_s) override;
+  std::vector<Approach> approaches() override;
+  std::vector<Touch> touches(std::span<const BodyId> bodies) override;
+  void set_state(BodyId body, const BodyState& state) override;
+  void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
+  SolveReport solve(double dt_s, int substeps) override;
+  BodyState state(BodyId body) const override;
+  std::vector<ContactLoad> contact_loads() const override;
+  std::vector<float> penetrations() const override;
+  std::vector<std::pair<const char*, double>> take_timings_ms() override;
+
+ private:
+  void step(float h_s, SolveReport& report);
+  void freeze_broken(SolveReport& report);
+  int steps_for(double dt_s, int substeps) const;
+  const std::vector<Nearby>& nearby();
+  double inverse_mass(const PlanarBody& body, const Vec3& arm_W, const Vec3& normal_W) const;
+  Vec3 velocity_at(const PlanarBody& body, const Vec3& point_W) const;
+  Vec3 center_W(const PlanarBody& body) const { return plane_.metres(body.body->GetPosition()); }
+  PlanarBody& at(BodyId id) {
+    SUNDER_CHECK(id.slot < bodies_.items.size() && bodies_.items[id.slot].body &&
+                 bodies_.items[id.slot].generation == id.generation);
+    return bodies_.items[id.slot];
+  }
+  const PlanarBody& at(BodyId id) const { return const_cast<PlanarPhysics*>(this)->at(id); }
+
+  PlanarOptions options_;
+  Plane2 plane_;
+  b2World world_;
+  PlanarBodies bodies_;
+  Books books_;
+  std::vector<Nearby> nearby_;
+  bool nearby_known_ = false;
+  double dt_s_ = 0;  ///< Of the last collide.
+  double solve_ms_ = 0;
+};
+
+PlanarPhysics::PlanarPhysics(const PlanarOptions& options)
+    : options_(options),
+      plane_{1 / options.piece_m},
+      world_(plane_.units(options.gravity_W)),
+      bodies_(world_, plane_, kBounce_s * options.gravity_W.norm()),
+      books_(bodies_.items) {
+  SUNDER_CHECK(options.piece_m > 0 && options.gravity_W.z() == 0);
+  world_.SetAllowSleeping(options.sleeping);
+  world_.SetContinuousPhysics(false);
+  world_.SetContactListener(&books_);
+}
+
+std::vector<BodyId> PlanarPhysics::replace(std::span<const BodyId> remove,
+                                           std::span<const BodyDesc> add) {
+  std::vector<MadeShapes> made;  // before anything changes: it may throw
+  for (const BodyDesc& desc : add) {
+    made.push_back(bodies_.make_shapes(desc.shapes, desc.tag, desc.com_R, desc.X_WB));
+  }
+  for (const BodyId id : remove) {
+    at(id);
+    bodies_.remove(id.slot);
+  }
+  std::vector<BodyId> ids;
+  for (std::size_t i = 0; i < add.size(); ++i) {
+    const std::uint32_t slot = bodies_.add(add[i], made[i]);
+    ids.push_back({slot, bodies_.items[slot].generation});
+  }
+  nearby_known_ = false;
+  return ids;
+}
+
+void PlanarPhysics::edit(const BodyEdit& edit) {
+  PlanarBody& body = at(edit.body);
+  SUNDER_CHECK(!body.dynamic());
+  const MadeShapes made = bodies_.make_shapes(edit.added, body.tag, body.com_R, body.X_WB);
+  for (const std::uint32_t tag : edit.removed_tags) {
+    const auto found = std::find_if(body.shapes.begin(), body.shapes.end(),
+                                    [&](std::uint32_t s) { return bodies_.shapes[s].tag == tag; });
+    SUNDER_CHECK(found != body.shapes.end());
+    bodies_.remove_shape(*found);
+  }
+  bodies_.add_shapes(edit.body.slot, edit.added, made);
+  nearby_known_ = false;
+}
+
+/// Box2D finds its contacts when it solves; those who ask before get their own.
+void PlanarPhysics::collide(double dt_s) {
+  dt_s_ = dt_s;
+  nearby_known_ = false;
+}
+
+const std::vector<Nearby>& PlanarPhysics::nearby() {
+  if (!nearby_known_) nearby_ = find_nearby(world_, bodies_.items, bodies_.shapes, plane_, dt_s_);
+  nearby_known_ = true;
+  return nearby_;
+}
+
+Vec3 PlanarPhysics::velocity_at(const PlanarBody& body, const Vec3& point_W) const {
+  const Vec3 turn(0, 0, static_cast<double>(body.body->GetAngularVelocity()));
+  return plane_.metres(body.body->GetLinearVelocity()) + turn.cross(point_W - center_W(body));
+}
+
+double PlanarPhysics::inverse_mass(const PlanarBody& body, const Vec3& arm_W,
+                                   const Vec3& normal_W) const {
+  if (!body.dynamic()) return 0;
+  const double lever = arm_W.cross(normal_W).z();
+  return 1 / body.mass_kg + lever * lever / body.inertia_kg_m2;
+}
+
+std::vector<Approach> PlanarPhysics::approaches() {
+  std::vector<Approach> all;
+  for (const Nearby& near : nearby()) {
+    const PlanarBody &a = bodies_.items[near.body_a], &b = bodies_.items[near.body_b];
+    const auto awake = [](const PlanarBody& body) {
+      return body.dynamic() && body.body->IsAwake();
+    };
+    if (!awake(a) && !awake(b)) continue;
+    const auto speed_at = [&](const Vec3& point) {
+      return near.normal_W.dot(velocity_at(a, point) - velocity_at(b, point));
+    };
+    Approach approach;
+    int closing = 0;
+    for (int i = 0; i < near.count; ++i) {
+      const double speed = speed_at(near.points_W[i]);
+      if (speed < kLeastSpeed_m_s || near.separations_m[i] > speed * dt_s_) continue;
+      approach.separation_m = closing == 0 ? near.separations_m[i]
+                                           : std::min(approach.separation_m, near.separations_m[i]);
+      approach.point_W += near.points_W[i];
+      ++closing;
+    }
+    if (closing == 0) continue;
+    approach.point_W /= closing;
+    approach.normal_W = near.normal_W;
+    approach.speed_m_s = speed_at(approach.point_W);
+    const double inverse = inverse_mass(a, approach.point_W - center_W(a), near.normal_W) +
+                           inverse_mass(b, approach.point_W - center_W(b), near.normal_W);
+    if (approach.speed_m_s <= 0 || inverse <= 0) continue;
+    approach.effective_mass_kg = 1 / inverse;
+    approach.a = {near.body_a, a.generation}, approach.b = {near.body_b, b.generation};
+    approach.body_tag_a = a.tag, approach.body_tag_b = b.tag;
+    approach.shape_tag_a = bodies_.shapes[near.shape_a].tag;
+    approach.shape_tag_b = bodies_.shapes[near.shape_b].tag;
+    all.push_back(approach);
+  }
+  return all;
+}
+
+std::vector<Touch> PlanarPhysics::touches(std::span<const BodyId> bodies) {
+  std::set<std::uint32_t> wanted;
+  for (const BodyId id : bodies) {
+    at(id);
+    wanted.insert(id.slot);
+  }
+  std::vector<Touch> all;
+  for (const Nearby& near : nearby()) {
+    if (!wanted.contains(near.body_a) && !wanted.contains(near.body_b)) continue;
+    const PlanarBody &a = bodies_.items[near.body_a], &b = bodies_.items[near.body_b];
+    Touch touch;
+    touch.body_tag_a = a.tag, touch.body_tag_b = b.tag;
+    touch.shape_tag_a = bodies_.shapes[near.shape_a].tag,
+    touch.shape_tag_b = bodies_.shapes[near.shape_b].tag;
+    touch.normal_W = near.normal_W;
+    for (int i = 0; i < near.count; ++i) {
+      const Vec3 half_gap = 0.5 * near.separations_m[i] * near.normal_W;
+      touch.arm_a_W = near.points_W[i] - half_gap - center_W(a);
+      touch.arm_b_W = near.points_W[i] + half_gap - center_W(b);
+      touch.separation_m = near.separations_m[i];
+      all.push_back(touch);
+    }
+  }
+  return all;
+}
+
+void PlanarPhysics::set_state(BodyId id, const BodyState& state) {
+  PlanarBody& body = at(id);
+  if (!body.dynamic()) return;
+  const Quat turn = state.X_WB.rotation * body.X_WB.rotation.conjugate();
+  body.body->SetTransform(plane_.units(state.X_WB.position),
+                          static_cast<float>(2 * arc_tangent(turn.z(), turn.w())));
+  body.body->SetLinearVelocity(plane_.units(state.velocity_W));
+  body.body->SetAngularVelocity(static_cast<float>(state.angular_velocity_W.z()));
+  body.body->SetAwake(true);
+  nearby_known_ = false;
+}
+
+void PlanarPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) {
+  PlanarBody& body = at(id);
+  if (!body.dynamic()) return;
+  body.body->ApplyLinearImpulse(plane_.units(impulse_W), plane_.units(point_W), true);
+  nearby_known_ = false;
+}
+
+SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
+  SUNDER_CHECK(dt_s > 0 && substeps > 0);
+  const Stopwatch watch;
+  SolveReport report;
+  freeze_broken(report);
+  const int steps = steps_for(dt_s, substeps);
+  books_.begin();
+  for (int i = 0; i < steps; ++i) step(static_cast<float>(dt_s / steps), report);
+  books_.end(steps);
+  freeze_broken(report);
+  report.external_impulse_Ns += plane_.metres(books_.from_static);
+  for (const b2Contact* c = world_.GetContactList(); c; c = c->GetNext()) {
+    if (!c->IsTouching()) continue;
+    ++report.contacts;
+    report.contact_points += static_cast<std::uint32_t>(c->GetManifold()->pointCount);
+  }
+  for (const PlanarBody& body : bodies_.items) {
+    report.awake += body.dynamic() && body.body->IsAwake() ? 1 : 0;
+  }
+  nearby_known_ = false;
+  solve_ms_ += watch.ms();
+  return report;
+}
+
+/// In one of Box2D's steps no body may move further than half the thinnest, or it could pass
+/// through; nor as far as Box2D would stop it.
+int PlanarPhysics::steps_for(double dt_s, int substeps) const {
+  double fastest = 0;  // units/s
+  for (const PlanarBody& body : bodies_.items) {
+    if (!body.dynamic()) continue;
+    fastest = std::max(fastest, static_cast<double>(body.body->GetLinearVelocity().Length()));
+  }
+  const float way = std::clamp(0.5f * bodies_.thinnest, kLeastWay, kMostWay);
+  const double wanted = fastest * dt_s / static_cast<double>(way);
+  return std::max(substeps, static_cast<int>(std::ceil(std::min<double>(wanted, kMostSteps))));
+}
+
+/// Gravity pulls what is awake before or after; what falls asleep loses what speed it had.
+void PlanarPhysics::step(float h_s, SolveReport& report) {
+  std::vector<std::uint8_t> awake(bodies_.items.size());
+  for (std::size_t i = 0; i < bodies_.items.size(); ++i) {
+    awake[i] = bodies_.items[i].dynamic() && bodies_.items[i].body->IsAwake() ? 1 : 0;
+    if (awake[i]) bodies_.items[i].last_velocity = bodies_.items[i].body->GetLinearVelocity();
+  }
+  world_.Step(h_s, kVelocityIterations, kPositionIterations);
+  for (std::size_t i = 0; i < bodies_.items.size(); ++i) {
+    PlanarBody& body = bodies_.items[i];
+    body.fresh = false;
+    if (!body.dynamic()) continue;
+    const bool now = body.body->IsAwake();
+    if (awake[i] || now) {
+      report.external_impulse_Ns += static_cast<double>(h_s) * body.mass_kg * options_.gravity_W;
+    }
+    if (awake[i] && !now) {
+      report.external_impulse_Ns -= body.mass_kg * plane_.metres(body.last_velocity);
+    }
+  }
+}
+
+void PlanarPhysics::freeze_broken(SolveReport& report) {
+  for (PlanarBody& body : bodies_.items) {
+    if (!body.dynamic()) continue;
+    const b2Vec2 v = body.body->GetLinearVelocity();
+    const float w = body.body->GetAngularVelocity();
+    const auto most = static_cast<float>(plane_.units_per_m * kFastest_m_s);
+    if (std::abs(v.x) < most && std::abs(v.y) < most && std::abs(w) < most &&
+        body.body->GetPosition().IsValid()) {
+      continue;
+    }
+    if (!body.body->GetPosition().IsValid()) body.body->SetTransform(b2Vec2(0, 0), 0);
+    if (v.IsValid()) report.external_impulse_Ns -= body.mass_kg * plane_.metres(v);
+    body.body->SetType(b2_staticBody);  // and stops it
+    body.frozen = true;
+    ++report.frozen;
+  }
+}
+
+BodyState PlanarPhysics::state(BodyId id) const {
+  const PlanarBody& body = at(id);
+  BodyState state;
+  const SinCos half = sin_cos(0.5 * static_cast<double>(body.body->GetAngle()));
+  state.X_WB.position = plane_.metres(body.body->GetPosition(), body.X_WB.position.z());
+  state.X_WB.rotation = Quat(half.cos, 0, 0, half.sin) * body.X_WB.rotation;
+  state.velocity_W = plane_.metres(body.body->GetLinearVelocity());
+  state.angular_velocity_W.z() = static_cast<double>(body.body->GetAngularVelocity());
+  state.asleep = body.dynamic() && !body.body->IsAwake();
+  return state;
+}
+
+std::vector<ContactLoad> PlanarPhysics::contact_loads() const {
+  std::vector<ContactLoad> loads;
+  for (const auto& [pair, p] : books_.passed) {
+    if (p.weight <= 0) continue;
+    const Vec3 impulse = plane_.metres(p.impulse), point = plane_.metres((1 / p.weight) * p.moment);
+    for (const bool on_b : {false, true}) {
+      const PlanarBody& body = bodies_.items[on_b ? p.body_b : p.body_a];
+      if (!body.bears_load) continue;
+      const std::uint32_t shape = on_b ? pair.second : pair.first;
+      loads.push_back(
+          {body.tag, bodies_.shapes[shape].tag, on_b ? impulse : Vec3(-impulse), point});
+    }
+  }
+  return loads;
+}
+
+std::vector<float> PlanarPhysics::penetrations() const {
+  std::vector<float> depths;
+  for (const b2Contact* c = world_.GetContactList(); c; c = c->GetNext()) {
+    if (!c->IsTouching()) continue;
+    b2WorldManifold manifold;
+    c->GetWorldManifold(&manifold);
+    for (int i = 0; i < c->GetManifold()->pointCount; ++i) {
+      if (c->GetManifold()->points[i].normalImpulse <= 0) continue;
+      const double units = -static_cast<double>(manifold.separations[i] + kSlop);
+      depths.push_back(static_cast<float>(std::max(0.0, units / plane_.units_per_m)));
+    }
+  }
+  return depths;
+}
+
+std::vector<std::pair<const char*, double>> PlanarPhysics::take_timings_ms() {
+  return {{"Box2D", std::exchange(solve_ms_, 0)}};
+}
+
+}  // namespace
+
+std::unique_ptr<Physics> make_planar_physics(const PlanarOptions& options) {
+  return std::make_unique<PlanarPhysics>(options);
+}
+
+}  // namespace sunder::solver
