@@ -8,7 +8,8 @@
 
 namespace sunder::fracture {
 
-/// The polygon that the two faces of a bond have in common.
+/// The polygon that the two faces of a bond have in common; of convexes with a visual mesh, what
+/// their meshes' caps have in common, shaped as the smaller cap.
 struct BondGeometry {
   Vec3 centroid_R = Vec3::Zero();
   Vec3 normal_R = Vec3::UnitY();  ///< Unit, from convex a to convex b.
@@ -18,7 +19,7 @@ struct BondGeometry {
 };
 
 BondGeometry bond_geometry(const Compound& compound, const Bond& bond);
-/// Its corners, counter-clockwise seen against the normal.
+/// Its corners.
 std::vector<Vec3> bond_corners(const Compound& compound, const Bond& bond);
 
 }  // namespace sunder::fracture

@@ -59,7 +59,7 @@ bool Cutter::cut(double floor_m3) {
 
 void Cutter::add_draft(std::uint32_t cell, std::vector<PlaneId> region, ConvexPtr convex) {
   const double volume = convex->solid.volume_m3;
-  drafts_.push_back({cell, std::move(region), std::move(convex), {}, volume, false});
+  drafts_.push_back({cell, std::move(region), std::move(convex), {}, {}, volume, false});
 }
 
 /// What lies outside the pattern's box, one slab a plane of the box.

@@ -18,6 +18,7 @@ struct Draft {
   std::vector<PlaneId> region;  ///< Pattern names.
   ConvexPtr convex;             ///< The solid within the region.
   PolygonMesh visual;           ///< Of a surface convex: its mesh within the region.
+  MassProperties visual_solid;  ///< Of the mesh.
   double volume_m3 = 0;         ///< Of what counts: the convex, or its visual mesh.
   bool has_grown = false;       ///< Took over a sliver since it was cut.
 };

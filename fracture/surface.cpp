@@ -75,7 +75,8 @@ class SurfaceCutter {
     std::vector<PolygonMesh> parts = split(*parent_->visual, regions, cutter_.tolerance_m());
     for_chunks(due.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
       due[i]->visual = std::move(parts[i]);
-      due[i]->volume_m3 = mass_properties(due[i]->visual).volume_m3;
+      due[i]->visual_solid = mass_properties(due[i]->visual);
+      due[i]->volume_m3 = due[i]->visual_solid.volume_m3;
       due[i]->has_grown = false;
     });
   }
@@ -118,18 +119,27 @@ class SurfaceCutter {
     }
     std::vector<PolygonMesh> meshes = islands(std::move(draft.visual));
     for (PolygonMesh& mesh : meshes) {
-      if (meshes.size() > 1) {
-        const double volume = mass_properties(mesh).volume_m3;
-        if (volume < floor_m3_) {
-          parts.debris_m3 += volume;
-          continue;
-        }
+      const bool alone = meshes.size() == 1;
+      const MassProperties solid = alone ? draft.visual_solid : mass_properties(mesh);
+      if (!alone && solid.volume_m3 < floor_m3_) {
+        parts.debris_m3 += solid.volume_m3;
+        continue;
       }
-      ConvexPolyhedron fitted = refitted(draft.convex->polyhedron, mesh.vertices, fit_);
-      parts.convexes.push_back(make_convex(std::move(fitted), parent_->material,
-                                           std::make_shared<PolygonMesh>(std::move(mesh))));
+      parts.convexes.push_back(surface_convex(draft, std::move(mesh), solid));
     }
     return parts;
+  }
+
+  /// An island's convex; make_convex() would weigh the island again.
+  ConvexPtr surface_convex(const Draft& draft, PolygonMesh mesh,
+                           const MassProperties& solid) const {
+    auto convex = std::make_shared<Convex>();
+    convex->polyhedron = refitted(draft.convex->polyhedron, mesh.vertices, fit_);
+    convex->visual = std::make_shared<PolygonMesh>(std::move(mesh));
+    convex->material = parent_->material;
+    convex->solid = solid;
+    convex->box = bounds(convex->polyhedron);
+    return convex;
   }
 
   /// Whether the draft is all solid: its part of the mesh has no face but caps.

@@ -42,12 +42,24 @@ std::vector<VacdPiece> all_pieces(const RepairedMesh& mesh, const VacdOptions& o
   return pieces;
 }
 
+/// As many as large meshes need for pieces of few enough polygons: nodes are placed sooner than
+/// pieces are cut one by one.
+std::uint32_t nodes_by_default(const RepairedMesh& mesh, const VacdOptions& options) {
+  constexpr double kUneven = 1.5;
+  std::size_t polygons = 0;
+  for (const PolygonMesh& shell : mesh.shells) polygons += shell.faces.size();
+  const double needed = kUneven * static_cast<double>(polygons) / options.polygons;
+  return std::clamp(static_cast<std::uint32_t>(std::min<double>(needed, kMostNodes)), kDefaultNodes,
+                    kMostNodes);
+}
+
 /// Pieces by nodes, if there are any, cut further where `convexes` allows or `polygons` demands.
 std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& options,
                                   PlaneNames& names) {
   const auto shells = static_cast<std::uint32_t>(mesh.shells.size());
   const std::uint32_t limit = options.convexes;
-  std::uint32_t count = options.node_count.value_or(limit > 0 ? shells : kDefaultNodes);
+  std::uint32_t count =
+      options.node_count.value_or(limit > 0 ? shells : nodes_by_default(mesh, options));
   for (;;) {
     names = {};
     std::vector<VacdPiece> pieces = all_pieces(mesh, options, count, names);

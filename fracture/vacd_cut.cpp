@@ -24,6 +24,9 @@ constexpr double kFirstTilt = 0.25;
 /// Of two cuts about as tight the more even one, by this share of the larger hull.
 constexpr double kEvenness = 2e-3;
 constexpr double kMiddle = 0.2;  // that share, to be about even
+/// What is sliced has fewer than twice as many contours: outlines of larger meshes hardly change if
+/// only every second contour is looked at, or every third, and so on.
+constexpr std::size_t kContours = 4096;
 
 /// Of a hull: what a vertex must add to it to matter.
 constexpr double kLeastGain = 3e-4;
@@ -73,12 +76,36 @@ struct Candidate {
   Cut cut() const { return {{direction, -place}, hull_volume_m3}; }
 };
 
+/// The edges that slices are made of: those of a mesh, or of an even share of its contours.
+struct Wires {
+  std::vector<Vec3> points;
+  std::vector<std::uint32_t> corners;  ///< Of all contours, in a row.
+  std::vector<std::uint32_t> ends;     ///< Where each contour ends in `corners`.
+
+  explicit Wires(const PolygonMesh& mesh);
+};
+
+Wires::Wires(const PolygonMesh& mesh) {
+  const std::size_t step = std::max<std::size_t>(1, mesh.contours.size() / kContours);
+  constexpr std::uint32_t kUnused = ~std::uint32_t{0};
+  std::vector<std::uint32_t> new_of_old(mesh.vertices.size(), kUnused);
+  for (std::size_t c = 0; c < mesh.contours.size(); c += step) {
+    for (const std::uint32_t v : mesh.contour_corners(c)) {
+      if (new_of_old[v] == kUnused) {
+        new_of_old[v] = static_cast<std::uint32_t>(points.size());
+        points.push_back(mesh.vertices[v]);
+      }
+      corners.push_back(new_of_old[v]);
+    }
+    ends.push_back(static_cast<std::uint32_t>(corners.size()));
+  }
+}
+
 /// Prices parallel cuts; reused from direction to direction.
 class Sweeper {
  public:
-  Sweeper(const PolygonMesh& mesh, const std::vector<Vec3>& outermost, const Box& box,
-          double evenness)
-      : mesh_(mesh), tips_(outermost), box_(box), evenness_(evenness) {}
+  Sweeper(const Wires& wires, const std::vector<Vec3>& outermost, const Box& box, double evenness)
+      : wires_(wires), tips_(outermost), box_(box), evenness_(evenness) {}
 
   /// The best of kSlices evenly spread planes.
   Candidate anywhere(const Vec3& direction) {
@@ -114,7 +141,7 @@ class Sweeper {
   void lay_out(const Vec3& direction) {
     slices_.clear();
     places_.clear();
-    for (const Vec3& v : mesh_.vertices) places_.push_back(direction.dot(v));
+    for (const Vec3& v : wires_.points) places_.push_back(direction.dot(v));
   }
   Candidate price(const Vec3& direction);
   void cut_edges(const Frame& frame);
@@ -122,7 +149,7 @@ class Sweeper {
   void sweep(Iterator begin, Iterator end, double sign, const Vec3& direction,
              std::vector<double>& volumes);
 
-  const PolygonMesh& mesh_;
+  const Wires& wires_;
   std::vector<Vec3> tips_;
   const Box box_;
   const double evenness_;
@@ -140,14 +167,15 @@ void Sweeper::cut_edges(const Frame& frame) {
     for (const Slice& slice : slices_) count += places_[v] > slice.place;
     above_[v] = count;
   }
-  for (std::size_t c = 0; c < mesh_.contours.size(); ++c) {
-    const auto corners = mesh_.contour_corners(c);
-    std::uint32_t from = corners.back();
-    for (const std::uint32_t to : corners) {
+  std::size_t begin = 0;
+  for (const std::uint32_t end : wires_.ends) {
+    std::uint32_t from = wires_.corners[end - 1];
+    for (; begin < end; ++begin) {
+      const std::uint32_t to = wires_.corners[begin];
       for (std::size_t s = above_[from]; s < above_[to]; ++s) {
         Slice& slice = slices_[s];
         const double t = (slice.place - places_[from]) / (places_[to] - places_[from]);
-        const Vec3 p = mesh_.vertices[from] + t * (mesh_.vertices[to] - mesh_.vertices[from]);
+        const Vec3 p = wires_.points[from] + t * (wires_.points[to] - wires_.points[from]);
         const double u = frame.right.dot(p), v = frame.front.dot(p);
         slice.hit = true;
         for (std::size_t i = 0; i < kAround; ++i) {
@@ -205,29 +233,38 @@ Candidate Sweeper::price(const Vec3& direction) {
   return best;
 }
 
-/// The 98 directions with coordinates of at most 2, not of unit length.
+/// One of each pair of the 98 directions with coordinates of at most 2, not of unit length.
 std::vector<Vec3> many_directions() {
   std::vector<Vec3> directions;
   for (int x = -2; x <= 2; ++x) {
     for (int y = -2; y <= 2; ++y) {
       for (int z = -2; z <= 2; ++z) {
-        if ((x | y | z) & 1) directions.emplace_back(x, y, z);
+        const bool first = x != 0 ? x < 0 : y != 0 ? y < 0 : z < 0;
+        if (first && ((x | y | z) & 1)) directions.emplace_back(x, y, z);
       }
     }
   }
   return directions;
 }
 
-std::uint32_t farthest(const PolygonMesh& mesh, const Vec3& direction) {
-  double most = -std::numeric_limits<double>::infinity();
-  std::uint32_t best = 0;
+/// Appends the vertices that are farthest along a direction, and the other way.
+void add_farthest(const PolygonMesh& mesh, const Vec3& direction,
+                  std::vector<std::uint32_t>& found) {
+  double most = -std::numeric_limits<double>::infinity(), least = -most;
+  std::uint32_t last = 0, first = 0;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (const double reach = direction.dot(mesh.vertices[v]); reach > most) {
+    const double reach = direction.dot(mesh.vertices[v]);
+    if (reach > most) {
       most = reach;
-      best = v;
+      last = v;
+    }
+    if (reach < least) {
+      least = reach;
+      first = v;
     }
   }
-  return best;
+  found.push_back(last);
+  found.push_back(first);
 }
 
 /// The directions tried first: those of the 26-dop, one of each pair, and the mesh's own axes.
@@ -247,13 +284,13 @@ std::vector<Vec3> first_directions(const PolygonMesh& mesh) {
 bool better(const Candidate& a, const Candidate& b) { return a.price < b.price; }
 
 /// The best cut across each of the first directions, the best of them first.
-std::vector<Candidate> found_anywhere(const PolygonMesh& mesh, const Outline& outline,
-                                      double evenness) {
+std::vector<Candidate> found_anywhere(const PolygonMesh& mesh, const Wires& wires,
+                                      const Outline& outline, double evenness) {
   const Box box = bounds(mesh);
   const std::vector<Vec3> directions = first_directions(mesh);
   std::vector<Candidate> found(directions.size());
   for_chunks(directions.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
-    Sweeper sweeper(mesh, outline.points, box, evenness);
+    Sweeper sweeper(wires, outline.points, box, evenness);
     for (std::size_t i = begin; i < end; ++i) found[i] = sweeper.anywhere(directions[i]);
   });
   std::stable_sort(found.begin(), found.end(), better);
@@ -261,8 +298,8 @@ std::vector<Candidate> found_anywhere(const PolygonMesh& mesh, const Outline& ou
 }
 
 /// Searches around a cut, ever nearer.
-Candidate tilted_and_shifted(const PolygonMesh& mesh, const Outline& outline, Candidate best) {
-  const Box box = bounds(mesh);
+Candidate tilted_and_shifted(const Box& box, const Wires& wires, const Outline& outline,
+                             Candidate best) {
   double tilt = kFirstTilt, reach_m = box.extent().maxCoeff() / kSlices;
   for (int round = 0; round < kRounds; ++round, tilt *= 0.5, reach_m *= 0.5) {
     const Frame frame(best.direction);
@@ -273,7 +310,7 @@ Candidate tilted_and_shifted(const PolygonMesh& mesh, const Outline& outline, Ca
     }
     std::vector<Candidate> found(directions.size());
     for_chunks(directions.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      Sweeper sweeper(mesh, outline.points, box, kEvenness);
+      Sweeper sweeper(wires, outline.points, box, kEvenness);
       found[i] = sweeper.near(directions[i], best.middle, reach_m);
     });
     const Candidate& next = *std::min_element(found.begin(), found.end(), better);
@@ -290,7 +327,7 @@ Outline outline_of(const PolygonMesh& mesh) {
   SweepHull hull;
   hull.restart(box.center(), box.extent().maxCoeff());
   std::vector<std::uint32_t> found;
-  for (const Vec3& direction : many_directions()) found.push_back(farthest(mesh, direction));
+  for (const Vec3& direction : many_directions()) add_farthest(mesh, direction, found);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   for (const std::uint32_t v : found) {
@@ -305,15 +342,16 @@ Outline outline_of(const PolygonMesh& mesh) {
 }
 
 std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline, Effort effort) {
-  Candidate best = found_anywhere(mesh, outline, kEvenness)[0];
+  const Wires wires(mesh);
+  Candidate best = found_anywhere(mesh, wires, outline, kEvenness)[0];
   if (!(best.price < std::numeric_limits<double>::infinity())) return std::nullopt;
-  if (effort == Effort::kFull) best = tilted_and_shifted(mesh, outline, best);
+  if (effort == Effort::kFull) best = tilted_and_shifted(bounds(mesh), wires, outline, best);
   return best.cut();
 }
 
 std::vector<Cut> middle_cuts(const PolygonMesh& mesh, const Outline& outline) {
   std::vector<Cut> cuts;
-  for (const Candidate& candidate : found_anywhere(mesh, outline, kMiddle)) {
+  for (const Candidate& candidate : found_anywhere(mesh, Wires(mesh), outline, kMiddle)) {
     if (candidate.price < std::numeric_limits<double>::infinity()) cuts.push_back(candidate.cut());
   }
   return cuts;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/geometry/triangulate_face.h"
 #include "engine/world/actors.h"
 
 namespace sunder {
@@ -61,6 +62,28 @@ Surroundings surroundings(const World& world) {
   return all;
 }
 
+/// Calls `use` with the corners of convex polygons that make up what a convex shows in a face: the
+/// face, or triangles of its visual mesh's cap there, which is often less.
+template <class Use>
+void for_polygons(const Convex& convex, std::uint32_t face, const Use& use) {
+  const ConvexPolyhedron& hull = convex.polyhedron;
+  std::vector<Vec3> polygon;
+  if (convex.is_internal()) {
+    for (const std::uint32_t v : hull.face_corners(face)) polygon.push_back(hull.vertices[v]);
+    use(polygon);
+    return;
+  }
+  const PolygonMesh& visual = *convex.visual;
+  for (std::size_t f = first_cap(visual); f < visual.faces.size(); ++f) {
+    if (visual.faces[f].id != hull.faces[face].id) continue;
+    for (const Triangle& triangle : triangulate(visual, f)) {
+      polygon.clear();
+      for (const std::uint32_t c : triangle) polygon.push_back(visual.vertices[visual.corners[c]]);
+      use(polygon);
+    }
+  }
+}
+
 }  // namespace
 
 void crumble(World& world, const BreakPlan& plan, const Motion& motion) {
@@ -72,19 +95,20 @@ void crumble(World& world, const BreakPlan& plan, const Motion& motion) {
     const Convex& convex = *plan.pieces[exposed.piece].convexes[exposed.convex];
     const Crumbling& crumbling = world.material(convex.material).crumbling;
     if (!(crumbling.particles_per_m2 > 0)) continue;
-    const ConvexPolyhedron& hull = convex.polyhedron;
-    for (const std::uint32_t corner : hull.face_corners(exposed.face)) {
-      const Vec3 point_W = motion.X_WR * hull.vertices[corner];
-      crumbs.corners_W.push_back(point_W - back_s * field(point_W));
-    }
-    crumbs.corners_end.push_back(static_cast<std::uint32_t>(crumbs.corners_W.size()));
     Emission face;
-    face.normal_W = motion.X_WR.rotation * hull.faces[exposed.face].plane.normal;
+    face.normal_W = motion.X_WR.rotation * convex.polyhedron.faces[exposed.face].plane.normal;
     face.motion = field;
     face.motion.at_W -= back_s * field.velocity_W;
     face.material = convex.material;
     face.crumbling = crumbling;
-    crumbs.faces.push_back(face);
+    for_polygons(convex, exposed.face, [&](std::span<const Vec3> polygon_R) {
+      for (const Vec3& corner : polygon_R) {
+        const Vec3 point_W = motion.X_WR * corner;
+        crumbs.corners_W.push_back(point_W - back_s * field(point_W));
+      }
+      crumbs.corners_end.push_back(static_cast<std::uint32_t>(crumbs.corners_W.size()));
+      crumbs.faces.push_back(face);
+    });
   }
 }
 

@@ -1,7 +1,10 @@
 // What breaks hand to the particles, and what frames show of them.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/polygon_mesh.h"
 #include "tests/engine/scripted.h"
 
 namespace sunder {
@@ -58,9 +61,23 @@ class RecordingParticles final : public Particles {
   std::vector<MaterialIndex> material{MaterialIndex(0)};
 };
 
+/// A box that owns the visual mesh of another one, half as wide, whose lowest face in x is a cap.
+ConvexPtr box_with_a_half_cap(const Vec3& min) {
+  ConvexPolyhedron polyhedron = make_box(min, min + Vec3::Ones());
+  auto visual = std::make_shared<PolygonMesh>(polygon_mesh(make_box(min, min + Vec3(1, 1, 0.5))));
+  polyhedron.faces[0].id = {2};
+  const Vec3 out = polyhedron.faces[0].plane.normal;
+  const auto cap = std::find_if(visual->faces.begin(), visual->faces.end(),
+                                [&](const auto& face) { return face.plane.normal == out; });
+  cap->id = {2};
+  std::rotate(cap, cap + 1, visual->faces.end());
+  return make_convex(std::move(polyhedron), MaterialIndex(0), std::move(visual));
+}
+
 /// Two unit boxes of stone that fly along z, and a ball that parts them in the first step.
 struct ParticleRun {
-  explicit ParticleRun(double dt_s, double smallest_piece_m3 = 0, double particles_per_m2 = 10) {
+  explicit ParticleRun(double dt_s, double smallest_piece_m3 = 0, double particles_per_m2 = 10,
+                       bool visual = false) {
     Material stone;
     stone.density_kg_m3 = 1000;
     stone.pattern.kind = PatternSpec::Kind::kVoronoi;
@@ -76,7 +93,8 @@ struct ParticleRun {
     for (int i = 0; i < 2; ++i) {
       const Vec3 min(i, 0, 0);
       solid.compound.convexes.push_back(
-          make_convex(make_box(min, min + Vec3::Ones()), MaterialIndex(0)));
+          visual ? box_with_a_half_cap(min)
+                 : make_convex(make_box(min, min + Vec3::Ones()), MaterialIndex(0)));
       solid.compound.anchored.push_back(0);
     }
     solid.velocity_W = Vec3(0, 0, 2);
@@ -111,6 +129,19 @@ TEST(ParticleStage, IsToldOfEveryFaceThatABreakLaidBare) {
   EXPECT_EQ(face.emission.material, MaterialIndex(0));
   EXPECT_EQ(face.emission.crumbling.particles_per_m2, 10);
   EXPECT_NEAR(face.emission.motion(face.corners_W[0]).z(), 2, 1e-9);
+}
+
+TEST(ParticleStage, AVisualMeshCrumblesWhereItsCapsAre) {
+  ParticleRun run(1.0 / 60, 0, 10, true);
+  run.simulation->next();
+  ASSERT_EQ(run.particles->faces.size(), 4u) << "two triangles a cap";
+  double area_m2 = 0;
+  for (const RecordingParticles::Face& face : run.particles->faces) {
+    ASSERT_EQ(face.corners_W.size(), 3u);
+    const Vec3 a = face.corners_W[1] - face.corners_W[0], b = face.corners_W[2] - face.corners_W[0];
+    area_m2 += 0.5 * a.cross(b).dot(face.emission.normal_W);
+  }
+  EXPECT_NEAR(area_m2, 2 * 0.5, 1e-9);
 }
 
 TEST(ParticleStage, MovesOnceAFrameFromWhereTheFrameBegan) {

@@ -6,8 +6,10 @@
 #include "engine/base/trigonometry.h"
 #include "engine/world/piece_mesh.h"
 #include "fracture/adjacency.h"
+#include "fracture/bond_geometry.h"
 #include "fracture/pattern_breaker.h"
 #include "fracture/surface.h"
+#include "fracture/vacd.h"
 #include "tests/engine/geometry_mesh_fixtures.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/visual_truths.h"
@@ -171,6 +173,21 @@ TEST(Visual, convexes_touch_only_where_their_meshes_do) {
   // The upper comb's teeth point to −z, the lower one's to +z: bars of depth 0.5 over teeth of
   // width 0.4, three on either side, and the teeth between the bars over each other.
   EXPECT_NEAR(bonds[0].area_m2, 2 * 3 * 0.5 * 0.4 + 3 * 0.4 * 1.0, 1e-12);
+}
+
+TEST(Visual, what_holds_a_hollow_solid_together_is_shaped_as_its_caps) {
+  VacdOptions options;
+  options.nodes = {Vec3(0, -0.5, 0), Vec3(0, 0.5, 0)};
+  const Compound halves = decompose({{original(test::hollow_box())}, {}, true}, options).compound;
+  ASSERT_EQ(halves.bonds.size(), 1u);
+  const BondGeometry ring = bond_geometry(halves, halves.bonds[0]);
+  const double outer = 2, inner = 1;
+  EXPECT_NEAR(ring.area_m2, outer * outer - inner * inner, 1e-12);
+  EXPECT_LT(ring.centroid_R.norm(), 1e-12);
+  const double moment = (std::pow(outer, 4) - std::pow(inner, 4)) / 12;
+  EXPECT_LT((ring.second_moment - Mat3(Vec3(moment, 0, moment).asDiagonal())).norm(), 1e-12);
+  EXPECT_NEAR(ring.reach_m, outer / std::sqrt(2), 1e-12);
+  EXPECT_EQ(bond_corners(halves, halves.bonds[0]).size(), 8u);
 }
 
 TEST(Visual, corner_attributes_are_interpolated_along_cuts) {
