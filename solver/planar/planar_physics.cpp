@@ -9,6 +9,7 @@
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
 #include "engine/base/trigonometry.h"
+#include "solver/check_bodies.h"
 #include "solver/planar/books.h"
 #include "solver/planar/nearby.h"
 
@@ -81,6 +82,7 @@ PlanarPhysics::PlanarPhysics(const PlanarOptions& options)
 
 std::vector<BodyId> PlanarPhysics::replace(std::span<const BodyId> remove,
                                            std::span<const BodyDesc> add) {
+  check_bodies(add);
   std::vector<MadeShapes> made;  // before anything changes: it may throw
   for (const BodyDesc& desc : add) {
     made.push_back(bodies_.make_shapes(desc.shapes, desc.tag, desc.com_R, desc.X_WB));
@@ -101,6 +103,7 @@ std::vector<BodyId> PlanarPhysics::replace(std::span<const BodyId> remove,
 void PlanarPhysics::edit(const BodyEdit& edit) {
   PlanarBody& body = at(edit.body);
   SUNDER_CHECK(!body.dynamic());
+  check_shapes(edit.added, body.tag);
   const MadeShapes made = bodies_.make_shapes(edit.added, body.tag, body.com_R, body.X_WB);
   for (const std::uint32_t tag : edit.removed_tags) {
     const auto found = std::find_if(body.shapes.begin(), body.shapes.end(),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 
 namespace sunder::solver {
@@ -11,6 +12,10 @@ namespace {
 
 constexpr std::size_t kChunk = 512;
 constexpr int kRefitsPerBuild = 12;
+// Neighbours of a shape that are looked at however deep they overlap, about.
+constexpr std::size_t kCrowd = 24;
+// Shapes overlap deeply if their middles are nearer than this share of their inner radii together.
+constexpr double kDeepMiddles = 0.9;
 
 /// Bounds of a hull turned by R, about the body's centre.
 FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
@@ -87,6 +92,7 @@ void BroadPhase::add(std::span<const std::uint32_t> added, const Shapes& shapes,
   swept_.resize(shapes.size());
   fat_.resize(shapes.size());
   moved_.resize(shapes.size());
+  crowded_.resize(shapes.size());
   half_space_of_.resize(shapes.size(), -1);
   for (const std::uint32_t s : added) {
     fat_[s] = FloatBox();
@@ -146,7 +152,7 @@ void BroadPhase::update_boxes(const Shapes& shapes, const Bodies& bodies, const 
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t s = movers_[i];
       const Shape& shape = shapes.items[s];
-      moved_[s] = look_again_;
+      moved_[s] = look_again_ || crowded_[s];
       if (!bodies.changed[shape.body]) continue;
       swept_[s] = swept_box(shape, bodies, gravity_W, dt_s);
       if (fat_[s].contains(swept_[s])) continue;
@@ -203,12 +209,37 @@ std::vector<std::uint32_t> BroadPhase::pairs_with(std::span<const std::uint32_t>
   return slots;
 }
 
+/// Of the movers that overlap a shape in a crowd, those whose middles are within it are looked at
+/// by a share only, as equal for both of a pair as their crowds are; the next update looks again.
+void BroadPhase::thin_out(std::uint32_t shape, std::size_t neighbours, const Shapes& shapes,
+                          const Bodies& bodies, std::vector<Pair>& found, std::size_t first) {
+  const std::uint64_t share = ~std::uint64_t{0} / neighbours * kCrowd;
+  const auto middle = [&](const Shape& s) {
+    return Vec3(bodies.position[s.body] + (bodies.rotation_f[s.body] * s.center).cast<double>());
+  };
+  const auto left_out = [&](const Pair& pair) {
+    const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
+    if (a.kind == ShapeDesc::Kind::kHalfSpace) return false;
+    if (!bodies.dynamic(a.body) || !bodies.dynamic(b.body)) return false;
+    const double deep = kDeepMiddles * double{a.inner_radius_m + b.inner_radius_m};
+    return combine(kCrowd, pair.key()) > share &&
+           (middle(a) - middle(b)).squaredNorm() < deep * deep;
+  };
+  const auto kept =
+      std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), left_out);
+  crowded_[shape] = kept != found.end();
+  found.erase(kept, found.end());
+}
+
 void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
-                            const KeyMap& slot_of, std::vector<Pair>& found) const {
+                            const KeyMap& slot_of, std::vector<Pair>& found) {
   const Shape& mine = shapes[shape];
   const bool mover = bodies.dynamic(mine.body);
+  const std::size_t first = found.size();
+  std::size_t neighbours = 0;
   auto consider = [&](std::uint32_t other) {
     const Shape& theirs = shapes[other];
+    ++neighbours;
     if (theirs.body == mine.body || (moved_[other] && other < shape)) return;
     if (!mover && !bodies.dynamic(theirs.body)) return;
     Pair pair = pair_of(shape, other, shapes);
@@ -224,6 +255,8 @@ void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bod
     pair.shape_a = plane.shape, pair.shape_b = shape;
     if (overlaps(pair, fat_)) consider(plane.shape);
   }
+  crowded_[shape] = 0;
+  if (neighbours > kCrowd) thin_out(shape, neighbours, shapes, bodies, found, first);
 }
 
 void BroadPhase::update(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,

@@ -43,12 +43,15 @@ class BroadPhase {
   void update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W, double dt_s);
   void update_trees();
   void find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
-                  const KeyMap& slot_of, std::vector<Pair>& found) const;
+                  const KeyMap& slot_of, std::vector<Pair>& found);
+  void thin_out(std::uint32_t shape, std::size_t neighbours, const Shapes& shapes,
+                const Bodies& bodies, std::vector<Pair>& found, std::size_t first);
   bool overlaps(const Pair& pair, const std::vector<FloatBox>& boxes) const;
 
   std::vector<Role> role_;             ///< By shape slot.
   std::vector<FloatBox> swept_, fat_;  ///< By shape slot.
   std::vector<std::uint8_t> moved_;    ///< Left its fat box in this update.
+  std::vector<std::uint8_t> crowded_;  ///< Has neighbours that were not looked at.
   std::vector<std::uint32_t> movers_, new_statics_, moved_list_;
   std::vector<HalfSpace> half_spaces_;
   std::vector<std::int32_t> half_space_of_;  ///< By shape slot; −1: not one.

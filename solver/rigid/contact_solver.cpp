@@ -89,6 +89,7 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
   ContactStep step{
       bodies,      contacts, touching_, first_split_, split_, root_W_, {rows, parts_.data()},
       soft_step(h)};
+  step.deep_contacts = deep_contacts_;
   step.gravity_W = gravity_W.cast<float>();
   step.impulse_scale = last_h_s_ > 0 ? static_cast<float>(h / last_h_s_) : 1.f;
   step.bounce_speed_m_s = static_cast<float>(2 * gravity_W.norm() * dt_s) + 1e-3f;
@@ -228,6 +229,7 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
   std::uint32_t start[kKeys + 1] = {};
   in_contact_.assign(bodies.size(), 0);
   points_ = 0;
+  deep_contacts_.clear();
   auto key = [](const Manifold& m) { return std::size_t{m.color} * 4 + 4 - m.count; };
   auto for_each = [&](const auto& visit) {
     for (std::uint32_t i = 0; i < contacts.manifolds.size(); ++i) {
@@ -239,6 +241,9 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
     ++start[key(m) + 1];
     in_contact_[m.body_a] = in_contact_[m.body_b] = 1;
     points_ += m.count;
+    if (!m.deep) return;
+    deep_contacts_.resize(bodies.size());
+    ++deep_contacts_[m.body_a], ++deep_contacts_[m.body_b];
   });
   for (std::size_t k = 0; k < kKeys; ++k) start[k + 1] += start[k];
   touching_.resize(start[kKeys]);

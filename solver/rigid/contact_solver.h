@@ -53,7 +53,8 @@ class ContactSolver {
   std::vector<std::uint32_t> active_;    ///< Awake bodies in contact.
   std::vector<std::uint32_t> flying_;    ///< Awake bodies that touch nothing.
   std::vector<std::uint8_t> in_contact_;
-  std::vector<BodyRow> rows_;  ///< By body slot + 1; row 0 stays still.
+  std::vector<std::uint32_t> deep_contacts_;  ///< By body slot; empty if there are none.
+  std::vector<BodyRow> rows_;                 ///< By body slot + 1; row 0 stays still.
   std::vector<Mat3f> root_W_;
   std::uint32_t points_ = 0;
   double last_h_s_ = 0;

@@ -2,6 +2,8 @@
 // is in derive_kernels.h.
 #include "solver/rigid/prepare.h"
 
+#include <algorithm>
+
 namespace sunder::solver {
 namespace {
 
@@ -48,6 +50,18 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   set_lane(g.gravity, lane, ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.gravity_W);
 }
 
+/// The overlap that is pushed apart at the share of speed that a contact has: see kDeepAtFullSpeed.
+float most_overlap_m(const ContactStep& step, const Manifold& m) {
+  if (step.deep_contacts.empty() || !m.deep) return 1e30f;
+  const auto of = [&](std::uint32_t body) {
+    return step.bodies.dynamic(body) ? step.deep_contacts[body] : 0;
+  };
+  const std::uint32_t many = std::max(of(m.body_a), of(m.body_b));
+  if (many <= kDeepAtFullSpeed) return 1e30f;
+  const float share = static_cast<float>(kDeepAtFullSpeed) / static_cast<float>(many);
+  return share * step.soft.push_m_s / step.soft.press[m.count - 1].rate;
+}
+
 template <std::uint32_t lanes>
 void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t lane,
                     ConstraintBlock<lanes>& c, GatheredBlock<lanes>& g) {
@@ -59,11 +73,12 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
   c.twist_impulse[lane] = step.impulse_scale * m.twist_impulse;
   c.friction[lane] = m.friction;
   g.restitution[lane] = m.restitution;
+  const float most_overlap = most_overlap_m(step, m);
   for (std::size_t i = 0; i < m.count; ++i) {
     const ManifoldPoint& p = m.points[i];
     set_lane(g.arm_a[i], lane, p.arm_A);
     set_lane(g.arm_b[i], lane, p.arm_B);
-    c.point[i].separation[lane] = p.separation_m;
+    c.point[i].separation[lane] = std::max(p.separation_m, -most_overlap);
     c.point[i].impulse[lane] = step.impulse_scale * p.impulse_Ns;
   }
 }

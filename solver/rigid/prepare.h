@@ -27,9 +27,14 @@ struct ContactStep {
   SolverRows rows;
   SoftStep soft;
   Vec3f gravity_W = Vec3f::Zero();
-  float impulse_scale = 1;     ///< Substep over that of the last step.
-  float bounce_speed_m_s = 0;  ///< Slower impacts do not bounce.
+  float impulse_scale = 1;                            ///< Substep over that of the last step.
+  float bounce_speed_m_s = 0;                         ///< Slower impacts do not bounce.
+  std::span<const std::uint32_t> deep_contacts = {};  ///< By body slot; empty: there are none.
 };
+
+/// Deep contacts of a body that are pushed apart as fast as may be; of more, each gets its share,
+/// so that a body is pushed no faster however many lie in one place.
+inline constexpr std::uint32_t kDeepAtFullSpeed = 2;
 
 /// Fills everything but `first`, `count`, `points` and `split`, which say what goes in.
 template <std::uint32_t lanes>

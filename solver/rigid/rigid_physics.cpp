@@ -7,17 +7,21 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
+#include "solver/check_bodies.h"
 #include "solver/rigid/approach.h"
 #include "solver/rigid/bodies.h"
 #include "solver/rigid/broad_phase.h"
 #include "solver/rigid/contact_solver.h"
 #include "solver/rigid/contacts.h"
+#include "solver/rigid/crowd.h"
 #include "solver/rigid/joint.h"
 #include "solver/rigid/narrow_phase.h"
 #include "solver/rigid/sleep.h"
 
 namespace sunder::solver {
 namespace {
+
+constexpr float kDeep = 0.1f;  // of the smaller shape's inner radius
 
 class RigidPhysics final : public Physics {
  public:
@@ -60,6 +64,7 @@ class RigidPhysics final : public Physics {
   Contacts contacts_;
   Joints joints_;
   BroadPhase broad_phase_;
+  Crowd crowd_;
   Sleep sleep_;
   ContactSolver contact_solver_;
   ContactsOfBodies contacts_of_bodies_;
@@ -72,6 +77,7 @@ class RigidPhysics final : public Physics {
 
 std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
                                           std::span<const BodyDesc> add) {
+  check_bodies(add);
   remove_bodies(remove);
   std::vector<std::uint32_t> slots;
   std::vector<BodyId> ids;
@@ -118,6 +124,7 @@ void RigidPhysics::remove_shapes(std::span<const std::uint32_t> shapes) {
 
 void RigidPhysics::edit(const BodyEdit& edit) {
   SUNDER_CHECK(bodies_.holds(edit.body) && bodies_.motion[edit.body.slot] == Motion::kStatic);
+  check_shapes(edit.added, bodies_.tag[edit.body.slot]);
   std::vector<std::uint32_t> removed;
   for (const std::uint32_t tag : edit.removed_tags)
     removed.push_back(shapes_.with_tag(edit.body.slot, tag));
@@ -152,12 +159,8 @@ void RigidPhysics::find_reaches(double dt_s) {
 /// gets a manifold and what drifted apart goes.
 void RigidPhysics::update_contacts(double dt_s) {
   constexpr std::size_t kChunk = 1024;
-  struct Changes {
-    std::vector<std::pair<std::uint32_t, Manifold>> touched;
-    std::vector<std::uint32_t> parted, gone;
-  };
   auto& pairs = contacts_.pairs;
-  std::vector<Changes> changes((pairs.size() + kChunk - 1) / kChunk);
+  std::vector<ContactChanges> changes((pairs.size() + kChunk - 1) / kChunk);
   const NarrowStep step{dt_s, static_cast<float>(options_.gravity_W.norm() * dt_s * dt_s)};
   find_reaches(dt_s);
   for_chunks(pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
@@ -174,20 +177,23 @@ void RigidPhysics::update_contacts(double dt_s) {
       pair.fresh = apart;  // looked at again when they cease to ignore each other
       const bool near = !apart && broad_phase_.near(pair);
       if (near) update_contact(shapes_, bodies_, step, pair, m, scratch);
+      m.deep = m.count > 0 && m.least_separation() < -kDeep * m.size_m;
+      if (m.deep) changes[c].deep.push_back(i);
       if (touched && (!near || m.count == 0)) changes[c].parted.push_back(i);
       if (!touched && m.count > 0) changes[c].touched.emplace_back(i, std::exchange(fresh, {}));
       if (!near && !broad_phase_.keep(pair)) changes[c].gone.push_back(i);
     }
   });
+  crowd_.thin_out(changes, contacts_, bodies_);
   std::vector<std::uint32_t> left;
-  for (const Changes& chunk : changes)
+  for (const ContactChanges& chunk : changes)
     for (const std::uint32_t i : chunk.parted) left.push_back(pairs[i].manifold);
   sleep_.wake_left(left, options_.gravity_W, contacts_, bodies_);
-  for (const Changes& chunk : changes)
+  for (const ContactChanges& chunk : changes)
     for (const std::uint32_t i : chunk.parted) contacts_.part(i);
-  for (const Changes& chunk : changes)
+  for (const ContactChanges& chunk : changes)
     for (const auto& [pair, manifold] : chunk.touched) contacts_.touch(pair, manifold, bodies_);
-  for (const Changes& chunk : changes)
+  for (const ContactChanges& chunk : changes)
     for (const std::uint32_t i : chunk.gone) contacts_.remove(i);
   std::fill(bodies_.changed.begin(), bodies_.changed.end(), std::uint8_t{0});
 }

@@ -1,0 +1,332 @@
+// What no sane scene asks for: nothing is NaN, nothing passes through, energy never comes from
+// nowhere, and work stays bounded (notes: extremes). Each prints what it measured.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "engine/base/parallel.h"
+#include "tests/solver/rigid_world.h"
+
+namespace sunder::solver {
+namespace {
+
+using W = RigidWorld;
+constexpr double kG = 9.81;
+constexpr double kPush_m_s = 4;  // the solver's fastest correction of an overlap
+
+RigidOptions awake(bool gravity = true) {
+  RigidOptions options;
+  options.sleeping = false;
+  if (!gravity) options.gravity_W.setZero();
+  return options;
+}
+
+double potential_energy(const RigidWorld& world, const std::vector<double>& masses) {
+  double sum = 0;
+  for (std::size_t i = 0; i < masses.size(); ++i)
+    sum += masses[i] * kG * world.state(world.id(i)).X_WB.position.y();
+  return sum;
+}
+
+double fastest(const RigidWorld& world) {
+  double most = 0;
+  for (std::size_t i = 0; i < world.size(); ++i)
+    most = std::max(most, world.state(world.id(i)).velocity_W.norm());
+  return most;
+}
+
+bool finite(const RigidWorld& world) {
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const BodyState s = world.state(world.id(i));
+    if (!s.X_WB.position.allFinite() || !s.X_WB.rotation.coeffs().allFinite() ||
+        !s.velocity_W.allFinite() || !s.angular_velocity_W.allFinite())
+      return false;
+  }
+  return true;
+}
+
+TEST(Extremes, InputThatIsNoBodyIsAnErrorAndTheWorldStays) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  const BodyDesc good = W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0));
+  ConvexPolyhedron broken = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  broken.vertices[3].x() = kNan;
+  ConvexPolyhedron flat = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  for (Vec3& vertex : flat.vertices) vertex.y() = 0;
+  const ConvexPolyhedron none;
+  const std::vector<std::function<void(BodyDesc&)>> faults = {
+      [&](BodyDesc& d) { d.X_WB.position.x() = kNan; },
+      [&](BodyDesc& d) { d.X_WB.position.y() = kInf; },
+      [&](BodyDesc& d) { d.X_WB.rotation = Quat(0, 0, 0, 0); },
+      [&](BodyDesc& d) { d.velocity_W.z() = kInf; },
+      [&](BodyDesc& d) { d.angular_velocity_W.z() = kNan; },
+      [&](BodyDesc& d) { d.com_R.z() = kNan; },
+      [&](BodyDesc& d) { d.mass_kg = 0; },
+      [&](BodyDesc& d) { d.mass_kg = -1; },
+      [&](BodyDesc& d) { d.mass_kg = kNan; },
+      [&](BodyDesc& d) { d.mass_kg = kInf; },
+      [&](BodyDesc& d) { d.inertia_B.setZero(); },
+      [&](BodyDesc& d) { d.inertia_B(1, 1) = kNan; },
+      [&](BodyDesc& d) { d.shapes[0].hull = &broken; },
+      [&](BodyDesc& d) { d.shapes[0].hull = &flat; },
+      [&](BodyDesc& d) { d.shapes[0].hull = &none; },
+      [&](BodyDesc& d) { d.shapes[0].hull = nullptr; },
+      [&](BodyDesc& d) { d.shapes[0].friction = -1; },
+      [&](BodyDesc& d) { d.shapes[0].restitution = kNan; },
+      [&](BodyDesc& d) { d = W::sphere(0, Vec3::Zero()), d.mass_kg = 1; },
+      [&](BodyDesc& d) { d = W::sphere(kNan, Vec3::Zero()), d.mass_kg = 1; },
+      [&](BodyDesc& d) { d = W::ground(Vec3::Zero()); }};
+  RigidWorld world;
+  world.add(W::ground());
+  const BodyId kept = world.add(good);
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    std::vector<BodyDesc> add = {good, good};
+    faults[i](add[1]);
+    EXPECT_THROW(world.physics().replace(std::span(&kept, 1), add), InputError) << "fault " << i;
+  }
+  const SolveReport report = world.step(1.0 / 60, 4);
+  EXPECT_EQ(report.awake, 1u);
+  EXPECT_EQ(report.contacts, 1u);
+}
+
+/// Boxes of 20 cm in one place, apart by `jitter_m`.
+struct Heap {
+  double gained_J = 0;  ///< Most that all energy was ever above its start.
+  double allowed_J = 0;
+  double points_a_body = 0;  ///< Most in any step.
+};
+
+Heap burst(int count, double jitter_m, int steps) {
+  RigidWorld world(awake());
+  Random random(1);
+  std::vector<double> masses;
+  world.add(W::ground());
+  masses.push_back(0);
+  Heap heap;
+  for (int i = 0; i < count; ++i) {
+    const BodyDesc box =
+        W::box(Vec3(0.2, 0.2, 0.2), Vec3(0, 2, 0) + jitter_m * Vec3(random.direction()));
+    heap.allowed_J += 0.5 * box.mass_kg * kPush_m_s * kPush_m_s;
+    masses.push_back(box.mass_kg);
+    world.add(box);
+  }
+  const double start_J = potential_energy(world, masses);
+  for (int i = 0; i < steps; ++i) {
+    const SolveReport report = world.step(1.0 / 60, 4);
+    const double energy_J = world.kinetic_energy() + potential_energy(world, masses);
+    heap.gained_J = std::max(heap.gained_J, energy_J - start_J);
+    heap.points_a_body =
+        std::max(heap.points_a_body, static_cast<double>(report.contact_points) / count);
+  }
+  EXPECT_TRUE(finite(world));
+  std::printf("%d boxes within %.0e m: gained %.3g J of %.3g J allowed, %.0f points a body\n",
+              count, jitter_m, heap.gained_J, heap.allowed_J, heap.points_a_body);
+  return heap;
+}
+
+// A heap of boxes at rest has 3 contacts of 4 points a body.
+constexpr double kRestingPoints = 12;
+
+TEST(Extremes, AThousandBodiesInOnePlacePartWithBoundedEnergyAndWork) {
+  for (const double jitter_m : {0.0, 1e-3, 0.05}) {
+    const Heap heap = burst(1000, jitter_m, jitter_m == 0 ? 60 : 30);
+    EXPECT_LE(heap.gained_J, heap.allowed_J);
+    EXPECT_LE(heap.points_a_body, 10 * kRestingPoints);
+  }
+}
+
+TEST(Extremes, ThreeThousandBodiesInOnePlacePartWithBoundedEnergyAndWork) {
+  const Heap heap = burst(3000, 0, 8);
+  EXPECT_LE(heap.gained_J, heap.allowed_J);
+  EXPECT_LE(heap.points_a_body, 10 * kRestingPoints);
+}
+
+TEST(Extremes, PiecesThatOverlapByHalfPartWithBoundedEnergy) {
+  RigidWorld world(awake(false));
+  double allowed_J = 0;
+  for (int i = 0; i < 125; ++i) {
+    const Vec3 cell(i % 5, i / 5 % 5, i / 25);
+    const BodyDesc box = W::box(Vec3(0.2, 0.2, 0.2), 0.1 * cell);
+    allowed_J += 0.5 * box.mass_kg * kPush_m_s * kPush_m_s;
+    world.add(box);
+  }
+  double most_J = 0;
+  for (int i = 0; i < 60; ++i) {
+    world.step(1.0 / 60, 4);
+    most_J = std::max(most_J, world.kinetic_energy());
+  }
+  std::printf("125 boxes overlapping by half: %.3g J of %.3g J allowed\n", most_J, allowed_J);
+  EXPECT_LE(most_J, allowed_J);
+  EXPECT_TRUE(finite(world));
+}
+
+TEST(Extremes, SliversOfOneToAThousandComeToRest) {
+  RigidWorld world(awake());
+  world.add(W::ground());
+  Random random(3);
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 size = i % 2 == 0 ? Vec3(1, 0.001, 0.001) : Vec3(1, 0.001, 0.5);
+    BodyDesc sliver = W::box(size, Vec3(0.1 * (i % 4), 0.2 + 0.1 * i, 0.1 * (i % 3)));
+    sliver.X_WB.rotation = Quat(Eigen::AngleAxisd(random.uniform(0, 1), random.direction()));
+    world.add(sliver);
+  }
+  world.run(8, 1.0 / 120, 8);
+  std::printf("slivers 1:1000: fastest %.2g m/s\n", fastest(world));
+  EXPECT_TRUE(finite(world));
+  EXPECT_LT(fastest(world), 0.1);
+  for (std::size_t i = 1; i < world.size(); ++i)
+    EXPECT_GT(world.state(world.id(i)).X_WB.position.y(), -0.01) << "fell through: " << i;
+}
+
+TEST(Extremes, NothingOfAThousandMetresASecondPassesAWallOfOneCentimetre) {
+  for (const bool is_static : {true, false}) {
+    for (const bool ball : {true, false}) {
+      RigidWorld world(awake(false));
+      BodyDesc wall = W::box(Vec3(0.01, 2, 2), Vec3::Zero(), 7800);
+      wall.is_static = is_static;
+      const BodyId wall_id = world.add(wall);
+      BodyDesc shot = ball ? W::sphere(0.05, Vec3(-1.03, 0.01, 0))
+                           : W::box(Vec3(0.1, 0.1, 0.1), Vec3(-1.03, 0.01, 0));
+      shot.velocity_W = Vec3(1000, 0, 0);
+      const BodyId id = world.add(shot);
+      const double before_J = world.kinetic_energy();
+      world.run(0.2, 1.0 / 60, 4);
+      EXPECT_LT(world.state(id).X_WB.position.x(), world.state(wall_id).X_WB.position.x())
+          << (is_static ? "static" : "dynamic") << (ball ? ", ball" : ", box");
+      EXPECT_LE(world.kinetic_energy(), before_J * (1 + 1e-6));
+    }
+  }
+}
+
+TEST(Extremes, PlatesAndNeedlesThatSpinFastNeverGainEnergy) {
+  RigidWorld world(awake());
+  world.add(W::ground());
+  std::vector<double> masses = {0};
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 size = i % 2 == 0 ? Vec3(0.5, 1e-4, 0.5) : Vec3(1e-4, 1, 1e-4);
+    BodyDesc piece = W::box(size, Vec3(0.3 * i, 1.5, 0));
+    piece.angular_velocity_W = Vec3(100, 30, -60);
+    masses.push_back(piece.mass_kg);
+    world.add(piece);
+  }
+  const double start_J = world.kinetic_energy() + potential_energy(world, masses);
+  double most_J = 0;
+  for (int i = 0; i < 240; ++i) {
+    world.step(1.0 / 120, 4);
+    most_J = std::max(most_J, world.kinetic_energy() + potential_energy(world, masses));
+  }
+  std::printf("plates and needles: energy at most %.6f of the start\n", most_J / start_J);
+  EXPECT_TRUE(finite(world));
+  EXPECT_LT(most_J, 1.01 * start_J);
+}
+
+TEST(Extremes, AHundredThousandBodiesGiveTheSameBitsForAnyNumberOfThreads) {
+  const auto run = [](int count) {
+    set_threads(count);
+    RigidWorld world(awake());
+    std::vector<BodyDesc> bodies = {W::ground()};
+    const BodyDesc box = W::box(Vec3(0.2, 0.2, 0.2), Vec3::Zero());
+    for (int i = 0; i < 100000; ++i) {
+      bodies.push_back(box);
+      bodies.back().X_WB.position =
+          Vec3(0.25 * (i % 200), 0.1 + 0.2 * (i / 200 % 5), 0.25 * (i / 1000));
+    }
+    const std::vector<BodyId> ids = world.physics().replace({}, bodies);
+    for (int i = 0; i < 2; ++i) world.step(1.0 / 60, 2);
+    double hash = 0;
+    for (std::size_t i = 1; i < ids.size(); ++i) {
+      const BodyState s = world.state(ids[i]);
+      hash = hash * 0.9999 + s.X_WB.position.sum() + 1e3 * s.velocity_W.sum();
+    }
+    return hash;
+  };
+  const double one = run(1);
+  EXPECT_TRUE(std::isfinite(one));
+  EXPECT_EQ(one, run(2));
+  EXPECT_EQ(one, run(4));
+  set_threads(1);
+}
+
+/// How far the top of ten boxes has sunk or wandered after two seconds, m.
+double stack_error(double dt_s, double x_m = 0) {
+  RigidWorld world(awake());
+  world.add(W::ground());
+  for (int i = 0; i < 10; ++i) world.add(W::box(Vec3(1, 1, 1), Vec3(x_m, 0.5 + i, 0)));
+  world.run(2, dt_s, 4);
+  EXPECT_TRUE(finite(world));
+  return (world.state(world.id(10)).X_WB.position - Vec3(x_m, 9.5, 0)).norm();
+}
+
+TEST(Extremes, AStackStandsFromATwentiethOfASecondDownAndSinksLessWithEveryShorterStep) {
+  EXPECT_TRUE(std::isfinite(stack_error(1.0 / 10)));
+  double last = 1;
+  for (const double rate : {20.0, 60.0, 240.0, 1000.0, 10000.0}) {
+    const double error = stack_error(1 / rate);
+    std::printf("stack of 10 at 1/%.0f s: error %.3g m\n", rate, error);
+    EXPECT_LT(error, 0.5);  // stands
+    EXPECT_LT(error, last + 1e-6);
+    last = error;
+  }
+}
+
+TEST(Extremes, TenKilometresFromTheOriginAStackRestsAsWell) {
+  const double near = stack_error(1.0 / 120), far = stack_error(1.0 / 120, 1e4);
+  std::printf("stack of 10: error %.4g m at the origin, %.4g m at 10 km\n", near, far);
+  EXPECT_LE(far, 1.1 * near);
+}
+
+TEST(Extremes, MassRatiosOfAMillionStayBounded) {
+  for (const double ratio : {1e-6, 1e-3, 1e3, 1e6}) {
+    RigidWorld world(awake());
+    world.add(W::ground());
+    const BodyDesc lower = W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0));
+    const BodyDesc upper = W::box(Vec3(1, 1, 1), Vec3(0, 1.5, 0), 1000 * ratio);
+    world.add(lower);
+    const BodyId top = world.add(upper);
+    const std::vector<double> masses = {0, lower.mass_kg, upper.mass_kg};
+    const double start_J = potential_energy(world, masses);
+    double most_J = 0;
+    for (int i = 0; i < 240; ++i) {
+      world.step(1.0 / 120, 8);
+      most_J = std::max(most_J, world.kinetic_energy() + potential_energy(world, masses));
+    }
+    const double height = world.state(top).X_WB.position.y();
+    std::printf("mass ratio %.0e: top at %.4f m, energy at most %.4f of the start\n", ratio, height,
+                most_J / start_J);
+    EXPECT_TRUE(finite(world));
+    EXPECT_LT(most_J, 1.01 * start_J);
+    if (ratio < 1) {
+      EXPECT_NEAR(height, 1.5, 0.01);
+    }
+  }
+}
+
+TEST(Extremes, AStackOfAThousandFallsWithoutGainingEnergy) {
+  RigidWorld world(awake());
+  world.add(W::ground());
+  std::vector<double> masses = {0};
+  for (int i = 0; i < 1000; ++i) {
+    world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5 + i, 0)));
+    masses.push_back(1000);
+  }
+  double last_J = potential_energy(world, masses), worst = 0;
+  const double start_J = last_J;
+  for (int i = 0; i < 300; ++i) {
+    world.step(1.0 / 60, 4);
+    const double energy_J = world.kinetic_energy() + potential_energy(world, masses);
+    worst = std::max(worst, (energy_J - start_J) / start_J);
+    last_J = energy_J;
+  }
+  std::printf("stack of 1000 after 5 s: energy %.4f of the start, never over it by %.2g\n",
+              last_J / start_J, worst);
+  EXPECT_TRUE(finite(world));
+  EXPECT_LT(worst, 1e-4);
+}
+
+}  // namespace
+}  // namespace sunder::solver
