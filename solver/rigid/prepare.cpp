@@ -50,15 +50,15 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   set_lane(g.gravity, lane, ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.gravity_W);
 }
 
-/// The overlap that is pushed apart at the share of speed that a contact has: see kDeepAtFullSpeed.
+/// The overlap that is pushed apart at the share of speed that a contact has: see kCrowdOfDeep.
 float most_overlap_m(const ContactStep& step, const Manifold& m) {
   if (step.deep_contacts.empty() || !m.deep) return 1e30f;
   const auto of = [&](std::uint32_t body) {
     return step.bodies.dynamic(body) ? step.deep_contacts[body] : 0;
   };
   const std::uint32_t many = std::max(of(m.body_a), of(m.body_b));
-  if (many <= kDeepAtFullSpeed) return 1e30f;
-  const float share = static_cast<float>(kDeepAtFullSpeed) / static_cast<float>(many);
+  if (many <= kCrowdOfDeep) return 1e30f;
+  const float share = static_cast<float>(kDeepTogether) / static_cast<float>(many);
   return share * step.soft.push_m_s / step.soft.press[m.count - 1].rate;
 }
 

@@ -32,9 +32,9 @@ struct ContactStep {
   std::span<const std::uint32_t> deep_contacts = {};  ///< By body slot; empty: there are none.
 };
 
-/// Deep contacts of a body that are pushed apart as fast as may be; of more, each gets its share,
-/// so that a body is pushed no faster however many lie in one place.
-inline constexpr std::uint32_t kDeepAtFullSpeed = 2;
+/// With more deep contacts on a body than these, each is pushed apart at a share of the fastest,
+/// all of them together as fast as so many would be: however many lie in one place.
+inline constexpr std::uint32_t kCrowdOfDeep = 8, kDeepTogether = 2;
 
 /// Fills everything but `first`, `count`, `points` and `split`, which say what goes in.
 template <std::uint32_t lanes>

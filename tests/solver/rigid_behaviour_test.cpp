@@ -179,9 +179,9 @@ TEST(RigidPhysics, ANotFiniteBodyIsFrozenAndCounted) {
   RigidWorld world;
   world.add(W::ground());
   add_pile(world, 20, 2);
-  BodyDesc broken = W::box(Vec3(0.3, 0.3, 0.3), Vec3(0.5, 0.6, 0.5));
-  broken.velocity_W = Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0);
-  const BodyId id = world.add(broken);
+  const BodyId id = world.add(W::box(Vec3(0.3, 0.3, 0.3), Vec3(0.5, 0.6, 0.5)));
+  world.physics().apply_impulse(id, Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0),
+                                world.state(id).X_WB.position);
   EXPECT_EQ(world.step(1.0 / 60, 2).frozen, 1u);
   EXPECT_EQ(world.run(1, 1.0 / 60, 2).frozen, 0u);
   EXPECT_TRUE(world.state(id).velocity_W.isZero());
