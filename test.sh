@@ -7,6 +7,7 @@ source cmake/setup.sh
 
 set_up
 install_optional clang-format-14
+install_optional libbullet-dev libode-dev
 
 say "Building everything"
 cmake --build --preset release

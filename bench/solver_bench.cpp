@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/piles.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
@@ -22,6 +23,9 @@
 
 namespace sunder::solver {
 namespace {
+
+using bench::rubble;
+using Set = bench::Pile;
 
 struct Options {
   std::string scene = "all";
@@ -40,73 +44,6 @@ double cpu_ms() {
   timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-/// Bodies to add, and the hulls they refer to.
-struct Set {
-  std::vector<BodyDesc> bodies;
-  std::vector<std::unique_ptr<ConvexPolyhedron>> hulls;
-
-  void ground(const Vec3& normal_W = Vec3::UnitY(), const Vec3& point_W = Vec3::Zero()) {
-    BodyDesc desc;
-    desc.is_static = true;
-    ShapeDesc shape;
-    shape.kind = ShapeDesc::Kind::kHalfSpace;
-    shape.normal_R = normal_W;
-    shape.center_R = point_W;
-    desc.shapes = {shape};
-    bodies.push_back(desc);
-  }
-  void convex(ConvexPolyhedron polyhedron, const Vec3& center_W, double density = 2000) {
-    hulls.push_back(std::make_unique<ConvexPolyhedron>(std::move(polyhedron)));
-    const MassProperties solid = mass_properties(*hulls.back());
-    BodyDesc desc;
-    desc.com_R = solid.centroid;
-    desc.X_WB.position = center_W;
-    desc.mass_kg = density * solid.volume_m3;
-    desc.inertia_B = density * solid.inertia();
-    ShapeDesc shape;
-    shape.hull = hulls.back().get();
-    desc.shapes = {shape};
-    bodies.push_back(desc);
-  }
-  void box(const Vec3& size, const Vec3& center_W, double density = 2000) {
-    convex(make_box(-0.5 * size, 0.5 * size), center_W, density);
-  }
-  void ball(double mass_kg, double radius_m, const Vec3& center_W, const Vec3& velocity_W) {
-    BodyDesc desc;
-    desc.X_WB.position = center_W;
-    desc.velocity_W = velocity_W;
-    desc.mass_kg = mass_kg;
-    desc.inertia_B = Mat3::Identity() * (0.4 * mass_kg * radius_m * radius_m);
-    ShapeDesc shape;
-    shape.kind = ShapeDesc::Kind::kSphere;
-    shape.radius_m = radius_m;
-    desc.shapes = {shape};
-    bodies.push_back(desc);
-  }
-};
-
-/// `count` hulls of 8 to 16 vertices, 0.1 to 0.5 m, dropped into a pit.
-Set rubble(int count) {
-  constexpr double kPitch_m = 0.45;
-  Set set;
-  const int side = std::max(3, static_cast<int>(std::lround(std::cbrt(count / 2.0))));
-  const double half = 0.5 * side * kPitch_m + 0.3;
-  set.ground();
-  for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)})
-    set.ground(normal, -half * normal);
-  Random random(1);
-  for (int i = 0; i < count; ++i) {
-    const double size = random.uniform(0.1, 0.5);
-    std::vector<Vec3> points(8 + random.below(9));
-    for (Vec3& point : points) point = 0.5 * size * random.direction();
-    const Vec3 cell(i % side - 0.5 * side + 0.5, i / side / side,
-                    i / side % side - 0.5 * side + 0.5);
-    const Vec3 jitter(random.uniform(-0.05, 0.05), 0.4, random.uniform(-0.05, 0.05));
-    set.convex(make_hull(points), kPitch_m * cell + jitter);
-  }
-  return set;
 }
 
 /// A running bond of `columns` by `rows` bricks (shifted by less than half, or its ends would
