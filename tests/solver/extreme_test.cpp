@@ -280,6 +280,37 @@ TEST(Extremes, TenKilometresFromTheOriginAStackRestsAsWell) {
   EXPECT_LE(far, 1.1 * near);
 }
 
+/// Ten boxes of this side dropped askew, watched as long and as often as their size asks for: how
+/// high they lie in the end, and how fast they still are, in sides and what falls a side.
+std::pair<double, double> heap_of_size(double side_m) {
+  RigidWorld world(awake());
+  world.add(W::ground());
+  for (int i = 0; i < 10; ++i) {
+    BodyDesc box =
+        W::box(Vec3(1, 1, 1) * side_m, Vec3(0.1 * (i % 3), 1 + 1.5 * i, 0.1 * (i % 2)) * side_m);
+    box.X_WB.rotation = Quat(Eigen::AngleAxisd(0.2 * i, Vec3(1, i, 2).normalized()));
+    world.add(box);
+  }
+  const double time = std::sqrt(side_m);
+  world.run(16 * time, time / 128, 4);
+  EXPECT_TRUE(finite(world));
+  double height = 0;
+  for (std::size_t i = 1; i < world.size(); ++i)
+    height += world.state(world.id(i)).X_WB.position.y() / 10;
+  return {height / side_m, fastest(world) / std::sqrt(kG * side_m)};
+}
+
+TEST(Extremes, HeapsOfAMillimetreAndOfAKilometreLieAlike) {
+  for (const double side_m : {1.0 / 1024, 1.0, 1024.0}) {
+    const auto [height, speed] = heap_of_size(side_m);
+    std::printf("boxes of %.3g m: lie %.3f sides high, fastest %.1e of what falls a side\n", side_m,
+                height, speed);
+    EXPECT_GT(height, 0.45);
+    EXPECT_LT(height, 2);
+    EXPECT_LT(speed, 0.02);
+  }
+}
+
 TEST(Extremes, MassRatiosOfAMillionStayBounded) {
   for (const double ratio : {1e-6, 1e-3, 1e3, 1e6}) {
     RigidWorld world(awake());
