@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -146,6 +147,27 @@ double common_volume(const Convex& a, const Convex& b, bool& exact) {
     return std::min(mass_properties(part_a).volume_m3, mass_properties(part_b).volume_m3);
   }
   return common_solid(part_a, part_b, clipper);
+}
+
+std::optional<DoubledVolume> doubled_volume(const Compound& compound) {
+  constexpr std::size_t kMostPairs = 2000;
+  std::vector<const Ghost*> ghosts;
+  for (const Ghost& ghost : compound.ghosts) {
+    if (ghost.sign == 0 && ghost.of.size() == 2) ghosts.push_back(&ghost);
+  }
+  if (ghosts.size() > kMostPairs) return std::nullopt;
+  std::vector<double> volume(ghosts.size());
+  std::vector<std::uint8_t> exact_of(ghosts.size());
+  for_chunks(ghosts.size(), 1, [&](std::size_t g, std::size_t, std::size_t) {
+    bool exact = true;
+    const std::vector<std::uint32_t>& of = ghosts[g]->of;
+    // (Less than nothing where a part is inside out in places.)
+    volume[g] =
+        std::max(0.0, common_volume(*compound.convexes[of[0]], *compound.convexes[of[1]], exact));
+    exact_of[g] = exact ? 1 : 0;
+  });
+  return DoubledVolume{std::accumulate(volume.begin(), volume.end(), 0.0),
+                       std::find(exact_of.begin(), exact_of.end(), 0) == exact_of.end()};
 }
 
 Audit audit(std::span<const Compound> pieces) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "engine/world/compound.h"
@@ -23,6 +24,14 @@ struct Audit {
 };
 
 Audit audit(std::span<const Compound> pieces);
+
+struct DoubledVolume {
+  double volume_m3 = 0;
+  bool is_exact = true;  ///< Otherwise it is bounded from above.
+};
+/// What convexes with visual meshes have in common with others of their compound, pair by pair: as
+/// much of its volume is counted more than once. None where there are too many pairs to measure.
+std::optional<DoubledVolume> doubled_volume(const Compound& compound);
 
 /// The volume that two convexes have in common, of their visual meshes where they have any. Sets
 /// `exact` to false where it could only be bounded.

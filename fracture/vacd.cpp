@@ -66,7 +66,7 @@ std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& o
     const auto made = static_cast<std::uint32_t>(pieces.size());
     const bool fewest = options.nodes.empty() && count <= shells;
     if (limit == 0 || made <= limit || fewest) {
-      return refine(std::move(pieces), {limit, options.polygons}, names);
+      return refine(std::move(pieces), {limit, options.polygons, options.progress}, names);
     }
     if (!options.nodes.empty()) {
       throw InputError("the nodes make " + std::to_string(made) + " convexes, more than the " +
@@ -74,6 +74,26 @@ std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& o
     }
     count -= std::min(count - shells, made - limit);
   }
+}
+
+/// Drops pieces that are inside out, and answers what they would enclose.
+double drop_inside_out(std::vector<VacdPiece>& pieces) {
+  std::vector<double> volume(pieces.size());
+  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
+    volume[p] = mass_properties(pieces[p].mesh).volume_m3;
+  });
+  double dropped = 0;
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (volume[p] > 0) {
+      if (kept != p) pieces[kept] = std::move(pieces[p]);
+      ++kept;
+    } else {
+      dropped -= volume[p];
+    }
+  }
+  pieces.resize(kept);
+  return dropped;
 }
 
 /// A part per piece: fitted to its mesh, which goes with it unless the part looks the same alone.
@@ -120,11 +140,13 @@ Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
   const Stopwatch watch;
   PlaneNames names;
   std::vector<VacdPiece> pieces = cut_pieces(mesh, options, names);
+  const double inside_out_m3 = drop_inside_out(pieces);
   const double split_ms = watch.ms();
   std::vector<Part> parts = fitted_parts(std::move(pieces), options);
   Vacd result{make_compound(std::move(parts), touching_tolerance(mesh)), {}};
   const double total_ms = watch.ms();
   result.figures = measure(result.compound, mesh);
+  result.figures.inside_out_m3 = inside_out_m3;
   result.figures.split_ms = split_ms;
   result.figures.total_ms = total_ms;
   return result;

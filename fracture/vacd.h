@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -32,10 +33,13 @@ struct VacdOptions {
   std::uint32_t polygons = kDefaultPolygons;
   Fit fit{Fit::Kind::kHull, 24};
   MaterialIndex material;
+  std::function<void(double)> progress;  ///< Told of the share of the work done; may be empty.
 };
 
 struct VacdFigures {
   double mesh_volume_m3 = 0;
+  /// Of parts left out because they are inside out: the mesh passes through itself there.
+  double inside_out_m3 = 0;
   double hull_volume_m3 = 0;             ///< Of all convexes' polyhedra.
   std::size_t max_faces_per_convex = 0;  ///< Polygons of one convex's visual mesh.
   std::size_t ghosts = 0;                ///< Overlaps of shells, or of islands' hulls.
@@ -51,11 +55,12 @@ struct Vacd {
 };
 
 /// Convexes that each own one connected watertight piece of a shell, within disjoint convex
-/// regions; pieces sum to the mesh. Without visual mesh are regions wholly inside the mesh, and
-/// pieces that are flat-shaded convexes without texture: seen alone, they look the same. Regions
-/// that touch share plane ids and bonds, and hulls that overlap (of different shells, or of islands
-/// in one region) ghosts. Throws InputError if the options ask for more than kMostNodes, for nodes
-/// by hand that make more convexes than allowed, or for coordinates that are not finite.
+/// regions; pieces sum to the mesh, less what of it is inside out. Without visual mesh are regions
+/// wholly inside the mesh, and pieces that are flat-shaded convexes without texture: seen alone,
+/// they look the same. Regions that touch share plane ids and bonds, and hulls that overlap (of
+/// different shells, or of islands in one region) ghosts. Throws InputError if the options ask for
+/// more than kMostNodes, for nodes by hand that make more convexes than allowed, or for coordinates
+/// that are not finite.
 Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options = {});
 
 /// Nodes from a file: `x y z` a line, what follows a # is left out. Throws InputError naming `name`

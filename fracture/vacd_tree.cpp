@@ -96,6 +96,7 @@ void Tree::grow() {
   while (static_cast<double>(leaves_) < wanted) {
     const std::vector<std::uint32_t> next = loosest();
     if (next.empty()) return;
+    if (limits_.progress) limits_.progress(static_cast<double>(leaves_) / wanted);
     std::vector<PlaneId> ids;
     for (std::size_t i = 0; i < next.size(); ++i) ids.push_back(names_.next());
     std::vector<std::vector<VacdNode>> parts(next.size());

@@ -48,9 +48,43 @@ void scale_mesh(RawMesh& mesh, const MeshOptions& options, fracture::VacdOptions
   for (Vec3& node : vacd.nodes) node *= scale;
 }
 
+/// Of a mesh: parts inside out that are more than this show that it passes through itself so much
+/// that it has no inside of its own.
+constexpr double kTangled = 1e-3;
+
+/// Repairs and decomposes a mesh; one that is tangled gets a new surface first.
+fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const MeshOptions& options,
+                                  const fracture::VacdOptions& vacd_of, MeshSolid& solid) {
+  RepairOptions repair;
+  repair.repair = options.repair != "off";
+  const auto attempt = [&](RawMesh mesh) {
+    if (options.progress) options.progress("repairing", 0.1);
+    RepairedMesh repaired = repair_mesh(std::move(mesh), file, repair);
+    if (options.progress) options.progress("decomposing", 0.4);
+    fracture::Vacd vacd = fracture::decompose(repaired, vacd_of);
+    solid.closed = repaired.closed;
+    solid.repairs = std::move(repaired.repairs);
+    return vacd;
+  };
+  RawMesh copy = raw;
+  fracture::Vacd vacd = attempt(std::move(raw));
+  if (vacd.figures.inside_out_m3 <= kTangled * vacd.figures.mesh_volume_m3) return vacd;
+  if (!repair.repair) {
+    throw InputError(file + ": repairs are off, and the mesh passes through itself; mend it, or " +
+                     "allow repairs");
+  }
+  repair.enclose_all = true;
+  repair.shell_cells *= 2;
+  return attempt(std::move(copy));
+}
+
 /// Reads, repairs and decomposes a file, or recalls what that once gave.
 MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   fracture::VacdOptions vacd_of = vacd_options(options);
+  if (options.progress) {
+    options.progress("reading", 0);
+    vacd_of.progress = [&](double share) { options.progress("decomposing", 0.4 + 0.6 * share); };
+  }
   RawMesh raw = read_mesh(file);
   scale_mesh(raw, options, vacd_of);
   const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
@@ -60,12 +94,7 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   if (known) return solid;
   solid.vertices = raw.vertices.size();
   solid.faces = raw.polygons.size();
-  RepairOptions repair;
-  repair.repair = options.repair != "off";
-  RepairedMesh repaired = repair_mesh(std::move(raw), file, repair);
-  fracture::Vacd vacd = fracture::decompose(repaired, vacd_of);
-  solid.closed = repaired.closed;
-  solid.repairs = std::move(repaired.repairs);
+  fracture::Vacd vacd = decompose_repaired(std::move(raw), file, options, vacd_of, solid);
   solid.compound = std::move(vacd.compound);
   solid.vacd = vacd.figures;
   if (options.cached) keep(key, solid);

@@ -110,9 +110,11 @@ std::vector<std::uint8_t> polygons_of_worth(const Surface& surface) {
 
 /// Tier 4: keeps the solids, and encloses what is left if that is much. Polygons from
 /// `given_count` on closed holes in vain.
-RawMesh enclose(const Surface& surface, std::size_t given_count, std::uint32_t cells_along,
+RawMesh enclose(const Surface& surface, std::size_t given_count, const RepairOptions& options,
                 Repairs& repairs) {
-  const std::vector<std::uint8_t> solid = solid_polygons(surface);
+  const std::vector<std::uint8_t> solid =
+      options.enclose_all ? std::vector<std::uint8_t>(surface.mesh.polygons.size(), 0)
+                          : solid_polygons(surface);
   std::vector<std::uint8_t> rest(solid.size(), 0);
   double whole_area = 0, rest_area = 0;
   for (std::size_t p = 0; p < std::min(given_count, solid.size()); ++p) {
@@ -125,7 +127,8 @@ RawMesh enclose(const Surface& surface, std::size_t given_count, std::uint32_t c
   const auto count = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), 1));
   if (count == 0) return result;
   if (rest_area > kWorthEnclosing * whole_area) {
-    const Surface shell = pair_edges(winding_shell(extract(surface.mesh, rest), cells_along));
+    const Surface shell =
+        pair_edges(winding_shell(extract(surface.mesh, rest), options.shell_cells));
     if (!shell.mesh.polygons.empty()) {
       append(result, extract(shell.mesh, polygons_of_worth(shell)));
       repairs.note("faces enclosed in a winding-number shell", count);
@@ -163,7 +166,7 @@ RepairedMesh repair_mesh(RawMesh mesh, const std::string& name, const RepairOpti
   Surface surface = part(std::move(mesh), repairs);
   const std::size_t given_count = surface.mesh.polygons.size();
   surface = close(std::move(surface), repairs);
-  mesh = enclose(surface, given_count, options.shell_cells, repairs);
+  mesh = enclose(surface, given_count, options, repairs);
   if (mesh.polygons.empty()) {
     throw InputError(name + ": the mesh encloses no volume: give it thickness, or close it");
   }

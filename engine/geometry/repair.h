@@ -20,6 +20,7 @@ struct RepairOptions {
   /// Where the file gives no normals, edges are smooth whose faces' normals meet at this or more.
   double crease_cosine = 0.766;    // 40 degrees
   std::uint32_t shell_cells = 32;  ///< Along the longest side of what the last tier encloses.
+  bool enclose_all = false;        ///< Whether the last tier encloses what is closed, too.
 };
 
 /// Something that was done to a mesh, and to how many of its parts.

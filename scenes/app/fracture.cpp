@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "engine/base/check.h"
+#include "engine/base/parallel.h"
 #include "engine/base/trace.h"
 #include "engine/io/figures.h"
 #include "fracture/audit.h"
@@ -19,6 +20,7 @@
 #include "fracture/pattern_breaker.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
+#include "scenes/app/mesh_progress.h"
 #include "scenes/app/mesh_report.h"
 
 namespace sunder::app {
@@ -39,6 +41,7 @@ constexpr double kLongEnough_ms = 200;
 struct Broken {
   fracture::Audit before, after;
   BreakPlan plan;
+  std::optional<fracture::DoubledVolume> doubled;  ///< Of the volume, by overlaps.
   double prepare_ms = 0;
   double total_ms = 0;
 };
@@ -98,10 +101,17 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
 /// One event on all parts of a solid that do not hang together; the structures stay as they are.
 std::vector<BreakEdit> break_once(const std::vector<Structure>& structures,
                                   const fracture::ReadyBreak& ready, const BreakCommand& command) {
-  std::vector<BreakEdit> edits;
-  for (const Structure& structure : structures) {
-    edits.push_back(fracture::break_structure(structure, *ready.pattern, ready.placement,
-                                              ready.sphere, command.event));
+  constexpr std::size_t kManyParts = 16;
+  std::vector<BreakEdit> edits(structures.size());
+  const auto break_part = [&](std::size_t i) {
+    edits[i] = fracture::break_structure(structures[i], *ready.pattern, ready.placement,
+                                         ready.sphere, command.event);
+  };
+  if (structures.size() >= kManyParts) {  // small ones: side by side, each by one thread
+    for_chunks(structures.size(), 1,
+               [&](std::size_t i, std::size_t, std::size_t) { break_part(i); });
+  } else {
+    for (std::size_t i = 0; i < structures.size(); ++i) break_part(i);
   }
   return edits;
 }
@@ -120,9 +130,13 @@ void collect(Structure& structure, BreakEdit edit, BreakPlan& plan) {
   std::move(loose.pieces.begin(), loose.pieces.end(), std::back_inserter(plan.pieces));
 }
 
+/// What the mesh takes of all the work, and what the break does, for those who wait.
+constexpr double kMeshShare = 0.7, kBrokenShare = 0.9;
+
 /// Carries the break out a few times and takes the fastest: the first finds memory and caches cold,
 /// and other programs get in the way of any.
-Broken carry_out(const Compound& compound, const BreakCommand& command) {
+Broken carry_out(const Compound& compound, const BreakCommand& command, MeshProgress& progress) {
+  progress("breaking", kMeshShare);
   Broken broken;
   Stopwatch watch;
   std::vector<Structure> structures;
@@ -144,6 +158,8 @@ Broken carry_out(const Compound& compound, const BreakCommand& command) {
   for (std::size_t i = 0; i < edits.size(); ++i) {
     collect(structures[i], std::move(edits[i]), broken.plan);
   }
+  progress("measuring", kBrokenShare);
+  broken.doubled = fracture::doubled_volume(compound);
   broken.before = fracture::audit(std::span(&compound, 1));
   broken.after = fracture::audit(broken.plan.pieces);
   return broken;
@@ -165,6 +181,7 @@ Figures figures_of(const scenes::MeshSolid& solid, const Broken& broken) {
   figures["/welded"] = whole(broken.plan.welded);
   figures["/failed"] = whole(broken.plan.failed);
   figures["/volume_in_m3"] = broken.before.volume_m3;
+  add_doubled(broken.doubled, figures);
   figures["/volume_out_m3"] = after.volume_m3;
   figures["/debris_volume_m3"] = broken.plan.debris_volume_m3;
   figures["/volume_error"] = volume_error(broken);
@@ -193,16 +210,19 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
       broken.plan.welded, broken.before.volume_m3, after.volume_m3 + broken.plan.debris_volume_m3,
       volume_error(broken), after.overlap_m3, solid.prepare_ms + broken.prepare_ms, broken.total_ms,
       broken.plan.clip_ms, broken.plan.islands_ms);
-  return input_summary(solid) + text;
+  return input_summary(solid) + text + doubled_summary(broken.doubled);
 }
 
-fracture::BreakCase case_of(const FractureOptions& options, scenes::MeshSolid& solid) {
+fracture::BreakCase case_of(const FractureOptions& options, scenes::MeshSolid& solid,
+                            MeshProgress& progress) {
   if (!options.mesh.ends_with(".case")) {
     if (options.pattern.empty()) {
       throw InputError("--pattern is missing: " + std::string(kPatternHelp));
     }
     parse_pattern(options.pattern);  // before work that may take long
-    solid = scenes::make_mesh_solid(options.mesh, options.solid);
+    scenes::MeshOptions mesh = options.solid;
+    mesh.progress = [&](const char* step, double share) { progress(step, kMeshShare * share); };
+    solid = scenes::make_mesh_solid(options.mesh, mesh);
     return {solid.compound, command_of(options, solid.compound)};
   }
   if (!options.pattern.empty() || !options.at.empty() || options.radius_m) {
@@ -222,8 +242,10 @@ int fracture_mesh(const FractureOptions& options) {
   options.apply();
   check_output(options.output);
   scenes::MeshSolid solid;
-  const fracture::BreakCase example = case_of(options, solid);
-  const Broken broken = carry_out(example.compound, example.command);
+  std::optional<MeshProgress> progress(std::in_place, options.mesh, options.quiet);
+  const fracture::BreakCase example = case_of(options, solid, *progress);
+  const Broken broken = carry_out(example.compound, example.command, *progress);
+  progress.reset();
   options.say(summary(solid, broken));
   if (!options.output.empty()) {
     write_solids(options.output, broken.plan.pieces, stone(), options.explode);

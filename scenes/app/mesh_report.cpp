@@ -1,5 +1,6 @@
 #include "scenes/app/mesh_report.h"
 
+#include <cstdio>
 #include <filesystem>
 
 #include "engine/base/check.h"
@@ -40,6 +41,21 @@ std::string input_summary(const scenes::MeshSolid& solid) {
   for (const Repair& repair : solid.repairs)
     repairs += (repairs.empty() ? "" : ", ") + text(repair);
   return line + "repairs  " + (repairs.empty() ? "none" : repairs) + "\n";
+}
+
+void add_doubled(const std::optional<fracture::DoubledVolume>& doubled, Figures& figures) {
+  if (!doubled) return;
+  figures["/volume_doubled_m3"] = doubled->volume_m3;
+  figures["/volume_doubled_method"] = std::string(doubled->is_exact ? "exact" : "upper bound");
+}
+
+std::string doubled_summary(const std::optional<fracture::DoubledVolume>& doubled) {
+  if (!doubled || !(doubled->volume_m3 > 0)) return "";
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "overlaps %s%.3g m³ of the volume, counted with each of the parts that overlap\n",
+                doubled->is_exact ? "" : "up to ", doubled->volume_m3);
+  return text;
 }
 
 void check_output(const std::string& output) {

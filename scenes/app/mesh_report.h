@@ -1,10 +1,12 @@
 // What the commands on meshes have in common: what they say of their input, and where solids go.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/io/figures.h"
+#include "fracture/audit.h"
 #include "scenes/mesh_solid.h"
 
 namespace sunder::app {
@@ -13,6 +15,11 @@ namespace sunder::app {
 Figures input_figures(const scenes::MeshSolid& solid);
 /// Two lines for people.
 std::string input_summary(const scenes::MeshSolid& solid);
+
+/// A line on what overlaps count twice; empty where they count nothing.
+std::string doubled_summary(const std::optional<fracture::DoubledVolume>& doubled);
+/// The figures of it; none where it could not be measured.
+void add_doubled(const std::optional<fracture::DoubledVolume>& doubled, Figures& figures);
 
 /// Throws InputError unless -o names something that can be written; nothing is fine.
 void check_output(const std::string& output);

@@ -6,27 +6,30 @@
 
 #include "engine/base/check.h"
 #include "scenes/app/commands.h"
+#include "scenes/app/mesh_progress.h"
 #include "scenes/app/mesh_report.h"
 
 namespace sunder::app {
 namespace {
 
 namespace fs = std::filesystem;
+using Doubled = std::optional<fracture::DoubledVolume>;
 
-Figures figures_of(const scenes::MeshSolid& solid) {
+Figures figures_of(const scenes::MeshSolid& solid, const Doubled& doubled) {
   Figures figures = input_figures(solid);
   figures["/convexes"] = static_cast<std::int64_t>(solid.compound.convexes.size());
   figures["/ghosts"] = static_cast<std::int64_t>(solid.compound.ghosts.size());
   figures["/hull_volume_ratio"] = solid.vacd->hull_volume_ratio();
   figures["/max_faces_per_convex"] = static_cast<std::int64_t>(solid.vacd->max_faces_per_convex);
   figures["/volume_m3"] = solid.vacd->mesh_volume_m3;
+  add_doubled(doubled, figures);
   figures["/prepare_ms"] = solid.prepare_ms - solid.vacd->total_ms;
   figures["/split_ms"] = solid.vacd->split_ms;
   figures["/total_ms"] = solid.vacd->total_ms;
   return figures;
 }
 
-std::string summary(const scenes::MeshSolid& solid) {
+std::string summary(const scenes::MeshSolid& solid, const Doubled& doubled) {
   const fracture::VacdFigures& vacd = *solid.vacd;
   char text[400];
   std::snprintf(text, sizeof text,
@@ -37,7 +40,7 @@ std::string summary(const scenes::MeshSolid& solid) {
                 solid.compound.ghosts.size(), vacd.hull_volume_ratio(), vacd.hull_volume_m3,
                 vacd.mesh_volume_m3, solid.prepare_ms - vacd.total_ms, vacd.total_ms,
                 vacd.split_ms);
-  return input_summary(solid) + text;
+  return input_summary(solid) + text + doubled_summary(doubled);
 }
 
 /// Every convex by itself, in a colour of its own.
@@ -52,15 +55,20 @@ std::vector<Compound> one_by_one(const Compound& compound, std::size_t colors) {
 }
 
 void decompose_once(const VacdOptions& options) {
-  const scenes::MeshSolid solid = scenes::make_mesh_solid(options.mesh, options.solid);
-  options.say(summary(solid));
+  scenes::MeshOptions mesh = options.solid;
+  std::optional<MeshProgress> progress(std::in_place, options.mesh, options.quiet);
+  mesh.progress = [&](const char* step, double share) { (*progress)(step, share); };
+  const scenes::MeshSolid solid = scenes::make_mesh_solid(options.mesh, mesh);
+  progress.reset();
+  const Doubled doubled = fracture::doubled_volume(solid.compound);
+  options.say(summary(solid, doubled));
   if (!options.output.empty()) {
     const std::vector<Material> colors = palette();
     write_solids(options.output, one_by_one(solid.compound, colors.size()), colors,
                  options.explode);
     options.say("wrote " + options.output + "\n");
   }
-  options.write_json(format_figures(figures_of(solid)));
+  options.write_json(format_figures(figures_of(solid, doubled)));
 }
 
 /// Again whenever the node file changes, until the program is stopped; a mistake in the file is

@@ -1,0 +1,32 @@
+// How far a command on a mesh is, said on stderr while it works.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace sunder::app {
+
+/// A bar with the time left on a terminal; elsewhere a line now and then, once it has taken a
+/// while. Quick work says nothing.
+class MeshProgress {
+ public:
+  MeshProgress(std::string title, bool quiet);
+  ~MeshProgress();
+  MeshProgress(const MeshProgress&) = delete;
+  MeshProgress& operator=(const MeshProgress&) = delete;
+
+  /// What is done now, and the share of all work that is done.
+  void operator()(const char* step, double share);
+
+ private:
+  double elapsed_s() const;
+
+  std::string title_;
+  bool quiet_;
+  bool terminal_;
+  bool drawn_ = false;
+  double next_s_;  ///< When there is something to say again.
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace sunder::app

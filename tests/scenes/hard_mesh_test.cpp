@@ -1,0 +1,101 @@
+// Meshes that are hard on the commands: tangled, overlapping, or so large that work takes a while.
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/random.h"
+#include "engine/io/figures.h"
+#include "tests/scenes/program.h"
+
+namespace sunder::tests {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A ball of triangles whose vertices are moved at random by up to a part of its radius.
+void write_ball(const std::string& file, std::uint32_t around, double noise, double x = 0,
+                bool append = false, std::uint32_t first = 1) {
+  std::ofstream out(file, append ? std::ios::app : std::ios::out);
+  const std::uint32_t rings = around / 2;
+  Random random(around);
+  const auto point = [&](double ring, double turn) {
+    const double sin_ring = std::sin(ring), cos_ring = std::cos(ring);
+    const double sin_turn = std::sin(turn), cos_turn = std::cos(turn);
+    const auto moved = [&](double at) { return at + noise * (2 * random.uniform() - 1); };
+    out << "v " << x + moved(sin_ring * cos_turn) << " " << moved(cos_ring) << " "
+        << moved(sin_ring * sin_turn) << "\n";
+  };
+  point(0, 0);
+  for (std::uint32_t r = 1; r < rings; ++r) {
+    for (std::uint32_t a = 0; a < around; ++a) point(kPi * r / rings, 2 * kPi * a / around);
+  }
+  point(kPi, 0);
+  const std::uint32_t last = first + 1 + (rings - 1) * around;
+  const auto at = [&](std::uint32_t r, std::uint32_t a) {
+    return r == 0 ? first : r == rings ? last : first + 1 + (r - 1) * around + a % around;
+  };
+  for (std::uint32_t r = 0; r < rings; ++r) {
+    for (std::uint32_t a = 0; a < around; ++a) {
+      if (r > 0) out << "f " << at(r, a) << " " << at(r, a + 1) << " " << at(r + 1, a) << "\n";
+      if (r + 1 < rings) {
+        out << "f " << at(r, a + 1) << " " << at(r + 1, a + 1) << " " << at(r + 1, a) << "\n";
+      }
+    }
+  }
+}
+
+Figures broken(const std::string& file, const std::string& more = "") {
+  const Outcome outcome =
+      sunder("fracture " + file + " --pattern voronoi:20 --quiet --json - " + more);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return outcome.exit_code == 0 ? parse_figures(outcome.out, file) : Figures();
+}
+
+std::int64_t count(const Figures& json, const char* key) {
+  return std::get<std::int64_t>(json.at(key));
+}
+
+TEST(HardMeshes, ATangledMeshGetsANewSurfaceOrIsRefused) {
+  const Folder folder;
+  const std::string file = folder / "tangled.obj";
+  write_ball(file, 24, 0.9);
+  const Figures json = broken(file);
+  EXPECT_EQ(count(json, "/negative_volumes"), 0);
+  EXPECT_EQ(count(json, "/open_edges"), 0);
+  EXPECT_EQ(count(json, "/failed"), 0);
+  const std::string repair = std::get<std::string>(json.at("/input/repairs/0"));
+  EXPECT_NE(repair.find("winding-number shell"), std::string::npos) << repair;
+  const Outcome refused = sunder("fracture " + file + " --pattern voronoi:20 --repair off");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("passes through itself"), std::string::npos) << refused.err;
+}
+
+TEST(HardMeshes, WhatOverlapsCountTwiceIsStated) {
+  const Folder folder;
+  const std::string file = folder / "balls.obj";
+  write_ball(file, 24, 0);
+  EXPECT_EQ(std::get<double>(broken(file).at("/volume_doubled_m3")), 0);
+  write_ball(file, 24, 0, 1.0, true, 1 + 2 + 11 * 24);
+  // Balls of radius 1 at distance 1 have a lens of 5π/12 in common; these have flat faces.
+  const double lens = 5 * kPi / 12;
+  const double doubled = std::get<double>(broken(file, "--nodes 2").at("/volume_doubled_m3"));
+  EXPECT_LT(doubled, lens);
+  EXPECT_GT(doubled, 0.94 * lens);
+}
+
+TEST(HardMeshes, LongWorkSaysHowFarItIsUnlessItIsQuiet) {
+  const Folder folder;
+  const std::string file = folder / "large.obj";
+  write_ball(file, 300, 0);
+  const std::string command = "vacd " + file + " --convexes 24 --json -";
+  const Outcome told = sunder(command);
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_NE(told.err.find("% done"), std::string::npos) << told.err;
+  EXPECT_TRUE(parse_figures(told.out, "stdout").contains("/convexes"));
+  EXPECT_EQ(sunder(command + " --quiet").err, "");
+}
+
+}  // namespace
+}  // namespace sunder::tests
