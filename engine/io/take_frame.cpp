@@ -21,7 +21,8 @@ constexpr double kSpeedSteps_m_s = 16;
 // Columns of a body: position and rotation (gliding), velocities, flags, hash, key, centre of mass.
 constexpr std::size_t kBodyColumns = 23;
 constexpr std::size_t kBodyGlides = 7;
-constexpr std::size_t kParticleGlides = 7;
+// Of particles only positions: their rotations are too coarse to tell a pace from rounding.
+constexpr std::size_t kParticleGlides = 3;
 
 std::int32_t code(double value, double steps) {
   const double scaled = value * steps;

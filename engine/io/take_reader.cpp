@@ -18,7 +18,12 @@ TakeReader::TakeReader(const std::filesystem::path& path) : file_(path.string())
   in_.seekg(0);
   in_.read(magic, sizeof magic);
   if (!in_ || std::memcmp(magic, kTakeMagic, sizeof magic) != 0) {
-    throw InputError(file_ + ": not a take of this version of sunder; record it again");
+    const bool other = in_ && std::memcmp(magic, kTakeMagic, kTakeName) == 0;
+    throw InputError(file_ + (other
+                                  ? ": a take of another version of sunder (" +
+                                        std::string(1, magic[kTakeName]) + ", this one reads " +
+                                        kTakeMagic[kTakeName] + "); record it again"
+                                  : std::string(": not a take; sunder simulate --take makes one")));
   }
   if (!read_index()) scan();
   if (!materials_block_ || frame_blocks_.empty()) {

@@ -35,6 +35,8 @@ class Air {
   /// Moves the grid, or makes its cells larger or smaller, so that it holds `dust` with room to
   /// spare; the flow stays where it is. True if it moved.
   bool place(const Box& dust, double ground_m);
+  /// Goes on with the flow of another, on a grid of its own; both are placed.
+  void take_over(const Air& other) { other.carry(grid_, velocity_); }
   const Grid& grid() const { return grid_; }
 
   /// Forgets the loads of the last step.
@@ -46,6 +48,12 @@ class Air {
 
   void advance(double dt_s, const Vec3& gravity_W, const Obstacles& obstacles);
 
+  /// Whether the grid reaches there; beyond it the air is still.
+  bool holds(const Vec3f& point_W) const {
+    const Vec3f at = to_cells(point_W);
+    return (at.array() >= -0.01f).all() &&
+           (at.array() < grid_.lattice.counts.cast<float>().array()).all();
+  }
   /// The cell that holds a point of the grid.
   Vec3i cell_at(const Vec3f& point_W) const {
     const Vec3f at = to_cells(point_W) + Vec3f::Ones();
@@ -55,6 +63,7 @@ class Air {
   Vec3f to_cells(const Vec3f& point_W) const {
     return (point_W - grid_.origin_W.cast<float>()) * static_cast<float>(1 / grid_.cell_m);
   }
+  /// Zero where the grid does not reach.
   Vec3f velocity(const Vec3f& point_W) const;
   AirGradient gradient(const Vec3i& cell) const;
   /// Solid part of a cell.
@@ -67,7 +76,7 @@ class Air {
   float divergence() const;
 
  private:
-  void regrid(const Grid& grid);
+  void carry(const Grid& grid, std::array<Field, 3>& into) const;
   void advect(float dt_s);
   void load(float dt_s, const Vec3f& gravity_W);
   void couple();

@@ -11,12 +11,13 @@ namespace {
 
 constexpr double kSmallestCell_m = 0.125;
 constexpr double kNotch = 1.4142135623730951;  // cells grow and shrink by this factor
-constexpr double kMargin = 3;                  // cells kept around the dust
-constexpr double kRoom = 6;                    // cells around it when the grid is placed anew
+constexpr double kRoom = 0.15;                 // part of the cells around the dust, on each side
+constexpr double kGroundCells = 6;             // over the ground, within which it is the floor
+constexpr double kMargin = 0.075;              // of which so much must be left before it moves
 
-/// Whether dust of this extent fits with `margin` cells around it.
-bool fits(const Vec3& extent, const Vec3i& counts, double cell_m, double margin) {
-  return (extent.array() <= (counts.cast<double>().array() - 2 * margin) * cell_m).all();
+/// Whether dust of this extent fits when the grid is placed anew.
+bool fits(const Vec3& extent, const Vec3i& counts, double cell_m) {
+  return (extent.array() <= (1 - 2 * kRoom) * cell_m * counts.cast<double>().array()).all();
 }
 
 double whole(double x, double unit) { return std::floor(x / unit + 0.5) * unit; }
@@ -27,18 +28,17 @@ bool Air::place(const Box& dust, double ground_m) {
   const Vec3i& counts = grid_.lattice.counts;
   const Vec3 extent = dust.extent();
   SUNDER_CHECK(extent.allFinite());
-  const Vec3 margin = Vec3::Constant(kMargin * grid_.cell_m);
+  const Vec3 margin = kMargin * grid_.extent_m();
   const Vec3 over = dust.max + margin - grid_.origin_W - grid_.extent_m();
   const Vec3 under = dust.min - margin - grid_.origin_W;
   const bool inside = (over.array() <= 0).all() && under.x() >= 0 && under.z() >= 0 &&
                       (under.y() >= 0 || grid_.on_ground);
   const double smaller_m = grid_.cell_m / (kNotch * kNotch);
-  const bool too_large =
-      smaller_m > 0.99 * kSmallestCell_m && fits(extent, counts, smaller_m, kRoom);
+  const bool too_large = smaller_m > 0.99 * kSmallestCell_m && fits(extent, counts, smaller_m);
   if (placed_ && inside && !too_large) return false;
   Grid grid = grid_;
   double cell_m = kSmallestCell_m;
-  while (!fits(extent, counts, cell_m, kRoom)) cell_m *= kNotch;
+  while (!fits(extent, counts, cell_m)) cell_m *= kNotch;
   // Without need the cells stay as large as they are.
   if (!placed_ || too_large || cell_m > grid_.cell_m) grid.cell_m = cell_m;
   const Vec3 corner = dust.center() - 0.5 * grid.extent_m();
@@ -46,23 +46,29 @@ bool Air::place(const Box& dust, double ground_m) {
   const Vec3 from = placed_ ? grid_.origin_W : corner;
   grid.origin_W.x() = from.x() + whole(corner.x() - from.x(), grid.cell_m);
   grid.origin_W.z() = from.z() + whole(corner.z() - from.z(), grid.cell_m);
-  const double above_m = dust.min.y() - kRoom * grid.cell_m - ground_m;
-  grid.on_ground = above_m <= 0;
+  const double above_m = dust.min.y() - kRoom * grid.extent_m().y() - ground_m;
+  const double top_m = ground_m + (1 - kRoom) * grid.extent_m().y();
+  grid.on_ground = above_m <= 0 ||
+                   (dust.max.y() <= top_m && dust.min.y() <= ground_m + kGroundCells * grid.cell_m);
   grid.origin_W.y() = ground_m + (grid.on_ground ? 0 : whole(above_m, grid.cell_m));
-  if (placed_) regrid(grid);
+  if (placed_) {
+    carry(grid, advected_);
+    std::swap(velocity_, advected_);
+    std::fill(solver_.pressure().begin(), solver_.pressure().end(), 0.0f);
+  }
   grid_ = grid;
   placed_ = true;
   return true;
 }
 
-/// Carries the flow over to another grid; beyond the old one the air is still.
-void Air::regrid(const Grid& grid) {
+/// The flow on another grid; beyond this one the air is still.
+void Air::carry(const Grid& grid, std::array<Field, 3>& into) const {
   const Vec3i last = grid.lattice.counts + Vec3i::Ones();
   const auto scale = static_cast<float>(grid.cell_m / grid_.cell_m);
   const Vec3f shift = ((grid.origin_W - grid_.origin_W) / grid_.cell_m).cast<float>();
   const Vec3f inside = grid_.lattice.counts.cast<float>() + Vec3f::Constant(1.5f);
   for (int axis = 0; axis < 3; ++axis) {
-    Field& field = of(advected_, axis);
+    Field& field = of(into, axis);
     std::fill(field.begin(), field.end(), 0.0f);
     // In cells from the corner to the index of a value: faces lie on the corner along their axis.
     Vec3f half = Vec3f::Constant(0.5f);
@@ -83,11 +89,10 @@ void Air::regrid(const Grid& grid) {
           }
         });
   }
-  std::swap(velocity_, advected_);
-  std::fill(solver_.pressure().begin(), solver_.pressure().end(), 0.0f);
 }
 
 Vec3f Air::velocity(const Vec3f& point_W) const {
+  if (!holds(point_W)) return Vec3f::Zero();
   const Vec3f cells = to_cells(point_W);
   Vec3f velocity;
   for (int axis = 0; axis < 3; ++axis) {

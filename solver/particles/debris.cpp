@@ -17,6 +17,7 @@ constexpr float kFriction = 0.6f;
 constexpr float kRestitution = 0.3f;
 constexpr float kBounce_m_s = 0.4f;       // slower approaches do not bounce
 constexpr double kSkin_m = 2e-4;          // kept between a chip and what it lies on
+constexpr float kAround_m = 0.005f;       // of its way, that a bounce may need
 constexpr double kPushOut_m_s = 2;        // of what starts inside an obstacle
 constexpr float kTouchedDamping_s = 150;  // high, so that chips do not roll
 constexpr float kFlyingDamping_s = 0.5f;
@@ -119,9 +120,14 @@ void Debris::wake_touched(double dt_s, const Obstacles& obstacles) {
   if (movers_.empty()) return;
   std::vector<std::uint8_t> touched(asleep_.size());
   for_chunks(asleep_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    ObstacleGrid::Near near;
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 at = position_W_[asleep_[i]].cast<double>();
-      touched[i] = movers_.sweep({at, at, double{radius_m_[asleep_[i]]}, dt_s}).has_value();
+      const Vec3f& at = position_W_[asleep_[i]];
+      const float radius = radius_m_[asleep_[i]];
+      movers_.find(at - Vec3f::Constant(radius), at + Vec3f::Constant(radius), near);
+      if (near.empty()) continue;
+      const Vec3 here = at.cast<double>();
+      touched[i] = movers_.sweep({here, here, double{radius}, dt_s}, near).has_value();
     }
   });
   for (std::size_t i = 0; i < touched.size(); ++i) {
@@ -140,25 +146,35 @@ void Debris::move_awake(double dt_s, const Obstacles& obstacles) {
   grid_.build(obstacles, dt_s, region, ObstacleGrid::Which::kAll);
   moved_.resize(awake_.size());
   for_chunks(awake_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    ObstacleGrid::Near near;
     for (std::size_t i = begin; i < end; ++i) {
-      moved_[i] = move(awake_[i], dt_s, obstacles);
+      moved_[i] = move(awake_[i], dt_s, obstacles.ground_m, near);
       spin(awake_[i], static_cast<float>(dt_s), moved_[i].touched);
     }
   });
 }
 
 /// Flies to the first touch, bounces, flies on.
-Debris::Moved Debris::move(std::uint32_t chip, double dt_s, const Obstacles& obstacles) {
+Debris::Moved Debris::move(std::uint32_t chip, double dt_s, double ground_m,
+                           ObstacleGrid::Near& near) {
   Moved moved;
   const double radius = double{radius_m_[chip]};
-  const double lowest = obstacles.ground_m + radius;
+  const double lowest = ground_m + radius;
   Vec3f& velocity = velocity_W_[chip];
   velocity += (dt_s * gravity_W_).cast<float>();
   Vec3 from = position_W_[chip].cast<double>();
   double left_s = dt_s;
+  Vec3f known_low = Vec3f::Constant(1), known_high = Vec3f::Zero();  // where `near` holds
   for (int bounces = 0;; ++bounces) {
     Vec3 to = from + left_s * velocity.cast<double>();
-    std::optional<Touch> touch = grid_.sweep({from, to, radius, left_s});
+    const Vec3f low = (from.cwiseMin(to).array() - radius).cast<float>();
+    const Vec3f high = (from.cwiseMax(to).array() + radius).cast<float>();
+    if ((low.array() < known_low.array()).any() || (high.array() > known_high.array()).any()) {
+      known_low = low.array() - kAround_m;
+      known_high = high.array() + kAround_m;
+      grid_.find(known_low, known_high, near);
+    }
+    std::optional<Touch> touch = grid_.sweep({from, to, radius, left_s}, near);
     const double fall = from.y() - to.y();
     if (to.y() < lowest) {
       const double time = from.y() > lowest && fall > 0 ? (from.y() - lowest) / fall : 0;
@@ -170,7 +186,7 @@ Debris::Moved Debris::move(std::uint32_t chip, double dt_s, const Obstacles& obs
       from = to;
       break;
     }
-    moved = {true, touch->body};
+    moved = {true, touch->velocity_W.norm() < ObstacleGrid::kCreep_m_s, touch->body};
     if (touch->depth_m > 0 && touch->time <= 0) {
       from = to + std::min(touch->depth_m, kPushOut_m_s * dt_s) * touch->normal_W;
       left_s = 0;
@@ -198,8 +214,7 @@ void Debris::put_to_sleep(double dt_s, const Obstacles& obstacles) {
   for (std::size_t i = 0; i < awake_.size(); ++i) {
     const std::uint32_t chip = awake_[i];
     const std::uint32_t body = moved_[i].support;
-    const bool still = moved_[i].touched && velocity_W_[chip].norm() < kStill_m_s &&
-                       (body == kGround || !obstacles.bodies[body].moves);
+    const bool still = moved_[i].lies && velocity_W_[chip].norm() < kStill_m_s;
     still_s_[chip] = still ? still_s_[chip] + static_cast<float>(dt_s) : 0;
     if (still_s_[chip] < kStill_s) continue;
     state_[chip] = State::kAsleep;

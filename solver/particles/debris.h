@@ -40,6 +40,7 @@ class Debris {
   /// What a step made of one chip.
   struct Moved {
     bool touched = false;
+    bool lies = false;          ///< On what does not move, for all a chip can tell.
     std::uint32_t support = 0;  ///< Index of a body, or kGround.
   };
   /// A body that sleepers rest on.
@@ -52,7 +53,7 @@ class Debris {
   void wake_touched(double dt_s, const Obstacles& obstacles);
   void wake(std::uint32_t chip);
   void move_awake(double dt_s, const Obstacles& obstacles);
-  Moved move(std::uint32_t chip, double dt_s, const Obstacles& obstacles);
+  Moved move(std::uint32_t chip, double dt_s, double ground_m, ObstacleGrid::Near& near);
   void spin(std::uint32_t chip, float dt_s, bool touched);
   void put_to_sleep(double dt_s, const Obstacles& obstacles);
   void fade(float dt_s);

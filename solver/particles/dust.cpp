@@ -17,10 +17,12 @@ constexpr float kSpread_m2_s = 0.004f;     // growth of a puff's squared radius 
 constexpr float kMostOpacity = 0.6f;
 constexpr float kLeastOpacity = 0.008f;  // thinner dust is gone
 constexpr float kAppear_s = 0.1f;
-constexpr float kSettle_s = 2;       // until dust that lies has faded
-constexpr float kSolid = 0.9f;       // part of a cell from which dust in it lies
-constexpr float kCrowded = 4;        // times faster the oldest fade when room is short
-constexpr std::uint32_t kRoom = 16;  // one part in so many is kept free for new dust
+constexpr float kSettle_s = 2;          // until dust that lies has faded
+constexpr float kSolid = 0.9f;          // part of a cell from which dust in it lies
+constexpr float kCrowded = 4;           // times faster the oldest fade when room is short
+constexpr std::size_t kCellsAPuff = 8;  // of air: finer is not worth its cost
+constexpr std::size_t kStrays = 32;     // one puff in so many, on each side, may fly out of the air
+constexpr std::uint32_t kRoom = 16;     // one part in so many is kept free for new dust
 
 Vec3f axis_of(const Quatf& rotation) { return rotation * Vec3f::UnitZ(); }
 
@@ -66,14 +68,50 @@ void Dust::advance(double dt_s, const Obstacles& obstacles) {
   remove_settled();
 }
 
-void Dust::place_air(double ground_m) {
-  Vec3f low = position_W_.front(), high = low;
-  for (const Vec3f& position : position_W_) {
-    low = low.cwiseMin(position);
-    high = high.cwiseMax(position);
+/// Where the dust is, but for the few that have flown farthest: the air is there for the cloud.
+Box Dust::cloud() {
+  Box box;
+  const std::size_t strays = position_W_.size() / kStrays;
+  for (int axis = 0; axis < 3; ++axis) {
+    sorted_m_.clear();
+    for (const Vec3f& position : position_W_) sorted_m_.push_back(position[axis]);
+    const auto low = sorted_m_.begin() + static_cast<std::ptrdiff_t>(strays);
+    const auto high = sorted_m_.end() - 1 - static_cast<std::ptrdiff_t>(strays);
+    std::nth_element(sorted_m_.begin(), low, sorted_m_.end());
+    if (low < high) std::nth_element(low + 1, high, sorted_m_.end());
+    box.min[axis] = double{*low};
+    box.max[axis] = double{*high};
   }
-  if (!flow_) flow_.emplace(Flow{Air(air_cells_), Swirl(Lattice{air_cells_})});
-  flow_->air.place(Box{low.cast<double>(), high.cast<double>()}, ground_m);
+  return box;
+}
+
+/// Fifths of the most along each axis, as few as so many puffs are worth; fewer than there are
+/// only if by far.
+Vec3i Dust::cells_for(std::size_t puffs) const {
+  constexpr int kSteps = 5, kUnit = 8;
+  const Vec3i now = flow_ ? flow_->air.grid().lattice.counts : Vec3i(Vec3i::Zero());
+  for (int step = 2; step < kSteps; ++step) {
+    const Vec3i part = (step * air_cells_ + Vec3i::Constant(kSteps * kUnit - 1)) / (kSteps * kUnit);
+    const Vec3i cells = kUnit * part;
+    const bool fewer = cells.prod() < now.prod();
+    const std::size_t wanted = kCellsAPuff * puffs * (fewer ? 3 : 2) / 2;
+    if (static_cast<std::size_t>(cells.prod()) >= wanted) return cells;
+  }
+  return air_cells_;
+}
+
+void Dust::place_air(double ground_m) {
+  const Vec3i cells = cells_for(position_W_.size());
+  const Box box = cloud();
+  if (flow_ && flow_->air.grid().lattice.counts != cells) {
+    Flow next(cells);
+    next.air.place(box, ground_m);
+    next.air.take_over(flow_->air);
+    flow_ = std::move(next);
+    return;
+  }
+  if (!flow_) flow_.emplace(cells);
+  flow_->air.place(box, ground_m);
 }
 
 /// Tells the air what it carries, and gathers the vortices.
@@ -83,6 +121,7 @@ void Dust::load_air() {
   air.clear_loads();
   swirl.clear();
   for (std::size_t puff = 0; puff < position_W_.size(); ++puff) {
+    if (!air.holds(position_W_[puff])) continue;
     const Vec3i at = air.cell_at(position_W_[puff]);
     const std::size_t cell = air.grid().lattice.index(at.x(), at.y(), at.z());
     air.add_dust(cell, mass_kg_[puff]);
@@ -101,8 +140,9 @@ void Dust::move(std::size_t begin, std::size_t end, float dt_s, float ground_m) 
     Vec3f& position = position_W_[puff];
     const Vec3i at = air.cell_at(position);
     const std::size_t cell = air.grid().lattice.index(at.x(), at.y(), at.z());
-    const AirGradient gradient = air.gradient(at);
-    const float solid = std::min(1.0f, air.solid(at));
+    const bool held = air.holds(position);
+    const AirGradient gradient = held ? air.gradient(at) : AirGradient{};
+    const float solid = held ? std::min(1.0f, air.solid(at)) : 0;
     float& turbulence = turbulence_m_s_[puff];
     turbulence = grow_turbulence(turbulence, gradient.strain_s, cell_m, dt_s);
 
@@ -110,8 +150,8 @@ void Dust::move(std::size_t begin, std::size_t end, float dt_s, float ground_m) 
     const Vec3f own = (turbulence / (0.5f * cell_m)) * axis;
     turn(rotation_WD_[puff], own + rod_spin(axis, gradient.vorticity_s, gradient.strain_s), dt_s);
 
-    const Vec3f drift =
-        settling_m_s_[puff] * down_W_ + flow_->swirl.velocity(cell, air.to_cells(position));
+    Vec3f drift = settling_m_s_[puff] * down_W_;
+    if (held) drift += flow_->swirl.velocity(cell, air.to_cells(position));
     slip_W_[puff] /= 1 + dt_s / kThrown_s;
     const Vec3f own_way = slip_W_[puff] + (1 - solid) * drift;
     const Vec3f middle = position + 0.5f * dt_s * (air.velocity(position) + own_way);

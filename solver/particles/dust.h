@@ -41,10 +41,13 @@ class Dust {
  private:
   /// What exists only while there is dust.
   struct Flow {
+    explicit Flow(const Vec3i& cells) : air(cells), swirl(Lattice{cells}) {}
     Air air;
     Swirl swirl;
   };
 
+  Box cloud();
+  Vec3i cells_for(std::size_t puffs) const;
   void place_air(double ground_m);
   void load_air();
   void move(std::size_t begin, std::size_t end, float dt_s, float ground_m);
@@ -54,9 +57,10 @@ class Dust {
   std::uint32_t limit_;
   Vec3 gravity_W_;
   Vec3f down_W_;
-  Vec3i air_cells_;
+  Vec3i air_cells_;  ///< At most.
   ParticleBooks books_;
   std::optional<Flow> flow_;
+  std::vector<float> sorted_m_;
 
   // In order of birth.
   std::vector<Vec3f> position_W_;

@@ -3,16 +3,48 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "engine/base/parallel.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr double kCell_m = 0.5;
-constexpr int kMostCells = 48;                 // along an axis
-constexpr std::size_t kMostEntries = 1 << 19;  // more makes cells coarser
+constexpr float kFinest_m = 0.25f;  // cells of level 0; those of the next are twice as wide
+// Of a cell: shapes lie in all cells within this reach, so that what is no larger looks at one.
+constexpr float kReach = 0.25f;
+constexpr float kMostCells = 24;  // that a shape lies in
+constexpr double kRounding_m = 1e-4;
+constexpr int kLevels = 31;
+constexpr float kFar_m = 16 * kFinest_m;  // on so long a way all shapes are looked at
 constexpr std::size_t kChunk = 512;
+
+/// Cells of a level, along an axis, in a metre.
+float cells_per_m(int level) { return 1 / (kFinest_m * static_cast<float>(1 << level)); }
+
+/// The finest level on which a box of that extent lies in few cells.
+int level_of(const Vec3f& extent) {
+  for (int level = 0;; ++level) {
+    const Vec3f cells = (extent * cells_per_m(level)).array() + (1 + 2 * kReach);
+    if (level + 1 == kLevels || cells.prod() <= kMostCells) return level;
+  }
+}
+
+std::uint32_t hash_of(int level, const Eigen::Vector3i& cell) {
+  return static_cast<std::uint32_t>(cell.x()) * 73856093u ^
+         static_cast<std::uint32_t>(cell.y()) * 19349663u ^
+         static_cast<std::uint32_t>(cell.z()) * 83492791u ^
+         static_cast<std::uint32_t>(level) * 2654435761u;
+}
+
+Eigen::Vector3i floor_of(const Vec3f& scaled) {
+  // Far beyond any scene, so that the cast is defined.
+  return scaled.array().floor().max(-1e9f).min(1e9f).cast<int>();
+}
+
+bool overlap(const Vec3f& min, const Vec3f& max, const Vec3f& low, const Vec3f& high) {
+  return (min.array() <= high.array()).all() && (low.array() <= max.array()).all();
+}
 
 VelocityField motion(const ObstacleBody& body) {
   return {body.X_WB.position, body.velocity_W, body.angular_velocity_W};
@@ -67,66 +99,87 @@ void ObstacleGrid::place(std::size_t begin, std::size_t end, Which which) {
     }
     box.min = center - half;
     box.max = center + half;
-    if (body.moves) {
-      const Vec3 way = dt_s_ * (body.velocity_W.cwiseAbs() +
-                                Vec3::Constant(body.angular_velocity_W.norm() * reach));
-      box.min -= way;
-      box.max += way;
+    if (!body.moves) continue;
+    const double turning_m_s = body.angular_velocity_W.norm() * reach;
+    if (which == Which::kMoving && body.velocity_W.norm() + turning_m_s < kCreep_m_s) {
+      box = Box();
+      continue;
     }
+    // Its pose is that at the end of the step: it comes from behind.
+    const Vec3 way = dt_s_ * body.velocity_W, turning = Vec3::Constant(dt_s_ * turning_m_s);
+    box.min -= way.cwiseMax(0) + turning;
+    box.max -= way.cwiseMin(0) - turning;
   }
 }
 
-void ObstacleGrid::choose_cells(const Box& region) {
-  Box used;
-  for (const Placed& placed : shapes_) {
-    used.extend(placed.min.cast<double>());
-    used.extend(placed.max.cast<double>());
+ObstacleGrid::Placed ObstacleGrid::placed(std::uint32_t index) const {
+  const ObstacleShape& shape = obstacles_.shapes[index];
+  const ObstacleBody& body = obstacles_.bodies[shape.body];
+  const Mat3& rotation = rotations_WB_[shape.body];
+  Placed placed;
+  placed.shape = index;
+  placed.min = boxes_[index].min.cast<float>();
+  placed.max = boxes_[index].max.cast<float>();
+  placed.center_W = body.X_WB.position;
+  Vec3 half = Vec3::Constant(shape.radius_m);
+  if (shape.hull) {
+    placed.center_W += rotation * (shape.box_R.center() - body.com_R);
+    half = 0.5 * shape.box_R.extent();
   }
-  used.min = used.min.cwiseMax(region.min);
-  used.max = used.max.cwiseMin(region.max);
-  const Vec3 extent = used.extent().cwiseMax(1e-3);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double count = std::ceil(std::min(extent[axis] / kCell_m, double{kMostCells}));
-    counts_[axis] = std::max(1, static_cast<int>(count));
+  placed.half_m = (half.array() + kRounding_m).cast<float>();
+  placed.rotation_BW = rotation.transpose().cast<float>();
+  if (body.moves) {
+    placed.velocity_W = motion(body)(placed.center_W).cast<float>();
+    placed.angular_velocity_W = body.angular_velocity_W.cast<float>();
   }
-  origin_W_ = used.min.cast<float>();
-  const auto set_scale = [&] {
-    cells_per_m_ = counts_.cast<float>().cwiseQuotient(extent.cast<float>());
-    last_cell_ = (counts_ - Cell::Ones()).cast<float>();
-  };
-  set_scale();
-  const auto entries = [&] {
-    std::size_t sum = 0;
-    for (const Placed& placed : shapes_) {
-      const Cell span = cell_of(placed.max) - cell_of(placed.min) + Cell::Ones();
-      sum += static_cast<std::size_t>(span.prod());
+  return placed;
+}
+
+/// Whether the way, as seen from the shape, comes past all six sides of its box.
+bool ObstacleGrid::Placed::may_meet(const Way& way) const {
+  const Vec3f from_W = (way.from - center_W).cast<float>();
+  const Vec3f start_W =
+      from_W + static_cast<float>(way.duration_s) * (velocity_W + angular_velocity_W.cross(from_W));
+  const Vec3f start = rotation_BW * start_W;
+  const Vec3f end = rotation_BW * (way.to - center_W).cast<float>();
+  const Vec3f reach = half_m.array() + static_cast<float>(way.radius_m);
+  return (start.cwiseMin(end).array() <= reach.array()).all() &&
+         (start.cwiseMax(end).array() >= -reach.array()).all();
+}
+
+/// Calls visit(bucket) for the cells of a level that a box touches.
+template <class Visit>
+void ObstacleGrid::for_cells(int level, const Vec3f& low, const Vec3f& high,
+                             const Visit& visit) const {
+  const float scale = cells_per_m(level);
+  const Eigen::Vector3i first = floor_of(scale * low), last = floor_of(scale * high);
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (int x = first.x(); x <= last.x(); ++x) {
+        visit(hash_of(level, Eigen::Vector3i(x, y, z)) & mask_);
+      }
     }
-    return sum;
-  };
-  while (entries() > kMostEntries && counts_.maxCoeff() > 1) {
-    counts_ = (counts_ / 2).cwiseMax(1);
-    set_scale();
   }
 }
 
 void ObstacleGrid::sort_into_cells() {
-  first_.assign(static_cast<std::size_t>(counts_.prod()) + 1, 0);
-  const auto each_cell = [&](const Placed& placed, const auto& work) {
-    const Cell low = cell_of(placed.min), high = cell_of(placed.max);
-    for (int z = low.z(); z <= high.z(); ++z) {
-      for (int y = low.y(); y <= high.y(); ++y) {
-        const int row = (z * counts_.y() + y) * counts_.x();
-        for (int x = low.x(); x <= high.x(); ++x) work(static_cast<std::size_t>(row + x));
-      }
-    }
+  mask_ = 255;
+  while (mask_ < 4 * shapes_.size()) mask_ = 2 * mask_ + 1;
+  first_.assign(std::size_t{mask_} + 3, 0);
+  levels_ = 0;
+  const auto each_cell = [&](const Placed& placed, const auto& visit) {
+    const int level = level_of(placed.max - placed.min);
+    const Vec3f reach = Vec3f::Constant(kReach / cells_per_m(level));
+    levels_ |= 1u << level;
+    for_cells(level, placed.min - reach, placed.max + reach, visit);
   };
-  for (const Placed& placed : shapes_) each_cell(placed, [&](std::size_t c) { ++first_[c + 1]; });
-  for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+  // Starts are kept one bucket behind while it is filled.
+  for (const Placed& placed : shapes_) each_cell(placed, [&](std::uint32_t b) { ++first_[b + 2]; });
+  for (std::size_t b = 2; b < first_.size(); ++b) first_[b] += first_[b - 1];
   entries_.resize(first_.back());
-  // Filled from the back, the starts end where they should be and each cell is ascending.
-  for (std::size_t c = first_.size() - 1; c > 0; --c) first_[c] = first_[c - 1];
   for (std::uint32_t s = 0; s < shapes_.size(); ++s) {
-    each_cell(shapes_[s], [&](std::size_t c) { entries_[first_[c + 1]++] = s; });
+    const Entry entry{four(shapes_[s].min), four(shapes_[s].max), s};
+    each_cell(shapes_[s], [&](std::uint32_t b) { entries_[first_[b + 1]++] = entry; });
   }
 }
 
@@ -148,10 +201,9 @@ void ObstacleGrid::build(const Obstacles& obstacles, double dt_s, const Box& reg
              [&](std::size_t begin, std::size_t end, std::size_t) { place(begin, end, which); });
   for (std::uint32_t s = 0; s < boxes_.size(); ++s) {
     if (!boxes_[s].overlaps(region)) continue;
-    shapes_.push_back({s, boxes_[s].min.cast<float>(), boxes_[s].max.cast<float>()});
+    shapes_.push_back(placed(s));
   }
   if (shapes_.empty()) return;
-  choose_cells(region);
   sort_into_cells();
 }
 
@@ -197,23 +249,47 @@ void ObstacleGrid::meet(const Placed& placed, const Way& way, std::optional<Touc
   first = touch;
 }
 
-std::optional<Touch> ObstacleGrid::sweep(const Way& way) const {
+/// Without a branch a lane: which of them is wrong cannot be foreseen.
+inline bool ObstacleGrid::reaches(const Entry& entry, Four low, Four high) {
+  using Halves = long long __attribute__((vector_size(16)));
+  const auto lanes = (entry.min <= high) & (low <= entry.max);
+  Halves halves;
+  std::memcpy(&halves, &lanes, sizeof halves);
+  return (halves[0] & halves[1]) == -1;
+}
+
+void ObstacleGrid::find(const Vec3f& low, const Vec3f& high, Near& near) const {
+  near.clear();
+  if (shapes_.empty()) return;
+  if ((high - low).maxCoeff() > kFar_m) {
+    for (std::uint32_t s = 0; s < shapes_.size(); ++s) {
+      if (overlap(shapes_[s].min, shapes_[s].max, low, high)) near.push_back(s);
+    }
+    return;
+  }
+  const Four low_4 = four(low), high_4 = four(high);
+  for (int level = 0; level < kLevels; ++level) {
+    if ((levels_ >> level & 1) == 0) continue;
+    const Vec3f reach = Vec3f::Constant(kReach / cells_per_m(level));
+    const Vec3f middle = 0.5f * (low + high);
+    const Vec3f first = (low + reach).cwiseMin(middle), last = (high - reach).cwiseMax(middle);
+    for_cells(level, first, last, [&](std::uint32_t bucket) {
+      for (std::uint32_t e = first_[bucket]; e < first_[bucket + 1]; ++e) {
+        const Entry& entry = entries_[e];
+        if (reaches(entry, low_4, high_4)) near.push_back(entry.placed);
+      }
+    });
+  }
+}
+
+std::optional<Touch> ObstacleGrid::sweep(const Way& way, const Near& near) const {
   std::optional<Touch> first;
-  if (shapes_.empty()) return first;
   const Vec3 reach = Vec3::Constant(way.radius_m);
   const Vec3f low = (way.from.cwiseMin(way.to) - reach).cast<float>();
   const Vec3f high = (way.from.cwiseMax(way.to) + reach).cast<float>();
-  const Cell first_cell = cell_of(low), last_cell = cell_of(high);
-  for (int z = first_cell.z(); z <= last_cell.z(); ++z) {
-    for (int y = first_cell.y(); y <= last_cell.y(); ++y) {
-      for (int x = first_cell.x(); x <= last_cell.x(); ++x) {
-        const auto cell = static_cast<std::size_t>((z * counts_.y() + y) * counts_.x() + x);
-        for (std::uint32_t e = first_[cell]; e < first_[cell + 1]; ++e) {
-          const Placed& placed = shapes_[entries_[e]];
-          if (placed.reaches(low, high)) meet(placed, way, first);
-        }
-      }
-    }
+  for (const std::uint32_t placed : near) {
+    const Placed& shape = shapes_[placed];
+    if (overlap(shape.min, shape.max, low, high) && shape.may_meet(way)) meet(shape, way, first);
   }
   return first;
 }

@@ -1,4 +1,4 @@
-// A uniform grid over the obstacles near some particles: what does a small sphere hit on its way?
+// A grid over the obstacles near some particles: what does a small sphere hit on its way?
 #pragma once
 
 #include <cstdint>
@@ -18,56 +18,69 @@ struct Touch {
   std::uint32_t body = 0;          ///< Index in Obstacles::bodies.
 };
 
-/// Built anew each step, queried from any thread.
+/// Built anew each step, queried from any thread. Obstacles lie in cells of their own size, found
+/// by a hash: neither a few that are large nor a few that are far away make it slow.
 class ObstacleGrid {
  public:
   enum class Which { kAll, kMoving };
+  /// What moves slower than this lies still to chips.
+  static constexpr double kCreep_m_s = 0.05;
 
   /// Keeps what touches `region` on its way through the last dt_s; `obstacles` must outlive the
   /// queries.
   void build(const Obstacles& obstacles, double dt_s, const Box& region, Which which);
   bool empty() const { return shapes_.empty(); }
+
+  /// Indices of what may touch something within a box; some maybe twice.
+  using Near = std::vector<std::uint32_t>;
+  void find(const Vec3f& low, const Vec3f& high, Near& near) const;
   /// A sphere's way, straight, that takes the last duration_s of the step.
   struct Way {
     Vec3 from, to;
     double radius_m = 0;
     double duration_s = 0;
   };
-  /// The first touch on a way; obstacles move meanwhile, too.
-  std::optional<Touch> sweep(const Way& way) const;
+  /// The first touch on a way with what is near all of it; obstacles move meanwhile, too.
+  std::optional<Touch> sweep(const Way& way, const Near& near) const;
 
  private:
+  /// A shape as far as most ways need it: all in one place, as memory is what takes time.
   struct Placed {
     std::uint32_t shape = 0;
     Vec3f min, max;  ///< Swept, in W.
+    Vec3 center_W;   ///< Of its own box.
+    Vec3f half_m;
+    Mat3f rotation_BW;
+    Vec3f velocity_W = Vec3f::Zero(), angular_velocity_W = Vec3f::Zero();  ///< Of its box.
 
-    bool reaches(const Vec3f& low, const Vec3f& high) const {
-      return min.x() <= high.x() && low.x() <= max.x() && min.y() <= high.y() &&
-             low.y() <= max.y() && min.z() <= high.z() && low.z() <= max.z();
-    }
+    bool may_meet(const Way& way) const;
   };
-  using Cell = Eigen::Vector3i;
+  /// Four lanes at once; a point has 0 in the last.
+  using Four = float __attribute__((vector_size(16)));
+  /// A place in the hash.
+  struct Entry {
+    Four min, max;
+    std::uint32_t placed = 0;  ///< Index in shapes_.
+  };
+  static Four four(const Vec3f& v) { return Four{v.x(), v.y(), v.z(), 0}; }
+  static inline bool reaches(const Entry& entry, Four low, Four high);
 
   void place(std::size_t begin, std::size_t end, Which which);
-  void choose_cells(const Box& region);
+  Placed placed(std::uint32_t shape) const;
   void sort_into_cells();
-  Cell cell_of(const Vec3f& point_W) const {
-    const Vec3f scaled = (point_W - origin_W_).cwiseProduct(cells_per_m_);
-    return scaled.cwiseMax(0.0f).cwiseMin(last_cell_).cast<int>();
-  }
+  template <class Visit>
+  void for_cells(int level, const Vec3f& low, const Vec3f& high, const Visit& visit) const;
   void meet(const Placed& placed, const Way& way, std::optional<Touch>& first) const;
 
   Obstacles obstacles_;
   double dt_s_ = 0;
-  std::vector<Mat3> rotations_WB_;  ///< Per body.
-  std::vector<Box> boxes_;          ///< Per shape of the obstacles.
-  std::vector<Placed> shapes_;      ///< Ascending.
-  Vec3f origin_W_ = Vec3f::Zero();
-  Vec3f cells_per_m_ = Vec3f::Ones();
-  Cell counts_ = Cell::Ones();
-  Vec3f last_cell_ = Vec3f::Zero();
-  std::vector<std::uint32_t> first_;    ///< Per cell, of entries_; one more at the end.
-  std::vector<std::uint32_t> entries_;  ///< Indices in shapes_.
+  std::vector<Mat3> rotations_WB_;    ///< Per body.
+  std::vector<Box> boxes_;            ///< Per shape of the obstacles.
+  std::vector<Placed> shapes_;        ///< Ascending.
+  std::uint32_t levels_ = 0;          ///< A bit for each that holds something.
+  std::uint32_t mask_ = 0;            ///< Buckets of the hash, less one.
+  std::vector<std::uint32_t> first_;  ///< Per bucket, of entries_; one more at the end.
+  std::vector<Entry> entries_;
 };
 
 }  // namespace sunder::solver

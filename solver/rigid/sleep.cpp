@@ -16,8 +16,10 @@ constexpr double kSlow_m_s = 0.5;
 constexpr double kDrift = 0.005;  // of the radius, within the time of rest
 constexpr float kRestTime_s = 0.5f;
 constexpr double kHit_m_s = 0.15;
-constexpr float kChange = 0.3f;      // of the sleeper's weight: what wakes it
-constexpr float kLoadChange = 0.1f;  // of the load on it, in addition
+constexpr float kChange = 0.3f;  // of the sleeper's weight: what wakes it
+// Of what each contact carried, in addition. Where stones press each other with many times their
+// weight, one that wakes shifts a fifth of that on; less than this, and waking goes round for ever.
+constexpr float kLoadChange = 0.3f;
 constexpr double kLeastGravity_m_s2 = 1;
 
 float weight_N(const Bodies& bodies, std::uint32_t body, const Vec3& gravity_W) {

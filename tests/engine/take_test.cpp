@@ -266,6 +266,17 @@ TEST_F(Take, OfAnotherKindOrNoneIsRefused) {
   EXPECT_THROW(TakeWriter("/proc/no/such.take"), InputError);
 }
 
+TEST_F(Take, OfAnotherVersionIsRefusedAndToldSo) {
+  record(3);
+  std::vector<std::byte> older = bytes();
+  older[7] = std::byte{'1'};
+  write_file(path_, older);
+  std::string word;
+  EXPECT_EQ(playable(path_, word), -1);
+  EXPECT_NE(word.find("another version"), std::string::npos) << word;
+  EXPECT_NE(word.find("record it again"), std::string::npos) << word;
+}
+
 TEST_F(Take, ARunThatIsTheSameIsFoundTheSame) {
   record(40);
   TakeReader take(path_);

@@ -125,6 +125,35 @@ TEST(Debris, RidesOnALiftWithoutFallingThrough) {
   EXPECT_NEAR(debris.view().position_W[0].y(), top + 0.02, 0.02);
 }
 
+TEST(Debris, SleepsOnABodyThatIsAwakeButHardlyMovesAndWakesWhenItHasGoneOn) {
+  Debris debris(10, kGravity);
+  TestObstacles obstacles;
+  const std::size_t floor = obstacles.add_box(Vec3(0, 0.5, 0), Vec3(1, 0.05, 1));
+  obstacles.set_velocity(floor, Vec3(0, 0, 1e-5));
+  debris.add(chip_at(Vec3f(0, 0.65f, 0)));
+  run(debris, obstacles, 2);
+  EXPECT_EQ(debris.books().awake, 0u);
+  obstacles.set_velocity(floor, Vec3(0.02, 0, 0));  // a creep that is seen after a while
+  run(debris, obstacles, 0.2);
+  EXPECT_EQ(debris.books().awake, 1u);
+}
+
+TEST(Debris, TouchesTheSameThingsWhateverTheirSizeAndNumberAndPlace) {
+  Debris debris(100, kGravity);
+  TestObstacles obstacles;
+  obstacles.add_box(Vec3(0, 0.25, 0), Vec3(400, 0.25, 400));
+  for (int i = 0; i < 2000; ++i) obstacles.add_box(Vec3(0.05 * i, 0.52, 1), Vec3(0.02, 0.02, 0.02));
+  obstacles.add_box(Vec3(5000, 1, 5000), Vec3(1, 1, 1));
+  for (int i = 0; i < 50; ++i) debris.add(chip_at(Vec3f(float(i) + 0.025f, 1, 1)));
+  for (int i = 0; i < 50; ++i) debris.add(chip_at(Vec3f(float(i), 1, -300 + float(i))));
+  run(debris, obstacles, 2);
+  const DebrisView view = debris.view();
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_GE(view.position_W[i].y(), 0.519f) << i;
+    EXPECT_LE(view.position_W[i].y(), 0.57f) << i;
+  }
+}
+
 TEST(Debris, BouncesOffABall) {
   Debris debris(10, Vec3::Zero());
   TestObstacles obstacles;

@@ -86,6 +86,42 @@ TEST(Dust, IsBlownByAMovingSlabAndStaysOutOfIt) {
   EXPECT_GE(ahead, 80);
 }
 
+TEST(Dust, KeepsItsAirFineThoughAFewPuffsFlyFar) {
+  const auto cell_m = [](int strays) {
+    Dust dust(1000, kGravity, kCounts);
+    for (int i = 0; i < 400; ++i) dust.add(puff_at(Vec3f(0.1f * float(i % 20), 1, 0)));
+    for (int i = 0; i < strays; ++i) dust.add(puff_at(Vec3f(100, 1, float(i))));
+    dust.advance(kDt, TestObstacles().view());
+    EXPECT_FALSE(strays > 0 && dust.air()->holds(Vec3f(100, 1, 0)));
+    EXPECT_EQ(dust.air()->velocity(Vec3f(100, 1, 0)), Vec3f::Zero());
+    return dust.air()->grid().cell_m;
+  };
+  EXPECT_EQ(cell_m(8), cell_m(0));
+}
+
+TEST(Dust, GoesOnInTheSameFlowWhenItsAirGetsFiner) {
+  Dust dust(4000, Vec3::Zero(), kCounts);
+  const TestObstacles obstacles;
+  const auto throw_puffs = [&](int count) {
+    Random random(2);
+    for (int i = 0; i < count; ++i) {
+      const Vec3 at = 0.4 * random.uniform() * random.direction() + Vec3(0, 1, 0);
+      DustBirth birth = puff_at(at.cast<float>());
+      birth.velocity_W = Vec3f(5, 0, 0);
+      birth.mass_kg = 1e-4f;
+      dust.add(birth);
+    }
+  };
+  throw_puffs(200);
+  for (int step = 0; step < 5; ++step) dust.advance(kDt, obstacles.view());
+  const std::size_t few = dust.air()->grid().lattice.cells();
+  const float before = dust.air()->velocity(Vec3f(0.1f, 1, 0)).x();
+  for (int i = 0; i < 3000; ++i) dust.add(puff_at(Vec3f(0, 1, 0)));
+  dust.advance(kDt, obstacles.view());
+  EXPECT_GT(dust.air()->grid().lattice.cells(), few);
+  EXPECT_NEAR(dust.air()->velocity(Vec3f(0.1f, 1, 0)).x(), before, 0.25 * double{before});
+}
+
 TEST(Dust, OverItsLimitIsIgnoredAndCounted) {
   Dust dust(64, kGravity, kCounts);
   const TestObstacles obstacles;

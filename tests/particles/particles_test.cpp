@@ -186,7 +186,23 @@ TEST(Particles, WithoutDustHaveNoAir) {
   emission.crumbling.debris_ratio = 0;
   particles->emit(std::span(&emission, 1));
   particles->advance(kDt, TestObstacles().view());
-  EXPECT_EQ(particles->report().air_cells, 32u * 16 * 32);
+  EXPECT_GT(particles->report().air_cells, 0u);
+}
+
+TEST(Particles, AFewHaveLittleAirAndMostAllOfIt) {
+  auto particles = make_debris_and_dust(small_options());
+  const TestFace face(Vec3(0, 3, 0));
+  const auto cells_after = [&](double more_per_m2) {
+    const Emission emission = face.emission(crumbling_of(more_per_m2, 0));
+    particles->emit(std::span(&emission, 1));
+    particles->advance(kDt, TestObstacles().view());
+    return particles->report().air_cells;
+  };
+  const std::uint32_t few = cells_after(100), more = cells_after(700), most = cells_after(3000);
+  EXPECT_LE(few, 32u * 16 * 32 / 8);
+  EXPECT_GT(more, few);
+  EXPECT_LT(more, most);
+  EXPECT_EQ(most, 32u * 16 * 32);
 }
 
 }  // namespace
