@@ -33,7 +33,7 @@ struct VacdOptions {
   std::uint32_t polygons = kDefaultPolygons;
   Fit fit{Fit::Kind::kHull, 24};
   MaterialIndex material;
-  std::function<void(double)> progress;  ///< Told of the share of the work done; may be empty.
+  std::function<void(double)> progress{};  ///< Told of the share of the work done; may be empty.
 };
 
 struct VacdFigures {

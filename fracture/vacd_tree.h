@@ -13,7 +13,7 @@ namespace sunder::fracture {
 struct RefineLimits {
   std::uint32_t convexes = 0;  ///< At most so many pieces; 0: cut only what has too many polygons.
   std::uint32_t polygons = 0;  ///< A piece with more is cut again, if `convexes` allows.
-  std::function<void(double)> progress;  ///< Told of the share done; may be empty.
+  std::function<void(double)> progress{};  ///< Told of the share done; may be empty.
 };
 
 /// The pieces, some of them cut into smaller ones; never fewer than before.

@@ -25,7 +25,7 @@ struct MeshOptions {
   std::optional<double> size_m;  ///< In place of it: the longest side of the bounding box.
   bool cached = false;           ///< Whether a decomposition is kept, and recalled (mesh_cache.h).
   /// Told of each step when it begins, and then of the share of all work done; may be empty.
-  std::function<void(const char* step, double share)> progress;
+  std::function<void(const char* step, double share)> progress{};
 };
 
 /// A compound, and what it was made of.
