@@ -80,4 +80,40 @@ inline Pile rubble(int count) {
   return set;
 }
 
+/// A running bond of `columns` by `rows` bricks (shifted by less than half, or its ends would
+/// fall).
+inline Pile wall(int columns, int rows) {
+  Pile set;
+  set.ground();
+  const Vec3 brick(0.4, 0.2, 0.2);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      set.box(brick, Vec3((column + 0.4 * (row % 2)) * brick.x(), (row + 0.5) * brick.y(), 0));
+  return set;
+}
+
+inline Pile pyramid(int base) {
+  Pile set;
+  set.ground();
+  for (int row = 0; row < base; ++row)
+    for (int i = 0; i < base - row; ++i)
+      set.box(Vec3(1, 1, 1), Vec3((i + 0.5 * row) * 1.02, row + 0.5, 0));
+  return set;
+}
+
+inline Pile stack(int count) {
+  Pile set;
+  set.ground();
+  for (int i = 0; i < count; ++i) set.box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0));
+  return set;
+}
+
+inline Pile touching_cubes(int side) {
+  Pile set;
+  set.ground();
+  for (int i = 0; i < side * side * side; ++i)
+    set.box(Vec3(0.2, 0.2, 0.2), 0.2 * Vec3(i % side, i / side / side + 0.5, i / side % side));
+  return set;
+}
+
 }  // namespace sunder::bench

@@ -17,14 +17,16 @@
 #include "bench/piles.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
-#include "engine/base/random.h"
-#include "engine/geometry/convex_polyhedron.h"
 #include "solver/rigid/rigid_physics.h"
 
 namespace sunder::solver {
 namespace {
 
+using bench::pyramid;
 using bench::rubble;
+using bench::stack;
+using bench::touching_cubes;
+using bench::wall;
 using Set = bench::Pile;
 
 struct Options {
@@ -44,42 +46,6 @@ double cpu_ms() {
   timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-/// A running bond of `columns` by `rows` bricks (shifted by less than half, or its ends would
-/// fall).
-Set wall(int columns, int rows) {
-  Set set;
-  set.ground();
-  const Vec3 brick(0.4, 0.2, 0.2);
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column)
-      set.box(brick, Vec3((column + 0.4 * (row % 2)) * brick.x(), (row + 0.5) * brick.y(), 0));
-  return set;
-}
-
-Set pyramid(int base) {
-  Set set;
-  set.ground();
-  for (int row = 0; row < base; ++row)
-    for (int i = 0; i < base - row; ++i)
-      set.box(Vec3(1, 1, 1), Vec3((i + 0.5 * row) * 1.02, row + 0.5, 0));
-  return set;
-}
-
-Set stack(int count) {
-  Set set;
-  set.ground();
-  for (int i = 0; i < count; ++i) set.box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0));
-  return set;
-}
-
-Set touching_cubes(int side) {
-  Set set;
-  set.ground();
-  for (int i = 0; i < side * side * side; ++i)
-    set.box(Vec3(0.2, 0.2, 0.2), 0.2 * Vec3(i % side, i / side / side + 0.5, i / side % side));
-  return set;
 }
 
 struct Run {

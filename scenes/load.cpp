@@ -71,6 +71,7 @@ Scene Loader::load(const LoadOptions& options) {
   read(s.scene, *scene, {}, scene_);
   scene_.accuracy = preset_accuracy(options.preset);
   read_accuracy();
+  read_table(s.solver, "solver", scene_.solver);
   read_table(s.limits, "limits", scene_.limits);
   read_table(s.ground, "ground", scene_.ground);
   read_table(s.view, "view", scene_.view);

@@ -103,10 +103,11 @@ std::string preset_list() {
 
 std::string key_reference() {
   const Schema& s = schema();
-  std::string text = section(s.scene) + section(s.accuracy) + preset_list() + section(s.limits) +
-                     section(s.ground) + section(s.view) + section(s.material_head) +
-                     section(s.material) + section(s.pattern) + section(s.stronger) +
-                     section(s.crumbling) + section(s.look) + section(s.solid);
+  std::string text = section(s.scene) + section(s.accuracy) + preset_list() + section(s.solver) +
+                     section(s.limits) + section(s.ground) + section(s.view) +
+                     section(s.material_head) + section(s.material) + section(s.pattern) +
+                     section(s.stronger) + section(s.crumbling) + section(s.look) +
+                     section(s.solid);
   for (const Structure& structure : structures()) {
     text += "#### structure = \"" + std::string(structure.name) + "\"\n\n" +
             std::string(structure.help) + "\n\n" +

@@ -20,6 +20,7 @@ constexpr std::string_view kAnchored[] = {"none", "bottom"};
 Keys<Scene> top_keys() {
   return {"the scene file",
           {table_key("scene", "What it is."), table_key("accuracy", "Overrides the preset."),
+           table_key("solver", "How contacts are solved."),
            table_key("limits", "How much may exist."), table_key("ground", "The floor."),
            table_key("view", "Camera and sun."), table_key("material", "Materials."),
            table_key("solid", "What stands there."), table_key("body", "Meshes that stand there."),
@@ -35,6 +36,19 @@ Keys<Scene> scene_keys() {
            key<&Scene::planar>("planar",
                                "Nothing moves along z: all are prisms through the plane z = 0, or "
                                "balls about it.")}};
+}
+
+Keys<SolverDials> solver_keys() {
+  return {"[solver]",
+          {key<&SolverDials::max_colors>(
+               "max_colors", "", Range{0, 64},
+               "Colours that contacts are solved in; 64: coloured Gauss-Seidel; contacts that find "
+               "no colour are solved by mass splitting; 0: all of them."),
+           key<&SolverDials::sweeps>("sweeps", "", Range{1, 1000},
+                                     "Sweeps of either kind in a substep."),
+           key<&SolverDials::lanes>("lanes", "", Range{0, 16},
+                                    "Contacts side by side: 1, 4, 8 or 16, if the processor has so "
+                                    "many; 0: the most. The same bits for any.")}};
 }
 
 Keys<Material> material_keys() {
@@ -198,6 +212,7 @@ Schema make_schema() {
                 {key<&Accuracy::dt_s>("dt_s", "s", Range{1e-5, 1.0 / 60 + 1e-9},
                                       "A step; 1/60 s is a whole number of them."),
                  key<&Accuracy::substeps>("substeps", "", Range{1, 64}, "Substeps of a step.")}};
+  s.solver = solver_keys();
   s.limits = {
       "[limits]",
       {key<&Limits::bodies>("bodies", "", Range{1, 200000}, "Bodies that may exist."),

@@ -97,6 +97,7 @@ struct Schema {
   Keys<Scene> top;
   Keys<Scene> scene;
   Keys<Accuracy> accuracy;
+  Keys<SolverDials> solver;
   Keys<Limits> limits;
   Keys<Ground> ground;
   Keys<View> view;

@@ -161,6 +161,9 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   Json json{{"scene", s.info.scene},        {"preset", s.info.preset},
             {"threads", s.info.threads},    {"frames", s.reports.size()},
             {"dt_s", s.info.accuracy.dt_s}, {"substeps", s.info.accuracy.substeps}};
+  json["solver"] = {{"max_colors", s.info.solver.max_colors},
+                    {"sweeps", s.info.solver.sweeps},
+                    {"lanes", s.info.solver.lanes}};
   if (!state_hash.empty()) json["state_hash"] = state_hash;
   json["steps"] = static_cast<std::uint64_t>(steps_per_frame) * s.reports.size();
   for (int i = 0; i < kStages; ++i) {

@@ -18,6 +18,7 @@ struct RunInfo {
   int threads = 1;
   Accuracy accuracy;
   std::map<std::string, std::string> modelled;  ///< feature -> "on" | "off" | "off: why"
+  SolverDials solver;                           ///< `lanes` as used.
 };
 
 /// The q-th quantile (0..1) by the nearest-rank rule; 0 of nothing.

@@ -74,6 +74,13 @@ struct Accuracy {
   int substeps = 4;
 };
 
+/// How contacts are solved; what each means is in solver/rigid/rigid_physics.h.
+struct SolverDials {
+  int max_colors = 64;
+  int sweeps = 1;
+  int lanes = 0;
+};
+
 struct Limits {
   std::uint32_t bodies = 20000;
   /// From so many bodies on, the smallest fragments at rest become debris; 0: when room is short.
@@ -93,6 +100,7 @@ struct Scene {
   std::uint64_t seed = 1;
   bool planar = false;  ///< Moves in the plane z = 0 alone: the third dimension is not simulated.
   Accuracy accuracy;
+  SolverDials solver;
   Limits limits;
   Ground ground;
   View view;

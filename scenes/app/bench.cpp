@@ -71,7 +71,9 @@ Comparison compare(const Figures& now, const std::string& at, const Figures& old
   const std::string scene = text(now, at + "/scene");
   const std::string was = place_of(old, scene);
   if (was.empty()) return {scene + ": not in the older file\n"};
-  for (const char* key : {"/preset", "/frames", "/dt_s", "/substeps"}) {
+  for (const char* key :
+       {"/preset", "/frames", "/dt_s", "/substeps", "/solver/max_colors", "/solver/sweeps"}) {
+    if (!old.contains(was + key)) continue;  // older than the figure
     if (text(now, at + key) != text(old, was + key) ||
         number(now, at + key) != number(old, was + key)) {
       return {scene + ": not comparable, its " + (key + 1) + " differs\n", false};

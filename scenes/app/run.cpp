@@ -46,6 +46,9 @@ std::unique_ptr<Physics> make_physics(const Scene& scene) {
   }
   solver::RigidOptions rigid;
   rigid.gravity_W = scene.gravity_W;
+  rigid.max_colors = scene.solver.max_colors;
+  rigid.sweeps = scene.solver.sweeps;
+  rigid.lanes = scene.solver.lanes;
   return solver::make_rigid_physics(rigid);
 }
 
@@ -84,7 +87,8 @@ RunInfo run_info(const Scene& scene, const scenes::LoadOptions& load) {
           {{"fracture", any ? "on" : "off: nothing here is breakable"},
            {"script", scripted ? "on" : "off: nothing happens"},
            {"sleeping", "on"},
-           {"third_dimension", scene.planar ? "off: planar = true, so Box2D moves it" : "on"}}};
+           {"third_dimension", scene.planar ? "off: planar = true, so Box2D moves it" : "on"}},
+          {scene.solver.max_colors, scene.solver.sweeps, solver::lanes_in_use(scene.solver.lanes)}};
 }
 
 int last_frame(const Scene& scene, int wanted) {

@@ -353,6 +353,8 @@ std::vector<std::pair<const char*, double>> RigidPhysics::take_timings_ms() {
 
 }  // namespace
 
+int lanes_in_use(int lanes) { return static_cast<int>(make_contact_blocks(lanes)->lanes()); }
+
 std::unique_ptr<Physics> make_rigid_physics(const RigidOptions& options) {
   return std::make_unique<RigidPhysics>(options);
 }

@@ -19,6 +19,9 @@ struct RigidOptions {
   int lanes = 0;
 };
 
+/// The lanes that a solver works with if it is asked for so many.
+int lanes_in_use(int lanes);
+
 /// The same bits for any number of threads (engine/base/parallel.h sets it).
 std::unique_ptr<Physics> make_rigid_physics(const RigidOptions& options);
 

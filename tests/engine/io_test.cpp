@@ -166,12 +166,29 @@ TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
   statistics.take(frame);
   statistics.take(frame);
   const auto json = nlohmann::json::parse(statistics.json("0123456789abcdef", true));
-  for (const char* key : {"scene",          "preset",        "threads",    "frames",
-                          "dt_s",           "substeps",      "state_hash", "steps",
-                          "stages",         "frame",         "counts",     "peak",
-                          "fractures",      "penetration_m", "energy_J",   "momentum_residual",
-                          "mass_kg",        "limits_hit",    "modelled",   "cpu",
-                          "sunder_version", "per_frame"}) {
+  for (const char* key : {"scene",
+                          "preset",
+                          "threads",
+                          "frames",
+                          "dt_s",
+                          "substeps",
+                          "solver",
+                          "state_hash",
+                          "steps",
+                          "stages",
+                          "frame",
+                          "counts",
+                          "peak",
+                          "fractures",
+                          "penetration_m",
+                          "energy_J",
+                          "momentum_residual",
+                          "mass_kg",
+                          "limits_hit",
+                          "modelled",
+                          "cpu",
+                          "sunder_version",
+                          "per_frame"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["frames"], 1);

@@ -1,0 +1,134 @@
+// How fast the solver comes to the solution of one step, by the number of colours: a falling pile,
+// a pyramid and a stack are frozen, and one step is solved by more and more sweeps. Printed is the
+// distance of the velocities to those of very many coloured sweeps, by kinetic energy, over the
+// distance at which no contact acts at all. See docs/decisions/020-mass-splitting.md.
+//
+//   convergence_bench [--csv]
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "bench/piles.h"
+#include "solver/rigid/rigid_physics.h"
+
+namespace sunder::solver {
+namespace {
+
+using bench::Pile;
+using bench::pyramid;
+using bench::rubble;
+using bench::stack;
+
+constexpr double kDt_s = 1.0 / 60;
+constexpr int kColors[] = {0, 8, 64};
+constexpr int kSweeps[] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
+constexpr int kMany = 16384;
+
+struct World {
+  std::unique_ptr<Physics> physics;
+  std::vector<BodyId> ids;
+};
+
+World make_world(const Pile& set, int colors, int sweeps) {
+  RigidOptions options;
+  options.sleeping = false;
+  options.max_colors = colors;
+  options.sweeps = sweeps;
+  World world;
+  world.physics = make_rigid_physics(options);
+  world.ids = world.physics->replace({}, set.bodies);
+  return world;
+}
+
+/// The set as it is after `time_s`.
+void freeze(Pile& set, double time_s) {
+  World world = make_world(set, 64, 1);
+  for (int i = 0; i < time_s / kDt_s; ++i) {
+    world.physics->collide(kDt_s);
+    world.physics->solve(kDt_s, 4);
+  }
+  for (std::size_t i = 0; i < set.bodies.size(); ++i) {
+    const BodyState state = world.physics->state(world.ids[i]);
+    set.bodies[i].X_WB = state.X_WB;
+    set.bodies[i].velocity_W = state.velocity_W;
+    set.bodies[i].angular_velocity_W = state.angular_velocity_W;
+  }
+}
+
+/// Velocities after one step, scaled so that squares are energies; none by no sweeps.
+std::vector<double> solved(const Pile& set, int colors, int sweeps) {
+  World world = make_world(set, colors, sweeps);
+  world.physics->collide(kDt_s);
+  world.physics->solve(kDt_s, 1);
+  std::vector<double> all;
+  for (std::size_t i = 0; i < set.bodies.size(); ++i) {
+    const BodyDesc& body = set.bodies[i];
+    if (body.is_static) continue;
+    const BodyState state = world.physics->state(world.ids[i]);
+    const Vec3 linear = std::sqrt(body.mass_kg) * state.velocity_W;
+    const Vec3 spin_B = state.X_WB.rotation.conjugate() * state.angular_velocity_W;
+    const Vec3 angular = body.inertia_B.diagonal().cwiseSqrt().cwiseProduct(spin_B);
+    for (const Vec3& part : {linear, angular}) all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+/// As if nothing touched.
+std::vector<double> flown(const Pile& set) {
+  std::vector<double> all;
+  for (const BodyDesc& body : set.bodies) {
+    if (body.is_static) continue;
+    const Vec3 linear = std::sqrt(body.mass_kg) * (body.velocity_W - Vec3(0, 9.81 * kDt_s, 0));
+    const Vec3 spin_B = body.X_WB.rotation.conjugate() * body.angular_velocity_W;
+    const Vec3 angular = body.inertia_B.diagonal().cwiseSqrt().cwiseProduct(spin_B);
+    for (const Vec3& part : {linear, angular}) all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
+}
+
+void measure(const char* name, Pile set, double time_s, double friction, bool csv) {
+  for (BodyDesc& body : set.bodies)
+    for (ShapeDesc& shape : body.shapes) shape.friction = friction;
+  freeze(set, time_s);
+  const std::vector<double> truth = solved(set, 64, kMany);
+  const double from = distance(flown(set), truth);
+  if (!csv) std::printf("\n%s, friction %.1f\n%8s", name, friction, "sweeps");
+  for (const int colors : kColors)
+    if (!csv) std::printf("     K = %-2d", colors);
+  if (!csv) std::printf("\n");
+  for (const int sweeps : kSweeps) {
+    if (csv) std::printf("%s,%g,%d", name, friction, sweeps);
+    if (!csv) std::printf("%8d", sweeps);
+    for (const int colors : kColors)
+      std::printf(csv ? ",%.3e" : "  %9.2e", distance(solved(set, colors, sweeps), truth) / from);
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+}  // namespace sunder::solver
+
+int main(int argc, char** argv) {
+  const bool csv = argc == 2 && std::strcmp(argv[1], "--csv") == 0;
+  if (argc > 1 && !csv) {
+    std::fprintf(stderr, "usage: %s [--csv]\n", argv[0]);
+    return 2;
+  }
+  if (csv) std::printf("scene,friction,sweeps,k0,k8,k64\n");
+  using namespace sunder::solver;
+  for (const double friction : {0.0, 0.6}) {
+    measure("rubble of 150", rubble(150), 0.9, friction, csv);
+    measure("pyramid of 55", pyramid(10), 0, friction, csv);
+    measure("stack of 10", stack(10), 0, friction, csv);
+  }
+  return 0;
+}

@@ -1,0 +1,194 @@
+// What one sweep over the contacts costs, beside what it costs to stream the same bytes through the
+// processor once, read and written; and what it costs to give contacts their colours.
+//
+//   sweep_bench [--sides A,B,...] [--colors N]
+//
+// A sweep is timed as the difference between steps with few and with many of them, each the best of
+// several, so that the machine may be busy. Bytes are those that a sweep touches: the front of
+// every block, and of every body its velocity and position.
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "bench/piles.h"
+#include "engine/base/parallel.h"
+#include "engine/base/random.h"
+#include "solver/rigid/constraint_block.h"
+#include "solver/rigid/contacts.h"
+#include "solver/rigid/rigid_physics.h"
+
+namespace sunder::solver {
+namespace {
+
+using bench::Pile;
+using bench::touching_cubes;
+
+constexpr double kDt_s = 1.0 / 60;
+constexpr int kMoreSweeps = 10, kTries = 7;
+
+/// Of this thread where it works alone: a busy machine changes that least.
+double now_ms() {
+  if (threads() > 1) {
+    const auto t = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double, std::milli>(t).count();
+  }
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+struct Timed {
+  std::unique_ptr<Physics> physics;
+  double best_ms = 1e30;
+  SolveReport report;
+
+  Timed(const Pile& set, int colors, int lanes, int sweeps) {
+    RigidOptions options;
+    options.sleeping = false;
+    options.max_colors = colors;
+    options.lanes = lanes;
+    options.sweeps = sweeps;
+    physics = make_rigid_physics(options);
+    physics->replace({}, set.bodies);
+    physics->collide(kDt_s);
+  }
+  void solve() {
+    const double start = now_ms();
+    report = physics->solve(kDt_s, 1);
+    best_ms = std::min(best_ms, now_ms() - start);
+  }
+};
+
+/// Milliseconds to read and write so many bytes once, as often as a sweep comes back to them.
+double stream_ms(std::size_t bytes) {
+  std::vector<float> data(bytes / sizeof(float), 1.f);
+  float* const first = data.data();
+  const auto size = static_cast<std::ptrdiff_t>(data.size());
+  const std::size_t chunk = 1 << 15;
+  double best = 1e30;
+  for (int i = 0; i < 3 * kTries; ++i) {
+    const double start = now_ms();
+    for_chunks(static_cast<std::size_t>(size), chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                 for (std::size_t k = begin; k < end; ++k) first[k] = first[k] * 0.5f + 1.f;
+               });
+    best = std::min(best, now_ms() - start);
+  }
+  return best;
+}
+
+template <std::uint32_t lanes>
+double bytes_of(const SolveReport& report, std::size_t bodies) {
+  const std::size_t front = offsetof(ConstraintBlock<lanes>, point);
+  return static_cast<double>(report.contacts) * static_cast<double>(front) / lanes +
+         static_cast<double>(report.contact_points) * sizeof(PointLanes<lanes>) / lanes +
+         static_cast<double>(bodies) * 64;
+}
+
+void sweep(const Pile& set, int colors, int lanes, int thread_count) {
+  set_threads(thread_count);
+  Timed few(set, colors, lanes, 1), many(set, colors, lanes, 1 + kMoreSweeps);
+  for (int i = 0; i < kTries; ++i) few.solve(), many.solve();
+  const double ms = (many.best_ms - few.best_ms) / (2 * kMoreSweeps);
+  const SolveReport& report = few.report;
+  const std::size_t bodies = set.bodies.size() - 1;
+  const double bytes = lanes == 16  ? bytes_of<16>(report, bodies)
+                       : lanes == 8 ? bytes_of<8>(report, bodies)
+                       : lanes == 4 ? bytes_of<4>(report, bodies)
+                                    : bytes_of<1>(report, bodies);
+  const double stream = stream_ms(static_cast<std::size_t>(bytes));
+  const double points = report.contact_points;
+  std::printf("%8zu %9.0f %6d %8d %9.3f %9.2f %10.2f %12.2f %7.1f %9.0f\n", bodies, points, lanes,
+              thread_count, ms, 1e6 * ms / points, bytes / 1e6, 1e6 * stream / points, ms / stream,
+              bytes / points);
+  std::fflush(stdout);
+}
+
+/// Contacts of a grid of bodies, each touching its neighbours; some go and come back.
+void recolor() {
+  constexpr std::uint32_t kSide = 26, kGone = 5000;
+  Bodies bodies;
+  bodies.motion.assign(kSide * kSide * kSide, Motion::kAwake);
+  Contacts contacts;
+  contacts.body_colors.assign(bodies.size(), 0);
+  auto touch = [&](std::uint32_t a, std::uint32_t b) {
+    Pair pair;
+    pair.shape_a = pair.body_a = a, pair.shape_b = pair.body_b = b;
+    contacts.add(pair);
+  };
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    if (i % kSide + 1 < kSide) touch(i, i + 1);
+    if (i / kSide % kSide + 1 < kSide) touch(i, i + kSide);
+    if (i / kSide / kSide + 1 < kSide) touch(i, i + kSide * kSide);
+  }
+  auto insert = [&](std::uint32_t pair) {
+    Manifold m;
+    m.body_a = contacts.pairs[pair].body_a, m.body_b = contacts.pairs[pair].body_b, m.count = 4;
+    contacts.touch(pair, m, bodies);
+  };
+  const auto count = static_cast<std::uint32_t>(contacts.pairs.size());
+  double all_ms = now_ms();
+  for (std::uint32_t pair = 0; pair < count; ++pair) insert(pair);
+  all_ms = now_ms() - all_ms;
+  double out_ms = 1e30, in_ms = 1e30;
+  Random random(1);
+  for (int i = 0; i < kTries; ++i) {
+    std::vector<std::uint32_t> gone;
+    for (std::uint32_t pair = 0; pair < count && gone.size() < kGone; ++pair)
+      if (random.below(count / kGone) == 0) gone.push_back(pair);
+    const double start = now_ms();
+    for (const std::uint32_t pair : gone) contacts.part(pair);
+    const double middle = now_ms();
+    for (const std::uint32_t pair : gone) insert(pair);
+    out_ms = std::min(out_ms, middle - start), in_ms = std::min(in_ms, now_ms() - middle);
+  }
+  std::printf(
+      "\ncolours: %u contacts made in %.2f ms; of them about %u removed in %.3f ms, "
+      "put back in %.3f ms (with their manifolds, %zu bytes each)\n",
+      count, all_ms, kGone, out_ms, in_ms, sizeof(Manifold));
+}
+
+int run(const std::vector<int>& sides, int colors) {
+  std::printf("touching cubes, at most %d colours\n", colors);
+  std::printf(
+      "  bodies    points  lanes  threads  ms/sweep  ns/point  megabytes  stream ns/pt  "
+      "times  bytes/pt\n");
+  const int most = lanes_in_use(0);
+  for (const int side : sides) {
+    const Pile set = touching_cubes(side);
+    for (const int lanes : {1, 4, 8, 16})
+      if (lanes <= most) sweep(set, colors, lanes, 1);
+    sweep(set, colors, most, 2);
+  }
+  recolor();
+  return 0;
+}
+
+}  // namespace
+}  // namespace sunder::solver
+
+int main(int argc, char** argv) {
+  std::vector<int> sides = {10, 20, 46};
+  int colors = 64;
+  for (int i = 1; i < argc; ++i) {
+    const bool last = i + 1 == argc;
+    if (!last && std::strcmp(argv[i], "--colors") == 0) {
+      colors = std::atoi(argv[++i]);
+    } else if (!last && std::strcmp(argv[i], "--sides") == 0) {
+      sides.clear();
+      for (const char* text = argv[++i]; text && *text;
+           text = std::strchr(text, ',') ? std::strchr(text, ',') + 1 : nullptr)
+        sides.push_back(std::atoi(text));
+    } else {
+      std::fprintf(stderr, "usage: %s [--sides A,B,...] [--colors 0..64]\n", argv[0]);
+      return 2;
+    }
+  }
+  return sunder::solver::run(sides, colors);
+}

@@ -1,0 +1,211 @@
+// How contacts are solved changes the way to the solution and not the solution: colours, mass
+// splitting (Tonge, Benevolenski, Voroshilov 2012), lanes, threads.
+#include <array>
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "tests/solver/rigid_world.h"
+
+namespace sunder::solver {
+namespace {
+
+using W = RigidWorld;
+constexpr double kDt_s = 1.0 / 60;
+constexpr int kColors[] = {0, 8, 64};
+
+RigidOptions with(int max_colors, int sweeps = 1, int lanes = 0) {
+  RigidOptions options;
+  options.sleeping = false;
+  options.max_colors = max_colors;
+  options.sweeps = sweeps;
+  options.lanes = lanes;
+  return options;
+}
+
+std::vector<BodyDesc> stack(int count) {
+  std::vector<BodyDesc> bodies = {W::ground()};
+  for (int i = 0; i < count; ++i) bodies.push_back(W::box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0)));
+  return bodies;
+}
+
+std::vector<BodyDesc> pyramid(int base) {
+  std::vector<BodyDesc> bodies = {W::ground()};
+  for (int row = 0; row < base; ++row)
+    for (int i = 0; i < base - row; ++i)
+      bodies.push_back(W::box(Vec3(1, 1, 1), Vec3((i + 0.5 * row) * 1.02, row + 0.5, 0)));
+  return bodies;
+}
+
+/// Boxes and balls, some of which bounce, over a pit.
+std::vector<BodyDesc> rubble(int count, double bounce) {
+  std::vector<BodyDesc> bodies = {W::ground()};
+  for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+    bodies.push_back(W::ground(normal));
+    bodies.back().X_WB.position = -1.2 * normal;
+  }
+  Random random(7);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 at(0.5 * (i % 4) - 0.75 + random.uniform(-0.05, 0.05), 0.4 + 0.45 * (i / 16),
+                  0.5 * (i / 4 % 4) - 0.75 + random.uniform(-0.05, 0.05));
+    const double size = random.uniform(0.2, 0.42);
+    BodyDesc body = i % 5 == 0 ? W::sphere(0.5 * size, at)
+                               : W::box(size * Vec3(1, random.uniform(0.5, 1), 1), at);
+    bodies.push_back(W::with_friction(body, 0.5, i % 3 == 0 ? bounce : 0));
+  }
+  return bodies;
+}
+
+void add(const std::vector<BodyDesc>& bodies, RigidWorld& world) {
+  for (const BodyDesc& body : bodies) world.add(body);
+}
+
+/// The bodies as they are after so many steps, without friction.
+std::vector<BodyDesc> frozen(std::vector<BodyDesc> bodies, int steps) {
+  for (BodyDesc& body : bodies) body = W::with_friction(body, 0);
+  RigidWorld world(with(64));
+  add(bodies, world);
+  for (int i = 0; i < steps; ++i) world.step(kDt_s, 4);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const BodyState state = world.state(world.id(i));
+    bodies[i].X_WB = state.X_WB;
+    bodies[i].velocity_W = state.velocity_W;
+    bodies[i].angular_velocity_W = state.angular_velocity_W;
+  }
+  return bodies;
+}
+
+/// Velocities after one step of so many sweeps.
+std::vector<Vec3> solved(const std::vector<BodyDesc>& bodies, int max_colors, int sweeps) {
+  RigidWorld world(with(max_colors, sweeps));
+  add(bodies, world);
+  world.step(kDt_s, 1);
+  std::vector<Vec3> velocities;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const BodyState state = world.state(world.id(i));
+    velocities.push_back(state.velocity_W);
+    velocities.push_back(state.angular_velocity_W);
+  }
+  return velocities;
+}
+
+double distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).squaredNorm();
+  return std::sqrt(sum);
+}
+
+/// Of the velocities after 1, 4, 16 and so on sweeps to those of very many coloured ones, over that
+/// of the first.
+std::array<double, 7> residuals(const std::vector<BodyDesc>& bodies, int max_colors) {
+  const std::vector<Vec3> truth = solved(bodies, 64, 20000);
+  std::array<double, 7> all;
+  for (int i = 0; i < 7; ++i)
+    all[static_cast<std::size_t>(i)] = distance(solved(bodies, max_colors, 1 << 2 * i), truth);
+  const double first = all[0];
+  for (double& residual : all) residual /= first;
+  return all;
+}
+
+void expect_convergence(const char* name, const std::vector<BodyDesc>& bodies) {
+  for (const int max_colors : kColors) {
+    const std::array<double, 7> curve = residuals(bodies, max_colors);
+    std::printf("%-8s K = %2d:", name, max_colors);
+    for (const double residual : curve) std::printf("  %.1e", residual);
+    std::printf("\n");
+    for (std::size_t i = 1; i < curve.size(); ++i)
+      if (curve[i - 1] > 1e-3) EXPECT_LT(curve[i], curve[i - 1]) << max_colors << " " << i;
+    EXPECT_LT(curve.back(), 0.01) << max_colors;
+  }
+}
+
+TEST(Splitting, ComesToTheSolutionOfColouredSweepsInAFrozenPile) {
+  expect_convergence("rubble", frozen(rubble(48, 0), 50));
+}
+
+TEST(Splitting, ComesToTheSolutionOfColouredSweepsInAStackAndAPyramid) {
+  expect_convergence("stack", frozen(stack(6), 0));
+  expect_convergence("pyramid", frozen(pyramid(6), 0));
+}
+
+TEST(Splitting, LeavesStacksAndPyramidsStandingGivenSubsteps) {
+  for (const int max_colors : kColors) {
+    for (const bool tall : {true, false}) {
+      RigidWorld world(with(max_colors));
+      const std::vector<BodyDesc> bodies = tall ? stack(10) : pyramid(8);
+      add(bodies, world);
+      world.run(5, 1.0 / 120, max_colors == 0 ? 32 : 8);
+      double moved = 0;
+      for (std::size_t i = 0; i < bodies.size(); ++i)
+        moved = std::max(moved,
+                         (world.state(world.id(i)).X_WB.position - bodies[i].X_WB.position).norm());
+      std::printf("K = %2d, %s: moved %.2f mm\n", max_colors, tall ? "stack" : "pyramid",
+                  1e3 * moved);
+      EXPECT_LT(moved, 0.01) << max_colors;
+    }
+  }
+}
+
+/// More contacts than colours: a plate on 100 posts, which overflows whatever the colours.
+std::vector<BodyDesc> plate_on_posts() {
+  std::vector<BodyDesc> bodies = {W::ground(), W::box(Vec3(10, 0.3, 10), Vec3(0, 1.15, 0))};
+  for (int i = 0; i < 100; ++i)
+    bodies.push_back(W::box(Vec3(0.3, 1, 0.3), Vec3(i % 10 - 4.5, 0.5, i / 10 - 4.5)));
+  return bodies;
+}
+
+TEST(Splitting, CarriesAPlateThatMoreTouchThanThereAreColours) {
+  RigidWorld world(with(64));
+  add(plate_on_posts(), world);
+  world.run(3, 1.0 / 120, 8);
+  const BodyState plate = world.state(world.id(1));
+  EXPECT_NEAR(plate.X_WB.position.y(), 1.15, 2e-3);
+  EXPECT_LT(plate.velocity_W.norm(), 1e-3);
+}
+
+std::uint64_t hash_of(const std::vector<BodyDesc>& bodies, int steps, int max_colors, int lanes,
+                      int thread_count) {
+  set_threads(thread_count);
+  RigidOptions options = with(max_colors, 1, lanes);
+  options.sleeping = true;
+  RigidWorld world(options);
+  add(bodies, world);
+  for (int i = 0; i < steps; ++i) world.step(kDt_s, 4);
+  set_threads(0);
+  return world.hash();
+}
+
+TEST(Lanes, AreTheSameBitsForTenSeconds) {
+  for (const auto& bodies : {rubble(40, 0.5), pyramid(6), plate_on_posts()}) {
+    for (const int max_colors : kColors) {
+      const std::uint64_t one = hash_of(bodies, 600, max_colors, 1, 1);
+      for (const int lanes : {4, 8, 16})
+        EXPECT_EQ(hash_of(bodies, 600, max_colors, lanes, 1), one) << lanes << " " << max_colors;
+    }
+  }
+}
+
+TEST(Lanes, AreTheSameBitsOnAnyNumberOfThreads) {
+  const std::vector<BodyDesc> bodies = rubble(700, 0.5);  // enough for threads to share
+  const std::uint64_t one = hash_of(bodies, 45, 64, 1, 1);
+  for (const int lanes : {1, 4, 8, 16})
+    for (const int thread_count : {1, 2, 4, 7})
+      EXPECT_EQ(hash_of(bodies, 45, 64, lanes, thread_count), one) << lanes << " " << thread_count;
+  for (const int max_colors : {0, 8}) {
+    const std::uint64_t split = hash_of(bodies, 45, max_colors, 1, 1);
+    EXPECT_NE(split, one);
+    for (const auto& [lanes, thread_count] : {std::pair{4, 7}, {8, 2}, {16, 4}})
+      EXPECT_EQ(hash_of(bodies, 45, max_colors, lanes, thread_count), split) << lanes;
+  }
+}
+
+TEST(Lanes, AreAsManyAsAskedForOrFewer) {
+  EXPECT_EQ(lanes_in_use(1), 1);
+  EXPECT_EQ(lanes_in_use(4), 4);
+  EXPECT_LE(lanes_in_use(8), 8);
+  EXPECT_EQ(lanes_in_use(0), lanes_in_use(16));
+}
+
+}  // namespace
+}  // namespace sunder::solver
