@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #define SUNDER_INLINE [[gnu::always_inline]] inline
@@ -19,6 +20,33 @@ template <std::uint32_t lanes>
 struct Vectors {
   typedef float Float __attribute__((vector_size(4 * lanes)));
   typedef std::int32_t Int __attribute__((vector_size(4 * lanes)));
+};
+
+/// One lane. GCC 12 has vectors of one float too, but code with them bounced nothing at -O2 (and
+/// did at -O1, or without -ftree-vrp).
+struct One {
+  float x;
+
+  SUNDER_INLINE float& operator[](std::uint32_t) { return x; }
+  SUNDER_INLINE float operator[](std::uint32_t) const { return x; }
+  SUNDER_INLINE One operator-() const { return {-x}; }
+  SUNDER_INLINE One& operator+=(One b) { return x += b.x, *this; }
+  SUNDER_INLINE One& operator*=(One b) { return x *= b.x, *this; }
+  SUNDER_INLINE friend One operator+(One a, One b) { return {a.x + b.x}; }
+  SUNDER_INLINE friend One operator-(One a, One b) { return {a.x - b.x}; }
+  SUNDER_INLINE friend One operator*(One a, One b) { return {a.x * b.x}; }
+  SUNDER_INLINE friend One operator/(One a, One b) { return {a.x / b.x}; }
+  SUNDER_INLINE friend One operator+(float a, One b) { return {a + b.x}; }
+  SUNDER_INLINE friend One operator-(float a, One b) { return {a - b.x}; }
+  SUNDER_INLINE friend One operator*(float a, One b) { return {a * b.x}; }
+  SUNDER_INLINE friend One operator/(float a, One b) { return {a / b.x}; }
+  SUNDER_INLINE friend One operator*(One a, float b) { return {a.x * b}; }
+  SUNDER_INLINE friend bool operator<(One a, One b) { return a.x < b.x; }
+  SUNDER_INLINE friend bool operator>(One a, One b) { return a.x > b.x; }
+};
+template <>
+struct Vectors<1> {
+  using Float = One;
 };
 }  // namespace detail
 
@@ -63,9 +91,13 @@ SUNDER_INLINE std::uint32_t bits(WideInt mask) {
 /// Whether some lane of a comparison is true.
 template <class Mask>
 SUNDER_INLINE bool any(Mask mask) {
-  std::int32_t set = 0;
-  for (std::uint32_t i = 0; i < sizeof(Mask) / sizeof(std::int32_t); ++i) set |= mask[i];
-  return set != 0;
+  if constexpr (std::is_integral_v<Mask>) {
+    return mask != 0;  // of one lane
+  } else {
+    std::int32_t set = 0;
+    for (std::uint32_t i = 0; i < sizeof(Mask) / sizeof(std::int32_t); ++i) set |= mask[i];
+    return set != 0;
+  }
 }
 
 /// Chunks of eight that hold n items.

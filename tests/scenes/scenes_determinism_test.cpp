@@ -1,4 +1,4 @@
-// Every scene runs, and to the same bits on any number of threads.
+// Every scene runs, and to the same bits on any number of threads and lanes.
 #include <gtest/gtest.h>
 
 #include "engine/io/figures.h"
@@ -16,11 +16,12 @@ std::string state_hash(const std::string& arguments) {
   return std::get<std::string>(parse_figures(outcome.out, arguments).at("/state_hash"));
 }
 
-TEST_P(EveryScene, HasTheSameStateOnOneTwoAndFourThreads) {
+TEST_P(EveryScene, HasTheSameStateOnAnyThreadsAndLanes) {
   const std::string run = GetParam() + " --preset draft --frames 120 --threads ";
   const std::string one = state_hash(run + "1");
-  EXPECT_EQ(state_hash(run + "2"), one);
-  EXPECT_EQ(state_hash(run + "4"), one);
+  EXPECT_EQ(state_hash(run + "2 --set solver.lanes=1"), one);
+  EXPECT_EQ(state_hash(run + "4 --set solver.lanes=4"), one);
+  EXPECT_EQ(state_hash(run + "7 --set solver.lanes=8"), one);
 }
 
 std::vector<std::string> names() {

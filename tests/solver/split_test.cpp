@@ -98,10 +98,10 @@ double distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 /// Of the velocities after 1, 4, 16 and so on sweeps to those of very many coloured ones, over that
 /// of the first.
-std::array<double, 7> residuals(const std::vector<BodyDesc>& bodies, int max_colors) {
-  const std::vector<Vec3> truth = solved(bodies, 64, 20000);
-  std::array<double, 7> all;
-  for (int i = 0; i < 7; ++i)
+std::array<double, 8> residuals(const std::vector<BodyDesc>& bodies, int max_colors) {
+  const std::vector<Vec3> truth = solved(bodies, 64, 50000);
+  std::array<double, 8> all;
+  for (int i = 0; i < 8; ++i)
     all[static_cast<std::size_t>(i)] = distance(solved(bodies, max_colors, 1 << 2 * i), truth);
   const double first = all[0];
   for (double& residual : all) residual /= first;
@@ -110,12 +110,12 @@ std::array<double, 7> residuals(const std::vector<BodyDesc>& bodies, int max_col
 
 void expect_convergence(const char* name, const std::vector<BodyDesc>& bodies) {
   for (const int max_colors : kColors) {
-    const std::array<double, 7> curve = residuals(bodies, max_colors);
+    const std::array<double, 8> curve = residuals(bodies, max_colors);
     std::printf("%-8s K = %2d:", name, max_colors);
     for (const double residual : curve) std::printf("  %.1e", residual);
     std::printf("\n");
     for (std::size_t i = 1; i < curve.size(); ++i)
-      if (curve[i - 1] > 1e-3) EXPECT_LT(curve[i], curve[i - 1]) << max_colors << " " << i;
+      EXPECT_LT(curve[i], std::max(curve[i - 1], 1e-3)) << max_colors << " " << i;
     EXPECT_LT(curve.back(), 0.01) << max_colors;
   }
 }
@@ -129,11 +129,12 @@ TEST(Splitting, ComesToTheSolutionOfColouredSweepsInAStackAndAPyramid) {
   expect_convergence("pyramid", frozen(pyramid(6), 0));
 }
 
+// Splitting alone needs four times the substeps, and creeps: see docs/decisions.
 TEST(Splitting, LeavesStacksAndPyramidsStandingGivenSubsteps) {
   for (const int max_colors : kColors) {
     for (const bool tall : {true, false}) {
       RigidWorld world(with(max_colors));
-      const std::vector<BodyDesc> bodies = tall ? stack(10) : pyramid(8);
+      const std::vector<BodyDesc> bodies = tall ? stack(10) : pyramid(5);
       add(bodies, world);
       world.run(5, 1.0 / 120, max_colors == 0 ? 32 : 8);
       double moved = 0;
