@@ -1,7 +1,7 @@
 // How fast the solver comes to the solution of one step, by the number of colours: a falling pile,
 // a pyramid and a stack are frozen, and one step is solved by more and more sweeps. Printed is the
 // distance of the velocities to those of very many coloured sweeps, by kinetic energy, over the
-// distance at which no contact acts at all. See docs/decisions/020-mass-splitting.md.
+// distance at which no contact acts at all. See docs/decisions/022-mass-splitting-and-lanes.md.
 //
 //   convergence_bench [--csv]
 #include <cmath>

@@ -148,6 +148,19 @@ TEST(Splitting, LeavesStacksAndPyramidsStandingGivenSubsteps) {
   }
 }
 
+/// Enough contacts for threads to share, and bodies with more neighbours than eight colours do for.
+std::vector<BodyDesc> cubes_and_a_ball(int side) {
+  std::vector<BodyDesc> bodies = {W::ground()};
+  for (int i = 0; i < side * side * side; ++i) {
+    const Vec3 cell(i % side, i / side / side + 0.5, i / side % side);
+    bodies.push_back(W::box(Vec3(0.2, 0.2, 0.2), 0.2 * cell));
+  }
+  const Vec3 above(0.1 * side, 0.2 * side + 0.45, 0.1 * side);
+  bodies.push_back(W::with_friction(W::sphere(0.4, above, 3000), 0.5, 0.5));
+  bodies.back().velocity_W = Vec3(0, -10, 0);
+  return bodies;
+}
+
 /// More contacts than colours: a plate on 100 posts, which overflows whatever the colours.
 std::vector<BodyDesc> plate_on_posts() {
   std::vector<BodyDesc> bodies = {W::ground(), W::box(Vec3(10, 0.3, 10), Vec3(0, 1.15, 0))};
@@ -188,16 +201,18 @@ TEST(Lanes, AreTheSameBitsForTenSeconds) {
 }
 
 TEST(Lanes, AreTheSameBitsOnAnyNumberOfThreads) {
-  const std::vector<BodyDesc> bodies = rubble(700, 0.5);  // enough for threads to share
-  const std::uint64_t one = hash_of(bodies, 45, 64, 1, 1);
+  const std::vector<BodyDesc> bodies = cubes_and_a_ball(8);
+  constexpr int kSteps = 15;
+  const std::uint64_t one = hash_of(bodies, kSteps, 64, 1, 1);
   for (const int lanes : {1, 4, 8, 16})
     for (const int thread_count : {1, 2, 4, 7})
-      EXPECT_EQ(hash_of(bodies, 45, 64, lanes, thread_count), one) << lanes << " " << thread_count;
+      EXPECT_EQ(hash_of(bodies, kSteps, 64, lanes, thread_count), one)
+          << lanes << " " << thread_count;
   for (const int max_colors : {0, 8}) {
-    const std::uint64_t split = hash_of(bodies, 45, max_colors, 1, 1);
+    const std::uint64_t split = hash_of(bodies, kSteps, max_colors, 1, 1);
     EXPECT_NE(split, one);
     for (const auto& [lanes, thread_count] : {std::pair{4, 7}, {8, 2}, {16, 4}})
-      EXPECT_EQ(hash_of(bodies, 45, max_colors, lanes, thread_count), split) << lanes;
+      EXPECT_EQ(hash_of(bodies, kSteps, max_colors, lanes, thread_count), split) << lanes;
   }
 }
 
