@@ -157,7 +157,7 @@ TEST(Statistics, TakesQuantilesByNearestRank) {
 }
 
 TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
-  Statistics statistics({"house", "draft", 2, {1.0 / 60, 2}, {{"dust", "off"}}});
+  Statistics statistics({"house", "draft", 2, {1.0 / 60, 2}, {{"dust", "off"}}, {64, 1, 8}});
   auto frame = std::make_shared<Frame>(sample_frame());
   frame->report.mass_kg = 5;
   frame->report.stage_ms[static_cast<int>(Stage::kSolve)] = 2;
@@ -192,6 +192,7 @@ TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["frames"], 1);
+  EXPECT_EQ(json["solver"]["lanes"], 8);
   EXPECT_EQ(json["frame"]["p50_ms"], 2.0);
   EXPECT_EQ(json["fractures"]["pieces"], 16);
   EXPECT_NEAR(json["penetration_m"]["max"].get<double>(), 0.002, 1e-9);
