@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostInstances = 1 << 24;
 constexpr double kPlaceSteps_m = 8192;
 constexpr double kTurnSteps = 4096;
-constexpr double kSpeedSteps_m_s = 16;
+constexpr double kSpeedSteps_m_s = 2;  // no picture shows a speed
 
 // Columns of a body: position and rotation (gliding), velocities, flags, hash, key, centre of mass.
 constexpr std::size_t kBodyColumns = 23;
@@ -209,7 +209,7 @@ void read_report(ByteReader& in, Frame& frame) {
 }  // namespace
 
 std::int32_t short_hash(const FrameBody& body) {
-  return static_cast<std::int32_t>(hash_body(body) & 0xffff);
+  return static_cast<std::int32_t>(hash_body(body) & 0xff);
 }
 
 FrameCoder::FrameCoder()

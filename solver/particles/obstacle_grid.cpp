@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "engine/base/parallel.h"
 
@@ -11,8 +10,8 @@ namespace sunder::solver {
 namespace {
 
 constexpr float kFinest_m = 0.25f;  // cells of level 0; those of the next are twice as wide
-// Of a cell: shapes lie in all cells within this reach, so that what is no larger looks at one.
-constexpr float kReach = 0.25f;
+// Shapes lie in all cells within this reach, so that what is no larger looks at one a level.
+constexpr float kReach_m = 0.0625f;
 constexpr float kMostCells = 24;  // that a shape lies in
 constexpr double kRounding_m = 1e-4;
 constexpr int kLevels = 31;
@@ -25,7 +24,7 @@ float cells_per_m(int level) { return 1 / (kFinest_m * static_cast<float>(1 << l
 /// The finest level on which a box of that extent lies in few cells.
 int level_of(const Vec3f& extent) {
   for (int level = 0;; ++level) {
-    const Vec3f cells = (extent * cells_per_m(level)).array() + (1 + 2 * kReach);
+    const Vec3f cells = (extent.array() + 2 * kReach_m) * cells_per_m(level) + 1;
     if (level + 1 == kLevels || cells.prod() <= kMostCells) return level;
   }
 }
@@ -37,9 +36,23 @@ std::uint32_t hash_of(int level, const Eigen::Vector3i& cell) {
          static_cast<std::uint32_t>(level) * 2654435761u;
 }
 
-Eigen::Vector3i floor_of(const Vec3f& scaled) {
+/// The cell of level 0 that holds a point; those of coarser levels follow by shifting.
+Eigen::Vector3i cell_of(const Vec3f& point_W) {
   // Far beyond any scene, so that the cast is defined.
-  return scaled.array().floor().max(-1e9f).min(1e9f).cast<int>();
+  return (point_W / kFinest_m).array().floor().max(-1e9f).min(1e9f).cast<int>();
+}
+
+/// Calls visit(hash) for the cells of a level between two of level 0.
+template <class Visit>
+void for_cells(int level, const Eigen::Vector3i& first, const Eigen::Vector3i& last,
+               const Visit& visit) {
+  for (int z = first.z() >> level; z <= last.z() >> level; ++z) {
+    for (int y = first.y() >> level; y <= last.y() >> level; ++y) {
+      for (int x = first.x() >> level; x <= last.x() >> level; ++x) {
+        visit(hash_of(level, Eigen::Vector3i(x, y, z)));
+      }
+    }
+  }
 }
 
 bool overlap(const Vec3f& min, const Vec3f& max, const Vec3f& low, const Vec3f& high) {
@@ -147,21 +160,6 @@ bool ObstacleGrid::Placed::may_meet(const Way& way) const {
          (start.cwiseMax(end).array() >= -reach.array()).all();
 }
 
-/// Calls visit(bucket) for the cells of a level that a box touches.
-template <class Visit>
-void ObstacleGrid::for_cells(int level, const Vec3f& low, const Vec3f& high,
-                             const Visit& visit) const {
-  const float scale = cells_per_m(level);
-  const Eigen::Vector3i first = floor_of(scale * low), last = floor_of(scale * high);
-  for (int z = first.z(); z <= last.z(); ++z) {
-    for (int y = first.y(); y <= last.y(); ++y) {
-      for (int x = first.x(); x <= last.x(); ++x) {
-        visit(hash_of(level, Eigen::Vector3i(x, y, z)) & mask_);
-      }
-    }
-  }
-}
-
 void ObstacleGrid::sort_into_cells() {
   mask_ = 255;
   while (mask_ < 4 * shapes_.size()) mask_ = 2 * mask_ + 1;
@@ -169,16 +167,16 @@ void ObstacleGrid::sort_into_cells() {
   levels_ = 0;
   const auto each_cell = [&](const Placed& placed, const auto& visit) {
     const int level = level_of(placed.max - placed.min);
-    const Vec3f reach = Vec3f::Constant(kReach / cells_per_m(level));
     levels_ |= 1u << level;
-    for_cells(level, placed.min - reach, placed.max + reach, visit);
+    for_cells(level, cell_of(placed.min.array() - kReach_m), cell_of(placed.max.array() + kReach_m),
+              [&](std::uint32_t hash) { visit(hash & mask_); });
   };
   // Starts are kept one bucket behind while it is filled.
   for (const Placed& placed : shapes_) each_cell(placed, [&](std::uint32_t b) { ++first_[b + 2]; });
   for (std::size_t b = 2; b < first_.size(); ++b) first_[b] += first_[b - 1];
   entries_.resize(first_.back());
   for (std::uint32_t s = 0; s < shapes_.size(); ++s) {
-    const Entry entry{four(shapes_[s].min), four(shapes_[s].max), s};
+    const Entry entry{four(shapes_[s].min, std::bit_cast<float>(s)), four(shapes_[s].max)};
     each_cell(shapes_[s], [&](std::uint32_t b) { entries_[first_[b + 1]++] = entry; });
   }
 }
@@ -251,11 +249,9 @@ void ObstacleGrid::meet(const Placed& placed, const Way& way, std::optional<Touc
 
 /// Without a branch a lane: which of them is wrong cannot be foreseen.
 inline bool ObstacleGrid::reaches(const Entry& entry, Four low, Four high) {
-  using Halves = long long __attribute__((vector_size(16)));
   const auto lanes = (entry.min <= high) & (low <= entry.max);
-  Halves halves;
-  std::memcpy(&halves, &lanes, sizeof halves);
-  return (halves[0] & halves[1]) == -1;
+  const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(lanes);
+  return (halves[0] & (halves[1] | 0xffffffff00000000)) == ~std::uint64_t{0};
 }
 
 void ObstacleGrid::find(const Vec3f& low, const Vec3f& high, Near& near) const {
@@ -268,15 +264,14 @@ void ObstacleGrid::find(const Vec3f& low, const Vec3f& high, Near& near) const {
     return;
   }
   const Four low_4 = four(low), high_4 = four(high);
-  for (int level = 0; level < kLevels; ++level) {
-    if ((levels_ >> level & 1) == 0) continue;
-    const Vec3f reach = Vec3f::Constant(kReach / cells_per_m(level));
-    const Vec3f middle = 0.5f * (low + high);
-    const Vec3f first = (low + reach).cwiseMin(middle), last = (high - reach).cwiseMax(middle);
-    for_cells(level, first, last, [&](std::uint32_t bucket) {
+  const Vec3f middle = 0.5f * (low + high);
+  const Eigen::Vector3i first = cell_of((low.array() + kReach_m).min(middle.array()));
+  const Eigen::Vector3i last = cell_of((high.array() - kReach_m).max(middle.array()));
+  for (std::uint32_t left = levels_; left != 0; left &= left - 1) {
+    for_cells(std::countr_zero(left), first, last, [&](std::uint32_t hash) {
+      const std::uint32_t bucket = hash & mask_;
       for (std::uint32_t e = first_[bucket]; e < first_[bucket + 1]; ++e) {
-        const Entry& entry = entries_[e];
-        if (reaches(entry, low_4, high_4)) near.push_back(entry.placed);
+        if (reaches(entries_[e], low_4, high_4)) near.push_back(entries_[e].placed());
       }
     });
   }

@@ -1,6 +1,8 @@
 // A grid over the obstacles near some particles: what does a small sphere hit on its way?
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -55,21 +57,19 @@ class ObstacleGrid {
 
     bool may_meet(const Way& way) const;
   };
-  /// Four lanes at once; a point has 0 in the last.
   using Four = float __attribute__((vector_size(16)));
-  /// A place in the hash.
+  static Four four(const Vec3f& v, float last = 0) { return Four{v.x(), v.y(), v.z(), last}; }
+  /// A place in the hash: a box, and in the last lane of `min` the bits of an index in shapes_.
   struct Entry {
     Four min, max;
-    std::uint32_t placed = 0;  ///< Index in shapes_.
+
+    std::uint32_t placed() const { return std::bit_cast<std::array<std::uint32_t, 4>>(min)[3]; }
   };
-  static Four four(const Vec3f& v) { return Four{v.x(), v.y(), v.z(), 0}; }
   static inline bool reaches(const Entry& entry, Four low, Four high);
 
   void place(std::size_t begin, std::size_t end, Which which);
   Placed placed(std::uint32_t shape) const;
   void sort_into_cells();
-  template <class Visit>
-  void for_cells(int level, const Vec3f& low, const Vec3f& high, const Visit& visit) const;
   void meet(const Placed& placed, const Way& way, std::optional<Touch>& first) const;
 
   Obstacles obstacles_;
