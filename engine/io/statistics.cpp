@@ -56,6 +56,11 @@ struct Statistics::Series {
     for (const FrameReport& report : reports) sum += report.carried_over;
     return sum;
   }
+  std::uint32_t failed() const {
+    std::uint32_t sum = 0;
+    for (const FrameReport& report : reports) sum += report.failed;
+    return sum;
+  }
 };
 
 namespace {
@@ -109,6 +114,7 @@ Json frame_json(const FrameReport& report, double ms) {
   return {{"ms", ms},
           {"stages_ms", stages},
           {"counts", counts_json(report.counts)},
+          {"carried_over", report.carried_over},
           {"kinetic_J", report.kinetic_J},
           {"momentum_residual", report.momentum_residual},
           {"potential_J", report.potential_J}};
@@ -178,10 +184,13 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
                    {"busiest_2s_p95_ms", busiest_p95(frame_ms)}};
   json["counts"] = counts_json(s.last.counts);
   json["peak"] = counts_json(peak_of(s.reports));
-  json["fractures"] = {
-      {"events", s.fracture_ms.size()},         {"pieces", s.pieces},
-      {"p50_ms", quantile(s.fracture_ms, 0.5)}, {"p99_ms", quantile(s.fracture_ms, 0.99)},
-      {"max_ms", quantile(s.fracture_ms, 1)},   {"carried_over", s.carried_over()}};
+  json["fractures"] = {{"events", s.fracture_ms.size()},
+                       {"pieces", s.pieces},
+                       {"p50_ms", quantile(s.fracture_ms, 0.5)},
+                       {"p99_ms", quantile(s.fracture_ms, 0.99)},
+                       {"max_ms", quantile(s.fracture_ms, 1)},
+                       {"carried_over", s.carried_over()},
+                       {"failed", s.failed()}};
   const std::vector<double> depth = s.penetrations();
   json["penetration_m"] = {
       {"p50", quantile(depth, 0.5)}, {"p99", quantile(depth, 0.99)}, {"max", quantile(depth, 1)}};

@@ -333,4 +333,13 @@ void BreakProbe::finish(const Relaxed& without, double share) {
   }
 }
 
+void BreakProbe::pause() {
+  motions_.resize(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const ProbeBody& body = bodies_[b];
+    motions_[b] = {body.velocity_W, body.angular_velocity_W, way_[b].linear, way_[b].angular,
+                   body.inverse_mass > 0};
+  }
+}
+
 }  // namespace sunder

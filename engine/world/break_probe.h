@@ -77,7 +77,10 @@ class BreakProbe {
   /// the way. The answer is the indices of those that broke; none leaves the probe as it was.
   std::vector<std::uint32_t> release(std::span<const ProbeBreak> wanted);
 
-  /// After release(): per body.
+  /// The event has to wait: all stays as it is but for where bodies are by then. Ends the probe.
+  void pause();
+
+  /// After release() or pause(): per body.
   const std::vector<ProbeMotion>& motions() const { return motions_; }
   const std::vector<ProbeBody>& bodies() const { return bodies_; }
 

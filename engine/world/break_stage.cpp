@@ -80,18 +80,19 @@ void plan_all(World& world, std::span<Planned* const> all) {
   });
 }
 
-/// Whether the frame's budget allows for cutting by the pattern of the blow; what does not fit is
-/// decided first in the next frame.
-bool afford(World& world, const Blow& blow) {
-  const Actor& actor = *world.find(blow.key);
-  const Material& material = world.material(actor.compound.convexes[blow.convex]->material);
-  const auto cells = static_cast<std::uint32_t>(material.pattern.cell_count());
-  if (cells <= world.pieces_left) {
-    world.pieces_left -= cells;
-    return true;
+/// Whether the frame's budget allows for cutting by the patterns of the blows. A frame that has
+/// spent none yet can afford anything, or what costs more than a frame has would wait for ever.
+bool afford(World& world, std::span<const Planned> all) {
+  std::uint32_t cells = 0;
+  for (const Planned& planned : all) {
+    const Actor& actor = *world.find(planned.blow.key);
+    const ConvexPtr& convex = actor.compound.convexes[planned.blow.convex];
+    cells += static_cast<std::uint32_t>(world.material(convex->material).pattern.cell_count());
   }
-  world.waiting.push_back(blow);
-  return false;
+  const bool untouched = world.pieces_left == world.scene.limits.cells_a_frame;
+  if (cells > world.pieces_left && !untouched) return false;
+  world.pieces_left -= std::min(world.pieces_left, cells);
+  return true;
 }
 
 /// Breaks the actor of a blow that has paid for it.
@@ -100,6 +101,7 @@ void carry_out(World& world, Planned& planned) {
   const auto pieces = static_cast<std::uint32_t>(planned.plan.pieces.size());
   world.breaks.push_back({world.time_s(), blow.key, blow.point_W, planned.needed_J,
                           planned.plan.new_area_m2, planned.plan_ms, pieces});
+  world.report.failed += planned.plan.failed;
   replace_by_pieces(world, blow.key, planned.plan);
 }
 
@@ -113,13 +115,19 @@ bool worth(World& world, const Planned& planned) {
   return false;
 }
 
-/// What had to wait: the solve has stopped the blow meanwhile, so its energy is paid already.
-bool break_those_waiting(World& world) {
+/// Blows that come with an energy of their own: those of blasts.
+bool break_by_blasts(World& world) {
   std::vector<Planned> all;
   for (Blow& blow : std::exchange(world.waiting, {})) {
     const auto same = [&](const Planned& known) { return known.blow.key == blow.key; };
     if (!world.find(blow.key) || std::any_of(all.begin(), all.end(), same)) continue;
-    if (afford(world, blow)) all.emplace_back().blow = blow;
+    Planned planned;
+    planned.blow = blow;
+    if (afford(world, std::span(&planned, 1))) {
+      all.push_back(std::move(planned));
+    } else {
+      world.waiting.push_back(blow);
+    }
   }
   std::vector<Planned*> pointers;
   for (Planned& planned : all) pointers.push_back(&planned);
@@ -148,7 +156,7 @@ void add_blows(World& world, Trial& trial) {
     planned.blow.point_W = world.physics->state(actor.body).X_WB.position + load.arm_W;
     planned.blow.direction_W = load.direction_W;
     planned.blow.energy_J = load.work_J;
-    if (afford(world, planned.blow)) trial.planned.push_back(std::move(planned));
+    trial.planned.push_back(std::move(planned));
   }
 }
 
@@ -173,6 +181,23 @@ void take_over(World& world, const BreakProbe& probe) {
     state.angular_velocity_W = motion.angular_velocity_W;
     world.physics->set_state(actor.body, state);
   }
+}
+
+/// The bodies of a trial that is over the budget sit out this step, at the place of the hit: it is
+/// decided first in the next.
+void wait(World& world, Trial& trial, std::vector<Waiter>& waiters) {
+  trial.probe.pause();
+  take_over(world, trial.probe);
+  std::vector<BodyId> bodies;
+  for (const ProbeBody& body : trial.probe.bodies()) {
+    if (body.inverse_mass <= 0) continue;
+    const auto known = std::ranges::lower_bound(world.waiters, body.key, {}, &Waiter::key);
+    const bool waited = known != world.waiters.end() && known->key == body.key;
+    waiters.push_back({body.key, waited ? known->since_step : world.step});
+    bodies.push_back(world.find(body.key)->body);
+  }
+  world.physics->hold(bodies);
+  ++world.trials_waiting;
 }
 
 /// Whether another trial has broken a solid of this one.
@@ -200,10 +225,10 @@ bool settle(World& world, Trial& trial) {
   return true;
 }
 
-/// Follows all probes until each has broken something or come to the end of the step; true if
-/// another round is due. What another trial has broken meanwhile is hit again in that round, as
-/// what became of it.
-bool decide(World& world, std::vector<Trial>& trials) {
+/// Follows all probes until each has broken something or come to the end of the step, or has to
+/// wait (if it is not `in_time`, or too costly); true if another round is due. What another trial
+/// has broken meanwhile is hit again in that round, as what became of it.
+bool decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<Waiter>& waiters) {
   bool again = false;
   while (!trials.empty()) {
     for_chunks(trials.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -213,6 +238,15 @@ bool decide(World& world, std::vector<Trial>& trials) {
     again |= std::erase_if(trials, [&](const Trial& trial) { return is_stale(world, trial); }) > 0;
     std::vector<Planned*> planned;
     for (Trial& trial : trials) add_blows(world, trial);
+    std::vector<Trial> affordable;
+    for (Trial& trial : trials) {
+      if (trial.planned.empty() || (in_time && afford(world, trial.planned))) {
+        affordable.push_back(std::move(trial));
+      } else {
+        wait(world, trial, waiters);
+      }
+    }
+    trials = std::move(affordable);
     for (Trial& trial : trials) {
       for (Planned& one : trial.planned) planned.push_back(&one);
     }
@@ -235,13 +269,19 @@ bool decide(World& world, std::vector<Trial>& trials) {
 
 void break_stage(World& world) {
   const auto collide = [&] { world.physics->collide(world.horizon_s()); };
-  if (break_those_waiting(world)) collide();
-  for (int round = 0; round < kRounds; ++round) {
+  if (break_by_blasts(world)) collide();
+  world.trials_waiting = 0;
+  std::vector<Waiter> waiters;
+  for (int round = 0; round <= kRounds; ++round) {
     std::vector<Trial> trials;
-    for (BreakProbe& probe : find_clusters(world)) trials.push_back({std::move(probe), {}, {}});
-    if (!decide(world, trials)) return;
+    for (BreakProbe& probe : find_clusters(world, waiters)) {
+      trials.push_back({std::move(probe), {}, {}});
+    }
+    if (!decide(world, trials, round < kRounds, waiters)) break;
     collide();
   }
+  std::ranges::sort(waiters, {}, &Waiter::key);
+  world.waiters = std::move(waiters);
 }
 
 }  // namespace sunder

@@ -16,13 +16,19 @@ constexpr std::size_t kMostBodies = 32, kMostPassingOn = 12;
 struct Seed {
   std::uint32_t a = 0, b = 0;
   double energy_J = 0;
+  std::uint64_t since_step = 0;  ///< It waits since then.
 };
+
+std::uint64_t waits_since(const World& world, std::uint32_t key) {
+  const auto it = std::ranges::lower_bound(world.waiters, key, {}, &Waiter::key);
+  return it != world.waiters.end() && it->key == key ? it->since_step : world.step;
+}
 
 bool may_break(const World& world, const Actor* actor, double energy_J) {
   return actor && energy_J > actor->least_J && actor->born_step != world.step + 1;
 }
 
-/// Approaches with energy enough to break something in the world, hardest first.
+/// Approaches with energy enough to break something in the world, in the order of find_clusters().
 std::vector<Seed> find_seeds(World& world) {
   double least_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) least_J = std::min(least_J, actor.least_J);
@@ -34,10 +40,14 @@ std::vector<Seed> find_seeds(World& world) {
   }
   std::vector<Seed> seeds;
   for (const auto& [keys, energy] : energy_J) {
-    if (energy > least_J) seeds.push_back({keys.first, keys.second, energy});
+    if (energy <= least_J) continue;
+    const std::uint64_t since =
+        std::min(waits_since(world, keys.first), waits_since(world, keys.second));
+    seeds.push_back({keys.first, keys.second, energy, since});
   }
-  std::stable_sort(seeds.begin(), seeds.end(),
-                   [](const Seed& x, const Seed& y) { return x.energy_J > y.energy_J; });
+  std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& x, const Seed& y) {
+    return std::pair(x.since_step, -x.energy_J) < std::pair(y.since_step, -y.energy_J);
+  });
   return seeds;
 }
 
@@ -135,9 +145,10 @@ class Reach {
 
 }  // namespace
 
-std::vector<BreakProbe> find_clusters(World& world) {
+std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out) {
   std::vector<BreakProbe> clusters;
   std::set<std::uint32_t> taken;
+  for (const Waiter& waiter : left_out) taken.insert(waiter.key);
   for (const Seed& seed : find_seeds(world)) {
     Reach reach(world, taken);
     if (!reach.start(seed)) continue;

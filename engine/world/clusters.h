@@ -9,8 +9,9 @@
 
 namespace sunder {
 
-/// Clusters around the approaches of the last collide(); a body that can move is in one at most.
-/// Ordered by their hardest approach.
-std::vector<BreakProbe> find_clusters(World& world);
+/// Clusters, without the bodies `left_out`, around the approaches of the last collide(); a body
+/// that can move is in one at most. What has waited the longest comes first, then the hardest
+/// approach.
+std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out);
 
 }  // namespace sunder

@@ -145,6 +145,9 @@ class Physics {
   virtual void set_state(BodyId body, const BodyState& state) = 0;
   /// Changes a body's momentum by an impulse at a point and wakes it; static bodies ignore it.
   virtual void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) = 0;
+  /// Bodies that stand still in the next solve and go on as they were after it: nothing pushes
+  /// them, and others meet them as they meet what is asleep. A physics that cannot lets them move.
+  virtual void hold(std::span<const BodyId> /*bodies*/) {}
   /// Joins two bodies and wakes them. When a body is removed, its ends of joints hold nothing until
   /// attach() or cut().
   virtual JointId join(const JointDesc&) {

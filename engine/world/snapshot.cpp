@@ -75,7 +75,8 @@ std::shared_ptr<Frame> snapshot(World& world) {
     report.mass_kg += ball_mass_kg(world, world.scene.shots[i].ball);
   }
   report.penetrations_m = world.physics->penetrations();
-  report.carried_over = static_cast<std::uint32_t>(world.waiting.size()) + world.loads_waiting;
+  report.carried_over =
+      static_cast<std::uint32_t>(world.waiting.size()) + world.trials_waiting + world.loads_waiting;
   report.momentum_residual =
       world.momentum_moved_Ns > 0 ? world.momentum_error_Ns / world.momentum_moved_Ns : 0;
   world.momentum_error_Ns = world.momentum_moved_Ns = 0;

@@ -90,6 +90,12 @@ struct Hanging {
   double rope_m = 0;
 };
 
+/// A body that sits steps out until what it hits can be decided.
+struct Waiter {
+  std::uint32_t key = 0;
+  std::uint64_t since_step = 0;
+};
+
 struct World {
   Scene scene;
   std::unique_ptr<Physics> physics;
@@ -108,7 +114,9 @@ struct World {
   std::size_t next_shot = 0, next_blast = 0, next_removal = 0;
   std::vector<Burst> bursts;
   std::vector<Hanging> hanging;
-  std::vector<Blow> waiting;         ///< Over the frame's budget: decided first in the next frame.
+  std::vector<Blow> waiting;    ///< Of blasts, over the frame's budget: decided first in the next.
+  std::vector<Waiter> waiters;  ///< Ascending by key; as of the last step.
+  std::uint32_t trials_waiting = 0;  ///< Clusters that they are in.
   std::uint32_t pieces_left = 0;     ///< Of the frame's budget, in cells of patterns to cut by.
   std::uint64_t load_work_left = 0;  ///< Of the frame's budget, in visits of bonds.
   std::uint32_t loads_waiting = 0;   ///< Actors whose load is not judged yet.

@@ -18,6 +18,7 @@ class ScriptedPhysics final : public Physics {
     BodyDesc desc;
     BodyState state;
     bool alive = true;
+    bool held = false;  ///< For the next solve.
   };
   using Script = std::function<std::vector<Approach>(const ScriptedPhysics&, int collides)>;
 
@@ -69,8 +70,14 @@ class ScriptedPhysics final : public Physics {
     const Vec3 twist = (point_W - body.state.X_WB.position).cross(impulse_W);
     body.state.angular_velocity_W += q * (body.desc.inertia_B.inverse() * (q.conjugate() * twist));
   }
+  void hold(std::span<const BodyId> held) override {
+    for (const BodyId id : held) bodies[id.slot].held = true;
+  }
   SolveReport solve(double dt_s, int) override {
-    for (Body& body : bodies) body.state.X_WB.position += dt_s * body.state.velocity_W;
+    for (Body& body : bodies) {
+      if (!body.held) body.state.X_WB.position += dt_s * body.state.velocity_W;
+      body.held = false;
+    }
     return {};
   }
   BodyState state(BodyId id) const override { return bodies[id.slot].state; }

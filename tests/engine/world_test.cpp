@@ -162,22 +162,30 @@ TEST(BreakStage, BreaksOneBehindTheOtherInOneStep) {
 
 TEST(BreakStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   const Solid front{"front", two_boxes(Vec3::Zero(), false), {}};
-  Scene scene = scene_of({front, front}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(30, 0, 0))});
+  const Solid back{"back", two_boxes(Vec3(0, 0, -2), false), {}};
+  Scene scene = scene_of({front, back}, {ball_at(Vec3(-0.25, 0.5, 0.5), Vec3(30, 0, 0)),
+                                         ball_at(Vec3(-0.25, 0.5, -1.5), Vec3(20, 0, 0))});
   scene.limits.cells_a_frame = static_cast<std::uint32_t>(scene.materials[0].pattern.cells);
-  const auto script = [](const ScriptedPhysics& physics, int collides) {
+  const auto script = [](const ScriptedPhysics& physics, int) {
     std::vector<Approach> both = physics.approach(2, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0));
-    const auto second = physics.approach(2, 1, Vec3(0, 0.4, 0.5), Vec3(1, 0, 0));
-    if (collides == 0) both.insert(both.end(), second.begin(), second.end());
+    const auto second = physics.approach(3, 1, Vec3(0, 0.5, -1.5), Vec3(1, 0, 0));
+    both.insert(both.end(), second.begin(), second.end());
     return both;
   };
   ScriptedRun run(scene, script);
   run.simulation.next();
+  const double before = sum_of(*run.physics).kinetic;
   const FramePtr first = run.simulation.next();
-  EXPECT_EQ(first->breaks.size(), 1u);
+  ASSERT_EQ(first->breaks.size(), 1u);
+  EXPECT_EQ(first->breaks[0].body_key, 0u);  // the harder blow first
   EXPECT_EQ(first->report.carried_over, 1u);
+  const BodyState waiting = run.physics->find(3)->state;
+  EXPECT_EQ(waiting.velocity_W, Vec3(20, 0, 0));
+  EXPECT_EQ(waiting.X_WB.position, Vec3(-0.25, 0.5, -1.5));
   const FramePtr second = run.simulation.next();
   EXPECT_EQ(second->breaks.size(), 1u);
   EXPECT_EQ(second->report.carried_over, 0u);
+  EXPECT_NEAR(before - sum_of(*run.physics).kinetic, 400, 1e-6);
 }
 
 TEST(BreakStage, CountsABreakThatTheBodyLimitForbids) {

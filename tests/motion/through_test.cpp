@@ -58,6 +58,30 @@ TEST_P(AtAnyStep, ABallGoesThroughWallsAndLosesWhatTheyTake) {
   }
 }
 
+TEST_P(AtAnyStep, ABallThatHasToWaitForTheBudgetLosesNothingByIt) {
+  Scene scene = bare_scene(GetParam(), 9000, 2);
+  scene.limits.cells_a_frame = 12;  // one break a frame
+  for (int i = 0; i < 4; ++i) {
+    scene.solids.push_back(wall(0, Vec3(1, 0, 3 * i), 2, 0.05));
+    scene.balls.push_back(steel_ball(0.15, Vec3(0, 0.05, 3 * i), Vec3(25, 0, 0)));
+  }
+  Trial run(scene);
+  std::uint32_t most_waiting = 0;
+  while (run.frame->time_s < 0.3) {
+    run.step();
+    most_waiting = std::max(most_waiting, run.frame->report.carried_over);
+    EXPECT_LE(run.frame->breaks.size(), 1u);
+  }
+  EXPECT_EQ(most_waiting, 3u);
+  const double kg = ball_kg(scene.balls[0]);
+  double left_J = 0;
+  for (std::uint64_t key = 4; key < 8; ++key) {
+    left_J += kinetic_J(kg, run.body(key).velocity_W.norm());
+    EXPECT_GT(run.body(key).X_WB.position.x(), 1.5);
+  }
+  EXPECT_NEAR(4 * kinetic_J(kg, 25) - left_J, run.broken_J, 0.03 * 4 * kinetic_J(kg, 25));
+}
+
 TEST_P(AtAnyStep, ABulletBreaksTwoPanesInOneStepAndLosesExactlyTheEnergyBooked) {
   const Ball bullet = steel_ball(0.01, Vec3::Zero(), Vec3(200, 0, 0));
   Scene scene = bare_scene(GetParam(), 3000, 0.001);

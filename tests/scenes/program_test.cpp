@@ -96,6 +96,7 @@ TEST(Program, SimulateGivesItsFigures) {
                           "/fractures/p99_ms",
                           "/fractures/max_ms",
                           "/fractures/carried_over",
+                          "/fractures/failed",
                           "/penetration_m/p50",
                           "/penetration_m/p99",
                           "/penetration_m/max",
