@@ -6,6 +6,7 @@
 // area, and the impulse the strength. Exactly that energy is taken from the motion; the pieces
 // inherit the velocity field of the whole.
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "engine/base/hash.h"
@@ -35,8 +36,9 @@ struct Planned {
 /// A probe under way.
 struct Trial {
   BreakProbe probe;
-  std::vector<ProbeLoad> loads;
-  std::vector<Planned> planned;
+  bool asked = false;  ///< What it has to bear is known, but not decided.
+  std::vector<ProbeLoad> loads = {};
+  std::vector<Planned> planned = {};
 };
 
 /// Energy that the new crack surface takes; each crack has two sides.
@@ -225,6 +227,24 @@ bool settle(World& world, Trial& trial) {
   return true;
 }
 
+/// Takes out the trials that hit a solid that stands where an earlier one hits it, too: whether it
+/// is still there is only known when that one is decided.
+std::vector<Trial> leave_for_later(World& world, std::vector<Trial>& trials) {
+  std::set<std::uint32_t> claimed;
+  std::vector<Trial> now, later;
+  for (Trial& trial : trials) {
+    std::set<std::uint32_t> hit;
+    for (const Planned& planned : trial.planned) {
+      if (world.find(planned.blow.key)->is_static) hit.insert(planned.blow.key);
+    }
+    const bool taken = std::ranges::any_of(hit, [&](auto key) { return claimed.contains(key); });
+    if (!taken) claimed.insert(hit.begin(), hit.end());
+    (taken ? later : now).push_back(std::move(trial));
+  }
+  trials = std::move(now);
+  return later;
+}
+
 /// Follows all probes until each has broken something or come to the end of the step, or has to
 /// wait (if it is not `in_time`, or too costly); true if another round is due. What another trial
 /// has broken meanwhile is hit again in that round, as what became of it.
@@ -232,12 +252,14 @@ bool decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<
   bool again = false;
   while (!trials.empty()) {
     for_chunks(trials.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-      for (std::size_t i = begin; i < end; ++i) trials[i].loads = trials[i].probe.next();
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!std::exchange(trials[i].asked, true)) trials[i].loads = trials[i].probe.next();
+      }
     });
     std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
     again |= std::erase_if(trials, [&](const Trial& trial) { return is_stale(world, trial); }) > 0;
-    std::vector<Planned*> planned;
     for (Trial& trial : trials) add_blows(world, trial);
+    std::vector<Trial> next = leave_for_later(world, trials);
     std::vector<Trial> affordable;
     for (Trial& trial : trials) {
       if (trial.planned.empty() || (in_time && afford(world, trial.planned))) {
@@ -247,20 +269,21 @@ bool decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<
       }
     }
     trials = std::move(affordable);
+    std::vector<Planned*> planned;
     for (Trial& trial : trials) {
       for (Planned& one : trial.planned) planned.push_back(&one);
     }
     plan_all(world, planned);
-    std::vector<Trial> held;
     for (Trial& trial : trials) {
       if (is_stale(world, trial) || settle(world, trial)) {
         again = true;
         continue;
       }
       trial.probe.hold();
-      held.push_back(std::move(trial));
+      trial.asked = false;
+      next.push_back(std::move(trial));
     }
-    trials = std::move(held);
+    trials = std::move(next);
   }
   return again;
 }
@@ -275,7 +298,7 @@ void break_stage(World& world) {
   for (int round = 0; round <= kRounds; ++round) {
     std::vector<Trial> trials;
     for (BreakProbe& probe : find_clusters(world, waiters)) {
-      trials.push_back({std::move(probe), {}, {}});
+      trials.push_back({std::move(probe)});
     }
     if (!decide(world, trials, round < kRounds, waiters)) break;
     collide();

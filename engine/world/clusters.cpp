@@ -24,8 +24,10 @@ std::uint64_t waits_since(const World& world, std::uint32_t key) {
   return it != world.waiters.end() && it->key == key ? it->since_step : world.step;
 }
 
+/// Pieces that came off in this step do not break again in it; what stands may be hit by others.
 bool may_break(const World& world, const Actor* actor, double energy_J) {
-  return actor && energy_J > actor->least_J && actor->born_step != world.step + 1;
+  if (!actor || energy_J <= actor->least_J) return false;
+  return actor->is_static || actor->born_step != world.step + 1;
 }
 
 /// Approaches with energy enough to break something in the world, in the order of find_clusters().

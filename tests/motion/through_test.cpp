@@ -58,6 +58,26 @@ TEST_P(AtAnyStep, ABallGoesThroughWallsAndLosesWhatTheyTake) {
   }
 }
 
+TEST_P(AtAnyStep, BallsThatHitOneWallAtOnceEachLoseWhatTheyBreak) {
+  Scene scene = bare_scene(GetParam(), 9000, 2);
+  scene.solids = {wall(0, Vec3(1, 0, 0), 8, 0.05)};
+  for (int i = 0; i < 10; ++i) {
+    const Vec3 from(0, 3 * (i % 2) - 1.5, 1.4 * (i / 2) - 2.8);
+    scene.balls.push_back(steel_ball(0.15, from, Vec3(25, 0, 0)));
+  }
+  Trial run(scene);
+  while (run.frame->time_s < 0.3) run.step();
+  EXPECT_GE(run.breaks.size(), 10u);
+  EXPECT_EQ(run.frame->report.carried_over, 0u);
+  const double kg = ball_kg(scene.balls[0]);
+  double left_J = 0;
+  for (std::uint64_t key = 1; key <= 10; ++key) {
+    left_J += kinetic_J(kg, run.body(key).velocity_W.norm());
+    EXPECT_GT(run.body(key).X_WB.position.x(), 1.5) << key;
+  }
+  EXPECT_NEAR(10 * kinetic_J(kg, 25) - left_J, run.broken_J, 0.03 * 10 * kinetic_J(kg, 25));
+}
+
 TEST_P(AtAnyStep, ABallThatHasToWaitForTheBudgetLosesNothingByIt) {
   Scene scene = bare_scene(GetParam(), 9000, 2);
   scene.limits.cells_a_frame = 12;  // one break a frame

@@ -1,0 +1,107 @@
+// Physics that moves bodies as another does, and keeps the books of what each call changed.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/world/physics.h"
+
+namespace sunder::tests {
+
+/// What moves, summed up; spin is about the origin of W.
+struct Motions {
+  double mass_kg = 0, kinetic_J = 0;
+  Vec3 momentum = Vec3::Zero(), spin = Vec3::Zero();
+};
+
+class SpyPhysics final : public Physics {
+ public:
+  /// Of one step's breaks: before the first, and when all are done.
+  struct Books {
+    Motions before, after;
+  };
+  /// Of one body that gave way to others.
+  using Replacement = Books;
+
+  explicit SpyPhysics(std::unique_ptr<Physics> physics) : physics_(std::move(physics)) {}
+
+  std::vector<BodyId> replace(std::span<const BodyId> remove,
+                              std::span<const BodyDesc> add) override {
+    Replacement replacement;
+    for (const BodyId id : remove) this->add(id, replacement.before);
+    const std::vector<BodyId> ids = physics_->replace(remove, add);
+    for (const BodyId id : remove) bodies_.erase(id.slot);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      if (!add[i].is_static) bodies_[ids[i].slot] = {ids[i], add[i].mass_kg, add[i].inertia_B};
+      this->add(ids[i], replacement.after);
+    }
+    if (!remove.empty()) replacements.push_back(replacement);
+    return ids;
+  }
+  void edit(const BodyEdit& edit) override { physics_->edit(edit); }
+  void collide(double dt_s) override {
+    if (!std::exchange(in_step_, true)) books.before = sum();
+    physics_->collide(dt_s);
+  }
+  std::vector<Approach> approaches() override { return physics_->approaches(); }
+  std::vector<Touch> touches(std::span<const BodyId> bodies) override {
+    return physics_->touches(bodies);
+  }
+  void set_state(BodyId body, const BodyState& state) override { physics_->set_state(body, state); }
+  void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override {
+    note_end_of_breaks();
+    physics_->apply_impulse(body, impulse_W, point_W);
+  }
+  void hold(std::span<const BodyId> bodies) override { physics_->hold(bodies); }
+  SolveReport solve(double dt_s, int substeps) override {
+    note_end_of_breaks();
+    return physics_->solve(dt_s, substeps);
+  }
+  BodyState state(BodyId body) const override { return physics_->state(body); }
+  std::vector<ContactLoad> contact_loads() const override { return physics_->contact_loads(); }
+  std::vector<float> penetrations() const override { return physics_->penetrations(); }
+  std::vector<std::pair<const char*, double>> take_timings_ms() override {
+    return physics_->take_timings_ms();
+  }
+
+  Motions sum() const {
+    Motions all;
+    for (const auto& [slot, body] : bodies_) add(body.id, all);
+    return all;
+  }
+
+  Books books;  ///< Of the last step.
+  std::vector<Replacement> replacements;
+
+ private:
+  struct Body {
+    BodyId id;
+    double mass_kg = 0;
+    Mat3 inertia_B = Mat3::Zero();
+  };
+
+  void note_end_of_breaks() {
+    if (std::exchange(in_step_, false)) books.after = sum();
+  }
+  void add(BodyId id, Motions& all) const {
+    const auto it = bodies_.find(id.slot);
+    if (it == bodies_.end()) return;
+    const Body& body = it->second;
+    const BodyState s = physics_->state(id);
+    const Vec3 w_B = s.X_WB.rotation.conjugate() * s.angular_velocity_W;
+    const Vec3 spin_B = body.inertia_B * w_B, p = body.mass_kg * s.velocity_W;
+    all.mass_kg += body.mass_kg;
+    all.kinetic_J += 0.5 * p.dot(s.velocity_W) + 0.5 * w_B.dot(spin_B);
+    all.momentum += p;
+    all.spin += s.X_WB.position.cross(p) + s.X_WB.rotation * spin_B;
+  }
+
+  std::unique_ptr<Physics> physics_;
+  std::map<std::uint32_t, Body> bodies_;  ///< By slot; those that move.
+  bool in_step_ = false;
+};
+
+}  // namespace sunder::tests
