@@ -14,6 +14,7 @@
 #include "solver/rigid/contact_solver.h"
 #include "solver/rigid/contacts.h"
 #include "solver/rigid/crowd.h"
+#include "solver/rigid/held.h"
 #include "solver/rigid/joint.h"
 #include "solver/rigid/narrow_phase.h"
 #include "solver/rigid/sleep.h"
@@ -52,19 +53,11 @@ class RigidPhysics final : public Physics {
   std::vector<std::pair<const char*, double>> take_timings_ms() override;
 
  private:
-  /// A body that sits the next solve out, and how it will go on.
-  struct Held {
-    std::uint32_t body = 0;
-    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
-  };
-
   void remove_bodies(std::span<const BodyId> ids);
   void remove_shapes(std::span<const std::uint32_t> shapes);
   void update_contacts(double dt_s);
   void find_reaches(double dt_s);
   Vec3 freeze_broken();
-  void stop_held();
-  void release_held();
   void look_again(JointId joint);
 
   RigidOptions options_;
@@ -77,7 +70,7 @@ class RigidPhysics final : public Physics {
   Sleep sleep_;
   ContactSolver contact_solver_;
   ContactsOfBodies contacts_of_bodies_;
-  std::vector<Held> held_;
+  Held held_;
   double dt_s_ = 0;             ///< Of the last collide.
   std::uint32_t frozen_ = 0;    ///< Since the last solve began.
   std::vector<float> reach_m_;  ///< How far a body may reach within the step.
@@ -284,28 +277,8 @@ void RigidPhysics::cut(JointId id) { joints_.cut(id, bodies_); }
 void RigidPhysics::hold(std::span<const BodyId> bodies) {
   for (const BodyId id : bodies) {
     SUNDER_CHECK(bodies_.holds(id));
-    if (bodies_.awake(id.slot)) held_.push_back({id.slot});
+    if (bodies_.awake(id.slot)) held_.add(id.slot);
   }
-}
-
-/// Those held are asleep for the length of a solve.
-void RigidPhysics::stop_held() {
-  std::erase_if(held_, [&](const Held& held) { return !bodies_.awake(held.body); });
-  for (Held& held : held_) {
-    held.velocity = std::exchange(bodies_.velocity[held.body], Vec3::Zero());
-    held.angular_velocity = std::exchange(bodies_.angular_velocity[held.body], Vec3::Zero());
-    bodies_.motion[held.body] = Motion::kAsleep;
-  }
-}
-
-void RigidPhysics::release_held() {
-  for (const Held& held : held_) {
-    bodies_.motion[held.body] = Motion::kAwake;
-    bodies_.velocity[held.body] = held.velocity;
-    bodies_.angular_velocity[held.body] = held.angular_velocity;
-    bodies_.changed[held.body] = 1;
-  }
-  held_.clear();
 }
 
 SolveReport RigidPhysics::solve(double dt_s, int substeps) {
@@ -314,7 +287,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   SolveReport report;
   report.external_impulse_Ns = freeze_broken();
   joints_.wake(bodies_);
-  stop_held();
+  held_.stop(bodies_);
   double awake_mass = 0;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     if (!bodies_.awake(body)) continue;
@@ -332,7 +305,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     report.external_impulse_Ns +=
         sleep_.put_to_sleep(options_.gravity_W, dt_s, h_s, joints_, bodies_, contacts_);
   }
-  release_held();
+  held_.release(bodies_);
   timings_ms_[3].second += watch.lap_ms();
   contacts_of_bodies_.clear();
   report.contacts = solved.manifolds;
