@@ -78,6 +78,7 @@ void Bodies::resize(std::uint32_t count) {
   slow_s.resize(count);
   rest_position.resize(count);
   rest_rotation.resize(count);
+  is_new.resize(count);
   changed.resize(count);
   bears_load.resize(count);
   group.resize(count);
@@ -115,6 +116,7 @@ std::uint32_t Bodies::add(const BodyDesc& desc) {
   slow_s[body] = 0;
   rest_position[body] = position[body];
   rest_rotation[body] = rotation[body];
+  is_new[body] = 1;
   changed[body] = 1;
   bears_load[body] = desc.bears_load;
   group[body] = desc.group;

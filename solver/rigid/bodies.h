@@ -44,6 +44,7 @@ struct Bodies {
   std::vector<float> slow_s;               ///< Time it has been slow and near its rest pose.
   std::vector<Vec3> rest_position;
   std::vector<Quat> rest_rotation;
+  std::vector<std::uint8_t> is_new;   ///< Not solved yet.
   std::vector<std::uint8_t> changed;  ///< Moved, pushed or new since the last collide.
   std::vector<std::uint8_t> bears_load;
   std::vector<std::uint32_t> group;

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 
+#include "solver/rigid/softness.h"
 #include "solver/rigid/wide.h"
 
 namespace sunder::solver {
@@ -80,21 +81,6 @@ struct alignas(64) ConstraintBlock {
   WideOf<lanes> outside_sign;  ///< +1: a is immovable, −1: b is.
   std::array<ReboundLanes<lanes>, 4> rebound;
   SplitLanes<lanes> parts;
-};
-
-/// A spring and damper in the form of a soft constraint (Catto 2011, "Soft Constraints").
-struct Softness {
-  float rate = 0;  ///< Of correction, 1/s.
-  float mass_scale = 1;
-  float impulse_scale = 0;
-};
-
-/// How soft contacts are in a substep.
-struct SoftStep {
-  Softness press[4];    ///< Along the normal, by the number of points less one.
-  Softness slide[4];    ///< Of friction that sticks.
-  float inverse_h = 0;  ///< 1/s.
-  float push_m_s = 0;   ///< Fastest correction.
 };
 
 }  // namespace sunder::solver

@@ -36,6 +36,9 @@ class ContactSolver {
   ContactSolveReport solve(double dt_s, int substeps, const Vec3& gravity_W, Bodies& bodies,
                            Contacts& contacts, Joints& joints);
 
+  /// Substep of the impulses that manifolds hold; 0: none solved yet.
+  double last_h_s() const { return last_h_s_; }
+
  private:
   void collect_blocks(const Bodies& bodies, const Contacts& contacts);
   void split_bodies(const Bodies& bodies, const Contacts& contacts);

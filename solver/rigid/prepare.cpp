@@ -78,7 +78,7 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
     const ManifoldPoint& p = m.points[i];
     set_lane(g.arm_a[i], lane, p.arm_A);
     set_lane(g.arm_b[i], lane, p.arm_B);
-    c.point[i].separation[lane] = std::max(p.separation_m, -most_overlap);
+    c.point[i].separation[lane] = std::max(p.separation_m - p.rest_m, -most_overlap);
     c.point[i].impulse[lane] = step.impulse_scale * p.impulse_Ns;
   }
 }
@@ -117,7 +117,7 @@ void store_block(const ContactStep& step, const ConstraintBlock<lanes>& c) {
     float normal = 0;
     for (std::size_t i = 0; i < m.count; ++i) {
       m.points[i].impulse_Ns = c.point[i].impulse[lane];
-      m.points[i].separation_m = separation[i][lane];
+      m.points[i].separation_m = separation[i][lane] + m.points[i].rest_m;
       normal += m.points[i].impulse_Ns;
     }
     const float s1 = c.slide_impulse_1[lane], s2 = c.slide_impulse_2[lane];

@@ -17,6 +17,7 @@
 #include "solver/rigid/held.h"
 #include "solver/rigid/joint.h"
 #include "solver/rigid/narrow_phase.h"
+#include "solver/rigid/seeding.h"
 #include "solver/rigid/sleep.h"
 
 namespace sunder::solver {
@@ -69,6 +70,7 @@ class RigidPhysics final : public Physics {
   Crowd crowd_;
   Sleep sleep_;
   ContactSolver contact_solver_;
+  Seeding seeding_;
   ContactsOfBodies contacts_of_bodies_;
   Held held_;
   double dt_s_ = 0;             ///< Of the last collide.
@@ -264,6 +266,9 @@ void RigidPhysics::look_again(JointId id) {
 JointId RigidPhysics::join(const JointDesc& joint) {
   const JointId id = joints_.add(joint, bodies_);
   look_again(id);
+  // Seeding knows of contacts only: it would let them bear what hangs in joints.
+  for (const BodyId end : {joint.a, joint.b})
+    if (bodies_.holds(end)) bodies_.is_new[end.slot] = 0;
   return id;
 }
 
@@ -294,6 +299,9 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     awake_mass += bodies_.mass_kg[body];
     bodies_.changed[body] = 1;
   }
+  seeding_.seed(options_.gravity_W, dt_s, substeps, contact_solver_.last_h_s(), options_.seeding,
+                bodies_, contacts_);
+  std::fill(bodies_.is_new.begin(), bodies_.is_new.end(), std::uint8_t{0});
   const ContactSolveReport solved =
       contact_solver_.solve(dt_s, substeps, options_.gravity_W, bodies_, contacts_, joints_);
   report.external_impulse_Ns += solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;

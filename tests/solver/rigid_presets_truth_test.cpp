@@ -73,7 +73,7 @@ TEST(RigidPresets, ABlockTopplesOnASlopeWhoseTangentIsWidthByHeight) {
                                        [&](double slope) { return topples(slope, p); });
         return (found - truth) * 180 / kPi;
       });
-  EXPECT_LT(std::abs(error_deg), 0.2);
+  EXPECT_LT(std::abs(error_deg), 0.02);
 }
 
 TEST(RigidPresets, ASlidingSphereRollsWithFiveSeventhsOfItsSpeed) {
@@ -143,7 +143,75 @@ TEST(RigidPresets, TallTowersStand) {
     }
     return stands;
   });
-  EXPECT_GE(tallest, 40);
+  EXPECT_EQ(tallest, 100);
+}
+
+/// How long 100 cubes of 0.1 m stand, up to `most_s`.
+double thin_tower_stands_s(const RigidOptions& options, double most_s, const Preset& preset) {
+  RigidWorld world(options);
+  world.add(W::ground());
+  BodyId top;
+  for (int i = 0; i < 100; ++i)
+    top = world.add(W::box(Vec3(0.1, 0.1, 0.1), Vec3(0, 0.1 * i + 0.05, 0)));
+  double time_s = 0;
+  for (; time_s < most_s && world.state(top).X_WB.position.y() > 9.85; time_s += preset.dt_s)
+    world.step(preset.dt_s, preset.substeps);
+  return time_s;
+}
+
+TEST(RigidPresets, AThinTowerOfAHundredStands) {
+  const double time_s = at_each_preset("tower of 100 x 0.1 m stands, s (mark 120)", [](auto& p) {
+    return thin_tower_stands_s(RigidOptions{}, 120, p);
+  });
+  EXPECT_GE(time_s, 120);
+  // Contacts this soft buckle under such a column: see docs/decisions/019.
+  at_each_preset("the same, never asleep, s (mark 20: missed)",
+                 [](auto& p) { return thin_tower_stands_s(awake(), 20, p); });
+}
+
+TEST(RigidPresets, AStackWhoseWeightsGrowAThousandfoldStands) {
+  const double top =
+      at_each_preset("stack of 10, weights up to 1000, height (mark 1)", [](auto& p) {
+        RigidWorld world(awake());
+        world.add(W::ground());
+        BodyId last;
+        double density = 1000;
+        for (int i = 0; i < 10; ++i) {
+          last = world.add(W::box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0), density));
+          density *= 2.154434690031884;  // 1000 to the ninth part
+        }
+        world.run(20, p.dt_s, p.substeps);
+        return world.state(last).X_WB.position.y() / 9.5;
+      });
+  EXPECT_NEAR(top, 1, 0.01);
+}
+
+/// Twenty rows of bricks, every other one shifted by half a brick, with half bricks at its ends.
+BodyId add_wall(RigidWorld& world) {
+  const Vec3 whole(0.4, 0.2, 0.2), half(0.2, 0.2, 0.2);
+  BodyId middle;
+  for (int row = 0; row < 20; ++row) {
+    const double y = 0.2 * row + 0.1, shift = row % 2 ? 0.2 : 0;
+    for (int i = 0; i < 50 - row % 2; ++i) {
+      const BodyId brick = world.add(W::box(whole, Vec3(0.4 * i + 0.2 + shift, y, 0), 2000));
+      if (i == 24) middle = brick;
+    }
+    if (row % 2 == 0) continue;
+    world.add(W::box(half, Vec3(0.1, y, 0), 2000));
+    world.add(W::box(half, Vec3(19.9, y, 0), 2000));
+  }
+  return middle;
+}
+
+TEST(RigidPresets, AWallOfAThousandBricksDoesNotSink) {
+  const double sink_mm = at_each_preset("wall of 1,010 bricks, sinks in mm (mark 2)", [](auto& p) {
+    RigidWorld world(awake());
+    world.add(W::ground());
+    const BodyId top = add_wall(world);
+    world.run(p.substeps == 8 ? 10 : 1, p.dt_s, p.substeps);
+    return 1e3 * (3.9 - world.state(top).X_WB.position.y());
+  });
+  EXPECT_LT(std::abs(sink_mm), 2);
 }
 
 /// Eight blocks, each beyond the next by `factor` times what just balances.
@@ -168,7 +236,7 @@ TEST(RigidPresets, AnOverhangOfEightFallsBeyondTheHarmonicSum) {
       at_each_preset("overhang of 8, of the harmonic sum (mark .995 to 1.005)", [](auto& p) {
         return threshold(0.9, 1.05, 8, [&](double f) { return overhang_falls(f, p); });
       });
-  EXPECT_GT(factor, 0.96);
+  EXPECT_GT(factor, 0.995);
   EXPECT_LT(factor, 1.005);
 }
 
@@ -195,15 +263,14 @@ bool arch_stands(int count, double slim, const Preset& preset) {
 }
 
 TEST(RigidPresets, AnArchStandsIfItHoldsALineOfThrust) {
-  double error = 0;
   for (const auto& [count, truth] : {std::pair{7, 0.09625}, {11, 0.10491}, {21, 0.10679}}) {
     char what[64];
     std::snprintf(what, sizeof what, "arch of %d, error of least thickness (mark .015)", count);
-    error = at_each_preset(what, [&, n = count, t = truth](auto& p) {
+    const double error = at_each_preset(what, [&, n = count, t = truth](auto& p) {
       return threshold(0.08, 0.16, 7, [&](double slim) { return arch_stands(n, slim, p); }) / t - 1;
     });
+    EXPECT_LT(std::abs(error), 0.015);
   }
-  EXPECT_LT(std::abs(error), 0.2);
 }
 
 TEST(RigidPresets, TheFloorBearsTheWeightUnderAHeavyTop) {
@@ -223,9 +290,7 @@ TEST(RigidPresets, TheFloorBearsTheWeightUnderAHeavyTop) {
           const bool stands = world.state(boxes.back()).X_WB.position.y() > 9;
           return stands ? support_Ns / (mass_kg * kG) - 1 : 1.0;
         });
-    if (factor < 1000) {
-      EXPECT_LT(std::abs(error), 0.01);
-    }
+    EXPECT_LT(std::abs(error), 0.01);
   }
 }
 

@@ -1,6 +1,7 @@
 // Bodies for solver tests, made in one line each, and the books of momentum and energy.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -80,6 +81,18 @@ class RigidWorld {
     for (std::size_t i = 0; i < ids_.size(); ++i)
       if (ids_[i] == id) masses_[i] = -1;
   }
+  /// All in one step, as when solids break.
+  std::vector<BodyId> replace(const std::vector<BodyId>& gone, const std::vector<BodyDesc>& come) {
+    for (std::size_t i = 0; i < ids_.size(); ++i)
+      if (std::find(gone.begin(), gone.end(), ids_[i]) != gone.end()) masses_[i] = -1;
+    const std::vector<BodyId> ids = physics_->replace(gone, come);
+    for (std::size_t i = 0; i < come.size(); ++i) {
+      ids_.push_back(ids[i]);
+      masses_.push_back(come[i].is_static ? 0 : come[i].mass_kg);
+      inertias_.push_back(come[i].inertia_B);
+    }
+    return ids;
+  }
   SolveReport step(double dt_s, int substeps) {
     physics_->collide(dt_s);
     return physics_->solve(dt_s, substeps);
@@ -116,6 +129,12 @@ class RigidWorld {
       const Vec3 w_B = s.X_WB.rotation.conjugate() * s.angular_velocity_W;
       sum += 0.5 * m * s.velocity_W.squaredNorm() + 0.5 * w_B.dot(inertia_B * w_B);
     });
+    return sum;
+  }
+  double potential_energy(double g) const {
+    double sum = 0;
+    for_dynamic(
+        [&](const BodyState& s, double m, const Mat3&) { sum += m * g * s.X_WB.position.y(); });
     return sum;
   }
   /// Of every bit of every pose and velocity.

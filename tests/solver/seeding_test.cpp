@@ -1,0 +1,136 @@
+// Contacts that come into being under load: breaks at rest, and the start of a scene.
+#include <algorithm>
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "tests/solver/rigid_world.h"
+
+namespace sunder::solver {
+namespace {
+
+using W = RigidWorld;
+constexpr double kG = 9.81;
+constexpr int kBricks = 10;
+
+RigidOptions awake(double seeding = 1) {
+  RigidOptions options;
+  options.sleeping = false;
+  options.seeding = seeding;
+  return options;
+}
+
+/// A tower that was dropped by a hair's breadth, so that it knows its loads from sinking.
+std::vector<BodyId> add_tower(RigidWorld& world) {
+  world.add(W::ground());
+  std::vector<BodyId> bricks;
+  for (int i = 0; i < kBricks; ++i)
+    bricks.push_back(world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.501 + 1.001 * i, 0))));
+  return bricks;
+}
+
+/// Every brick becomes eight, each where it is, all in one step.
+void break_all(const std::vector<BodyId>& bricks, RigidWorld& world) {
+  std::vector<BodyDesc> pieces;
+  std::uint32_t group = 0;
+  for (const BodyId brick : bricks) {
+    const BodyState parent = world.state(brick);
+    ++group;
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 corner(i % 2 - 0.5, i / 2 % 2 - 0.5, i / 4 - 0.5);
+      const Vec3 arm = parent.X_WB.rotation * Vec3(0.5 * corner);
+      BodyDesc piece = W::box(Vec3(0.5, 0.5, 0.5), parent.X_WB.position + arm);
+      piece.X_WB.rotation = parent.X_WB.rotation;
+      piece.velocity_W = parent.velocity_W + parent.angular_velocity_W.cross(arm);
+      piece.angular_velocity_W = parent.angular_velocity_W;
+      piece.group = group;
+      pieces.push_back(piece);
+    }
+  }
+  world.replace(bricks, pieces);
+}
+
+struct Aftermath {
+  double peak_kinetic_J = 0;
+  double most_gain = -1e30;  ///< Of kinetic and potential energy, over the potential energy.
+};
+
+/// The second after a tower at rest has broken.
+Aftermath break_at_rest(int substeps, double seeding) {
+  RigidWorld world(awake(seeding));
+  const std::vector<BodyId> bricks = add_tower(world);
+  world.run(2, 1.0 / 60, substeps);
+  const double before_J = world.kinetic_energy() + world.potential_energy(kG);
+  break_all(bricks, world);
+  Aftermath after;
+  for (int i = 0; i < 60; ++i) {
+    world.step(1.0 / 60, substeps);
+    const double kinetic_J = world.kinetic_energy();
+    after.peak_kinetic_J = std::max(after.peak_kinetic_J, kinetic_J);
+    after.most_gain =
+        std::max(after.most_gain, (kinetic_J + world.potential_energy(kG) - before_J) / before_J);
+  }
+  return after;
+}
+
+TEST(Seeding, ATowerWhoseBricksAllBreakInOneStepHardlyMoves) {
+  for (const int substeps : {4, 8}) {
+    const double cold_J = break_at_rest(substeps, 0).peak_kinetic_J;
+    const double seeded_J = break_at_rest(substeps, 1).peak_kinetic_J;
+    std::printf("10 bricks into 8, %d substeps: peak kinetic energy %.3g J, cold %.3g J\n",
+                substeps, seeded_J, cold_J);
+    EXPECT_LT(seeded_J, 0.01 * cold_J);
+  }
+}
+
+TEST(Seeding, ABreakAtRestGainsNoEnergyAndTwiceTheSeedWouldBeCaught) {
+  constexpr double kMost = 1e-6;
+  for (const int substeps : {4, 8}) {
+    const double gain = break_at_rest(substeps, 1).most_gain;
+    const double twice = break_at_rest(substeps, 2).most_gain;
+    std::printf("energy gained by a break, %d substeps: %.2g of it; seeded twice as much %.2g\n",
+                substeps, gain, twice);
+    EXPECT_LT(gain, kMost);
+    EXPECT_GT(twice, 100 * kMost);
+  }
+}
+
+TEST(Seeding, BodiesThatFallTogetherDoNotPress) {
+  RigidWorld world(awake());
+  const BodyId low = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 10.5, 0)));
+  const BodyId high = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 11.5, 0), 8000));
+  world.step(1.0 / 60, 4);
+  EXPECT_TRUE(world.physics().penetrations().empty());
+  EXPECT_NEAR(world.state(high).velocity_W.y(), -kG / 60, 1e-6);
+  EXPECT_NEAR(world.state(low).velocity_W.y(), -kG / 60, 1e-6);
+}
+
+TEST(Seeding, ABodyPutOnAStackThatRestsIsBorneAtOnce) {
+  RigidWorld world(awake());
+  world.add(W::ground());
+  for (int i = 0; i < 5; ++i) world.add(W::box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0)));
+  world.run(1, 1.0 / 60, 8);
+  const BodyId top = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 5.5, 0)));
+  world.run(1, 1.0 / 60, 8);
+  EXPECT_GT(world.state(top).X_WB.position.y(), 5.4985);
+  EXPECT_LT(world.kinetic_energy(), 1e-3);
+}
+
+TEST(Seeding, GivesTheSameBitsForAnyNumberOfThreads) {
+  std::uint64_t first = 0;
+  for (const int count : {1, 2, 3}) {
+    set_threads(count);
+    RigidWorld world(awake());
+    const std::vector<BodyId> bricks = add_tower(world);
+    world.run(0.2, 1.0 / 60, 4);
+    break_all(bricks, world);
+    world.run(0.2, 1.0 / 60, 4);
+    if (count == 1) first = world.hash();
+    EXPECT_EQ(world.hash(), first);
+  }
+  set_threads(0);
+}
+
+}  // namespace
+}  // namespace sunder::solver
