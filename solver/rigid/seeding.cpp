@@ -16,6 +16,7 @@ constexpr std::uint32_t kGrain = 8;
 constexpr double kWork = 2e5;  // points swept at most, unless there are too many for it
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
 constexpr double kDone = 1e-12;     // square of a step, of the first
+constexpr double kMostLeft = 0.01;  // of the energy of a substep of free fall
 constexpr float kMostRest = 0.05f;  // of the inner radius
 
 Vec3f lane_of(const Wide3Of<kSeedLanes>& v, std::uint32_t lane) {
@@ -113,6 +114,7 @@ void Seeding::seed(const Vec3& gravity_W, double dt_s, int substeps, double stor
   step.impulse_scale = static_cast<float>(scale);
   step.bounce_speed_m_s = 1e30f;
   find_loads(step);
+  find_held(gravity_W, h_s, bodies);
   store(step.soft, static_cast<float>(1 / scale), static_cast<float>(factor), bodies, contacts);
 }
 
@@ -254,13 +256,29 @@ void Seeding::find_loads(const ContactStep& step) {
   }
 }
 
+/// A body that its loads would leave with more energy than gravity gave it is not held: the rounds
+/// were too few, or nothing can hold it.
+void Seeding::find_held(const Vec3& gravity_W, double h_s, const Bodies& bodies) {
+  const double kick_m_s = h_s * gravity_W.norm();
+  for (std::uint32_t body = 0; body < bodies.size(); ++body) {
+    if (!concerned_[body]) continue;
+    const Wide& v = rows_[body + 1].velocity;
+    const Vec3f velocity(v[0], v[1], v[2]), spin(v[3], v[4], v[5]);  // of unit inertia
+    const double energy =
+        double{velocity.squaredNorm()} + double{bodies.inverse_mass[body] * spin.squaredNorm()};
+    loads_[body].held = energy <= kMostLeft * kick_m_s * kick_m_s;
+  }
+}
+
 void Seeding::store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
                     Contacts& contacts) const {
   for (const SeedBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
-      seat_points(c, lane, soft.press[c.points - 1].yield_s, stored_scale, factor, m);
-      seat_friction(c, lane, soft.slide[c.points - 1].yield_s, stored_scale, factor, m);
+      auto held = [&](std::uint32_t body) { return !concerned_[body] || loads_[body].held; };
+      const float part = held(m.body_a) && held(m.body_b) ? factor : 0;
+      seat_points(c, lane, soft.press[c.points - 1].yield_s, stored_scale, part, m);
+      seat_friction(c, lane, soft.slide[c.points - 1].yield_s, stored_scale, part, m);
       m.friction_anchor_B = bodies.rotation_f[m.body_b].transpose() * m.friction_arm_B;
     }
   }

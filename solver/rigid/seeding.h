@@ -42,6 +42,7 @@ class Seeding {
   void estimate(const Vec3& gravity_W, double h_s, float stored_scale, const Bodies& bodies,
                 Contacts& contacts);
   void find_loads(const ContactStep& step);
+  void find_held(const Vec3& gravity_W, double h_s, const Bodies& bodies);
   void store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
              Contacts& contacts) const;
 
