@@ -164,7 +164,7 @@ TEST(RigidPresets, AThinTowerOfAHundredStands) {
     return thin_tower_stands_s(RigidOptions{}, 120, p);
   });
   EXPECT_GE(time_s, 120);
-  // Contacts this soft buckle under such a column: see docs/decisions/019.
+  // Contacts this soft buckle under such a column: see docs/decisions/023.
   at_each_preset("the same, never asleep, s (mark 20: missed)",
                  [](auto& p) { return thin_tower_stands_s(awake(), 20, p); });
 }
