@@ -17,7 +17,7 @@ constexpr double kWork = 2e5;  // points swept at most, unless there are too man
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
 constexpr double kDone = 1e-12;     // square of a step, of the first
 constexpr double kMostLeft = 0.01;  // of the energy of a substep of free fall
-constexpr float kMostRest = 0.05f;  // of the inner radius
+constexpr float kMostRest = 0.04f;  // of the inner radius
 
 Vec3f lane_of(const Wide3Of<kSeedLanes>& v, std::uint32_t lane) {
   return {v.x[lane], v.y[lane], v.z[lane]};
