@@ -8,6 +8,9 @@
 #include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
 #include "scenes/body.h"
+#include "scenes/chain.h"
+#include "scenes/joint.h"
+#include "scenes/names.h"
 #include "scenes/patterns.h"
 #include "scenes/planar.h"
 #include "scenes/schema.h"
@@ -55,7 +58,6 @@ class Loader {
   void add_blast(const Value& table);
   void add_removal(const Value& table);
   void add_drive(const Value& table);
-  std::vector<std::uint32_t> roots_named(const std::string& name, const Value& value) const;
   void check_names() const;
 
   const Value& document_;
@@ -83,10 +85,13 @@ Scene Loader::load(const LoadOptions& options) {
   for (const Value* table : tables(document_, "solid")) add_solid(*table);
   for (const Value* table : tables(document_, "body")) add_body(*table);
   for (const Value* table : tables(document_, "ball")) add_ball(*table);
+  for (const Value* table : tables(document_, "joint"))
+    scene_.ties.push_back(read_joint(*table, scene_));
   add_script();
   check_names();
   if (scene_.planar) check_planar(scene_, find(std::get<Table>(scene->data), "planar")->where);
-  const std::size_t bodies = scene_.solids.size() + scene_.balls.size() + scene_.shots.size();
+  std::size_t bodies = scene_.solids.size() + scene_.balls.size() + scene_.shots.size();
+  for (const Shot& shot : scene_.shots) bodies += shot.links.size();
   if (bodies > scene_.limits.bodies) {
     throw InputError(document_.where + ": " + std::to_string(bodies) + " bodies exceed bodies = " +
                      std::to_string(scene_.limits.bodies) + " in [limits]");
@@ -278,13 +283,16 @@ void Loader::add_script() {
 void Loader::add_wrecking_ball(const Value& table) {
   WreckingBallText text;
   read(schema().wrecking_ball, table, scene_.materials, text);
-  if (text.hangs_from == text.from) {
+  Shot shot{text.time_s,
+            {text.name, text.radius_m, text.material.index, text.from, text.velocity},
+            text.hangs_from};
+  if ((text.from - text.hangs_from).norm() <= text.radius_m) {
     throw InputError(table.where +
-                     ": from and hangs_from in [[script.wrecking_ball]] are the same point");
+                     ": hangs_from in [[script.wrecking_ball]] is within the ball; move it out, or "
+                     "lessen radius_m");
   }
-  scene_.shots.push_back({text.time_s,
-                          {text.name, text.radius_m, text.material.index, text.from, text.velocity},
-                          text.hangs_from});
+  shot.links = make_chain(shot, text.links);
+  scene_.shots.push_back(std::move(shot));
 }
 
 void Loader::add_blast(const Value& table) {
@@ -303,7 +311,7 @@ void Loader::add_removal(const Value& table) {
   Removal removal;
   removal.time_s = text.time_s;
   if (text.name) {
-    removal.roots = roots_named(*text.name, *find(std::get<Table>(table.data), "name"));
+    removal.roots = roots_named(scene_, *text.name, *find(std::get<Table>(table.data), "name"));
   } else {
     removal.anchors_W.extend(*text.from);
     removal.anchors_W.extend(*text.to);
@@ -314,29 +322,10 @@ void Loader::add_removal(const Value& table) {
 void Loader::add_drive(const Value& table) {
   DriveText text;
   read(schema().drive, table, {}, text);
-  scene_.drives.push_back({text.time_s, text.until_s,
-                           roots_named(text.name, *find(std::get<Table>(table.data), "name")),
-                           text.velocity, text.force_N});
-}
-
-/// Solids, then balls; the parts "wall.0", "wall.1" … of a structure go by "wall" together.
-std::vector<std::uint32_t> Loader::roots_named(const std::string& name, const Value& value) const {
-  std::vector<std::uint32_t> roots;
-  std::vector<std::string_view> names;
-  const auto consider = [&](const std::string& candidate) {
-    const auto dot = candidate.rfind('.');
-    if (candidate == name || candidate.substr(0, dot) == name) {
-      roots.push_back(static_cast<std::uint32_t>(names.size()));
-    }
-    names.push_back(candidate);
-  };
-  for (const Solid& solid : scene_.solids) consider(solid.name);
-  for (const Ball& ball : scene_.balls) consider(ball.name);
-  if (roots.empty()) {
-    throw InputError(value.where + ": no solid or ball is named '" + name + "'" +
-                     did_you_mean(name, names));
-  }
-  return roots;
+  scene_.drives.push_back(
+      {text.time_s, text.until_s,
+       roots_named(scene_, text.name, *find(std::get<Table>(table.data), "name")), text.velocity,
+       text.force_N});
 }
 
 void Loader::add_shot(const Value& table) {

@@ -64,10 +64,11 @@ void check_planar(const Scene& scene, const std::string& where) {
   checker.in_plane(scene.gravity_W, "gravity");
   for (const Solid& solid : scene.solids) checker.check(solid);
   for (const Ball& ball : scene.balls) checker.check(ball, "ball '" + ball.name + "' ");
+  checker.require(scene.ties.empty(), "it has a [[joint]], which planar scenes do not have");
   for (const Shot& shot : scene.shots) {
     checker.check(shot.ball, "a ball of [script] ");
-    if (shot.hangs_from_W)
-      checker.in_plane(*shot.hangs_from_W, "what a ball of [script] hangs from");
+    checker.require(!shot.hangs_from_W,
+                    "a ball of [script] hangs in joints, which planar scenes do not have");
   }
   for (const Blast& blast : scene.blasts) checker.in_plane(blast.center_W, "a blast's centre");
   for (const Drive& drive : scene.drives) checker.in_plane(drive.velocity_W, "a drive's velocity");

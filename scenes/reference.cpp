@@ -1,5 +1,6 @@
 // The reference of scene files, written by the reader's own tables.
 #include "scenes/body.h"
+#include "scenes/joint.h"
 #include "scenes/load.h"
 #include "scenes/schema.h"
 #include "scenes/structures/structure.h"
@@ -113,8 +114,9 @@ std::string key_reference() {
             std::string(structure.help) + "\n\n" +
             rows(structure.keys, structure.parameters().get());
   }
-  return text + section(body_keys()) + section(s.ball) + section(s.script) + section(s.shot) +
-         section(s.wrecking_ball) + section(s.blast) + section(s.remove) + section(s.drive);
+  return text + section(body_keys()) + section(s.ball) + section(joint_keys()) + section(s.script) +
+         section(s.shot) + section(s.wrecking_ball) + section(s.blast) + section(s.remove) +
+         section(s.drive);
 }
 
 }  // namespace sunder::scenes

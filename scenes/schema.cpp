@@ -18,13 +18,14 @@ constexpr std::string_view kTextures[] = {"plain", "brick", "concrete", "plaster
 constexpr std::string_view kAnchored[] = {"none", "bottom"};
 
 Keys<Scene> top_keys() {
-  return {"the scene file",
-          {table_key("scene", "What it is."), table_key("accuracy", "Overrides the preset."),
-           table_key("solver", "How contacts are solved."),
-           table_key("limits", "How much may exist."), table_key("ground", "The floor."),
-           table_key("view", "Camera and sun."), table_key("material", "Materials."),
-           table_key("solid", "What stands there."), table_key("body", "Meshes that stand there."),
-           table_key("ball", "Balls from the start."), table_key("script", "What happens.")}};
+  return {
+      "the scene file",
+      {table_key("scene", "What it is."), table_key("accuracy", "Overrides the preset."),
+       table_key("limits", "How much may exist."), table_key("ground", "The floor."),
+       table_key("view", "Camera and sun."), table_key("material", "Materials."),
+       table_key("solid", "What stands there."), table_key("body", "Meshes that stand there."),
+       table_key("ball", "Balls from the start."),
+       table_key("joint", "What holds things together."), table_key("script", "What happens.")}};
 }
 
 Keys<Scene> scene_keys() {
@@ -166,11 +167,13 @@ Keys<WreckingBallText> wrecking_ball_keys() {
           {key<&Text::time_s>("time_s", "s", kTime, "When the ball appears."),
            key<&Text::from>("from", "m", kPlace, "Where.").must(),
            key<&Text::hangs_from>("hangs_from", "m", kPlace,
-                                  "Where its rope is held; as long as the way there.")
+                                  "Where its chain is held; as long as the way there.")
                .must(),
            key<&Text::velocity>("velocity", "m/s", kSpeed, "At the start."),
            key<&Text::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
-           key<&Text::material>("material", "What the ball is made of."),
+           key<&Text::links>("links", "", Range{0, 200},
+                             "Of its chain; 0: a rope without weight, to its centre."),
+           key<&Text::material>("material", "What ball and chain are made of."),
            key<&Text::name>("name", "Shown in messages.")}};
 }
 
@@ -258,7 +261,7 @@ Schema make_schema() {
   s.script = {
       "[script]",
       {key<&Script::enabled>("enabled", "false: nothing of it happens."),
-       table_key("shot", "Balls that are shot."), table_key("wrecking_ball", "Balls on ropes."),
+       table_key("shot", "Balls that are shot."), table_key("wrecking_ball", "Balls on chains."),
        table_key("blast", "Blasts."), table_key("remove", "Supports that go."),
        table_key("drive", "Bodies that are driven.")}};
   s.shot = shot_keys();

@@ -89,6 +89,7 @@ struct WreckingBallText {
   Vec3 hangs_from = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
   double radius_m = 0.5;
+  std::uint32_t links = 16;
   MaterialRef material{"steel", {}};
 };
 

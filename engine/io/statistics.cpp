@@ -51,6 +51,11 @@ struct Statistics::Series {
     for (const FrameReport& report : reports) sum += report.aged;
     return sum;
   }
+  std::uint32_t joints_lost() const {
+    std::uint32_t sum = 0;
+    for (const FrameReport& report : reports) sum += report.joints_lost;
+    return sum;
+  }
   std::uint32_t carried_over() const {
     std::uint32_t sum = 0;
     for (const FrameReport& report : reports) sum += report.carried_over;
@@ -199,6 +204,7 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["mass_kg"] = {{"initial", s.first.mass_kg}, {"final", s.last.mass_kg}};
   json["limits_hit"] = s.limits_hit();
   json["aged"] = s.aged();
+  json["joints_lost"] = s.joints_lost();
   json["modelled"] = s.info.modelled;
   json["cpu"] = cpu_name();
   json["sunder_version"] = SUNDER_VERSION;

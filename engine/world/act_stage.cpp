@@ -4,11 +4,10 @@
 // breaks were decided, so that what a blast breaks off is what it blows away.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "engine/base/trigonometry.h"
 #include "engine/world/actors.h"
 #include "engine/world/replace.h"
+#include "engine/world/ties.h"
 
 namespace sunder {
 namespace {
@@ -30,17 +29,20 @@ std::span<const Act> due(const World& world, const std::vector<Act>& acts, std::
 
 void shoot(World& world) {
   for (const Shot& shot : due(world, world.scene.shots, world.next_shot)) {
-    add_ball(world, shot.ball);
     if (shot.hangs_from_W) {
-      const double rope_m = (shot.ball.center_W - *shot.hangs_from_W).norm();
-      world.hanging.push_back({world.actors.back().key, *shot.hangs_from_W, rope_m});
+      hang(world, shot);
+    } else {
+      add_ball(world, shot.ball);
     }
   }
 }
 
 void drop(World& world, const std::vector<std::size_t>& gone) {
   std::vector<BodyId> bodies;
-  for (const std::size_t i : gone) bodies.push_back(world.actors[i].body);
+  for (const std::size_t i : gone) {
+    bodies.push_back(world.actors[i].body);
+    cut_ties(world, world.actors[i].key);
+  }
   world.physics->replace(bodies, {});
   for (auto i = gone.rbegin(); i != gone.rend(); ++i) {
     world.actors.erase(world.actors.begin() + static_cast<std::ptrdiff_t>(*i));
@@ -119,28 +121,6 @@ void age(World& world) {
   if (!resting.empty()) drop(world, resting);
 }
 
-/// A taut rope turns the way of its ball, as fast as it is across the rope, into a turn about where
-/// the rope is held.
-void pull(World& world) {
-  const double dt = world.scene.accuracy.dt_s;
-  for (const Hanging& hanging : world.hanging) {
-    const Actor* ball = world.find(hanging.key);
-    if (!ball) continue;
-    const BodyState state = world.physics->state(ball->body);
-    const Vec3 arm = state.X_WB.position - hanging.from_W;
-    const Vec3 velocity = state.velocity_W + 0.5 * dt * world.scene.gravity_W;  // of this step
-    if (arm.isZero() || (arm + dt * velocity).norm() <= hanging.rope_m) continue;
-    const Vec3 out = arm.normalized();
-    const Vec3 across = velocity - velocity.dot(out) * out;
-    const SinCos turn = sin_cos(dt * across.norm() / hanging.rope_m);
-    Vec3 end = turn.cos * out;
-    if (!across.isZero()) end += turn.sin * across.normalized();
-    const Vec3 way = hanging.rope_m * end - arm;
-    world.physics->apply_impulse(ball->body, ball->weight.mass_kg * (way / dt - velocity),
-                                 state.X_WB.position);
-  }
-}
-
 void drive(World& world) {
   for (const Drive& drive : world.scene.drives) {
     if (!is_due(world, drive.time_s) || is_due(world, drive.until_s)) continue;
@@ -169,7 +149,6 @@ void act_stage(World& world) {
 
 void push_stage(World& world) {
   push_blasts(world);
-  pull(world);
   drive(world);
 }
 

@@ -1,6 +1,7 @@
 #include "engine/world/compound.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/base/check.h"
 #include "engine/geometry/polygon_mesh.h"
@@ -66,6 +67,17 @@ Box bounds(const Compound& compound) {
   Box box;
   for (const ConvexPtr& convex : compound.convexes) box.extend(convex->box);
   return box;
+}
+
+double distance_outside(const Compound& compound, const Vec3& point_R) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ConvexPtr& convex : compound.convexes) {
+    double farthest = 0;
+    for (const ConvexPolyhedron::Face& face : convex->polyhedron.faces)
+      farthest = std::max(farthest, face.plane.distance(point_R));
+    least = std::min(least, farthest);
+  }
+  return least;
 }
 
 }  // namespace sunder

@@ -80,5 +80,7 @@ Weight weigh(const Compound& compound, std::span<const Material> materials);
 /// Of the union of the convexes.
 double volume(const Compound& compound);
 Box bounds(const Compound& compound);
+/// How far a point is from a compound, at least; 0 inside.
+double distance_outside(const Compound& compound, const Vec3& point_R);
 
 }  // namespace sunder

@@ -99,6 +99,7 @@ struct FrameReport {
   std::uint32_t limits_hit = 0;
   std::uint32_t aged = 0;  ///< Fragments that became debris to make room.
   std::uint32_t frozen = 0;
+  std::uint32_t joints_lost = 0;  ///< Broken by their load, or without a piece to hold on to.
   std::vector<float> penetrations_m;
 };
 

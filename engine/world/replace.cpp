@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/world/actors.h"
+#include "engine/world/ties.h"
 
 namespace sunder {
 namespace {
@@ -68,6 +69,7 @@ void replace_by_pieces(World& world, std::uint32_t key, BreakPlan& plan) {
   const Vec3 before = momentum_of(world, std::span(&parent, 1));
   const std::vector<BodyId> ids = world.physics->replace(std::span(&parent.body, 1), bodies);
   for (std::size_t i = 0; i < pieces.size(); ++i) pieces[i].body = ids[i];
+  move_ties(world, key, pieces);
   if (!parent.is_static) {
     const Vec3 after = momentum_of(world, pieces) + debris_momentum(parent, pieces, motion);
     world.momentum_error_Ns += (after - before).norm();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "engine/world/compound.h"
 #include "engine/world/frame.h"
 #include "engine/world/material.h"
+#include "engine/world/physics.h"
 
 namespace sunder {
 
@@ -29,12 +31,26 @@ struct Ball {
   Vec3 velocity_W = Vec3::Zero();
 };
 
-/// A ball that appears at a time; a wrecking ball hangs on a rope (without weight, never slack for
-/// want of strength), as long as the way to what it hangs from.
+/// A ball that appears at a time. A wrecking ball hangs on a chain that reaches from where it hangs
+/// to its surface, or, without links, on a rope without weight to its centre.
 struct Shot {
   double time_s = 0;
   Ball ball;
   std::optional<Vec3> hangs_from_W = std::nullopt;
+  std::vector<Solid> links = {};  ///< From the top down, in one line and equally long.
+};
+
+/// What holds two things of the scene together, or one and the world, as they stand at the start.
+struct Tie {
+  JointDesc::Kind kind = JointDesc::Kind::kBall;
+  /// Indices of solids, then of balls; none: the world.
+  std::optional<std::uint32_t> a = std::nullopt, b = std::nullopt;
+  Vec3 at_W = Vec3::Zero();  ///< On a; but for kDistance and kRope, on both.
+  Vec3 to_W = Vec3::Zero();  ///< kDistance, kRope: on b.
+  Vec3 axis_W = Vec3::UnitZ();
+  double breaking_N = std::numeric_limits<double>::infinity();
+  double breaking_Nm = std::numeric_limits<double>::infinity();
+  bool collide = false;
 };
 
 /// An impulse on every face that sees the centre: per square metre, falling with the square of the
@@ -107,6 +123,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Solid> solids;
   std::vector<Ball> balls;
+  std::vector<Tie> ties;
   // The script, each in order of time.
   std::vector<Shot> shots;
   std::vector<Blast> blasts;

@@ -5,6 +5,7 @@
 
 #include "engine/base/trace.h"
 #include "engine/world/actors.h"
+#include "engine/world/ties.h"
 
 namespace sunder {
 namespace {
@@ -33,6 +34,7 @@ void solve(World& world) {
   const Vec3 before = momentum(world).momentum_Ns;
   const SolveReport report =
       world.physics->solve(world.scene.accuracy.dt_s, world.scene.accuracy.substeps);
+  note_broken_ties(world);
   const Momentum after = momentum(world);
   world.momentum_error_Ns += (after.momentum_Ns - before - report.external_impulse_Ns).norm();
   // At rest weight and support cancel: what changed hands is the weight, not the sum of both.
@@ -74,6 +76,7 @@ Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
   add_ground(world);
   add_compounds(world, world.scene.solids);
   for (const Ball& ball : world.scene.balls) add_ball(world, ball);
+  for (const Tie& tie : world.scene.ties) add_tie(world, tie);  // keys are indices still
 }
 
 Simulation::~Simulation() = default;

@@ -72,7 +72,10 @@ std::shared_ptr<Frame> snapshot(World& world) {
   add_particles(world, *frame);
   report.mass_kg += world.debris_mass_kg + world.removed_mass_kg;
   for (std::size_t i = world.next_shot; i < world.scene.shots.size(); ++i) {
-    report.mass_kg += ball_mass_kg(world, world.scene.shots[i].ball);
+    const Shot& shot = world.scene.shots[i];
+    report.mass_kg += ball_mass_kg(world, shot.ball);
+    for (const Solid& link : shot.links)
+      report.mass_kg += weigh(link.compound, *world.materials).mass_kg;
   }
   report.penetrations_m = world.physics->penetrations();
   report.carried_over =

@@ -83,11 +83,16 @@ struct Burst {
   std::vector<Vec3> tried_W;  ///< Where it has broken something, or failed to.
 };
 
-/// A ball on a rope.
-struct Hanging {
-  std::uint32_t key = 0;
-  Vec3 from_W = Vec3::Zero();
-  double rope_m = 0;
+/// One end of a joint: an actor, or the world.
+struct TieEnd {
+  std::uint32_t key = 0;  ///< kGroundKey: the world.
+  Vec3 anchor_R = Vec3::Zero();
+};
+
+/// A joint of the running world.
+struct HeldTie {
+  JointId joint;
+  TieEnd a, b;
 };
 
 /// A body that sits steps out until what it hits can be decided.
@@ -113,7 +118,7 @@ struct World {
   bool started = false;  ///< Frame 0 has been given out.
   std::size_t next_shot = 0, next_blast = 0, next_removal = 0;
   std::vector<Burst> bursts;
-  std::vector<Hanging> hanging;
+  std::vector<HeldTie> ties;
   std::vector<Blow> waiting;    ///< Of blasts, over the frame's budget: decided first in the next.
   std::vector<Waiter> waiters;  ///< Ascending by key; as of the last step.
   std::uint32_t trials_waiting = 0;  ///< Clusters that they are in.
@@ -145,7 +150,7 @@ struct World {
 
 /// Stage `act`: what the script brings in, takes away or lights now, and room when it is short.
 void act_stage(World& world);
-/// After breaks: what blasts, ropes and drives push.
+/// After breaks: what blasts and drives push.
 void push_stage(World& world);
 /// Parts of both: what the blasts due now can break, and what they push.
 void light_blasts(World& world);

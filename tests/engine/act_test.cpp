@@ -1,4 +1,5 @@
-// What scripts do: blasts, supports that go, driven bodies, balls on ropes; and making room.
+// What scripts do: blasts, supports that go, driven bodies, joints and wrecking balls; and making
+// room.
 #include <gtest/gtest.h>
 
 #include "tests/engine/scripted.h"
@@ -132,23 +133,59 @@ TEST(Drive, HoldsAVelocityAsFarAsItsForceGoes) {
   EXPECT_NEAR(run.state(0).velocity_W.x(), 2, 1e-9);
 }
 
-TEST(WreckingBall, SwingsAtTheEndOfItsRope) {
-  Scene scene = empty_scene();  // without gravity: it goes round, no slower
-  scene.duration_s = 20;
+TEST(WreckingBall, HangsOnARopeToItsCentre) {
+  Scene scene = empty_scene();
   scene.shots = {
       {0, {"ball", 0.5, MaterialIndex(0), Vec3(3, 0, 0), Vec3(0, 2, 0)}, Vec3(Vec3::Zero())}};
   ActRun run(scene);
-  double farthest = 0, slowest = 100, lowest = 0;
-  for (int i = 0; i < 600; ++i) {
-    run.simulation->next();
-    const BodyState& ball = run.state(0);
-    farthest = std::max(farthest, ball.X_WB.position.norm());
-    lowest = std::min(lowest, ball.X_WB.position.y());
-    slowest = std::min(slowest, ball.velocity_W.norm());
+  run.simulation->advance();
+  ASSERT_EQ(run.physics->joints.size(), 1u);
+  const JointDesc& rope = run.physics->joints[0];
+  EXPECT_EQ(rope.kind, JointDesc::Kind::kRope);
+  EXPECT_TRUE(rope.a.none());
+  EXPECT_EQ(rope.length_m, 3);
+  EXPECT_TRUE(rope.anchor_b_R.isZero());
+}
+
+TEST(WreckingBall, HangsOnAChainThatReachesItsSurface) {
+  Scene scene = empty_scene();
+  Shot shot{0, {"ball", 0.5, MaterialIndex(0), Vec3(0, -3, 0), Vec3::Zero()}, Vec3(Vec3::Zero())};
+  for (int i = 0; i < 5; ++i) {
+    shot.links.push_back(row(Vec3(-0.5, -0.5, -0.5), 1, false));
+    shot.links.back().X_WR.position = Vec3(0, -0.25 - 0.5 * i, 0);
   }
-  EXPECT_LT(farthest, 3.001);
-  EXPECT_GT(slowest, 1.95) << "ten seconds cost it little";
-  EXPECT_LT(lowest, -2.9) << "it has been at the far side";
+  scene.shots = {shot};
+  ActRun run(scene);
+  const double before = run.simulation->next()->report.mass_kg;
+  run.simulation->advance();
+  ASSERT_EQ(run.physics->joints.size(), 6u);
+  EXPECT_LT((run.physics->joints[5].anchor_b_R - Vec3(0, 0.5, 0)).norm(), 1e-12);
+  EXPECT_LT((run.physics->joints[5].anchor_a_R - Vec3(0, -0.25, 0)).norm(), 1e-12);
+  EXPECT_NEAR(run.simulation->next()->report.mass_kg, before, 1e-9 * before) << "it was counted";
+}
+
+TEST(Tie, FollowsThePieceThatHasItsAnchorOrGoes) {
+  Scene scene = empty_scene();
+  scene.solids = {row(Vec3(0, 0, 0), 3, false)};
+  scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(-0.3, 0.5, 0.5), Vec3(60, 0, 0)}};
+  Tie held;  // at the far end, a little outside
+  held.a = 0;
+  held.at_W = Vec3(3.001, 0.5, 0.5);
+  Tie beside = held;  // above nothing
+  beside.at_W = Vec3(1.5, 2, 0.5);
+  scene.ties = {held, beside};
+  ActRun run(scene, 0.01, [](const ScriptedPhysics& scripted, int) {
+    return scripted.approach(1, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX());
+  });
+  run.simulation->next();
+  const FramePtr frame = run.simulation->next();
+  ASSERT_EQ(frame->breaks.size(), 1u);
+  EXPECT_EQ(frame->report.joints_lost, 1u);
+  EXPECT_FALSE(run.physics->cut_joints[0]);
+  EXPECT_TRUE(run.physics->cut_joints[1]);
+  const ScriptedPhysics::Body& body = run.physics->bodies[run.physics->joints[0].a.slot];
+  EXPECT_TRUE(body.alive);
+  EXPECT_NEAR(body.desc.com_R.x(), 2.5, 1e-9) << "the last of the three";
 }
 
 /// Twenty unit boxes, one larger than the other, parted from one another and at rest.

@@ -73,6 +73,15 @@ class ScriptedPhysics final : public Physics {
   void hold(std::span<const BodyId> held) override {
     for (const BodyId id : held) bodies[id.slot].held = true;
   }
+  JointId join(const JointDesc& joint) override {
+    joints.push_back(joint);
+    cut_joints.push_back(false);
+    return {static_cast<std::uint32_t>(joints.size() - 1), 0};
+  }
+  void attach(JointId id, bool end_a, BodyId body) override {
+    (end_a ? joints[id.slot].a : joints[id.slot].b) = body;
+  }
+  void cut(JointId id) override { cut_joints[id.slot] = true; }
   SolveReport solve(double dt_s, int) override {
     for (Body& body : bodies) {
       if (!body.held) body.state.X_WB.position += dt_s * body.state.velocity_W;
@@ -109,6 +118,8 @@ class ScriptedPhysics final : public Physics {
   }
 
   std::vector<Body> bodies;
+  std::vector<JointDesc> joints;  ///< All there ever were.
+  std::vector<bool> cut_joints;
   std::vector<ContactLoad> loads;  ///< What contact_loads() answers.
 
  private:

@@ -47,6 +47,36 @@ constexpr Fault kFaults[] = {
     {"[script]\nenable = false",
      "bad.toml:4: unknown key 'enable' in [script]; did you mean "
      "'enabled'?"},
+    // Joints
+    {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"ball\"\na "
+     "= \"y\"",
+     "bad.toml:9: no solid or ball is named 'y'; did you mean 'x'?"},
+    {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"bal\"\na = "
+     "\"x\"",
+     "bad.toml:8: kind in [[joint]] is the string \"bal\"; allowed: ball | hinge | fixed | "
+     "distance | rope"},
+    {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"rope\"\na "
+     "= \"x\"",
+     "bad.toml:6: missing key 'to' in [[joint]] of kind rope: where on b it ends"},
+    {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"ball\"\na "
+     "= \"x\"\nto = [0, 2, 0]",
+     "bad.toml:10: to in [[joint]] is for kinds distance and rope; this one is ball"},
+    {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"rope\"\na "
+     "= \"x\"\nto = [0, 1, 0]",
+     "bad.toml:10: at and to in [[joint]] are the same point"},
+    {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"hinge\"\na "
+     "= \"x\"\naxis = [0, 0, 0]",
+     "bad.toml:10: axis in [[joint]] is zero"},
+    {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"ball\"\na "
+     "= \"x\"\nbreaking_Nm = 5",
+     "bad.toml:10: breaking_Nm in [[joint]] is for kinds hinge and fixed"},
+    {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"ball\"\na "
+     "= \"x\"\nb = \"x\"",
+     "bad.toml:10: a and b in [[joint]] are the same thing"},
+    {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"ball\"\na "
+     "= \"x\"\n[[solid]]\nstructure = \"box\"\nanchored = \"bottom\"\nname = "
+     "\"z\"\n[[joint]]\nkind = \"ball\"\nat = [0, 0, 0]\na = \"z\"",
+     "bad.toml:17: neither end of this [[joint]] can move: the world holds both"},
     // Types
     {"duration_s = \"long\"",
      "bad.toml:3: duration_s in [scene] is the string \"long\"; allowed: "

@@ -158,6 +158,28 @@ TEST(Joint, ADistanceIsHeldAndARopeOnlyPulls) {
   }
 }
 
+TEST(Joint, ABallGoesRoundOnARopeAndLosesNoSpeed) {
+  RigidWorld world(awake(Vec3::Zero()));
+  BodyDesc ball = W::sphere(0.5, Vec3(3, 0, 0));
+  ball.velocity_W = Vec3(0, 2, 0);
+  const BodyId id = world.add(ball);
+  JointDesc rope = joint_at(world, Kind::kRope, {}, id, Vec3::Zero());
+  rope.anchor_b_R = Vec3::Zero();
+  rope.length_m = 3;
+  world.physics().join(rope);
+  double farthest = 0, slowest = 100, lowest = 0;
+  for (int i = 0; i < 1200; ++i) {
+    world.step(kDt_s, 4);
+    const BodyState now = world.state(id);
+    farthest = std::max(farthest, now.X_WB.position.norm());
+    lowest = std::min(lowest, now.X_WB.position.y());
+    slowest = std::min(slowest, now.velocity_W.norm());
+  }
+  EXPECT_LT(farthest, 3.001);
+  EXPECT_GT(slowest, 1.99) << "ten seconds cost it little";
+  EXPECT_LT(lowest, -2.9) << "it has been at the far side";
+}
+
 TEST(Joint, ACantileverOfFixedJointsStaysStraight) {
   RigidWorld world(awake());
   BodyId last;

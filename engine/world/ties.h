@@ -1,0 +1,23 @@
+// Joints of the running world: who they hold, and where they go when that breaks. Internal to
+// engine/world.
+#pragma once
+
+#include <span>
+
+#include "engine/world/world.h"
+
+namespace sunder {
+
+/// Joins two things as they stand; `tie.a` and `tie.b` are keys here.
+void add_tie(World& world, const Tie& tie);
+/// A shot ball on its rope, or on its chain, which appears with it.
+void hang(World& world, const Shot& shot);
+/// After `parent` gave way to pieces: its ends go to the piece that has the anchor, and joints
+/// without one are cut and counted.
+void move_ties(World& world, std::uint32_t parent, std::span<const Actor> pieces);
+/// Before actors go: their joints are cut and counted.
+void cut_ties(World& world, std::uint32_t key);
+/// After a solve: counts what broke under its load.
+void note_broken_ties(World& world);
+
+}  // namespace sunder
