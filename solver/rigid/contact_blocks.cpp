@@ -13,6 +13,7 @@ class BlocksOf final : public ContactBlocks {
   std::uint32_t lanes() const override { return kWidth; }
   std::uint32_t size() const override { return used_; }
   void clear() override { used_ = 0; }
+  void remember() override { search_.resize(used_); }
   void add(std::uint32_t first, std::uint32_t count, std::uint32_t points, bool split) override {
     for (std::uint32_t i = 0; i < count; i += kWidth) {
       // Blocks of the last step are written over, not cleared.
@@ -42,6 +43,20 @@ class BlocksOf final : public ContactBlocks {
   void sum_impulses(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::sum_impulses(blocks_[i]);
   }
+  void mark(std::uint32_t begin, std::uint32_t end) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::mark(blocks_[i], search_[i]);
+  }
+  void measure(std::uint32_t begin, std::uint32_t end, float* energy) const override {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      float of_lane[kWidth];
+      solver::measure(blocks_[i], search_[i], of_lane);
+      std::copy_n(of_lane, blocks_[i].count, energy + blocks_[i].first);
+    }
+  }
+  void go_on(std::uint32_t begin, std::uint32_t end, const ContactStep& step, float beta) override {
+    for (std::uint32_t i = begin; i < end; ++i)
+      solver::go_on(blocks_[i], search_[i], step.rows, beta);
+  }
   void bounce(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::bounce(blocks_[i], step.rows);
   }
@@ -63,6 +78,7 @@ class BlocksOf final : public ContactBlocks {
 
  private:
   std::vector<ConstraintBlock<kWidth>> blocks_;
+  std::vector<SearchLanes<kWidth>> search_;
   std::uint32_t used_ = 0;
 };
 

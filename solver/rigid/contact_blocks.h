@@ -28,6 +28,13 @@ class ContactBlocks {
   virtual void sweep_relaxed(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
   /// To be called once a substep, after the last sweep.
   virtual void sum_impulses(std::uint32_t begin, std::uint32_t end) = 0;
+  /// Makes room for what conjugate gradients remember, once all blocks are added.
+  virtual void remember() = 0;
+  // Conjugate gradients, of blocks that are not split (see sweep.h). `energy` is by manifold.
+  virtual void mark(std::uint32_t begin, std::uint32_t end) = 0;
+  virtual void measure(std::uint32_t begin, std::uint32_t end, float* energy) const = 0;
+  virtual void go_on(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                     float beta) = 0;
   virtual void bounce(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
   virtual void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
 

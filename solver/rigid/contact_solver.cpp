@@ -30,6 +30,11 @@ enum StageKind {
   kBounce,
   kStore,
   kFinish,
+  kMark,
+  kMeasure,
+  kFirstBeta,
+  kBeta,
+  kGoOn,
   kJointBegin,
   kJointWarmStart,
   kJointPush,
@@ -55,6 +60,9 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
                                         Bodies& bodies, Contacts& contacts, Joints& joints) {
   collect_blocks(bodies, contacts);
   split_bodies(bodies, contacts);
+  accelerated_ = options_.accelerated && options_.sweeps > 1 && split_.empty();
+  if (accelerated_) blocks_->remember();
+  energy_.resize(accelerated_ ? touching_.size() : 0);
   joint_solver_.collect(bodies, joints, in_contact_);
   collect_bodies(bodies);
   const double h = dt_s / substeps;
@@ -136,6 +144,15 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
         return blocks_->bounce(begin, end, step);
       case kStore:
         return blocks_->store(begin, end, step);
+      case kMark:
+        return blocks_->mark(begin, end);
+      case kMeasure:
+        return blocks_->measure(begin, end, energy_.data());
+      case kFirstBeta:
+      case kBeta:
+        return choose_beta(kind == kFirstBeta);
+      case kGoOn:
+        return blocks_->go_on(begin, end, step, beta_);
     }
     for (std::uint32_t i = begin; i < end; ++i)
       kind >= kJointBegin ? work_on_joints(kind, i) : work_on_body(kind, i);
@@ -168,9 +185,16 @@ std::vector<Stage> ContactSolver::plan(int substeps) const {
   // mass splitting waits once a sweep.
   auto sweep = [&](int joint_kind, int kind, int last_kind) {
     for (int i = 1; i <= options_.sweeps; ++i) {
+      const bool last = i == options_.sweeps;
+      if (accelerated_ && !last) all_blocks(kMark);
       joint_solver_.each_color(joint_kind, stages);
-      each_color(i < options_.sweeps ? kind : last_kind);
-      if (i < options_.sweeps) join();
+      each_color(last ? last_kind : kind);
+      if (last) break;
+      join();
+      if (!accelerated_) continue;
+      all_blocks(kMeasure);
+      stages.push_back({i == 1 ? kFirstBeta : kBeta, 0, 1, 1});
+      each_color(kGoOn);
     }
   };
   stages.push_back({kFly, 0, static_cast<std::uint32_t>(flying_.size()), kBodyGrain});
@@ -195,6 +219,17 @@ std::vector<Stage> ContactSolver::plan(int substeps) const {
   all_blocks(kStore);
   all_bodies(kFinish);
   return stages;
+}
+
+/// How far to go on along the way so far: by how much the energy of the changes has fallen. Where
+/// it has risen, the way begins anew.
+void ContactSolver::choose_beta(bool first) {
+  double energy = 0;
+  for (const float of_manifold : energy_) energy += double{of_manifold};
+  beta_ = first || energy > last_energy_ || last_energy_ <= 0
+              ? 0
+              : static_cast<float>(energy / last_energy_);
+  last_energy_ = energy;
 }
 
 void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contacts) {

@@ -24,7 +24,10 @@ struct ContactSolveReport {
 /// How contacts are solved.
 struct ContactSolverOptions {
   int sweeps = 1;  ///< Of either kind in a substep.
-  int lanes = 0;   ///< Most to be used; 0: what the processor has. The same bits for any.
+  /// Sweeps are steps of nonlinear conjugate gradients (NNCG, Silcowitz-Hansen, Niebe, Erleben
+  /// 2010): the same solution in far fewer. Plain where bodies are split.
+  bool accelerated = false;
+  int lanes = 0;  ///< Most to be used; 0: what the processor has. The same bits for any.
 };
 
 class ContactSolver {
@@ -60,6 +63,12 @@ class ContactSolver {
   std::vector<BodyRow> rows_;                 ///< By body slot + 1; row 0 stays still.
   std::vector<Mat3f> root_W_;
   std::uint32_t points_ = 0;
+
+  void choose_beta(bool first);
+  bool accelerated_ = false;   ///< In this step.
+  std::vector<float> energy_;  ///< Of the last sweep's changes, by manifold.
+  double last_energy_ = 0;
+  float beta_ = 0;
   double last_h_s_ = 0;
 
   // Mass splitting: manifolds that found no colour are solved side by side, and what they do to a

@@ -150,13 +150,16 @@ void derive(GatheredBlock<lanes>& g, const SolverRows& bodies, ConstraintBlock<l
 }
 
 /// Compiles all kernels for so many lanes.
-#define SUNDER_SWEEP_KERNELS(lanes)                                                         \
-  template void derive(GatheredBlock<lanes>&, const SolverRows&, ConstraintBlock<lanes>&);  \
-  template void warm_start(ConstraintBlock<lanes>&, const SolverRows&);                     \
-  template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);  \
-  template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&); \
-  template void sum_impulses(ConstraintBlock<lanes>&);                                      \
-  template void bounce(ConstraintBlock<lanes>&, const SolverRows&);                         \
+#define SUNDER_SWEEP_KERNELS(lanes)                                                            \
+  template void derive(GatheredBlock<lanes>&, const SolverRows&, ConstraintBlock<lanes>&);     \
+  template void warm_start(ConstraintBlock<lanes>&, const SolverRows&);                        \
+  template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);     \
+  template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);    \
+  template void sum_impulses(ConstraintBlock<lanes>&);                                         \
+  template void mark(const ConstraintBlock<lanes>&, SearchLanes<lanes>&);                      \
+  template void measure(const ConstraintBlock<lanes>&, const SearchLanes<lanes>&, float*);     \
+  template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float); \
+  template void bounce(ConstraintBlock<lanes>&, const SolverRows&);                            \
   template void separations_now(const ConstraintBlock<lanes>&, const SolverRows&, float(*)[lanes]);
 
 }  // namespace sunder::solver

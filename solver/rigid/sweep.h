@@ -42,6 +42,23 @@ void sweep_relaxed(ConstraintBlock<lanes>& block, const SolverRows& bodies, cons
 /// Adds the impulses of a substep to those of the step, where they are summed.
 template <std::uint32_t lanes>
 void sum_impulses(ConstraintBlock<lanes>& block);
+/// What conjugate gradients remember of a block, by impulse: those of its points, of sliding, of
+/// twist.
+template <std::uint32_t lanes>
+struct alignas(64) SearchLanes {
+  alignas(4 * lanes) WideOf<lanes> start[7] = {};  ///< Before the sweep.
+  WideOf<lanes> way[7] = {};                       ///< Where they went before that.
+};
+/// Notes the impulses before a sweep.
+template <std::uint32_t lanes>
+void mark(const ConstraintBlock<lanes>& block, SearchLanes<lanes>& search);
+/// Writes the energy of what a sweep changed, by lane.
+template <std::uint32_t lanes>
+void measure(const ConstraintBlock<lanes>& block, const SearchLanes<lanes>& search, float* energy);
+/// After a sweep: goes on along the way so far, `beta` times as far; 0: the way begins anew.
+template <std::uint32_t lanes>
+void go_on(ConstraintBlock<lanes>& block, SearchLanes<lanes>& search, const SolverRows& bodies,
+           float beta);
 /// Once, after all substeps: points that took an impulse leave with their rebound velocity.
 template <std::uint32_t lanes>
 void bounce(ConstraintBlock<lanes>& block, const SolverRows& bodies);

@@ -236,6 +236,54 @@ void warm_start(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
   c.split ? warm_start_as<true>(c, bodies) : warm_start_as<false>(c, bodies);
 }
 
+/// Calls visit(slot, impulse, mass) for every impulse of a block.
+template <class Block, class Visit>
+SUNDER_INLINE void for_impulses(Block& c, const Visit& visit) {
+  for (std::uint32_t i = 0; i < c.points; ++i) visit(i, c.point[i].impulse, c.point[i].mass);
+  visit(4, c.slide_impulse_1, c.slide_11);
+  visit(5, c.slide_impulse_2, c.slide_22);
+  visit(6, c.twist_impulse, c.twist_mass);
+}
+
+template <std::uint32_t lanes>
+void mark(const ConstraintBlock<lanes>& c, SearchLanes<lanes>& search) {
+  for_impulses(c, [&](std::uint32_t slot, const WideOf<lanes>& impulse, const WideOf<lanes>&) {
+    search.start[slot] = impulse;
+  });
+}
+
+template <std::uint32_t lanes>
+void measure(const ConstraintBlock<lanes>& c, const SearchLanes<lanes>& search, float* energy) {
+  using V = WideOf<lanes>;
+  const V zero = {}, one = splat<V>(1);
+  V sum = zero;
+  for_impulses(c, [&](std::uint32_t slot, const V& impulse, const V& mass) {
+    const V change = impulse - search.start[slot];
+    const auto moves = mass > zero;
+    sum += moves ? change * change / (moves ? mass : one) : zero;
+  });
+  for (std::uint32_t lane = 0; lane < lanes; ++lane) energy[lane] = sum[lane];
+}
+
+template <std::uint32_t lanes>
+void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRows& bodies,
+           float beta) {
+  using V = WideOf<lanes>;
+  V step[7] = {};
+  for_impulses(c, [&](std::uint32_t slot, V& impulse, const V&) {
+    step[slot] = beta * search.way[slot];
+    search.way[slot] = step[slot] + (impulse - search.start[slot]);
+    impulse += step[slot];
+  });
+  Pairs<lanes, false> v(c, bodies, &BodyRow::velocity);
+  v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, step[4]);
+  v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, step[5]);
+  v.twist(c, step[6]);
+  for (std::uint32_t i = 0; i < c.points; ++i)
+    v.push(c, c.normal, c.point[i].turn_a, c.point[i].turn_b, step[i]);
+  store(c, v, bodies);
+}
+
 template <bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE void bounce_as(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
   using V = WideOf<lanes>;

@@ -8,43 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/trigonometry.h"
-#include "tests/solver/rigid_world.h"
+#include "tests/solver/presets.h"
 
 namespace sunder::solver {
 namespace {
 
 using W = RigidWorld;
-constexpr double kG = 9.81, kPi = 3.14159265358979323846;
-
-struct Preset {
-  const char* name;
-  double dt_s;
-  int substeps;
-};
-constexpr Preset kPresets[] = {{"draft", 1.0 / 60, 4},
-                               {"realtime", 1.0 / 120, 4},
-                               {"accurate", 1.0 / 120, 8},
-                               {"reference", 1.0 / 480, 4}};
-
-RigidOptions awake(const Vec3& gravity_W = Vec3(0, -kG, 0)) {
-  RigidOptions options;
-  options.gravity_W = gravity_W;
-  options.sleeping = false;
-  return options;
-}
-
-/// Calls measure(preset) for each preset, prints, and returns the value at `accurate`.
-double at_each_preset(const char* what, const std::function<double(const Preset&)>& measure) {
-  double accurate = 0;
-  std::printf("%-44s", what);
-  for (const Preset& preset : kPresets) {
-    const double value = measure(preset);
-    std::printf("  %s %.4g", preset.name, value);
-    if (&preset == &kPresets[2]) accurate = value;
-  }
-  std::printf("\n");
-  return accurate;
-}
 
 /// The least x in [low, high] for which yes(x), which is false at low and true at high.
 double threshold(double low, double high, int rounds, const std::function<bool(double)>& yes) {
