@@ -7,6 +7,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
+#include "engine/world/load_path.h"
 #include "scenes/body.h"
 #include "scenes/chain.h"
 #include "scenes/joint.h"
@@ -49,6 +50,7 @@ class Loader {
     }
   }
   void read_accuracy();
+  void aim();
   void add_solid(const Value& table);
   void add_body(const Value& table);
   void add_ball(const Value& table);
@@ -89,6 +91,7 @@ Scene Loader::load(const LoadOptions& options) {
     scene_.ties.push_back(read_joint(*table, scene_));
   add_script();
   check_names();
+  aim();
   if (scene_.planar) check_planar(scene_, find(std::get<Table>(scene->data), "planar")->where);
   std::size_t bodies = scene_.solids.size() + scene_.balls.size() + scene_.shots.size();
   for (const Shot& shot : scene_.shots) bodies += shot.links.size();
@@ -111,6 +114,21 @@ void Loader::read_accuracy() {
         "1/180 and so on");
   }
   dt = kFrame / steps;
+  if (scene_.accuracy.error_target_m <= 0) return;
+  const Value& table = *find(std::get<Table>(document_.data), "accuracy");
+  const Value* substeps = find(std::get<Table>(table.data), "substeps");
+  if (!substeps) return;
+  throw InputError(substeps->where +
+                   ": substeps in [accuracy] is given beside error_target_m; keep one");
+}
+
+/// Substeps from what is to stand, once it is known.
+void Loader::aim() {
+  Accuracy& accuracy = scene_.accuracy;
+  if (accuracy.error_target_m <= 0) return;
+  const int wanted = substeps_for_sink(load_paths(scene_).deepest, scene_.gravity_W.norm(),
+                                       accuracy.dt_s, accuracy.error_target_m);
+  accuracy.substeps = std::min(wanted, kMostSubsteps);
 }
 
 void read_crumbling(const Value& table, Crumbling& crumbling) {

@@ -57,6 +57,8 @@ Keys<Material> material_keys() {
       "[[material]]",
       {key<&Material::density_kg_m3>("density_kg_m3", "kg/m³", Range{1, 30000}, "Density."),
        key<&Material::friction>("friction", "", Range{0, 10}, "Coefficient of friction."),
+       key<&Material::rolling>("rolling", "", Range{0, 1},
+                               "Resistance to rolling: its torque, over load and radius."),
        key<&Material::restitution>("restitution", "", kFraction, "0 = no bounce, 1 = full."),
        key<&Material::strength_Ns>("strength_Ns", "N·s", Range{0, kInfinity},
                                    "Least impulse of a contact that can break it."),
@@ -211,10 +213,15 @@ Schema make_schema() {
   Schema s;
   s.top = top_keys();
   s.scene = scene_keys();
-  s.accuracy = {"[accuracy]",
-                {key<&Accuracy::dt_s>("dt_s", "s", Range{1e-5, 1.0 / 60 + 1e-9},
-                                      "A step; 1/60 s is a whole number of them."),
-                 key<&Accuracy::substeps>("substeps", "", Range{1, 64}, "Substeps of a step.")}};
+  s.accuracy = {
+      "[accuracy]",
+      {key<&Accuracy::dt_s>("dt_s", "s", Range{1e-5, 1.0 / 60 + 1e-9},
+                            "A step; 1/60 s is a whole number of them."),
+       key<&Accuracy::substeps>("substeps", "", Range{1, kMostSubsteps}, "Substeps of a step."),
+       key<&Accuracy::error_target_m>(
+           "error_target_m", "m", Range{0, 1},
+           "In place of substeps: so many that what stands sinks in no farther, about; "
+           "what it comes to is reported as penetration_m. 0: by substeps.")}};
   s.solver = solver_keys();
   s.limits = {
       "[limits]",

@@ -19,6 +19,8 @@ struct Preset {
 };
 std::span<const Preset> presets();
 
+inline constexpr int kMostSubsteps = 64;
+
 /// The part of [[material]] that does not end up in a Material.
 struct MaterialHead {
   std::string name;

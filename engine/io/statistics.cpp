@@ -199,6 +199,7 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   const std::vector<double> depth = s.penetrations();
   json["penetration_m"] = {
       {"p50", quantile(depth, 0.5)}, {"p99", quantile(depth, 0.99)}, {"max", quantile(depth, 1)}};
+  if (s.info.accuracy.error_target_m > 0) json["error_target_m"] = s.info.accuracy.error_target_m;
   json["energy_J"] = {{"kinetic", s.last.kinetic_J}, {"potential", s.last.potential_J}};
   json["momentum_residual"] = s.momentum_residual();
   json["mass_kg"] = {{"initial", s.first.mass_kg}, {"final", s.last.mass_kg}};
@@ -206,6 +207,7 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["aged"] = s.aged();
   json["joints_lost"] = s.joints_lost();
   json["modelled"] = s.info.modelled;
+  json["warnings"] = s.info.warnings;
   json["cpu"] = cpu_name();
   json["sunder_version"] = SUNDER_VERSION;
   if (per_frame) {

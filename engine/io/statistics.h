@@ -19,6 +19,7 @@ struct RunInfo {
   Accuracy accuracy;
   std::map<std::string, std::string> modelled;  ///< feature -> "on" | "off" | "off: why"
   SolverDials solver;                           ///< `lanes` as used.
+  std::vector<std::string> warnings = {};
 };
 
 /// The q-th quantile (0..1) by the nearest-rank rule; 0 of nothing.

@@ -21,6 +21,7 @@ std::vector<ShapeDesc> hull_shapes(const World& world, const Compound& compound)
     shapes[c].hull = &compound.convexes[c]->polyhedron;
     shapes[c].friction = material.friction;
     shapes[c].restitution = material.restitution;
+    shapes[c].rolling = material.rolling;
     shapes[c].tag = static_cast<std::uint32_t>(c);
   }
   return shapes;
@@ -192,6 +193,7 @@ void add_ball(World& world, const Ball& ball) {
   shape.radius_m = radius;
   shape.friction = material.friction;
   shape.restitution = material.restitution;
+  shape.rolling = material.rolling;
   body.shapes = {shape};
   body.tag = actor.key;
   actor.body = world.physics->replace({}, std::span(&body, 1))[0];

@@ -31,7 +31,7 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
     if (solid.compound.is_anchored()) continue;
     Block block;
     for (const ConvexPtr& convex : solid.compound.convexes)
-      for (const Vec3& corner : convex->polyhedron.positions) block.box.extend(solid.X_WR * corner);
+      for (const Vec3& corner : convex->polyhedron.vertices) block.box.extend(solid.X_WR * corner);
     block.mass_kg = weigh(solid.compound, scene.materials).mass_kg;
     blocks.push_back(block);
   }

@@ -65,6 +65,8 @@ struct Material {
   double density_kg_m3 = 2000;
   double friction = 0.6;
   double restitution = 0;
+  /// Torque that resists rolling, over load and radius: a ball holds on slopes up to this.
+  double rolling = 0;
   /// Least impulse of a contact that can break it.
   double strength_Ns = 0;
   /// Energy taken by each square metre of new crack (both sides counted once).

@@ -27,6 +27,7 @@ struct ShapeDesc {
   Vec3 normal_R = Vec3::UnitY();           ///< kHalfSpace: out of the solid.
   double friction = 0.6;
   double restitution = 0;
+  double rolling = 0;     ///< Of resistance to rolling: its torque over load and radius.
   std::uint32_t tag = 0;  ///< Opaque; comes back in contacts.
 };
 

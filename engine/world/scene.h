@@ -88,6 +88,7 @@ struct Ground {
 struct Accuracy {
   double dt_s = 1.0 / 120;
   int substeps = 4;
+  double error_target_m = 0;  ///< What `substeps` were worked out for; 0: they were given.
 };
 
 /// How contacts are solved; what each means is in solver/rigid/rigid_physics.h.

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "engine/base/parallel.h"
+#include "engine/world/load_path.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/planar.h"
 #include "solver/particles/debris_and_dust.h"
@@ -52,9 +53,16 @@ std::unique_ptr<Physics> make_physics(const Scene& scene) {
   return solver::make_rigid_physics(rigid);
 }
 
+std::vector<std::string> warnings_of(const Scene& scene) {
+  const std::string warning = accuracy_warning(scene);
+  return warning.empty() ? std::vector<std::string>{} : std::vector{warning};
+}
+
 }  // namespace
 
 std::unique_ptr<Simulation> make_simulation(Scene scene) {
+  for (const std::string& warning : warnings_of(scene))
+    std::fprintf(stderr, "warning: %s: %s\n", scene.name.c_str(), warning.c_str());
   std::unique_ptr<Particles> particles;
   if (scene.limits.debris + scene.limits.dust > 0) {
     solver::DebrisAndDustOptions options;
@@ -88,7 +96,8 @@ RunInfo run_info(const Scene& scene, const scenes::LoadOptions& load) {
            {"script", scripted ? "on" : "off: nothing happens"},
            {"sleeping", "on"},
            {"third_dimension", scene.planar ? "off: planar = true, so Box2D moves it" : "on"}},
-          {scene.solver.max_colors, scene.solver.sweeps, solver::lanes_in_use(scene.solver.lanes)}};
+          {scene.solver.max_colors, scene.solver.sweeps, solver::lanes_in_use(scene.solver.lanes)},
+          warnings_of(scene)};
 }
 
 int last_frame(const Scene& scene, int wanted) {

@@ -39,6 +39,7 @@ Shape make_shape(const ShapeDesc& desc, const Vec3& com_R) {
   shape.present = true;
   shape.tag = desc.tag;
   shape.friction = static_cast<float>(desc.friction);
+  shape.rolling = static_cast<float>(desc.rolling);
   shape.restitution = static_cast<float>(desc.restitution);
   shape.center = (desc.center_R - com_R).cast<float>();
   shape.normal = desc.normal_R.normalized().cast<float>();

@@ -86,6 +86,7 @@ struct Shape {
   std::uint32_t next = kNone, previous = kNone;  ///< Of the same body.
   std::uint32_t tag = 0;
   float friction = 0;
+  float rolling = 0;
   float restitution = 0;
   float radius_m = 0;
   float inner_radius_m = 0;

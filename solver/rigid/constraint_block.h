@@ -54,6 +54,15 @@ struct SplitLanes {
   WideOf<lanes> slide_ease;
 };
 
+/// What only resistance to rolling needs: turns about the two tangents.
+template <std::uint32_t lanes>
+struct RollLanes {
+  Wide3Of<lanes> turn_1_a, turn_1_b, turn_2_a, turn_2_b;
+  WideOf<lanes> mass_11, mass_12, mass_22;
+  WideOf<lanes> lever;  ///< Of the load; 0: none.
+  WideOf<lanes> impulse_1, impulse_2;
+};
+
 /// Manifolds with the same number of points. What a sweep touches comes first. Alignment is spelled
 /// out, or it would follow the instruction set that a file is compiled for.
 template <std::uint32_t lanes>
@@ -66,6 +75,7 @@ struct alignas(64) ConstraintBlock {
   bool split = false;
   bool summed = false;  ///< Some lane touches something immovable, or that bears load.
   bool bouncy = false;  ///< Some point has a rebound.
+  bool rolls = false;   ///< Some lane resists rolling.
   alignas(4 * lanes) WideOf<lanes> inverse_mass_a;
   WideOf<lanes> inverse_mass_b;
   Wide3Of<lanes> normal, tangent_1, tangent_2;
@@ -81,6 +91,7 @@ struct alignas(64) ConstraintBlock {
   WideOf<lanes> outside_sign;  ///< +1: a is immovable, −1: b is.
   std::array<ReboundLanes<lanes>, 4> rebound;
   SplitLanes<lanes> parts;
+  RollLanes<lanes> roll;
 };
 
 }  // namespace sunder::solver

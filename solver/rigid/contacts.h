@@ -65,6 +65,8 @@ struct Manifold {
   Vec3f drift_W = Vec3f::Zero();  ///< Of the friction anchors, b from a, since they were set.
   Vec3f friction_impulse_W = Vec3f::Zero();
   float twist_impulse = 0;
+  float rolling_m = 0;  ///< Lever of resistance to rolling.
+  Vec3f roll_impulse_W = Vec3f::Zero();
   Vec3f step_impulse_W = Vec3f::Zero();  ///< On b over the last step, if a or b bears load.
   Vec3f rest_force_W = Vec3f::Zero();    ///< On b, N, when a body of the two last fell asleep.
   std::array<ManifoldPoint, 4> points;

@@ -84,6 +84,21 @@ SUNDER_INLINE void derive_friction(const GatheredBlock<lanes>& g, ConstraintBloc
   c.slide_impulse_2 = dot(g.slide_impulse, c.tangent_2);
 }
 
+template <std::uint32_t lanes>
+SUNDER_INLINE void derive_roll(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+  using V = WideOf<lanes>;
+  RollLanes<lanes>& r = c.roll;
+  r.turn_1_a = to_root(g.root_a, c.tangent_1), r.turn_1_b = to_root(g.root_b, c.tangent_1);
+  r.turn_2_a = to_root(g.root_a, c.tangent_2), r.turn_2_b = to_root(g.root_b, c.tangent_2);
+  const V k11 = dot(r.turn_1_a, r.turn_1_a) + dot(r.turn_1_b, r.turn_1_b);
+  const V k22 = dot(r.turn_2_a, r.turn_2_a) + dot(r.turn_2_b, r.turn_2_b);
+  const V k12 = dot(r.turn_1_a, r.turn_2_a) + dot(r.turn_1_b, r.turn_2_b);
+  const V scale = reciprocal(k11 * k22 - k12 * k12);
+  r.mass_11 = k22 * scale, r.mass_12 = -k12 * scale, r.mass_22 = k11 * scale;
+  r.impulse_1 = dot(g.roll_impulse, c.tangent_1);
+  r.impulse_2 = dot(g.roll_impulse, c.tangent_2);
+}
+
 /// The speed at which the point will have closed its gap, by energy, times restitution.
 template <std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> rebound_of(const GatheredBlock<lanes>& g,
@@ -135,6 +150,8 @@ SUNDER_INLINE void hold_sleepers(const GatheredBlock<lanes>& g, ConstraintBlock<
   hold(c.slide_1_a, c.slide_1_b);
   hold(c.slide_2_a, c.slide_2_b);
   hold(c.twist_a, c.twist_b);
+  hold(c.roll.turn_1_a, c.roll.turn_1_b);
+  hold(c.roll.turn_2_a, c.roll.turn_2_b);
   for (std::uint32_t i = 0; i < c.points; ++i) hold(c.point[i].turn_a, c.point[i].turn_b);
 }
 
@@ -143,6 +160,7 @@ void derive(GatheredBlock<lanes>& g, const SolverRows& bodies, ConstraintBlock<l
   if (c.split) split_bodies(g, c);
   set_tangents(c);
   derive_friction(g, c);
+  if (c.rolls) derive_roll(g, c);
   derive_points(g, c);
   if (any(g.restitution > WideOf<lanes>{}))
     c.split ? derive_rebounds<true>(g, bodies, c) : derive_rebounds<false>(g, bodies, c);

@@ -187,6 +187,7 @@ void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep
   pair.travelled_m = travelled;
   m.size_m = size_m;
   m.friction = std::sqrt(a.friction * b.friction);
+  m.rolling_m = std::max(a.rolling, b.rolling) * std::min(a.inner_radius_m, b.inner_radius_m);
   m.restitution = std::max(a.restitution, b.restitution);
   if (a.kind == Kind::kHalfSpace) {
     m.normal_on_b = false;

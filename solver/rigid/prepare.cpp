@@ -72,6 +72,9 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
   set_lane(g.friction_arm_b, lane, m.friction_arm_B);
   c.twist_impulse[lane] = step.impulse_scale * m.twist_impulse;
   c.friction[lane] = m.friction;
+  c.roll.lever[lane] = m.rolling_m;
+  c.rolls = c.rolls || m.rolling_m > 0;
+  set_lane(g.roll_impulse, lane, step.impulse_scale * m.roll_impulse_W);
   g.restitution[lane] = m.restitution;
   const float most_overlap = most_overlap_m(step, m);
   for (std::size_t i = 0; i < m.count; ++i) {
@@ -123,6 +126,9 @@ void store_block(const ContactStep& step, const ConstraintBlock<lanes>& c) {
     const float s1 = c.slide_impulse_1[lane], s2 = c.slide_impulse_2[lane];
     m.friction_impulse_W = s1 * lane_of(c.tangent_1, lane) + s2 * lane_of(c.tangent_2, lane);
     m.twist_impulse = c.twist_impulse[lane];
+    if (c.rolls)
+      m.roll_impulse_W = c.roll.impulse_1[lane] * lane_of(c.tangent_1, lane) +
+                         c.roll.impulse_2[lane] * lane_of(c.tangent_2, lane);
     m.step_impulse_W = lane_of(c.total, lane);
     const float limit = c.friction[lane] * 0.999f;
     if (s1 * s1 + s2 * s2 >= limit * limit * normal * normal) m.sticking = false;

@@ -17,6 +17,7 @@ template <std::uint32_t lanes>
 struct alignas(64) GatheredBlock {
   Wide3Of<lanes> root_a[3] = {}, root_b[3] = {};  ///< Columns.
   Wide3Of<lanes> drift = {}, slide_impulse = {}, friction_arm_a = {}, friction_arm_b = {};
+  Wide3Of<lanes> roll_impulse = {};
   Wide3Of<lanes> arm_a[4] = {}, arm_b[4] = {};
   Wide3Of<lanes> gravity = {};  ///< Acceleration of b from a.
   WideOf<lanes> restitution = {};

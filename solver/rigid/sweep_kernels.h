@@ -157,6 +157,33 @@ SUNDER_INLINE void twist(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   c.twist_impulse = next;
 }
 
+/// Turns both about the two tangents.
+template <std::uint32_t lanes, bool kSplit>
+SUNDER_INLINE void roll_by(const ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
+                           WideOf<lanes> impulse_1, WideOf<lanes> impulse_2) {
+  const RollLanes<lanes>& r = c.roll;
+  v.a.angular = v.a.angular - r.turn_1_a * impulse_1 - r.turn_2_a * impulse_2;
+  v.b.angular = v.b.angular + r.turn_1_b * impulse_1 + r.turn_2_b * impulse_2;
+}
+
+/// Resistance to rolling: a torque about the tangents of at most lever times load.
+template <std::uint32_t lanes, bool kSplit>
+SUNDER_INLINE void roll(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
+  using V = WideOf<lanes>;
+  RollLanes<lanes>& r = c.roll;
+  const V limit = r.lever * total_impulse(c);
+  const V u1 = dot(r.turn_1_b, v.b.angular) - dot(r.turn_1_a, v.a.angular);
+  const V u2 = dot(r.turn_2_b, v.b.angular) - dot(r.turn_2_a, v.a.angular);
+  V new_1 = r.impulse_1 - (r.mass_11 * u1 + r.mass_12 * u2);
+  V new_2 = r.impulse_2 - (r.mass_12 * u1 + r.mass_22 * u2);
+  const V square = new_1 * new_1 + new_2 * new_2;
+  const auto rolling = square > limit * limit;
+  const V scale = rolling ? limit / sqrt(rolling ? square : splat<V>(1)) : splat<V>(1);
+  new_1 *= scale, new_2 *= scale;
+  roll_by(c, v, new_1 - r.impulse_1, new_2 - r.impulse_2);
+  r.impulse_1 = new_1, r.impulse_2 = new_2;
+}
+
 template <bool kBiased, std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
                          const Pairs<lanes, kSplit>& x, const SoftStep& soft) {
@@ -198,6 +225,7 @@ SUNDER_INLINE void sweep(ConstraintBlock<lanes>& c, const SolverRows& bodies,
   const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
   slide<kBiased>(c, v, x, soft);
   if (c.points > 1) twist(c, v);
+  if (c.rolls) roll(c, v);
   press<kBiased>(c, v, x, soft);
   store(c, v, bodies);
   if (c.bouncy) note_impacts(c);
@@ -226,6 +254,7 @@ SUNDER_INLINE void warm_start_as(ConstraintBlock<lanes>& c, const SolverRows& bo
   v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, c.slide_impulse_1);
   v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, c.slide_impulse_2);
   v.twist(c, c.twist_impulse);
+  if (c.rolls) roll_by(c, v, c.roll.impulse_1, c.roll.impulse_2);
   for (std::uint32_t i = 0; i < c.points; ++i)
     v.push(c, c.normal, c.point[i].turn_a, c.point[i].turn_b, c.point[i].impulse);
   store(c, v, bodies);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/trigonometry.h"
 #include "tests/solver/presets.h"
 
 namespace sunder::solver {
@@ -119,6 +120,54 @@ TEST(ImpactTruth, ATurningBlockStopsByTheTwistOfItsPatch) {
     return std::abs(angle) / truth - 1;
   });
   EXPECT_LT(std::abs(error), 0.02);
+}
+
+/// A ball of radius 0.2 m with resistance to rolling on a slope; level if the slope is 0.
+struct Roller {
+  Roller(double slope_rad, double rolling, double speed_m_s) : world(awake(down(slope_rad))) {
+    world.add(W::with_friction(W::ground(), 0.8));
+    BodyDesc ball = W::with_friction(W::sphere(0.2, Vec3(0, 0.2, 0)), 0.8);
+    ball.shapes[0].rolling = rolling;
+    ball.velocity_W = Vec3(speed_m_s, 0, 0);
+    ball.angular_velocity_W = Vec3(0, 0, -speed_m_s / 0.2);
+    id = world.add(ball);
+  }
+  static Vec3 down(double slope_rad) {
+    const SinCos a = sin_cos(slope_rad);
+    return kG * Vec3(a.sin, -a.cos, 0);
+  }
+  double way() const { return world.state(id).X_WB.position.x(); }
+
+  RigidWorld world;
+  BodyId id;
+};
+
+TEST(ImpactTruth, ARollingBallStopsAfterItsRollingDistance) {
+  // Energy 7/10 m v² against the force mu_r m g that its torque amounts to.
+  const double rolling = 0.05, speed = 2, truth = 0.7 * speed * speed / (rolling * kG);
+  const double error =
+      at_each_preset("rolling resistance, error of the way (mark .01)", [&](auto& p) {
+        Roller roller(0, rolling, speed);
+        roller.world.run(7, p.dt_s, p.substeps);
+        return roller.way() / truth - 1;
+      });
+  EXPECT_LT(std::abs(error), 0.01);
+}
+
+TEST(ImpactTruth, ABallHoldsOnASlopeUpToItsRollingResistance) {
+  const double rolling = 0.1, steepest = 0.0996686525;  // atan(0.1)
+  const double creep =
+      at_each_preset("ball on 0.98 of its steepest slope, creep in 2 s, m", [&](auto& p) {
+        Roller roller(0.98 * steepest, rolling, 0);
+        roller.world.run(0.5, p.dt_s, p.substeps);
+        const double start = roller.way();
+        roller.world.run(2, p.dt_s, p.substeps);
+        return roller.way() - start;
+      });
+  EXPECT_LT(std::abs(creep), 2e-4);
+  Roller roller(1.02 * steepest, rolling, 0);
+  roller.world.run(2, 1.0 / 120, 8);
+  EXPECT_GT(roller.way(), 0.01);
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ TEST(Nncg, ReachesTheSolutionOfAStackInATenthOfTheSweeps) {
                 sweeps, residual(sweeps, false), residual(sweeps, true));
   }
   const int plain = sweeps_to(0.01, false), accelerated = sweeps_to(0.01, true);
-  std::printf("to 1 %%: %d plain, %d by conjugate gradients, %.1f times fewer\n", plain, accelerated,
-              1.0 * plain / accelerated);
+  std::printf("to 1 %%: %d plain, %d by conjugate gradients, %.1f times fewer\n", plain,
+              accelerated, 1.0 * plain / accelerated);
   EXPECT_GE(plain, 10 * accelerated);
 }
 
