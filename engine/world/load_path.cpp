@@ -11,7 +11,7 @@
 namespace sunder {
 namespace {
 
-constexpr double kSink = 0.8;    // measured: sink over load·g·h²
+constexpr double kSink = 1.55;   // measured: sink over load·g·h²
 constexpr double kReach = 0.02;  // of a body's size: what is so near touches
 constexpr double kAbove = 0.25;  // of the smaller height: centres so far apart are above each other
 constexpr double kBuckleSelf = 1.96, kBuckleLoaded = 0.62;

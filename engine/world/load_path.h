@@ -21,7 +21,7 @@ struct LoadPaths {
 };
 LoadPaths load_paths(const Scene& scene);
 
-/// How far a body under such a load sinks in, about: 0.8·load·g·h² (docs/decisions/027).
+/// How far a body under such a load sinks in, about: 1.55·load·g·h² (docs/decisions/027).
 double expected_sink_m(const LoadPath& path, double gravity_m_s2, double h_s);
 /// Substeps of `dt_s` so that it sinks no farther than `target_m`; at least 1.
 int substeps_for_sink(const LoadPath& path, double gravity_m_s2, double dt_s, double target_m);

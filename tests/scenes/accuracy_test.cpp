@@ -18,9 +18,9 @@ constexpr double kG = 9.81;
 /// weight.
 Scene stack(int count, double top, const std::string& preset, std::vector<std::string> set = {}) {
   std::string text = "[scene]\ndescription = \"x\"\nduration_s = 3\n[accuracy]\n";
-  text += "[[material]]\nname = \"light\"\nlike = \"steel\"\ndensity_kg_m3 = 1000\n";
+  text += "[[material]]\nname = \"light\"\nlike = \"steel\"\ndensity_kg_m3 = 2\n";
   text += "[[material]]\nname = \"heavy\"\nlike = \"steel\"\ndensity_kg_m3 = " +
-          std::to_string(1000 * top) + "\n";
+          std::to_string(2 * top) + "\n";
   text += "[[solid]]\nstructure = \"stack\"\nmaterial = \"light\"\ncount = " +
           std::to_string(count - 1) + "\n";
   text += "[[solid]]\nstructure = \"box\"\nname = \"top\"\nmaterial = \"heavy\"\nposition = [0, " +
