@@ -48,6 +48,7 @@ class WeighedPhysics final : public Physics {
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override {
     inner_->apply_impulse(body, impulse_W, point_W);
   }
+  void hold(std::span<const BodyId> bodies) override { inner_->hold(bodies); }
   SolveReport solve(double dt_s, int substeps) override { return inner_->solve(dt_s, substeps); }
   BodyState state(BodyId body) const override { return inner_->state(body); }
   std::vector<ContactLoad> contact_loads() const override { return inner_->contact_loads(); }
