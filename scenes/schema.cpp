@@ -21,10 +21,10 @@ Keys<Scene> top_keys() {
   return {
       "the scene file",
       {table_key("scene", "What it is."), table_key("accuracy", "Overrides the preset."),
-       table_key("limits", "How much may exist."), table_key("ground", "The floor."),
-       table_key("view", "Camera and sun."), table_key("material", "Materials."),
-       table_key("solid", "What stands there."), table_key("body", "Meshes that stand there."),
-       table_key("ball", "Balls from the start."),
+       table_key("solver", "How contacts are solved."), table_key("limits", "How much may exist."),
+       table_key("ground", "The floor."), table_key("view", "Camera and sun."),
+       table_key("material", "Materials."), table_key("solid", "What stands there."),
+       table_key("body", "Meshes that stand there."), table_key("ball", "Balls from the start."),
        table_key("joint", "What holds things together."), table_key("script", "What happens.")}};
 }
 

@@ -88,8 +88,8 @@ TEST(HardMeshes, WhatOverlapsCountTwiceIsStated) {
 TEST(HardMeshes, LongWorkSaysHowFarItIsUnlessItIsQuiet) {
   const Folder folder;
   const std::string file = folder / "large.obj";
-  write_ball(file, 300, 0);
-  const std::string command = "vacd " + file + " --convexes 24 --json -";
+  write_ball(file, 600, 0);
+  const std::string command = "vacd " + file + " --convexes 64 --json -";
   const Outcome told = sunder(command);
   EXPECT_EQ(told.exit_code, 0);
   EXPECT_NE(told.err.find("% done"), std::string::npos) << told.err;
