@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <span>
 
+#include "engine/base/disjoint_sets.h"
 #include "engine/base/parallel.h"
 #include "fracture/intersect.h"
 #include "fracture/overlap.h"
@@ -169,12 +169,7 @@ std::vector<Ghost> cut_ghosts(const Structure& structure, const std::vector<std:
 void hold_overlaps(const std::vector<Ghost>& ghosts, std::uint32_t slot_count,
                    std::vector<Fragment>& fragments) {
   if (ghosts.empty()) return;
-  std::vector<std::uint32_t> parent(fragments.size());  // union-find over fragments
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(fragments.size());
   std::vector<std::uint32_t> held;  // by a convex that is not cut
   for (const Ghost& ghost : ghosts) {
     const std::uint32_t last = ghost.of.back();
@@ -183,18 +178,17 @@ void hold_overlaps(const std::vector<Ghost>& ghosts, std::uint32_t slot_count,
       if (node < slot_count) {
         held.push_back(last - slot_count);
       } else {
-        const std::uint32_t a = root(node - slot_count), b = root(last - slot_count);
-        parent[std::max(a, b)] = std::min(a, b);
+        sets.join(node - slot_count, last - slot_count);
       }
     }
   }
   std::vector<std::uint32_t> group(fragments.size(), Fragment::kRest);
   for (std::uint32_t i = 0; i < fragments.size(); ++i) {
-    std::uint32_t& of_root = group[root(i)];
+    std::uint32_t& of_root = group[sets.root(i)];
     of_root = std::min(of_root, fragments[i].group);
   }
-  for (const std::uint32_t i : held) group[root(i)] = Fragment::kRest;
-  for (std::uint32_t i = 0; i < fragments.size(); ++i) fragments[i].group = group[root(i)];
+  for (const std::uint32_t i : held) group[sets.root(i)] = Fragment::kRest;
+  for (std::uint32_t i = 0; i < fragments.size(); ++i) fragments[i].group = group[sets.root(i)];
 }
 
 }  // namespace sunder::fracture

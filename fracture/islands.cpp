@@ -1,24 +1,17 @@
 #include "fracture/islands.h"
 
-#include <numeric>
+#include "engine/base/disjoint_sets.h"
 
 namespace sunder::fracture {
 
 std::vector<std::uint32_t> find_islands(std::size_t count, std::span<const Bond> bonds) {
-  // Union-find with path halving; the smaller index is the root, so roots come first.
-  std::vector<std::uint32_t> parent(count);
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const Bond& bond : bonds) {
-    const std::uint32_t a = root(bond.a), b = root(bond.b);
-    parent[a > b ? a : b] = a > b ? b : a;
-  }
+  // The least is the root, so roots come first.
+  DisjointSets sets(count);
+  for (const Bond& bond : bonds) sets.join(bond.a, bond.b);
   std::vector<std::uint32_t> island(count);
   std::uint32_t islands = 0;
-  for (std::uint32_t i = 0; i < count; ++i) island[i] = root(i) == i ? islands++ : island[root(i)];
+  for (std::uint32_t i = 0; i < count; ++i)
+    island[i] = sets.root(i) == i ? islands++ : island[sets.root(i)];
   return island;
 }
 

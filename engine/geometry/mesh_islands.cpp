@@ -3,32 +3,12 @@
 #include "engine/geometry/mesh_islands.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
+
+#include "engine/base/disjoint_sets.h"
 
 namespace sunder {
 namespace {
-
-/// Sets that are joined; each is known by its lowest member.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t of(std::uint32_t member) {
-    while (parent_[member] != member) {
-      member = parent_[member] = parent_[parent_[member]];
-    }
-    return member;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = of(a), b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Whether a polygon's edge passes the point's height, on its far side in u: +1 upwards, -1 down.
 int passes(double from_u, double from_v, double to_u, double to_v) {
@@ -96,9 +76,9 @@ double volume6(const PolygonMesh& mesh, std::span<const std::uint32_t> contours)
   return sum;
 }
 
-/// Sets of contours that share vertices.
-Sets shells(const PolygonMesh& mesh) {
-  Sets sets(mesh.contours.size());
+/// DisjointSets of contours that share vertices.
+DisjointSets shells(const PolygonMesh& mesh) {
+  DisjointSets sets(mesh.contours.size());
   constexpr std::uint32_t kNone = ~0u;
   std::vector<std::uint32_t> contour_at(mesh.vertices.size(), kNone);
   for (std::uint32_t k = 0; k < mesh.contours.size(); ++k) {
@@ -111,7 +91,7 @@ Sets shells(const PolygonMesh& mesh) {
 }
 
 /// Joins each hole of a face with the smallest contour around it.
-void join_holes(const PolygonMesh& mesh, const PolygonMesh::Face& face, Sets& sets) {
+void join_holes(const PolygonMesh& mesh, const PolygonMesh::Face& face, DisjointSets& sets) {
   const std::uint32_t begin = face.first_contour, end = begin + face.contour_count;
   std::vector<double> area;
   for (std::uint32_t k = begin; k < end; ++k) {
@@ -130,11 +110,11 @@ void join_holes(const PolygonMesh& mesh, const PolygonMesh::Face& face, Sets& se
 }
 
 /// The contours of each set, by their first.
-std::vector<std::vector<std::uint32_t>> members(Sets& sets, std::size_t count) {
+std::vector<std::vector<std::uint32_t>> members(DisjointSets& sets, std::size_t count) {
   std::vector<std::vector<std::uint32_t>> result;
   std::vector<std::size_t> index(count);
   for (std::uint32_t k = 0; k < count; ++k) {
-    const std::uint32_t set = sets.of(k);
+    const std::uint32_t set = sets.root(k);
     if (set == k) {
       index[k] = result.size();
       result.emplace_back();
@@ -145,7 +125,7 @@ std::vector<std::vector<std::uint32_t>> members(Sets& sets, std::size_t count) {
 }
 
 /// Joins each shell that bounds a hollow with the smallest solid around it.
-void join_hollows(const PolygonMesh& mesh, Sets& sets) {
+void join_hollows(const PolygonMesh& mesh, DisjointSets& sets) {
   const auto parts = members(sets, mesh.contours.size());
   std::vector<double> volume;
   for (const auto& part : parts) volume.push_back(volume6(mesh, part));
@@ -162,13 +142,13 @@ void join_hollows(const PolygonMesh& mesh, Sets& sets) {
 }
 
 /// One mesh an island: contours go in order to their island's, and take their face with them.
-std::vector<PolygonMesh> separated(const PolygonMesh& mesh, Sets& sets) {
+std::vector<PolygonMesh> separated(const PolygonMesh& mesh, DisjointSets& sets) {
   constexpr std::uint32_t kNone = ~0u;
   std::vector<PolygonMesh> result;
   std::vector<std::size_t> island(mesh.contours.size());
   std::vector<std::uint32_t> new_of_old(mesh.vertices.size(), kNone);
   for (std::uint32_t k = 0; k < mesh.contours.size(); ++k) {
-    const std::uint32_t set = sets.of(k);
+    const std::uint32_t set = sets.root(k);
     if (set == k) result.emplace_back();
     island[k] = set == k ? result.size() - 1 : island[set];
   }
@@ -205,7 +185,7 @@ std::vector<PolygonMesh> separated(const PolygonMesh& mesh, Sets& sets) {
 std::vector<PolygonMesh> islands(PolygonMesh mesh) {
   std::vector<PolygonMesh> result;
   if (mesh.empty()) return result;
-  Sets sets = shells(mesh);
+  DisjointSets sets = shells(mesh);
   const auto in_parts = [&] { return members(sets, mesh.contours.size()).size() > 1; };
   if (in_parts()) {
     for (const PolygonMesh::Face& face : mesh.faces) {

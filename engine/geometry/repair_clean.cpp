@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/base/disjoint_sets.h"
 #include "engine/base/hash.h"
 #include "engine/geometry/bvh.h"
 
@@ -20,31 +21,6 @@ constexpr double kNoArea = 1e-12;
 void rename_vertices(RawMesh& mesh, std::span<const std::uint32_t> new_of_old) {
   for (std::uint32_t& v : mesh.corners) v = new_of_old[v];
 }
-
-/// The least vertex of each set of joined ones.
-class Joined {
- public:
-  explicit Joined(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t root(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  bool join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-  std::vector<std::uint32_t> roots() {
-    for (std::uint32_t v = 0; v < parent_.size(); ++v) parent_[v] = root(v);
-    return parent_;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 bool has_area(const RawMesh& mesh, const std::vector<std::uint32_t>& corners) {
   const auto at = [&](std::size_t i) -> const Vec3& {
@@ -200,7 +176,7 @@ std::size_t join_close(RawMesh& mesh, std::span<const std::uint32_t> vertices, d
   std::vector<std::pair<Cell, std::uint32_t>> cells;
   for (const std::uint32_t v : vertices) cells.emplace_back(cell_of(v), v);
   std::sort(cells.begin(), cells.end());
-  Joined joined(mesh.vertices.size());
+  DisjointSets joined(mesh.vertices.size());
   std::size_t count = 0;
   for (const auto& [cell, v] : cells) {
     for (int neighbor = 0; neighbor < 27; ++neighbor) {

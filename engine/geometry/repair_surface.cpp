@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/base/disjoint_sets.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/repair_clean.h"
 
@@ -55,25 +56,6 @@ class EdgeTable {
   std::vector<std::uint32_t> to_;
   std::vector<std::uint32_t> start_;  ///< Of the edges by their lower vertex.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> entries_;
-};
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
 };
 
 std::vector<std::uint32_t> polygon_of_corners(const RawMesh& mesh) {

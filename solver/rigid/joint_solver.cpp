@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
+
+#include "engine/base/disjoint_sets.h"
 
 namespace sunder::solver {
 namespace {
@@ -28,25 +29,6 @@ void for_moving(const Joint& joint, const Bodies& bodies, const Visit& visit) {
   if (joint.body_b != kNone && bodies.awake(joint.body_b)) visit(joint.body_b);
 }
 
-/// Sets of bodies that joints hold together.
-class Islands {
- public:
-  explicit Islands(std::uint32_t bodies) : parent_(bodies) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t root(std::uint32_t body) {
-    while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
-    return body;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 }  // namespace
 
 void JointSolver::collect(const Bodies& bodies, const Joints& joints,
@@ -70,7 +52,7 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
 }
 
 void JointSolver::group_joints(const Bodies& bodies, const Joints& joints) {
-  Islands islands(bodies.size());
+  DisjointSets islands(bodies.size());  // of what joints hold together
   const auto mover = [&](std::uint32_t i) {
     std::uint32_t found = kNone;
     for_moving(joints[i], bodies, [&](std::uint32_t body) { found = body; });
