@@ -23,10 +23,10 @@ namespace {
 constexpr double kFrame = 1.0 / 60;
 constexpr double kFoundationDepth = 0.3;  // m
 
-Accuracy preset_accuracy(const std::string& name) {
+const Preset& preset_of(const std::string& name) {
   std::vector<std::string_view> names;
   for (const Preset& preset : presets()) {
-    if (preset.name == name) return preset.accuracy;
+    if (preset.name == name) return preset;
     names.push_back(preset.name);
   }
   throw InputError("--preset " + name + ": unknown preset" + did_you_mean(name, names) +
@@ -73,7 +73,9 @@ Scene Loader::load(const LoadOptions& options) {
   const Value* scene = find(std::get<Table>(document_.data), "scene");
   if (!scene) throw InputError(document_.where + ": missing table [scene]");
   read(s.scene, *scene, {}, scene_);
-  scene_.accuracy = preset_accuracy(options.preset);
+  const Preset& preset = preset_of(options.preset);
+  scene_.accuracy = preset.accuracy;
+  scene_.solver.sweeps = preset.sweeps;
   read_accuracy();
   read_table(s.solver, "solver", scene_.solver);
   read_table(s.limits, "limits", scene_.limits);

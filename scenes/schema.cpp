@@ -46,7 +46,8 @@ Keys<SolverDials> solver_keys() {
                "Colours that contacts are solved in; 64: coloured Gauss-Seidel; contacts that find "
                "no colour are solved by mass splitting; 0: all of them."),
            key<&SolverDials::sweeps>("sweeps", "", Range{1, 1000},
-                                     "Sweeps of either kind in a substep."),
+                                     "Sweeps of either kind in a substep; from 4 on by conjugate "
+                                     "gradients. 4 at `reference`."),
            key<&SolverDials::lanes>("lanes", "", Range{0, 16},
                                     "Contacts side by side: 1, 4, 8 or 16, if the processor has so "
                                     "many; 0: the most. The same bits for any.")}};
@@ -283,10 +284,10 @@ Schema make_schema() {
 
 std::span<const Preset> presets() {
   static constexpr Preset kPresets[] = {
-      {"draft", {1.0 / 60, 4}, "fastest"},
-      {"realtime", {1.0 / 120, 4}, "the default"},
-      {"accurate", {1.0 / 120, 8}, "a quarter of the penetration"},
-      {"reference", {1.0 / 480, 4}, "a sixteenth of it"},
+      {"draft", {1.0 / 60, 4}, 1, "fastest"},
+      {"realtime", {1.0 / 120, 4}, 1, "the default"},
+      {"accurate", {1.0 / 120, 8}, 1, "a quarter of the penetration"},
+      {"reference", {1.0 / 480, 4}, 4, "a sixteenth of it"},
   };
   return kPresets;
 }

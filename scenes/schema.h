@@ -15,6 +15,7 @@ namespace sunder::scenes {
 struct Preset {
   std::string_view name;
   Accuracy accuracy;
+  int sweeps;  ///< Of the solver in a substep.
   std::string_view help;
 };
 std::span<const Preset> presets();
