@@ -139,7 +139,7 @@ TEST(Debris, SleepsOnABodyThatIsAwakeButHardlyMovesAndWakesWhenItHasGoneOn) {
 }
 
 TEST(Debris, TouchesTheSameThingsWhateverTheirSizeAndNumberAndPlace) {
-  Debris debris(100, kGravity);
+  Debris debris(200, kGravity);
   TestObstacles obstacles;
   obstacles.add_box(Vec3(0, 0.25, 0), Vec3(400, 0.25, 400));
   for (int i = 0; i < 2000; ++i) obstacles.add_box(Vec3(0.05 * i, 0.52, 1), Vec3(0.02, 0.02, 0.02));
@@ -148,6 +148,7 @@ TEST(Debris, TouchesTheSameThingsWhateverTheirSizeAndNumberAndPlace) {
   for (int i = 0; i < 50; ++i) debris.add(chip_at(Vec3f(float(i), 1, -300 + float(i))));
   run(debris, obstacles, 2);
   const DebrisView view = debris.view();
+  ASSERT_EQ(view.position_W.size(), 100u);
   for (std::size_t i = 0; i < 100; ++i) {
     EXPECT_GE(view.position_W[i].y(), 0.519f) << i;
     EXPECT_LE(view.position_W[i].y(), 0.57f) << i;
