@@ -115,6 +115,7 @@ void recolor() {
   constexpr std::uint32_t kSide = 26, kGone = 5000;
   Bodies bodies;
   bodies.motion.assign(kSide * kSide * kSide, Motion::kAwake);
+  bodies.is_new.assign(bodies.motion.size(), 0);
   Contacts contacts;
   contacts.body_colors.assign(bodies.size(), 0);
   auto touch = [&](std::uint32_t a, std::uint32_t b) {
