@@ -9,11 +9,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bench/cpu_time.h"
 #include "bench/piles.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
@@ -22,6 +22,7 @@
 namespace sunder::solver {
 namespace {
 
+using bench::cpu_ms;
 using bench::pyramid;
 using bench::rubble;
 using bench::stack;
@@ -40,13 +41,6 @@ struct Options {
   double rate_Hz = 60;
   bool sleep = false;
 };
-
-/// Processor time of the whole process: a busy machine does not change it much.
-double cpu_ms() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
 
 struct Run {
   std::unique_ptr<Physics> physics;

@@ -5,9 +5,9 @@
 //   peers_bench [--hulls N] [--frames N] [--engine sunder|bullet|ode] [--defaults]
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <string>
 
+#include "bench/cpu_time.h"
 #include "bench/peers/peer.h"
 #include "bench/peers/penetration.h"
 #include "bench/piles.h"
@@ -66,12 +66,6 @@ struct Result {
   std::size_t overlapping = 0;
   std::size_t lost = 0;  ///< Out of the pit, or nowhere.
 };
-
-double cpu_ms() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
 
 void judge(const Pile& pile, const Peer& peer, Result& result) {
   constexpr double kOut_m = 0.5;

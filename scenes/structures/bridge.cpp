@@ -4,6 +4,7 @@
 // reaches up to the deck, so that all meet face to face.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
@@ -26,7 +27,6 @@ struct Bridge {
   MaterialRef deck{"stone", {}};
 };
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kCover = 0.15;  // m, of stone between the crown and the deck
 
 class Builder {
@@ -75,7 +75,7 @@ class Builder {
 
   void add_arch(double middle) {
     const auto at = [&](double radius, int joint) -> Vec2 {
-      const SinCos angle = sin_cos(kPi * joint / bridge_.voussoirs);
+      const SinCos angle = sin_cos(std::numbers::pi * joint / bridge_.voussoirs);
       // The feet are level to the last bit, and so is what stands beside the next arch.
       const bool foot = joint == 0 || joint == bridge_.voussoirs;
       const double x = foot ? (joint == 0 ? radius : -radius) : radius * angle.cos;

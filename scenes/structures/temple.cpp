@@ -4,6 +4,7 @@
 // Read first: Builder::build(), from the ground up.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/base/trigonometry.h"
 #include "scenes/structures/structure.h"
@@ -24,7 +25,6 @@ struct Temple {
   MaterialRef stone{"marble", {}};
 };
 
-constexpr double kTurn = 6.283185307179586;
 constexpr double kStep = 0.2;      // m, height and depth of a step
 constexpr double kCapital = 0.2;   // m, height
 constexpr double kBeam = 0.5;      // m, height
@@ -70,7 +70,7 @@ class Builder {
   void add_column(double x, double y, double z) {
     std::vector<Vec2> rim;
     for (int i = 0; i < kSides; ++i) {
-      const SinCos turn = sin_cos(kTurn * i / kSides);
+      const SinCos turn = sin_cos(2 * std::numbers::pi * i / kSides);
       rim.emplace_back(x + temple_.radius_m * turn.sin, z + temple_.radius_m * turn.cos);
     }
     const double shaft = temple_.height_m - kCapital;

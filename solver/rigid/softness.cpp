@@ -1,5 +1,7 @@
 #include "solver/rigid/softness.h"
 
+#include <numbers>
+
 namespace sunder::solver {
 namespace {
 
@@ -11,12 +13,11 @@ constexpr double kPressStiffness[4] = {0.25, 0.25, 0.2, 0.18};
 constexpr double kSlideStiffness[4] = {0.25, 0.25, 0.125, 0.125};
 constexpr double kDamping = 5;   // ratio to critical
 constexpr double kPush_m_s = 4;  // fastest correction of an overlap
-constexpr double kPi = 3.14159265358979323846;
 
 /// A spring of (omega·h)² of the mass over h²; what it gives way under an impulse p a substep is
 /// p / (mass · h) / omega².
 Softness softness(double stiffness, double h) {
-  const double omega_h = 2 * kPi * stiffness;
+  const double omega_h = 2 * std::numbers::pi * stiffness;
   const double a1 = 2 * kDamping + omega_h, a2 = omega_h * a1, a3 = 1 / (1 + a2);
   return {static_cast<float>(omega_h / h / a1), static_cast<float>(a2 * a3), static_cast<float>(a3),
           static_cast<float>(h / (omega_h * omega_h))};

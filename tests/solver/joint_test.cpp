@@ -5,23 +5,15 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/trigonometry.h"
-#include "tests/solver/rigid_world.h"
+#include "tests/solver/presets.h"
 
 namespace sunder::solver {
 namespace {
 
 using W = RigidWorld;
 using Kind = JointDesc::Kind;
-constexpr double kG = 9.81, kPi = 3.14159265358979323846;
 constexpr double kDt_s = 1.0 / 120;  // the preset `accurate`
 constexpr int kSubsteps = 8;
-
-RigidOptions awake(const Vec3& gravity_W = Vec3(0, -kG, 0)) {
-  RigidOptions options;
-  options.gravity_W = gravity_W;
-  options.sleeping = false;
-  return options;
-}
 
 /// A joint of bodies where they are now, at a place in the world. No id: the world.
 JointDesc joint_at(const RigidWorld& world, Kind kind, BodyId a, BodyId b, const Vec3& at_W,

@@ -7,26 +7,14 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/base/trigonometry.h"
 #include "solver/planar/planar_physics.h"
-#include "tests/solver/rigid_world.h"
+#include "tests/solver/presets.h"
 
 namespace sunder::solver {
 namespace {
 
 using W = RigidWorld;
 using Build = std::function<void(RigidWorld&)>;
-constexpr double kPi = 3.14159265358979323846;
-
-struct Preset {
-  const char* name;
-  double dt_s;
-  int substeps;
-};
-constexpr Preset kPresets[] = {{"draft", 1.0 / 60, 4},
-                               {"realtime", 1.0 / 120, 4},
-                               {"accurate", 1.0 / 120, 8},
-                               {"reference", 1.0 / 480, 4}};
 
 /// Where everything is after some seconds.
 struct Rest {
@@ -53,9 +41,7 @@ Rest planar_rest(const Build& build, double block_m) {
 }
 
 Rest solid_rest(const Build& build, const Preset& preset) {
-  RigidOptions options;
-  options.sleeping = false;
-  return settle(RigidWorld(options), build, preset.dt_s, preset.substeps);
+  return settle(RigidWorld(awake()), build, preset.dt_s, preset.substeps);
 }
 
 /// The furthest that a block is from where Box2D leaves it, in blocks; a turn moves its corners.
@@ -99,17 +85,7 @@ void build_pyramid(RigidWorld& world) {
 /// A semicircle of `count` stones about a circle of radius 1, `slim` thick.
 void build_arch(RigidWorld& world, int count, double slim) {
   world.add(W::with_friction(W::ground(), 1));
-  for (int i = 0; i < count; ++i) {
-    std::vector<Vec3> corners;
-    for (int end = 0; end < 2; ++end) {
-      const SinCos a = sin_cos(kPi * (i + end) / count);
-      for (const double radius : {1 - 0.5 * slim, 1 + 0.5 * slim})
-        for (const double z : {-0.25, 0.25})
-          corners.emplace_back(radius * a.cos, radius * a.sin, z);
-    }
-    const ConvexPolyhedron stone = make_hull(corners);
-    world.add(W::with_friction(W::hull(stone, mass_properties(stone).centroid, 2000), 1));
-  }
+  for (int i = 0; i < count; ++i) world.add(W::voussoir(i, count, slim));
 }
 
 /// Four bricks, each beyond the next by `factor` times what just balances.

@@ -214,18 +214,7 @@ bool arch_stands(int count, double slim, const Preset& preset) {
   RigidWorld world(awake());
   world.add(W::with_friction(W::ground(), 1));
   std::vector<BodyId> stones;
-  for (int i = 0; i < count; ++i) {
-    std::vector<Vec3> corners;
-    for (int end = 0; end < 2; ++end) {
-      const SinCos a = sin_cos(kPi * (i + end) / count);
-      for (const double radius : {1 - 0.5 * slim, 1 + 0.5 * slim})
-        for (const double z : {-0.25, 0.25})
-          corners.emplace_back(radius * a.cos, radius * a.sin, z);
-    }
-    const ConvexPolyhedron stone = make_hull(corners);
-    stones.push_back(
-        world.add(W::with_friction(W::hull(stone, mass_properties(stone).centroid, 2000), 1)));
-  }
+  for (int i = 0; i < count; ++i) stones.push_back(world.add(W::voussoir(i, count, slim)));
   const BodyId crown = stones[static_cast<std::size_t>(count / 2)];
   world.run(4, preset.dt_s, preset.substeps);
   return world.state(crown).X_WB.position.y() > 0.9;

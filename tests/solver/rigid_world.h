@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "engine/base/hash.h"
 #include "engine/base/random.h"
+#include "engine/base/trigonometry.h"
 #include "engine/geometry/convex_polyhedron.h"
 #include "solver/rigid/rigid_physics.h"
 
@@ -60,6 +62,19 @@ class RigidWorld {
     shape.normal_R = normal_W;
     desc.shapes = {shape};
     return desc;
+  }
+  /// Stone `i` of a semicircle of `count` about a circle of radius 1, `slim` thick; it does not
+  /// slide.
+  static BodyDesc voussoir(int i, int count, double slim) {
+    std::vector<Vec3> corners;
+    for (int end = 0; end < 2; ++end) {
+      const SinCos a = sin_cos(std::numbers::pi * (i + end) / count);
+      for (const double radius : {1 - 0.5 * slim, 1 + 0.5 * slim})
+        for (const double z : {-0.25, 0.25})
+          corners.emplace_back(radius * a.cos, radius * a.sin, z);
+    }
+    const ConvexPolyhedron stone = make_hull(corners);
+    return with_friction(hull(stone, mass_properties(stone).centroid, 2000), 1);
   }
   static BodyDesc fixed(BodyDesc desc) {
     desc.is_static = true;

@@ -1,0 +1,15 @@
+// Processor time, which a busy machine changes little.
+#pragma once
+
+#include <ctime>
+
+namespace sunder::bench {
+
+/// Milliseconds that all threads of this process have used so far.
+inline double cpu_ms() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace sunder::bench
