@@ -10,6 +10,7 @@ namespace {
 constexpr float kMargin = 0.05f;         // of the smaller inner radius: contact before touch
 constexpr float kAxisTolerance = 0.01f;  // of it: how much better another axis must be
 constexpr float kStill = 1e-6f;          // of it: a way that is not worth a look
+constexpr float kSliver = 1e-3f;         // of it: an overlap of faces that is no area
 constexpr int kImpactRounds = 24;
 
 using Kind = ShapeDesc::Kind;
@@ -154,6 +155,20 @@ bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, cons
   return true;
 }
 
+/// Whether the pair is new, hardly moves and touches at an edge only, as most neighbours in a grid
+/// do: no contact until it has moved by a sliver.
+bool edges_at_rest(const Shape& a, const Shape& b, const PairMotion& motion, const Reach& reach,
+                   float size_m, Pair& pair, NarrowScratch& scratch) {
+  const float sliver_m = kSliver * size_m;
+  if (a.kind != Kind::kHull || b.kind != Kind::kHull || reach.spin_m + reach.way_m > sliver_m)
+    return false;
+  place_in_each_other(a.hull, b.hull, motion.pose, scratch.hulls);
+  if (!touch_without_area(a.hull, b.hull, motion.pose, sliver_m, scratch.hulls)) return false;
+  pair.axis_A.setZero();
+  pair.clearance_m = reach.margin_m + sliver_m;
+  return true;
+}
+
 }  // namespace
 
 bool same_as_before(const Bodies& bodies, std::span<const float> reach_m, const Pair& pair,
@@ -185,6 +200,7 @@ void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep
   const AxisReach axis_reach{reach.margin_m + reach.spin_m, way_A};
   if (m.count == 0 && still_parted(a, b, motion, axis_reach, travelled, pair, scratch)) return;
   pair.travelled_m = travelled;
+  if (m.count == 0 && edges_at_rest(a, b, motion, reach, size_m, pair, scratch)) return;
   m.size_m = size_m;
   m.friction = std::sqrt(a.friction * b.friction);
   m.rolling_m = std::max(a.rolling, b.rolling) * std::min(a.inner_radius_m, b.inner_radius_m);

@@ -19,21 +19,25 @@ struct FaceAnswer {
   float separation_m = -1e30f;
 };
 
+/// How far the vertices are in front of each of eight faces, at least.
+Wide in_front(const Hull::PlaneChunk& plane, std::uint32_t vertex_count,
+              const std::vector<Wide3>& vertices) {
+  Wide least = splat(1e30f);
+  for (std::uint32_t i = 0; i < vertex_count; ++i) {
+    const Wide3& v = vertices[i / kLanes];
+    const std::uint32_t k = i % kLanes;
+    least = min(least, plane.normal.x * v.x[k] + plane.normal.y * v.y[k] + plane.normal.z * v.z[k]);
+  }
+  return least + plane.d;
+}
+
 /// The face of `hull` that the vertices are furthest in front of.
 FaceAnswer best_face(const Hull& hull, std::uint32_t vertex_count,
                      const std::vector<Wide3>& vertices) {
   FaceAnswer best;
   const auto planes = hull.planes();
   for (std::uint32_t c = 0; c < planes.size(); ++c) {
-    const Hull::PlaneChunk& plane = planes[c];
-    Wide least = splat(1e30f);
-    for (std::uint32_t i = 0; i < vertex_count; ++i) {
-      const Wide3& v = vertices[i / kLanes];
-      const std::uint32_t k = i % kLanes;
-      least =
-          min(least, plane.normal.x * v.x[k] + plane.normal.y * v.y[k] + plane.normal.z * v.z[k]);
-    }
-    least += plane.d;
+    const Wide least = in_front(planes[c], vertex_count, vertices);
     for (std::uint32_t k = 0; k < kLanes; ++k)
       if (least[k] > best.separation_m) best = {c * kLanes + k, least[k]};
   }
@@ -161,6 +165,27 @@ SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose&
   const SeparatingAxis edges =
       best_edges(a, b, pose, reach, best.separation_m + tolerance_m, scratch);
   return edges.separation_m > best.separation_m + tolerance_m ? edges : best;
+}
+
+bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, float sliver_m,
+                        const HullScratch& scratch) {
+  constexpr float kApart = 0.5f;  // cosine of the angle between two faces that leave no area
+  Vec3f first = Vec3f::Zero();
+  const auto two_part = [&](const Hull& hull, std::uint32_t vertex_count,
+                            const std::vector<Wide3>& vertices, const Mat3f& to_A) {
+    for (std::uint32_t c = 0; c < hull.planes().size(); ++c) {
+      const Wide least = in_front(hull.planes()[c], vertex_count, vertices);
+      for (std::uint32_t set = bits(least > splat(-sliver_m)); set != 0; set &= set - 1) {
+        const auto k = static_cast<std::uint32_t>(__builtin_ctz(set));
+        const Vec3f normal_A = to_A * Hull::lane(hull.planes()[c].normal, k);
+        if (first.isZero(0)) first = normal_A;
+        if (first.dot(normal_A) < kApart) return true;
+      }
+    }
+    return false;
+  };
+  return two_part(a, b.vertex_count(), scratch.b_in_A, Mat3f::Identity()) ||
+         two_part(b, a.vertex_count(), scratch.a_in_B, -pose.R);
 }
 
 float separation_along(const Vec3f& axis_A, const Hull& a, const HullScratch& scratch) {

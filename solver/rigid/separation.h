@@ -47,6 +47,10 @@ void place_in_each_other(const Hull& a, const Hull& b, const RelativePose& pose,
 /// `tolerance_m`, and a's faces to b's, so that the choice stays put from step to step.
 SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose& pose,
                                const AxisReach& reach, float tolerance_m, HullScratch& scratch);
+/// Whether the hulls touch at an edge or a corner only: two faces, 60 degrees or more apart, each
+/// have the other hull in front of them but for `sliver_m`. The scratch must be filled.
+bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, float sliver_m,
+                        const HullScratch& scratch);
 /// Distance of the supporting planes along an axis given in A; the scratch must be filled.
 float separation_along(const Vec3f& axis_A, const Hull& a, const HullScratch& scratch);
 
