@@ -37,9 +37,6 @@ std::shared_ptr<fracture::FailureLog> failure_log() {
   return {new fracture::FailureLog(kCases), tell};
 }
 
-// Fewer sweeps are over before conjugate gradients know their way.
-constexpr int kFewestToAccelerate = 4;
-
 /// As many dimensions as the scene needs.
 std::unique_ptr<Physics> make_physics(const Scene& scene) {
   if (scene.planar) {
@@ -52,7 +49,6 @@ std::unique_ptr<Physics> make_physics(const Scene& scene) {
   rigid.gravity_W = scene.gravity_W;
   rigid.max_colors = scene.solver.max_colors;
   rigid.sweeps = scene.solver.sweeps;
-  rigid.accelerated = rigid.sweeps >= kFewestToAccelerate;
   rigid.lanes = scene.solver.lanes;
   return solver::make_rigid_physics(rigid);
 }

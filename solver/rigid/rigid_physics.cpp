@@ -28,7 +28,9 @@ constexpr float kDeep = 0.1f;  // of the smaller shape's inner radius
 class RigidPhysics final : public Physics {
  public:
   explicit RigidPhysics(const RigidOptions& options)
-      : options_(options), contact_solver_({options.sweeps, options.accelerated, options.lanes}) {
+      : options_(options),
+        contact_solver_(
+            {options.sweeps, options.sweeps >= options.accelerate_from, options.lanes}) {
     SUNDER_CHECK(options.max_colors >= 0 && options.max_colors <= kMaxColors);
     SUNDER_CHECK(options.sweeps > 0 && options.lanes >= 0);
     contacts_.colors = static_cast<std::uint8_t>(options.max_colors);

@@ -13,7 +13,7 @@ using W = RigidWorld;
 
 /// How long a ball bounces that is let go 1 m above the ground, until it no longer leaves it.
 double time_of_bounces(double restitution, const Preset& preset) {
-  RigidWorld world(awake());
+  RigidWorld world(awake(preset));
   world.add(W::with_friction(W::ground(), 0.5, restitution));
   const BodyId ball =
       world.add(W::with_friction(W::sphere(0.1, Vec3(0, 1.1, 0)), 0.5, restitution));
@@ -37,7 +37,7 @@ TEST(ImpactTruth, ABallBouncesForAsLongAsTheGeometricSeries) {
 TEST(ImpactTruth, ABallReboundsToTheSquareOfItsRestitution) {
   const double e = 0.8;
   const double error = at_each_preset("apex of a bounce, error (mark .01)", [&](auto& p) {
-    RigidWorld world(awake());
+    RigidWorld world(awake(p));
     world.add(W::with_friction(W::ground(), 0.5, e));
     const BodyId ball = world.add(W::with_friction(W::sphere(0.1, Vec3(0, 1.1, 0)), 0.5, e));
     double apex = 0;
@@ -57,7 +57,7 @@ TEST(ImpactTruth, ABallReboundsToTheSquareOfItsRestitution) {
 TEST(ImpactTruth, AFreeSpinnerKeepsEnergyAndAngularMomentumForAMinute) {
   double momentum_error = 0;
   const double error = at_each_preset("free spinner 60 s, error of E (mark 1e-3)", [&](auto& p) {
-    RigidWorld world(awake(Vec3::Zero()));
+    RigidWorld world(awake(p, Vec3::Zero()));
     BodyDesc desc = W::box(Vec3(1, 0.6, 0.2), Vec3::Zero());
     desc.angular_velocity_W = Vec3(0.01, 10, 0.01);  // about the middle axis: it tumbles over
     world.add(desc);
@@ -78,7 +78,7 @@ TEST(ImpactTruth, ATwoBodyImpactLosesTheEnergyOfItsRestitution) {
     double momentum_error = 0;
     const double error =
         at_each_preset("two-body impact, error of lost E (mark .005)", [&](auto& p) {
-          RigidWorld world(awake(Vec3::Zero()));
+          RigidWorld world(awake(p, Vec3::Zero()));
           BodyDesc a = W::with_friction(W::sphere(0.1, Vec3(-1, 0, 0)), 0, e);
           a.velocity_W = Vec3(5, 0, 0);
           BodyDesc b = W::with_friction(W::sphere(0.15, Vec3(0.1, 0, 0)), 0, e);
@@ -101,7 +101,7 @@ TEST(ImpactTruth, ATurningBlockStopsByTheTwistOfItsPatch) {
   // A square patch of four points at radius r: the torque of friction is mu m g r.
   const double mu = 0.4, speed = 3, side = 1, height = 0.2;
   const double error = at_each_preset("twist friction, error of the turn to rest", [&](auto& p) {
-    RigidWorld world(awake());
+    RigidWorld world(awake(p));
     world.add(W::with_friction(W::ground(), mu));
     const BodyDesc desc =
         W::with_friction(W::box(Vec3(side, height, side), Vec3(0, height / 2, 0)), mu);

@@ -41,7 +41,7 @@ Rest planar_rest(const Build& build, double block_m) {
 }
 
 Rest solid_rest(const Build& build, const Preset& preset) {
-  return settle(RigidWorld(awake()), build, preset.dt_s, preset.substeps);
+  return settle(RigidWorld(awake(preset)), build, preset.dt_s, preset.substeps);
 }
 
 /// The furthest that a block is from where Box2D leaves it, in blocks; a turn moves its corners.

@@ -14,16 +14,22 @@ struct Preset {
   const char* name;
   double dt_s;
   int substeps;
+  int sweeps = 1;
 };
 inline constexpr Preset kPresets[] = {{"draft", 1.0 / 60, 4},
                                       {"realtime", 1.0 / 120, 4},
                                       {"accurate", 1.0 / 120, 8},
-                                      {"reference", 1.0 / 480, 4}};
+                                      {"reference", 1.0 / 480, 4, 4}};
 
 inline RigidOptions awake(const Vec3& gravity_W = Vec3(0, -kG, 0)) {
   RigidOptions options;
   options.gravity_W = gravity_W;
   options.sleeping = false;
+  return options;
+}
+inline RigidOptions awake(const Preset& preset, const Vec3& gravity_W = Vec3(0, -kG, 0)) {
+  RigidOptions options = awake(gravity_W);
+  options.sweeps = preset.sweeps;
   return options;
 }
 

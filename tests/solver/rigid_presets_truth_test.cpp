@@ -27,7 +27,7 @@ double threshold(double low, double high, int rounds, const std::function<bool(d
 /// Whether a block of 0.5 by 1 m topples on a slope.
 bool topples(double slope_rad, const Preset& preset) {
   const SinCos a = sin_cos(slope_rad);
-  RigidWorld world(awake(kG * Vec3(a.sin, -a.cos, 0)));
+  RigidWorld world(awake(preset, kG * Vec3(a.sin, -a.cos, 0)));
   world.add(W::with_friction(W::ground(), 1));
   const BodyId block = world.add(W::with_friction(W::box(Vec3(0.5, 1, 1), Vec3(0, 0.5, 0)), 1));
   world.run(6, preset.dt_s, preset.substeps);
@@ -47,7 +47,7 @@ TEST(RigidPresets, ABlockTopplesOnASlopeWhoseTangentIsWidthByHeight) {
 
 TEST(RigidPresets, ASlidingSphereRollsWithFiveSeventhsOfItsSpeed) {
   const double error = at_each_preset("slip to roll, relative error (mark 1e-3)", [](auto& p) {
-    RigidWorld world(awake());
+    RigidWorld world(awake(p));
     world.add(W::with_friction(W::ground(), 0.3));
     BodyDesc ball = W::with_friction(W::sphere(0.2, Vec3(0, 0.2, 0)), 0.3);
     ball.velocity_W = Vec3(7, 0, 0);
@@ -62,7 +62,7 @@ TEST(RigidPresets, ASphereRollsDownWithFiveSeventhsOfTheSlope) {
   const double error =
       at_each_preset("rolling down a slope, relative error (mark 1e-3)", [](auto& p) {
         const SinCos a = sin_cos(0.2);
-        RigidWorld world(awake(kG * Vec3(a.sin, -a.cos, 0)));
+        RigidWorld world(awake(p, kG * Vec3(a.sin, -a.cos, 0)));
         world.add(W::with_friction(W::ground(), 0.8));
         const BodyId id = world.add(W::with_friction(W::sphere(0.2, Vec3(0, 0.2, 0)), 0.8));
         world.run(2, p.dt_s, p.substeps);
@@ -81,7 +81,7 @@ std::vector<BodyId> add_stack(RigidWorld& world, int count, double top_factor = 
 }
 
 bool stack_stands(int count, double time_s, const Preset& preset) {
-  RigidWorld world(awake());
+  RigidWorld world(awake(preset));
   world.add(W::ground());
   const std::vector<BodyId> boxes = add_stack(world, count);
   world.run(time_s, preset.dt_s, preset.substeps);
@@ -91,7 +91,7 @@ bool stack_stands(int count, double time_s, const Preset& preset) {
 TEST(RigidPresets, AStackOfFiftySinksLittle) {
   const double sink =
       at_each_preset("stack of 50, deepest contact in sides (mark 0.002)", [](auto& p) {
-        RigidWorld world(awake());
+        RigidWorld world(awake(p));
         world.add(W::ground());
         add_stack(world, 50);
         world.run(3, p.dt_s, p.substeps);
@@ -135,13 +135,13 @@ TEST(RigidPresets, AThinTowerOfAHundredStands) {
   EXPECT_GE(time_s, 120);
   // Contacts this soft buckle under such a column: see docs/decisions/023.
   at_each_preset("the same, never asleep, s (mark 20: missed)",
-                 [](auto& p) { return thin_tower_stands_s(awake(), 20, p); });
+                 [](auto& p) { return thin_tower_stands_s(awake(p), 20, p); });
 }
 
 TEST(RigidPresets, AStackWhoseWeightsGrowAThousandfoldStands) {
   const double top =
       at_each_preset("stack of 10, weights up to 1000, height (mark 1)", [](auto& p) {
-        RigidWorld world(awake());
+        RigidWorld world(awake(p));
         world.add(W::ground());
         BodyId last;
         double density = 1000;
@@ -174,7 +174,7 @@ BodyId add_wall(RigidWorld& world) {
 
 TEST(RigidPresets, AWallOfAThousandBricksDoesNotSink) {
   const double sink_mm = at_each_preset("wall of 1,010 bricks, sinks in mm (mark 2)", [](auto& p) {
-    RigidWorld world(awake());
+    RigidWorld world(awake(p));
     world.add(W::ground());
     const BodyId top = add_wall(world);
     world.run(p.substeps == 8 ? 10 : 1, p.dt_s, p.substeps);
@@ -185,7 +185,7 @@ TEST(RigidPresets, AWallOfAThousandBricksDoesNotSink) {
 
 /// Eight blocks, each beyond the next by `factor` times what just balances.
 bool overhang_falls(double factor, const Preset& preset) {
-  RigidWorld world(awake());
+  RigidWorld world(awake(preset));
   world.add(W::ground());
   world.add(W::fixed(W::box(Vec3(1, 1, 0.5), Vec3(0, 0.5, 0))));
   constexpr int kBlocks = 8;
@@ -211,7 +211,7 @@ TEST(RigidPresets, AnOverhangOfEightFallsBeyondTheHarmonicSum) {
 
 /// Whether a semicircular arch of `count` voussoirs, thickness by radius `slim`, stands.
 bool arch_stands(int count, double slim, const Preset& preset) {
-  RigidWorld world(awake());
+  RigidWorld world(awake(preset));
   world.add(W::with_friction(W::ground(), 1));
   std::vector<BodyId> stones;
   for (int i = 0; i < count; ++i) stones.push_back(world.add(W::voussoir(i, count, slim)));
@@ -235,7 +235,7 @@ TEST(RigidPresets, TheFloorBearsTheWeightUnderAHeavyTop) {
   for (const double factor : {100.0, 1000.0}) {
     const double error =
         at_each_preset("stack of 10 under a heavy top, error of the load (mark .01)", [&](auto& p) {
-          RigidWorld world(awake());
+          RigidWorld world(awake(p));
           world.add(W::ground());
           const std::vector<BodyId> boxes = add_stack(world, 10, factor);
           const double mass_kg = 1000 * (9 + factor);

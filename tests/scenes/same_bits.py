@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""Runs every scene for long on several threads and lanes, and fails where their bits differ.
+
+Usage: same_bits.py [--sunder build/sunder] [--frames 600] [--preset draft] [SCENE...]
+The tests do the same for a few seconds of each scene; this takes a quarter of an hour.
+"""
+import argparse
+import json
+import subprocess
+import sys
+
+RUNS = [(1, 16), (2, 8), (4, 4), (7, 1)]  # threads, lanes: each of either once
+
+
+def sunder(program, *arguments):
+    command = [program, *arguments, "--json", "-"]
+    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+
+
+def state_hash(args, scene, threads, lanes):
+    figures = sunder(args.sunder, "simulate", scene, "--quiet", "--preset", args.preset,
+                     "--frames", str(args.frames), "--threads", str(threads),
+                     "--set", f"solver.lanes={lanes}", "--set", f"scene.duration_s={args.frames / 60}")
+    return figures["state_hash"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--sunder", default="build/sunder")
+    parser.add_argument("--frames", type=int, default=600)
+    parser.add_argument("--preset", default="draft", help="draft: as many steps as frames")
+    parser.add_argument("scenes", nargs="*")
+    args = parser.parse_args()
+    scenes = args.scenes or [s["name"] for s in sunder(args.sunder, "list")["scenes"]]
+    differ = 0
+    for scene in scenes:
+        hashes = [state_hash(args, scene, *run) for run in RUNS]
+        same = len(set(hashes)) == 1
+        differ += not same
+        print(f"{scene:16} {' '.join(hashes) if not same else hashes[0]} "
+              f"{'same' if same else 'DIFFERENT'}", flush=True)
+    print(f"{len(scenes)} scenes, threads and lanes {RUNS}: {differ} differ")
+    return 1 if differ else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
