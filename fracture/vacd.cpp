@@ -9,9 +9,9 @@
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
 #include "fracture/compound_builder.h"
-#include "fracture/vacd_nodes.h"
-#include "fracture/vacd_regions.h"
-#include "fracture/vacd_tree.h"
+#include "fracture/vacd/nodes.h"
+#include "fracture/vacd/regions.h"
+#include "fracture/vacd/tree.h"
 
 namespace sunder::fracture {
 namespace {

@@ -1,7 +1,7 @@
 // Volumetric approximate convex decomposition: a visual mesh becomes a compound (paper 4.1).
 //
 // Read first: decompose() in vacd.cpp, the list of steps. Space is cut into convex regions, by
-// Voronoi nodes (vacd_nodes.h) and then by planes where that makes hulls tighter; each region
+// Voronoi nodes (vacd/nodes.h) and then by planes where that makes hulls tighter; each region
 // owns the islands of the mesh in it, and is fitted to each of them.
 #pragma once
 

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "engine/base/check.h"
-#include "engine/geometry/repair_clean.h"
-#include "engine/geometry/repair_holes.h"
-#include "engine/geometry/repair_shell.h"
-#include "engine/geometry/repair_solids.h"
-#include "engine/geometry/repair_surface.h"
+#include "engine/geometry/repair/clean.h"
+#include "engine/geometry/repair/holes.h"
+#include "engine/geometry/repair/shell.h"
+#include "engine/geometry/repair/solids.h"
+#include "engine/geometry/repair/surface.h"
 
 namespace sunder {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/base/check.h"
 #include "engine/geometry/repair.h"
-#include "engine/geometry/repair_clean.h"
+#include "engine/geometry/repair/clean.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > 400) return 0;

@@ -12,7 +12,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
-#include "engine/geometry/repair_winding.h"
+#include "engine/geometry/repair/winding.h"
 #include "engine/io/mesh_reader.h"
 #include "tests/mesh/meshes.h"
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "engine/geometry/repair_surface.h"
+#include "engine/geometry/repair/surface.h"
 
 namespace sunder {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/geometry/polygon_mesh.h"
-#include "engine/geometry/repair_surface.h"
+#include "engine/geometry/repair/surface.h"
 
 namespace sunder {
 

@@ -1,7 +1,7 @@
 // The plane that cuts a concave piece so that the hulls of its two sides are smallest.
 //
 // Read first: best_cut(). For each of some directions the mesh is sliced across it, and two sweeps
-// over the slices' outlines (vacd_sweep.h) price the cut at every slice; the best is then tilted
+// over the slices' outlines (sweep.h) price the cut at every slice; the best is then tilted
 // and shifted a little, again and again.
 #pragma once
 

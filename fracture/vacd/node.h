@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fracture/vacd_cut.h"
-#include "fracture/vacd_regions.h"
+#include "fracture/vacd/cut.h"
+#include "fracture/vacd/regions.h"
 
 namespace sunder::fracture {
 

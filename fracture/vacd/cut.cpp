@@ -1,4 +1,4 @@
-#include "fracture/vacd_cut.h"
+#include "fracture/vacd/cut.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "engine/base/parallel.h"
 #include "engine/geometry/approximate_hull.h"
 #include "engine/geometry/mass_properties.h"
-#include "fracture/vacd_sweep.h"
+#include "fracture/vacd/sweep.h"
 
 namespace sunder::fracture {
 namespace {

@@ -1,6 +1,6 @@
 // Marching tetrahedra: each cube of the grid is six tetrahedra around a diagonal, which meet those
 // of the next cube exactly, so the surface closes by itself.
-#include "engine/geometry/repair_shell.h"
+#include "engine/geometry/repair/shell.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
-#include "engine/geometry/repair_clean.h"
-#include "engine/geometry/repair_triangulate.h"
-#include "engine/geometry/repair_winding.h"
+#include "engine/geometry/repair/clean.h"
+#include "engine/geometry/repair/triangulate.h"
+#include "engine/geometry/repair/winding.h"
 
 namespace sunder {
 namespace {

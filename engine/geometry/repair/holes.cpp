@@ -1,10 +1,10 @@
-#include "engine/geometry/repair_holes.h"
+#include "engine/geometry/repair/holes.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/geometry/repair_clean.h"
-#include "engine/geometry/repair_triangulate.h"
+#include "engine/geometry/repair/clean.h"
+#include "engine/geometry/repair/triangulate.h"
 
 namespace sunder {
 namespace {

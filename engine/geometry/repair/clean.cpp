@@ -1,4 +1,4 @@
-#include "engine/geometry/repair_clean.h"
+#include "engine/geometry/repair/clean.h"
 
 #include <algorithm>
 #include <array>

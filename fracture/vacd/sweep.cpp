@@ -1,4 +1,4 @@
-#include "fracture/vacd_sweep.h"
+#include "fracture/vacd/sweep.h"
 
 #include <algorithm>
 #include <cmath>

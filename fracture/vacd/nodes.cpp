@@ -1,4 +1,4 @@
-#include "fracture/vacd_nodes.h"
+#include "fracture/vacd/nodes.h"
 
 #include <algorithm>
 #include <cmath>

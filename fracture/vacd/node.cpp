@@ -1,4 +1,4 @@
-#include "fracture/vacd_node.h"
+#include "fracture/vacd/node.h"
 
 #include <algorithm>
 #include <limits>

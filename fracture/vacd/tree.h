@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "fracture/vacd_regions.h"
+#include "fracture/vacd/regions.h"
 
 namespace sunder::fracture {
 

@@ -1,4 +1,4 @@
-#include "engine/geometry/repair_solids.h"
+#include "engine/geometry/repair/solids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/geometry/repair_clean.h"
-#include "engine/geometry/repair_normals.h"
-#include "engine/geometry/repair_triangulate.h"
-#include "engine/geometry/repair_winding.h"
+#include "engine/geometry/repair/clean.h"
+#include "engine/geometry/repair/normals.h"
+#include "engine/geometry/repair/triangulate.h"
+#include "engine/geometry/repair/winding.h"
 
 namespace sunder {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/geometry/repair_surface.h"
+#include "engine/geometry/repair/surface.h"
 
 namespace sunder {
 

@@ -1,7 +1,7 @@
-#include "engine/geometry/repair_normals.h"
+#include "engine/geometry/repair/normals.h"
 
 #include "engine/base/trigonometry.h"
-#include "engine/geometry/repair_clean.h"
+#include "engine/geometry/repair/clean.h"
 
 namespace sunder {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/geometry/repair_winding.h"
+#include "engine/geometry/repair/winding.h"
 
 #include <algorithm>
 #include <cmath>

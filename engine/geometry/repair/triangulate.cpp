@@ -1,4 +1,4 @@
-#include "engine/geometry/repair_triangulate.h"
+#include "engine/geometry/repair/triangulate.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "engine/geometry/repair_surface.h"
+#include "engine/geometry/repair/surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/trigonometry.h"
-#include "engine/geometry/repair_clean.h"
+#include "engine/geometry/repair/clean.h"
 
 namespace sunder {
 namespace {

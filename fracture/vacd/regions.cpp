@@ -1,4 +1,4 @@
-#include "fracture/vacd_regions.h"
+#include "fracture/vacd/regions.h"
 
 #include <algorithm>
 #include <cmath>

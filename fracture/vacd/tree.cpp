@@ -2,7 +2,7 @@
 // leaves than asked for, the loosest hull first, and then pruned to those of least volume together
 // (as classification trees are: Breiman et al. 1984), so that a cut that gains nothing by itself
 // may prepare one that does.
-#include "fracture/vacd_tree.h"
+#include "fracture/vacd/tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "fracture/vacd_node.h"
+#include "fracture/vacd/node.h"
 
 namespace sunder::fracture {
 namespace {
