@@ -1,6 +1,7 @@
-// Runs a list of stages on all threads. Any thread claims blocks of the current stage;
-// a stage begins when all blocks of the one before are done (not when all threads have arrived, so
-// that a thread that lost its processor holds up nobody unless it holds a block).
+// Runs a list of stages on all threads. A thread claims blocks of its own part of the current stage
+// first, then of the others': what lies side by side stays in the cache of one processor from
+// stage to stage. A stage begins when all blocks of the one before are done (not when all threads
+// have arrived, so that a thread that lost its processor holds up nobody unless it holds a block).
 #pragma once
 
 #include <atomic>
@@ -42,21 +43,29 @@ void run_stages(std::span<const Stage> stages, const Work& work) {
       for (std::uint32_t block = 0; block < stage.blocks(); ++block) run(stage, block);
     return;
   }
-  struct alignas(64) Progress {
-    std::atomic<std::uint32_t> next{0};
-    std::atomic<std::uint32_t> done{0};
+  struct alignas(64) Count {
+    std::atomic<std::uint32_t> value{0};
   };
-  const std::unique_ptr<Progress[]> progress(new Progress[stages.size()]);
+  const auto parts = static_cast<std::uint32_t>(threads());
+  const std::unique_ptr<Count[]> claimed(new Count[stages.size() * parts]);
+  const std::unique_ptr<Count[]> done(new Count[stages.size()]);
+  std::atomic<std::uint32_t> arrived{0};
   work_together([&] {
+    const std::uint32_t rank = arrived.fetch_add(1, std::memory_order_relaxed);
     for (std::size_t s = 0; s < stages.size(); ++s) {
-      const std::uint32_t blocks = stages[s].blocks();
-      Progress& p = progress[s];
-      for (std::uint32_t block;
-           (block = p.next.fetch_add(1, std::memory_order_relaxed)) < blocks;) {
-        run(stages[s], block);
-        p.done.fetch_add(1, std::memory_order_release);
+      const std::uint64_t blocks = stages[s].blocks();
+      for (std::uint32_t i = 0; i < parts; ++i) {
+        const std::uint32_t part = (rank + i) % parts;
+        const auto first = static_cast<std::uint32_t>(blocks * part / parts);
+        const auto end = static_cast<std::uint32_t>(blocks * (part + 1) / parts);
+        std::atomic<std::uint32_t>& next = claimed[s * parts + part].value;
+        for (std::uint32_t block;
+             (block = first + next.fetch_add(1, std::memory_order_relaxed)) < end;) {
+          run(stages[s], block);
+          done[s].value.fetch_add(1, std::memory_order_release);
+        }
       }
-      for (int spins = 0; p.done.load(std::memory_order_acquire) < blocks; ++spins)
+      for (int spins = 0; done[s].value.load(std::memory_order_acquire) < blocks; ++spins)
         if (spins > 200) std::this_thread::yield();
     }
   });
