@@ -27,6 +27,10 @@ enum StageKind {
   kJoinAndMove,
   kRelaxed,
   kLastRelaxed,
+  kWeigh,
+  kJudge,
+  kEaseBody,
+  kEase,
   kBounce,
   kStore,
   kFinish,
@@ -63,8 +67,12 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
   accelerated_ = options_.accelerated && options_.sweeps > 1 && split_.empty();
   if (accelerated_) blocks_->remember();
   energy_.resize(accelerated_ ? touching_.size() : 0);
-  joint_solver_.collect(bodies, joints, in_contact_);
+  jointed_.assign(bodies.size(), 0);
+  joint_solver_.collect(bodies, joints, jointed_);
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) in_contact_[i] |= jointed_[i];
   collect_bodies(bodies);
+  energy_guard_.collect(touching_, active_, jointed_, 4 * dt_s * gravity_W.norm(), bodies,
+                        contacts);
   const double h = dt_s / substeps;
   BodyRow* rows = rows_.data();
   ContactStep step{
@@ -103,6 +111,13 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
       }
       case kJoin:
         return join_parts(body);
+      case kWeigh:
+        return energy_guard_.weigh(body, bodies.inverse_mass[body], row);
+      case kEaseBody:
+        if (energy_guard_.objects())
+          row.velocity =
+              row.base + energy_guard_.share_of_row()[body + 1] * (row.velocity - row.base);
+        return;
       case kJoinAndMove:
         join_parts(body);
         row.position += h_f * row.velocity;
@@ -140,6 +155,11 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
       case kLastRelaxed:
         blocks_->sweep_relaxed(begin, end, step);
         return blocks_->sum_impulses(begin, end);
+      case kJudge:
+        return energy_guard_.judge(active_);
+      case kEase:
+        if (energy_guard_.objects()) blocks_->ease(begin, end, energy_guard_.share_of_row());
+        return;
       case kBounce:
         return blocks_->bounce(begin, end, step);
       case kStore:
@@ -199,20 +219,25 @@ std::vector<Stage> ContactSolver::plan(int substeps) const {
   };
   stages.push_back({kFly, 0, static_cast<std::uint32_t>(flying_.size()), kBodyGrain});
   if (active_.empty()) return stages;
-  const bool joints = !joint_solver_.empty();
+  const bool joints = !joint_solver_.empty(), guarded = energy_guard_.watches();
   all_bodies(kBegin);
   all_blocks(kPrepare);
   joint_solver_.each_color(kJointBegin, stages);
   for (int s = 0; s < substeps; ++s) {
-    all_bodies(s == 0 ? kFirstKick : joints ? kKick : kJoinAndKick);
+    all_bodies(s == 0 ? kFirstKick : joints || guarded ? kKick : kJoinAndKick);
     if (s == 0) joint_solver_.each_color(kJointWarmStart, stages);
     if (s == 0) each_color(kWarmStart), join();
     sweep(kJointPush, kBiased, kBiased);
     all_bodies(kJoinAndMove);
     joint_solver_.each_color(kJointTurn, stages);
     sweep(kJointRelax, kRelaxed, kLastRelaxed);
-    if (joints || s + 1 == substeps) join();
+    if (joints || guarded || s + 1 == substeps) join();
     joint_solver_.each_color(kJointTest, stages);
+    if (!guarded) continue;
+    all_bodies(kWeigh);
+    stages.push_back({kJudge, 0, 1, 1});
+    all_bodies(kEaseBody);
+    all_blocks(kEase);
   }
   each_color(kBounce);
   join();

@@ -8,6 +8,7 @@
 #include "solver/rigid/bodies.h"
 #include "solver/rigid/contact_blocks.h"
 #include "solver/rigid/contacts.h"
+#include "solver/rigid/energy_guard.h"
 #include "solver/rigid/joint_solver.h"
 #include "solver/rigid/prepare.h"
 #include "solver/rigid/stage_runner.h"
@@ -52,6 +53,7 @@ class ContactSolver {
   void finish_body(std::uint32_t body, Bodies& bodies) const;
 
   JointSolver joint_solver_;
+  EnergyGuard energy_guard_;
   ContactSolverOptions options_;
   std::unique_ptr<ContactBlocks> blocks_;
   std::vector<Stage> colors_;            ///< Where each colour's blocks are; what is split last.
@@ -59,6 +61,7 @@ class ContactSolver {
   std::vector<std::uint32_t> active_;    ///< Awake bodies in contact.
   std::vector<std::uint32_t> flying_;    ///< Awake bodies that touch nothing.
   std::vector<std::uint8_t> in_contact_;
+  std::vector<std::uint8_t> jointed_;         ///< By body slot: held by a joint.
   std::vector<std::uint32_t> deep_contacts_;  ///< By body slot; empty if there are none.
   std::vector<BodyRow> rows_;                 ///< By body slot + 1; row 0 stays still.
   std::vector<Mat3f> root_W_;

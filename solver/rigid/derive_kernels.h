@@ -174,6 +174,7 @@ void derive(GatheredBlock<lanes>& g, const SolverRows& bodies, ConstraintBlock<l
   template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);     \
   template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);    \
   template void sum_impulses(ConstraintBlock<lanes>&);                                         \
+  template void ease(ConstraintBlock<lanes>&, const float*);                                   \
   template void mark(const ConstraintBlock<lanes>&, SearchLanes<lanes>&);                      \
   template void measure(const ConstraintBlock<lanes>&, const SearchLanes<lanes>&, float*);     \
   template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float); \

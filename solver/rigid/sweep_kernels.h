@@ -248,6 +248,22 @@ void sum_impulses(ConstraintBlock<lanes>& c) {
             c.tangent_2 * c.slide_impulse_2;
 }
 
+template <std::uint32_t lanes>
+void ease(ConstraintBlock<lanes>& c, const float* share_of_row) {
+  using V = WideOf<lanes>;
+  V share = {};
+  for (std::uint32_t lane = 0; lane < lanes; ++lane)
+    share[lane] = share_of_row[c.row_a[lane] != 0 ? c.row_a[lane] : c.row_b[lane]];
+  if (c.summed) {
+    const Wide3Of<lanes> was = c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
+                               c.tangent_2 * c.slide_impulse_2;
+    c.total = c.total + was * (share - splat<V>(1));
+  }
+  for (std::uint32_t i = 0; i < c.points; ++i) c.point[i].impulse *= share;
+  c.slide_impulse_1 *= share, c.slide_impulse_2 *= share, c.twist_impulse *= share;
+  if (c.rolls) c.roll.impulse_1 *= share, c.roll.impulse_2 *= share;
+}
+
 template <bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE void warm_start_as(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
   Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);

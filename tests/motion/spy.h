@@ -58,7 +58,10 @@ class SpyPhysics final : public Physics {
   void hold(std::span<const BodyId> bodies) override { physics_->hold(bodies); }
   SolveReport solve(double dt_s, int substeps) override {
     note_end_of_breaks();
-    return physics_->solve(dt_s, substeps);
+    before_solve = sum();
+    SolveReport report = physics_->solve(dt_s, substeps);
+    after_solve = sum();
+    return report;
   }
   BodyState state(BodyId body) const override { return physics_->state(body); }
   std::vector<ContactLoad> contact_loads() const override { return physics_->contact_loads(); }
@@ -75,6 +78,7 @@ class SpyPhysics final : public Physics {
 
   Books books;  ///< Of the last step.
   std::vector<Replacement> replacements;
+  Motions before_solve, after_solve;  ///< Of the last solve.
 
  private:
   struct Body {
