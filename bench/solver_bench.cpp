@@ -113,9 +113,11 @@ void print(const char* name, const Run& run, const char* peers) {
   std::fflush(stdout);
 }
 
-void settle(const char* name, const Set& set, int frames, const Options& options,
+template <class MakeSet>
+void settle(const char* name, const MakeSet& make_set, int frames, const Options& options,
             const char* peers) {
   if (options.scene != "all" && options.scene != name) return;
+  const Set set = make_set();
   Run run = begin(set, options);
   advance(run, options.frames > 0 ? options.frames : frames, options);
   print(name, run, peers);
@@ -144,24 +146,31 @@ void run_all(const Options& options) {
   set_threads(options.threads);
   std::printf("%d thread(s), %.0f Hz, %d substeps, sleeping %s; processor time\n", options.threads,
               options.rate_Hz, options.substeps, options.sleep ? "on" : "off");
-  settle("rubble-2000", rubble(2000), 600, options,
-         "Box3D 4.6, 6.3, 9.2 (3.8/67, 1.7/50, 1.7/50 mm); Jolt 6.9 (8.9/70); PhysX TGS 4, 16: "
-         "7.1 (.62/36), 9.6 (.075/4.5)");
-  settle("rubble-5000", rubble(5000), 600, options,
-         "Box3D 29-31, worst 62-77 (2.6/42 mm, 9e-7 m/s); Jolt 32 (11.3/56); PhysX 31 (1.15/40)");
+  settle(
+      "rubble-2000", [] { return rubble(2000); }, 600, options,
+      "Box3D 4.6, 6.3, 9.2 (3.8/67, 1.7/50, 1.7/50 mm); Jolt 6.9 (8.9/70); PhysX TGS 4, 16: "
+      "7.1 (.62/36), 9.6 (.075/4.5)");
+  settle(
+      "rubble-5000", [] { return rubble(5000); }, 600, options,
+      "Box3D 29-31, worst 62-77 (2.6/42 mm, 9e-7 m/s); Jolt 32 (11.3/56); PhysX 31 (1.15/40)");
   if (options.scene == "rubble-20000")
-    settle("rubble-20000", rubble(20000), 420, options,
-           "Box3D 216, worst 556 (2.7/71 mm); Jolt 227 (11.7/77); PhysX 157 (1.3/66)");
+    settle(
+        "rubble-20000", [] { return rubble(20000); }, 420, options,
+        "Box3D 216, worst 556 (2.7/71 mm); Jolt 227 (11.7/77); PhysX 157 (1.3/66)");
   shoot_wall(options);
-  settle("pyramid", pyramid(40), 300, options,
-         "Box3D 1, 2, 4 substeps .8, .9, 1.1 (143, 28, 6.9 mm max); PhysX TGS 4, 16 1.0, 1.6 "
-         "(18, 1.1); Jolt 2.0 (18)");
-  settle("stack", stack(50), 600, options, "");
-  settle("cubes-4913", touching_cubes(17), 60, options,
-         "first step, median: Box3D 116, 54; Jolt 36, 31; PhysX 142, 65");
+  settle(
+      "pyramid", [] { return pyramid(40); }, 300, options,
+      "Box3D 1, 2, 4 substeps .8, .9, 1.1 (143, 28, 6.9 mm max); PhysX TGS 4, 16 1.0, 1.6 "
+      "(18, 1.1); Jolt 2.0 (18)");
+  settle(
+      "stack", [] { return stack(50); }, 600, options, "");
+  settle(
+      "cubes-4913", [] { return touching_cubes(17); }, 60, options,
+      "first step, median: Box3D 116, 54; Jolt 36, 31; PhysX 142, 65");
   if (options.scene == "cubes-19683")
-    settle("cubes-19683", touching_cubes(27), 30, options,
-           "first step, median: Box3D 545, 278; Jolt 244, 261; PhysX 1330, 322");
+    settle(
+        "cubes-19683", [] { return touching_cubes(27); }, 30, options,
+        "first step, median: Box3D 545, 278; Jolt 244, 261; PhysX 1330, 322");
 }
 
 bool parse(int argc, char** argv, Options& options) {

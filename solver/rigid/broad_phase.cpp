@@ -71,17 +71,12 @@ FloatBox fattened(const FloatBox& swept, const Shape& shape, const Bodies& bodie
 }
 
 /// The pair of two shapes: a is the half-space, or the hull, or the lesser slot.
-Pair pair_of(std::uint32_t s, std::uint32_t t, const Shapes& shapes) {
+FoundPair pair_of(std::uint32_t s, std::uint32_t t, const Shapes& shapes) {
   const Shape &first = shapes[s], &second = shapes[t];
   const bool swap = first.kind != second.kind ? first.kind == ShapeDesc::Kind::kSphere ||
                                                     second.kind == ShapeDesc::Kind::kHalfSpace
                                               : t < s;
-  Pair pair;
-  pair.shape_a = swap ? t : s;
-  pair.shape_b = swap ? s : t;
-  pair.body_a = shapes[pair.shape_a].body;
-  pair.body_b = shapes[pair.shape_b].body;
-  return pair;
+  return {swap ? t : s, swap ? s : t, false};
 }
 
 }  // namespace
@@ -212,12 +207,12 @@ std::vector<std::uint32_t> BroadPhase::pairs_with(std::span<const std::uint32_t>
 /// Of the movers that overlap a shape in a crowd, those whose middles are within it are looked at
 /// by a share only, as equal for both of a pair as their crowds are; the next update looks again.
 void BroadPhase::thin_out(std::uint32_t shape, std::size_t neighbours, const Shapes& shapes,
-                          const Bodies& bodies, std::vector<Pair>& found, std::size_t first) {
+                          const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first) {
   const std::uint64_t share = ~std::uint64_t{0} / neighbours * kCrowd;
   const auto middle = [&](const Shape& s) {
     return Vec3(bodies.position[s.body] + (bodies.rotation_f[s.body] * s.center).cast<double>());
   };
-  const auto left_out = [&](const Pair& pair) {
+  const auto left_out = [&](const FoundPair& pair) {
     const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
     if (a.kind == ShapeDesc::Kind::kHalfSpace) return false;
     if (!bodies.dynamic(a.body) || !bodies.dynamic(b.body)) return false;
@@ -232,7 +227,7 @@ void BroadPhase::thin_out(std::uint32_t shape, std::size_t neighbours, const Sha
 }
 
 void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
-                            const KeyMap& slot_of, std::vector<Pair>& found) {
+                            const KeyMap& slot_of, std::vector<FoundPair>& found) {
   const Shape& mine = shapes[shape];
   const bool mover = bodies.dynamic(mine.body);
   const std::size_t first = found.size();
@@ -242,13 +237,17 @@ void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bod
     ++neighbours;
     if (theirs.body == mine.body || (moved_[other] && other < shape)) return;
     if (!mover && !bodies.dynamic(theirs.body)) return;
-    Pair pair = pair_of(shape, other, shapes);
+    FoundPair pair = pair_of(shape, other, shapes);
     pair.sibling =
         bodies.group[mine.body] != 0 && bodies.group[mine.body] == bodies.group[theirs.body];
     if (!slot_of.contains(pair.key())) found.push_back(pair);
   };
   mover_tree_.overlaps(fat_[shape], consider);
-  if (!mover) return;
+  const auto order = [&] {
+    std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
+              [](const FoundPair& p, const FoundPair& q) { return p.key() < q.key(); });
+  };
+  if (!mover) return order();
   static_forest_.overlaps(fat_[shape], consider);
   for (const HalfSpace& plane : half_spaces_) {
     Pair pair;
@@ -257,21 +256,32 @@ void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bod
   }
   crowded_[shape] = 0;
   if (neighbours > kCrowd) thin_out(shape, neighbours, shapes, bodies, found, first);
+  order();
 }
 
 void BroadPhase::update(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,
                         double dt_s, Contacts& contacts) {
   update_boxes(shapes, bodies, gravity_W, dt_s);
   update_trees();
-  std::vector<std::vector<Pair>> found((moved_list_.size() + kChunk - 1) / kChunk);
+  const std::size_t chunks = (moved_list_.size() + kChunk - 1) / kChunk;
+  if (found_.size() < chunks) found_.resize(chunks);
   for_chunks(moved_list_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    found_[c].clear();
     for (std::size_t i = begin; i < end; ++i)
-      find_pairs(moved_list_[i], shapes, bodies, contacts.slot_of, found[c]);
+      find_pairs(moved_list_[i], shapes, bodies, contacts.slot_of, found_[c]);
   });
-  std::vector<Pair> all;
-  for (const auto& chunk : found) all.insert(all.end(), chunk.begin(), chunk.end());
-  std::sort(all.begin(), all.end(), [](const Pair& a, const Pair& b) { return a.key() < b.key(); });
-  for (const Pair& pair : all) contacts.add(pair);
+  std::size_t all = 0;
+  for (std::size_t c = 0; c < chunks; ++c) all += found_[c].size();
+  contacts.expect_pairs(all);
+  for (std::size_t c = 0; c < chunks; ++c) {
+    for (const FoundPair& found : found_[c]) {
+      Pair pair;
+      pair.shape_a = found.shape_a, pair.shape_b = found.shape_b;
+      pair.body_a = shapes[pair.shape_a].body, pair.body_b = shapes[pair.shape_b].body;
+      pair.sibling = found.sibling;
+      contacts.add(pair);
+    }
+  }
 }
 
 bool BroadPhase::overlaps(const Pair& pair, const std::vector<FloatBox>& boxes) const {

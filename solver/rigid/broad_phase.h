@@ -13,6 +13,14 @@
 
 namespace sunder::solver {
 
+/// Two shapes that came near: as in Pair, a is the half-space, or the hull, or the lesser slot.
+struct FoundPair {
+  std::uint32_t shape_a, shape_b;
+  bool sibling;
+
+  std::uint64_t key() const { return pair_key(shape_a, shape_b); }
+};
+
 class BroadPhase {
  public:
   /// Takes shapes in; they are found by the next update().
@@ -23,7 +31,8 @@ class BroadPhase {
                                         const KeyMap& slot_of) const;
   /// Takes shapes out.
   void remove(std::span<const std::uint32_t> removed);
-  /// Boxes of what changed, swept over dt_s; adds pairs that came near, in order of their keys.
+  /// Boxes of what changed, swept over dt_s; adds pairs that came near, in the same order for any
+  /// number of threads.
   void update(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W, double dt_s,
               Contacts& contacts);
   /// Whether the pair's shapes may touch within the step.
@@ -43,9 +52,9 @@ class BroadPhase {
   void update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W, double dt_s);
   void update_trees();
   void find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
-                  const KeyMap& slot_of, std::vector<Pair>& found);
+                  const KeyMap& slot_of, std::vector<FoundPair>& found);
   void thin_out(std::uint32_t shape, std::size_t neighbours, const Shapes& shapes,
-                const Bodies& bodies, std::vector<Pair>& found, std::size_t first);
+                const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first);
   bool overlaps(const Pair& pair, const std::vector<FloatBox>& boxes) const;
 
   std::vector<Role> role_;             ///< By shape slot.
@@ -53,6 +62,7 @@ class BroadPhase {
   std::vector<std::uint8_t> moved_;    ///< Left its fat box in this update.
   std::vector<std::uint8_t> crowded_;  ///< Has neighbours that were not looked at.
   std::vector<std::uint32_t> movers_, new_statics_, moved_list_;
+  std::vector<std::vector<FoundPair>> found_;  ///< By chunk of moved shapes.
   std::vector<HalfSpace> half_spaces_;
   std::vector<std::int32_t> half_space_of_;  ///< By shape slot; −1: not one.
   BoxTree mover_tree_;

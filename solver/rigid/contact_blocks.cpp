@@ -12,7 +12,11 @@ class BlocksOf final : public ContactBlocks {
  public:
   std::uint32_t lanes() const override { return kWidth; }
   std::uint32_t size() const override { return used_; }
-  void clear() override { used_ = 0; }
+  void clear(std::size_t manifolds) override {
+    used_ = 0;
+    const std::size_t blocks = manifolds / kWidth + kMaxColors;
+    if (blocks > blocks_.capacity()) blocks_.reserve(std::max(blocks, 2 * blocks_.size()));
+  }
   void remember() override { search_.resize(used_); }
   void add(std::uint32_t first, std::uint32_t count, std::uint32_t points, bool split) override {
     for (std::uint32_t i = 0; i < count; i += kWidth) {

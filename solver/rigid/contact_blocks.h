@@ -16,7 +16,8 @@ class ContactBlocks {
 
   virtual std::uint32_t lanes() const = 0;
   virtual std::uint32_t size() const = 0;
-  virtual void clear() = 0;
+  /// Takes all out; about so many manifolds will be added.
+  virtual void clear(std::size_t manifolds) = 0;
   /// Appends blocks of the `count` manifolds from `first` of those to solve, all with so many
   /// points.
   virtual void add(std::uint32_t first, std::uint32_t count, std::uint32_t points, bool split) = 0;

@@ -284,7 +284,7 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
   std::copy(start, start + kKeys, next);
   for_each([&](std::uint32_t i, const Manifold& m) { touching_[next[key(m)]++] = i; });
 
-  blocks_->clear();
+  blocks_->clear(touching_.size());
   colors_.clear();
   const std::uint32_t grain = kManifoldGrain / blocks_->lanes();
   for (std::uint32_t color = 0; color <= kMaxColors; ++color) {

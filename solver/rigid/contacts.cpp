@@ -1,28 +1,43 @@
 // Pairs and manifolds come and go; the colours of manifolds.
 #include "solver/rigid/contacts.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace sunder::solver {
 namespace {
 
 template <class Item>
-std::uint32_t take_slot(std::vector<std::uint32_t>& free_slots, std::vector<Item>& items) {
+std::uint32_t put(const Item& item, std::vector<std::uint32_t>& free_slots,
+                  std::vector<Item>& items) {
   if (free_slots.empty()) {
-    items.emplace_back();
+    items.push_back(item);
     return static_cast<std::uint32_t>(items.size() - 1);
   }
   const std::uint32_t slot = free_slots.back();
   free_slots.pop_back();
+  items[slot] = item;
   return slot;
+}
+
+/// Room for `more` items. By doubling at least, or many small steps would copy all again and again.
+template <class Item>
+void make_room(std::size_t more, std::size_t free_slots, std::vector<Item>& items) {
+  if (more <= free_slots || items.size() + more - free_slots <= items.capacity()) return;
+  items.reserve(std::max(2 * items.size(), items.size() + more - free_slots));
 }
 
 }  // namespace
 
-void Contacts::add(const Pair& pair) {
-  const std::uint32_t slot = take_slot(free_pairs, pairs);
-  pairs[slot] = pair;
-  slot_of.insert(pair.key(), slot);
+void Contacts::add(const Pair& pair) { slot_of.insert(pair.key(), put(pair, free_pairs, pairs)); }
+
+void Contacts::expect_pairs(std::size_t more) {
+  make_room(more, free_pairs.size(), pairs);
+  slot_of.expect(more);
+}
+
+void Contacts::expect_manifolds(std::size_t more) {
+  make_room(more, free_manifolds.size(), manifolds);
 }
 
 void Contacts::remove(std::uint32_t slot) {
@@ -33,9 +48,8 @@ void Contacts::remove(std::uint32_t slot) {
 }
 
 void Contacts::touch(std::uint32_t pair, const Manifold& manifold, const Bodies& bodies) {
-  const std::uint32_t slot = take_slot(free_manifolds, manifolds);
+  const std::uint32_t slot = put(manifold, free_manifolds, manifolds);
   Manifold& m = manifolds[slot];
-  m = manifold;
   m.pair = pair;
   m.unseeded = bodies.is_new[m.body_a] || bodies.is_new[m.body_b];
   if (m.unseeded) unseeded.push_back(slot);

@@ -14,6 +14,10 @@ namespace sunder::solver {
 inline constexpr std::uint8_t kNoColor = 0xff;
 inline constexpr std::uint8_t kMaxColors = 64;  ///< As a colour: none was free.
 
+inline std::uint64_t pair_key(std::uint32_t shape_a, std::uint32_t shape_b) {
+  return std::uint64_t{shape_a} << 32 | shape_b;
+}
+
 /// Two shapes whose fat boxes overlap. If their kinds differ, a is the half-space, or the hull.
 struct Pair {
   std::uint32_t shape_a = kNone, shape_b = kNone;  ///< kNone: a free slot.
@@ -30,7 +34,7 @@ struct Pair {
 
   bool present() const { return shape_a != kNone; }
   bool touching() const { return manifold != kNone; }
-  std::uint64_t key() const { return std::uint64_t{shape_a} << 32 | shape_b; }
+  std::uint64_t key() const { return pair_key(shape_a, shape_b); }
 };
 
 struct ManifoldPoint {
@@ -102,6 +106,9 @@ struct Contacts {
   KeyMap slot_of;                          ///< Pair slots by key.
 
   void add(const Pair& pair);
+  // Make room for so many more.
+  void expect_pairs(std::size_t more);
+  void expect_manifolds(std::size_t more);
   /// Removes a pair and its manifold, if it has one.
   void remove(std::uint32_t pair);
   /// The pair came to touch. Its manifold gets the least colour neither body has, or `kMaxColors`

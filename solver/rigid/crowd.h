@@ -17,6 +17,8 @@ struct ContactChanges {
   std::vector<std::pair<std::uint32_t, Manifold>> touched;
   std::vector<std::uint32_t> parted, gone;
   std::vector<std::uint32_t> deep;  ///< Of those that touch.
+
+  void clear() { touched.clear(), parted.clear(), gone.clear(), deep.clear(); }
 };
 
 class Crowd {

@@ -18,8 +18,14 @@ std::uint32_t KeyMap::find(std::uint64_t key) const {
   }
 }
 
+void KeyMap::expect(std::size_t more) {
+  std::size_t size = std::max<std::size_t>(1024, entries_.size());
+  while (2 * (count_ + more) > size) size *= 2;
+  if (size > entries_.size()) grow(size);
+}
+
 void KeyMap::insert(std::uint64_t key, std::uint32_t slot) {
-  if (2 * (count_ + 1) > entries_.size()) grow();
+  if (2 * (count_ + 1) > entries_.size()) grow(std::max<std::size_t>(1024, 2 * entries_.size()));
   std::size_t i = home(key);
   while (entries_[i].key != kEmpty) i = (i + 1) & (entries_.size() - 1);
   entries_[i] = {key, slot};
@@ -43,8 +49,8 @@ void KeyMap::erase(std::uint64_t key) {
   --count_;
 }
 
-void KeyMap::grow() {
-  std::vector<Entry> old(std::max<std::size_t>(1024, 2 * entries_.size()));
+void KeyMap::grow(std::size_t size) {
+  std::vector<Entry> old(size);
   old.swap(entries_);
   count_ = 0;
   for (const Entry& entry : old)

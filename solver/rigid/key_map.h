@@ -16,6 +16,7 @@ class KeyMap {
   bool contains(std::uint64_t key) const { return find(key) != kAbsent; }
   void insert(std::uint64_t key, std::uint32_t slot);  ///< The key must not be in it.
   void erase(std::uint64_t key);                       ///< The key must be in it.
+  void expect(std::size_t more);                       ///< Makes room for so many more keys.
 
  private:
   struct Entry {
@@ -23,7 +24,7 @@ class KeyMap {
     std::uint32_t slot = kAbsent;
   };
   std::size_t home(std::uint64_t key) const;
-  void grow();
+  void grow(std::size_t size);
 
   static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
   std::vector<Entry> entries_;

@@ -69,6 +69,7 @@ class RigidPhysics final : public Physics {
   Contacts contacts_;
   Joints joints_;
   BroadPhase broad_phase_;
+  std::vector<ContactChanges> changes_;  ///< By chunk of pairs.
   Crowd crowd_;
   Sleep sleep_;
   ContactSolver contact_solver_;
@@ -167,7 +168,9 @@ void RigidPhysics::find_reaches(double dt_s) {
 void RigidPhysics::update_contacts(double dt_s) {
   constexpr std::size_t kChunk = 1024;
   auto& pairs = contacts_.pairs;
-  std::vector<ContactChanges> changes((pairs.size() + kChunk - 1) / kChunk);
+  changes_.resize(std::max(changes_.size(), (pairs.size() + kChunk - 1) / kChunk));
+  const auto changes = std::span(changes_).first((pairs.size() + kChunk - 1) / kChunk);
+  for (ContactChanges& chunk : changes) chunk.clear();
   const NarrowStep step{dt_s, static_cast<float>(options_.gravity_W.norm() * dt_s * dt_s)};
   find_reaches(dt_s);
   for_chunks(pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
@@ -198,6 +201,9 @@ void RigidPhysics::update_contacts(double dt_s) {
   sleep_.wake_left(left, options_.gravity_W, contacts_, bodies_);
   for (const ContactChanges& chunk : changes)
     for (const std::uint32_t i : chunk.parted) contacts_.part(i);
+  std::size_t touched = 0;
+  for (const ContactChanges& chunk : changes) touched += chunk.touched.size();
+  contacts_.expect_manifolds(touched);
   for (const ContactChanges& chunk : changes)
     for (const auto& [pair, manifold] : chunk.touched) contacts_.touch(pair, manifold, bodies_);
   for (const ContactChanges& chunk : changes)

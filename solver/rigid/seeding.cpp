@@ -15,9 +15,10 @@ namespace {
 constexpr std::uint32_t kGrain = 8;
 constexpr double kWork = 2e5;  // points swept at most, unless there are too many for it
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
-constexpr double kDone = 1e-12;     // square of a step, of the first
-constexpr double kMostLeft = 0.01;  // of the energy of a substep of free fall
-constexpr float kMostRest = 0.04f;  // of the inner radius
+constexpr double kDone = 1e-12;        // of the loads' squares, a step's
+constexpr double kMostLeft = 0.01;     // of the energy of a substep of free fall
+constexpr float kMostOverlap = 0.04f;  // of the inner radius: what is deeper is not at rest
+constexpr float kMostRest = 0.1f;      // of it
 
 Vec3f lane_of(const Wide3Of<kSeedLanes>& v, std::uint32_t lane) {
   return {v.x[lane], v.y[lane], v.z[lane]};
@@ -120,22 +121,37 @@ void Seeding::seed(const Vec3& gravity_W, double dt_s, int substeps, double stor
 
 bool Seeding::collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
                       Contacts& contacts) {
-  manifolds_.clear();
+  find_resting(gravity_W, dt_s, bodies, contacts);
+  make_blocks(contacts);
+  return !manifolds_.empty();
+}
+
+/// Lists what is to be seeded by colour and number of points.
+void Seeding::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
+                           Contacts& contacts) {
+  constexpr std::size_t kKeys = (kMaxColors + 1) * 4;
+  std::uint32_t start[kKeys + 1] = {};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> resting;  // key, manifold
+  resting.reserve(contacts.unseeded.size());
   const double slow_m_s = 2 * dt_s * gravity_W.norm();
   for (const std::uint32_t i : std::exchange(contacts.unseeded, {})) {
     Manifold& m = contacts.manifolds[i];
     if (!m.unseeded) continue;  // gone, or here for the second time
     m.unseeded = false;
     if (m.count == 0 || !(bodies.awake(m.body_a) || bodies.awake(m.body_b))) continue;
-    const bool rests = m.least_separation() > -kMostRest * m.size_m;
-    if (rests && relative_speed(m, bodies) < slow_m_s) manifolds_.push_back(i);
+    const bool rests = m.least_separation() > -kMostOverlap * m.size_m;
+    if (!rests || relative_speed(m, bodies) >= slow_m_s) continue;
+    resting.emplace_back(m.color * 4u + 4u - m.count, i);
+    ++start[resting.back().first + 1];
   }
-  const auto before = [&](std::uint32_t i, std::uint32_t j) {
-    const Manifold &m = contacts.manifolds[i], &n = contacts.manifolds[j];
-    return m.color != n.color ? m.color < n.color : m.count > n.count;
-  };
-  std::stable_sort(manifolds_.begin(), manifolds_.end(), before);
+  for (std::size_t k = 0; k < kKeys; ++k) start[k + 1] += start[k];
+  manifolds_.resize(resting.size());
+  for (const auto& [key, i] : resting) manifolds_[start[key]++] = i;
+}
+
+void Seeding::make_blocks(const Contacts& contacts) {
   blocks_.clear();
+  blocks_.reserve(manifolds_.size() / kSeedLanes + kMaxColors);
   colors_.clear();
   for (std::uint32_t i = 0; i < manifolds_.size();) {
     const Manifold& m = contacts.manifolds[manifolds_[i]];
@@ -152,7 +168,6 @@ bool Seeding::collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
     ++colors_.back().count;
     if (width == 1) colors_.back().grain = colors_.back().count;
   }
-  return !manifolds_.empty();
 }
 
 void Seeding::begin(const Vec3& gravity_W, float impulse_scale, double h_s, const Bodies& bodies,
@@ -228,7 +243,7 @@ void Seeding::find_loads(const ContactStep& step) {
       if (kind == kSweep) {
         sweep_relaxed(c, step.rows, step.soft);
         step_[i] = sum(loads_of(c), -1, before);
-        square_[i] = square_of(step_[i]);
+        square_[i] = {square_of(step_[i]), square_of(before)};
       } else {
         set_loads(sum({}, lever, direction_[i]), c);
         warm_start(c, step.rows);
@@ -243,13 +258,12 @@ void Seeding::find_loads(const ContactStep& step) {
   };
   run(kPrepare);
   run(kWarmStart);
-  double last = 0, most = 0;
+  double last = 0;
   for (int round = 0; round < rounds; ++round) {
     run(kSweep);
-    double square = 0;
-    for (const double s : square_) square += s;
-    most = std::max(most, square);
-    if (square <= kDone * most || round + 1 == rounds) return;
+    double square = 0, loads = 0;
+    for (const auto& [of_step, of_loads] : square_) square += of_step, loads += of_loads;
+    if (square <= kDone * std::max(square, loads) || round + 1 == rounds) return;
     lever = last > 0 && square <= last ? static_cast<float>(square / last) : 0.f;
     last = square;
     run(kLeap);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "solver/rigid/bodies.h"
@@ -37,6 +38,8 @@ class Seeding {
 
  private:
   bool collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies, Contacts& contacts);
+  void find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bodies, Contacts& contacts);
+  void make_blocks(const Contacts& contacts);
   void begin(const Vec3& gravity_W, float impulse_scale, double h_s, const Bodies& bodies,
              const Contacts& contacts);
   void estimate(const Vec3& gravity_W, double h_s, float stored_scale, const Bodies& bodies,
@@ -50,8 +53,8 @@ class Seeding {
   std::vector<SeedBlock> blocks_;
   std::vector<Stage> colors_;  ///< The blocks of each; the overflow last.
   std::vector<BlockLoads> step_, direction_;
-  std::vector<double> square_;  ///< Of each block's step.
-  std::vector<BodyRow> rows_;   ///< By body slot + 1; row 0 stays still.
+  std::vector<std::pair<double, double>> square_;  ///< Of each block's step, and of its loads.
+  std::vector<BodyRow> rows_;                      ///< By body slot + 1; row 0 stays still.
   std::vector<std::uint8_t> concerned_;
   std::vector<Mat3f> root_W_;
   std::vector<BodyLoad> loads_;  ///< By body slot.
