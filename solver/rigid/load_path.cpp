@@ -100,4 +100,15 @@ void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifold
   }
 }
 
+void release_above(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
+                   const Bodies& bodies, const Contacts& contacts, std::vector<BodyLoad>& loads) {
+  if (gravity_W.isZero(0)) return;
+  const std::vector<Support> supports =
+      find_supports(-gravity_W.normalized(), manifolds, bodies, contacts);
+  for (std::size_t i = supports.size(); i-- > 0;) {
+    const Support& s = supports[i];
+    if (bodies.awake(s.below) && !loads[s.below].held) loads[s.body].held = false;
+  }
+}
+
 }  // namespace sunder::solver

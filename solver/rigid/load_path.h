@@ -25,4 +25,8 @@ void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifold
                   float stored_scale, const Bodies& bodies, std::vector<BodyLoad>& loads,
                   Contacts& contacts);
 
+/// Bodies that stand on one that is not held are not held either.
+void release_above(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
+                   const Bodies& bodies, const Contacts& contacts, std::vector<BodyLoad>& loads);
+
 }  // namespace sunder::solver

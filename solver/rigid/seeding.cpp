@@ -64,14 +64,19 @@ double relative_speed(const Manifold& m, const Bodies& bodies) {
   return (velocity(m.body_b, m.friction_arm_B) - velocity(m.body_a, m.friction_arm_A)).norm();
 }
 
+/// How deep a point gives way under its load.
+float seat_m(const SeedBlock& c, std::uint32_t lane, std::size_t point, float yield_s) {
+  const float mass = c.point[point].mass[lane];
+  return mass > 0 ? yield_s * c.point[point].impulse[lane] / mass : 0;
+}
+
 /// Impulses of the points, and the separations at which they bear them.
 void seat_points(const SeedBlock& c, std::uint32_t lane, float yield_s, float stored_scale,
                  float factor, Manifold& m) {
   float depth[4] = {}, deepest = 0;
   for (std::size_t i = 0; i < m.count; ++i) {
-    const float impulse = factor * c.point[i].impulse[lane], mass = c.point[i].mass[lane];
-    m.points[i].impulse_Ns = stored_scale * impulse;
-    depth[i] = mass > 0 ? yield_s * impulse / mass : 0;
+    m.points[i].impulse_Ns = stored_scale * factor * c.point[i].impulse[lane];
+    depth[i] = factor * seat_m(c, lane, i, yield_s);
     deepest = std::max(deepest, depth[i]);
   }
   // An overlap that this load explains is as much at rest as none.
@@ -116,6 +121,7 @@ void Seeding::seed(const Vec3& gravity_W, double dt_s, int substeps, double stor
   step.bounce_speed_m_s = 1e30f;
   find_loads(step);
   find_held(gravity_W, h_s, bodies);
+  release_overloaded(gravity_W, step.soft, bodies, contacts);
   store(step.soft, static_cast<float>(1 / scale), static_cast<float>(factor), bodies, contacts);
 }
 
@@ -282,6 +288,25 @@ void Seeding::find_held(const Vec3& gravity_W, double h_s, const Bodies& bodies)
         double{velocity.squaredNorm()} + double{bodies.inverse_mass[body] * spin.squaredNorm()};
     loads_[body].held = energy <= kMostLeft * kick_m_s * kick_m_s;
   }
+}
+
+/// What would have to give way further than contacts can be seated is not held, nor what stands on
+/// it: it will fall, and seats are springs under load, which would give it their energy.
+void Seeding::release_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
+                                 const Contacts& contacts) {
+  bool any = false;
+  for (const SeedBlock& c : blocks_) {
+    for (std::uint32_t lane = 0; lane < c.count; ++lane) {
+      const Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
+      float deepest = 0;
+      for (std::size_t i = 0; i < m.count; ++i)
+        deepest = std::max(deepest, seat_m(c, lane, i, soft.press[c.points - 1].yield_s));
+      if (deepest <= kMostRest * m.size_m) continue;
+      any = true;
+      for (const std::uint32_t body : {m.body_a, m.body_b}) loads_[body].held = false;
+    }
+  }
+  if (any) release_above(gravity_W, manifolds_, bodies, contacts, loads_);
 }
 
 void Seeding::store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,

@@ -46,6 +46,8 @@ class Seeding {
                 Contacts& contacts);
   void find_loads(const ContactStep& step);
   void find_held(const Vec3& gravity_W, double h_s, const Bodies& bodies);
+  void release_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
+                          const Contacts& contacts);
   void store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
              Contacts& contacts) const;
 
