@@ -17,7 +17,7 @@ constexpr float kOpacitySteps = 63;
 std::int32_t code(float value, float steps) {
   const float scaled = value * steps;
   if (!std::isfinite(scaled)) return 0;
-  return static_cast<std::int32_t>(std::lround(std::clamp(scaled, -4194304.0f, 4194304.0f)));
+  return static_cast<std::int32_t>(std::rint(std::clamp(scaled, -4194304.0f, 4194304.0f)));
 }
 
 float value(std::int32_t code, float steps) { return static_cast<float>(code) / steps; }

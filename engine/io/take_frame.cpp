@@ -27,7 +27,7 @@ constexpr std::size_t kParticleGlides = 3;
 std::int32_t code(double value, double steps) {
   const double scaled = value * steps;
   if (!std::isfinite(scaled)) return 0;
-  return static_cast<std::int32_t>(std::lround(std::clamp(scaled, -2147483647.0, 2147483647.0)));
+  return static_cast<std::int32_t>(std::rint(std::clamp(scaled, -2147483647.0, 2147483647.0)));
 }
 
 void put_code(std::int32_t*& to, const Vec3& v, double steps) {
@@ -114,11 +114,13 @@ std::vector<std::uint32_t> match_debris(const NumberTable& table, const NumberTa
 /// Dust keeps its order but for gaps: of the next few, the one that is most like it.
 std::vector<std::uint32_t> match_dust(const NumberTable& table, const NumberTable& before) {
   constexpr std::size_t kWindow = 24;
+  constexpr std::int64_t kSame = 8;  // so little apart it need not be another
   std::vector<std::uint32_t> rows(table.rows(), kNewRow);
   std::size_t expected = 0;
   for (std::size_t r = 0; r < rows.size() && expected < before.rows(); ++r) {
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    for (std::size_t b = expected; b < std::min(expected + kWindow, before.rows()); ++b) {
+    const std::size_t end = std::min(expected + kWindow, before.rows());
+    for (std::size_t b = expected; b < end && least > kSame; ++b) {
       const auto now = table.row(r), then = before.row(b);
       if (!is_near(now, then)) continue;
       std::int64_t apart = 0;

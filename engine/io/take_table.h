@@ -2,15 +2,15 @@
 // bodies, debris and dust become.
 //
 // Read first: TableCoder::write(). Rows are found again in the previous table, numbers are
-// predicted to go on as they did, and what is left over is stored byte plane by byte plane, which
-// a general compressor then packs well.
+// predicted to go on as they did, and what is left over is coded bit by bit, by how much the same
+// number was off a frame ago and its neighbour is now.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "engine/io/bytes.h"
+#include "engine/io/bit_coder.h"
 
 namespace sunder {
 
@@ -43,13 +43,25 @@ class TableCoder {
   NumberTable read(ByteReader& in, const std::string& file, std::vector<std::uint32_t>& before);
 
  private:
+  static constexpr std::size_t kSizes = 8, kBeside = 4;  ///< Kinds of how far off.
+
   /// What a row is expected to be.
   void predict(std::uint32_t before, std::span<std::int32_t> row) const;
-  void remember(NumberTable table, std::span<const std::uint32_t> before);
+  /// How far off the columns of a row were a frame ago, as lengths in bits; none of a new row.
+  std::span<const std::uint8_t> lengths(std::uint32_t before) const;
+  std::size_t was_off(std::uint32_t expected, bool off_above) const;
+  NumberModel& model(std::size_t column, std::span<const std::uint8_t> then, std::uint8_t beside);
+  void remember(NumberTable table, std::span<const std::uint32_t> before,
+                std::vector<std::uint8_t> lengths);
 
   std::size_t gliding_;
   NumberTable last_;
-  std::vector<std::int32_t> pace_;  ///< Last change of the gliding columns, row by row.
+  std::vector<std::int32_t> pace_;     ///< Last change of the gliding columns, row by row.
+  std::vector<std::uint8_t> lengths_;  ///< Of what was left over, number by number.
+  // What has been learnt since the last reset.
+  std::array<BitModel, 4> is_off_;
+  NumberModel moved_;
+  std::vector<NumberModel> new_, known_;  ///< By column; by column, and how far off others are.
 };
 
 }  // namespace sunder

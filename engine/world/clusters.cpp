@@ -1,8 +1,6 @@
 #include "engine/world/clusters.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <utility>
 
 namespace sunder {
@@ -35,17 +33,20 @@ std::vector<Seed> find_seeds(World& world) {
   double least_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) least_J = std::min(least_J, actor.least_J);
   if (least_J == std::numeric_limits<double>::infinity()) return {};
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> energy_J;
+  std::vector<Seed> pairs;
   for (const Approach& approach : world.physics->approaches()) {
-    energy_J[{approach.body_tag_a, approach.body_tag_b}] +=
-        0.5 * approach.effective_mass_kg * approach.speed_m_s * approach.speed_m_s;
+    pairs.push_back({approach.body_tag_a, approach.body_tag_b,
+                     0.5 * approach.effective_mass_kg * approach.speed_m_s * approach.speed_m_s});
   }
+  std::ranges::stable_sort(pairs, {}, [](const Seed& seed) { return std::pair(seed.a, seed.b); });
   std::vector<Seed> seeds;
-  for (const auto& [keys, energy] : energy_J) {
-    if (energy <= least_J) continue;
-    const std::uint64_t since =
-        std::min(waits_since(world, keys.first), waits_since(world, keys.second));
-    seeds.push_back({keys.first, keys.second, energy, since});
+  for (std::size_t i = 0, end = 0; i < pairs.size(); i = end) {
+    Seed seed = pairs[i];
+    for (end = i + 1; end < pairs.size() && pairs[end].a == seed.a && pairs[end].b == seed.b; ++end)
+      seed.energy_J += pairs[end].energy_J;
+    if (seed.energy_J <= least_J) continue;
+    seed.since_step = std::min(waits_since(world, seed.a), waits_since(world, seed.b));
+    seeds.push_back(seed);
   }
   std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& x, const Seed& y) {
     return std::pair(x.since_step, -x.energy_J) < std::pair(y.since_step, -y.energy_J);
@@ -53,78 +54,116 @@ std::vector<Seed> find_seeds(World& world) {
   return seeds;
 }
 
+/// Which actors are in clusters. Actors are known by their place in the world; the ground comes
+/// behind them all.
+class Members {
+ public:
+  explicit Members(const World& world) : world_(world), cluster_(world.actors.size() + 1, 0) {
+    for (const Actor& actor : world.actors) keys_.push_back(actor.key);
+    taken_.assign(cluster_.size(), 0);
+  }
+
+  std::uint32_t place(std::uint32_t key) const {
+    const auto at = std::ranges::lower_bound(keys_, key);
+    const bool known = at != keys_.end() && *at == key;
+    return static_cast<std::uint32_t>(known ? at - keys_.begin() : std::ssize(keys_));
+  }
+  /// Null for the ground.
+  const Actor* actor(std::uint32_t place) const {
+    return place < keys_.size() ? &world_.actors[place] : nullptr;
+  }
+  void begin_cluster() { ++clusters_; }
+  /// False if it was in this cluster already.
+  bool add(std::uint32_t place) { return std::exchange(cluster_[place], clusters_) != clusters_; }
+  bool holds(std::uint32_t place) const { return cluster_[place] == clusters_; }
+  /// Moving bodies are in one cluster at most.
+  void take(std::uint32_t place) { taken_[place] = 1; }
+  bool taken(std::uint32_t place) const { return taken_[place] != 0; }
+
+ private:
+  const World& world_;
+  std::vector<std::uint32_t> keys_, cluster_;
+  std::vector<std::uint8_t> taken_;
+  std::uint32_t clusters_ = 0;  ///< The number of the last; cluster_ says which one saw an actor.
+};
+
 /// Bodies reached from a seed, contact by contact.
 class Reach {
  public:
-  Reach(World& world, std::set<std::uint32_t>& taken) : world_(world), taken_(taken) {}
+  Reach(World& world, Members& members) : world_(world), members_(members) {
+    members_.begin_cluster();
+  }
 
   /// False if one of the seed's bodies is in a cluster already.
   bool start(const Seed& seed) {
-    for (const std::uint32_t key : {seed.a, seed.b}) {
-      const Actor* actor = world_.find(key);
-      if (actor && !actor->is_static && taken_.contains(key)) return false;
+    const std::uint32_t ends[] = {members_.place(seed.a), members_.place(seed.b)};
+    bool direct = false;
+    for (const std::uint32_t place : ends) {
+      const Actor* actor = members_.actor(place);
+      if (actor && !actor->is_static && members_.taken(place)) return false;
+      direct |= may_break(world_, actor, seed.energy_J);
     }
-    const bool direct = may_break(world_, world_.find(seed.a), seed.energy_J) ||
-                        may_break(world_, world_.find(seed.b), seed.energy_J);
     most_ = direct ? kMostBodies : kMostPassingOn;
-    add(seed.a);
-    add(seed.b);
+    for (const std::uint32_t place : ends) add(place);
     return true;
   }
 
   void grow() {
+    std::vector<BodyId> layer;
     for (std::size_t done = 0; done < moving_.size() && moving_.size() < most_;) {
-      std::vector<BodyId> layer;
-      for (; done < moving_.size(); ++done) layer.push_back(world_.find(moving_[done])->body);
+      layer.clear();
+      for (; done < moving_.size(); ++done) layer.push_back(members_.actor(moving_[done])->body);
       for (const Touch& touch : world_.physics->touches(layer)) {
-        add(touch.body_tag_a);
-        add(touch.body_tag_b);
+        add(members_.place(touch.body_tag_a));
+        add(members_.place(touch.body_tag_b));
       }
     }
   }
 
   /// Bodies by key, and the contacts among them.
-  BreakProbe probe() const {
+  BreakProbe probe() {
+    std::ranges::sort(places_);
     std::vector<ProbeBody> bodies;
-    std::map<std::uint32_t, std::uint32_t> index;
-    for (const std::uint32_t key : keys_) {
-      index[key] = static_cast<std::uint32_t>(bodies.size());
-      bodies.push_back(describe(key));
-    }
+    for (const std::uint32_t place : places_) bodies.push_back(describe(place));
     std::vector<BodyId> moving;
-    for (const std::uint32_t key : moving_) moving.push_back(world_.find(key)->body);
+    for (const std::uint32_t place : moving_) moving.push_back(members_.actor(place)->body);
+    const auto index = [&](std::uint32_t place) {
+      return static_cast<std::uint32_t>(std::ranges::lower_bound(places_, place) - places_.begin());
+    };
     std::vector<ProbeContact> contacts;
     for (const Touch& touch : world_.physics->touches(moving)) {
-      const auto a = index.find(touch.body_tag_a), b = index.find(touch.body_tag_b);
-      if (a == index.end() || b == index.end()) continue;
-      contacts.push_back({a->second, b->second, touch.shape_tag_a, touch.shape_tag_b, touch.arm_a_W,
+      const std::uint32_t a = members_.place(touch.body_tag_a),
+                          b = members_.place(touch.body_tag_b);
+      if (!members_.holds(a) || !members_.holds(b)) continue;
+      contacts.push_back({index(a), index(b), touch.shape_tag_a, touch.shape_tag_b, touch.arm_a_W,
                           touch.arm_b_W, touch.normal_W, touch.separation_m});
     }
     return BreakProbe(std::move(bodies), std::move(contacts), world_.horizon_s());
   }
 
   bool could_break(double energy_J) const {
-    return std::any_of(keys_.begin(), keys_.end(), [&](std::uint32_t key) {
-      return may_break(world_, world_.find(key), energy_J);
+    return std::ranges::any_of(places_, [&](std::uint32_t place) {
+      return may_break(world_, members_.actor(place), energy_J);
     });
   }
 
  private:
-  void add(std::uint32_t key) {
-    const Actor* actor = world_.find(key);
+  void add(std::uint32_t place) {
+    const Actor* actor = members_.actor(place);
     const bool moves = actor && !actor->is_static;
-    if (moves && moving_.size() >= most_) return;
-    if (moves && taken_.contains(key)) return;
-    if (!keys_.insert(key).second || !moves) return;
-    moving_.push_back(key);
-    taken_.insert(key);
+    if (moves && (moving_.size() >= most_ || members_.taken(place))) return;
+    if (!members_.add(place)) return;
+    places_.push_back(place);
+    if (!moves) return;
+    moving_.push_back(place);
+    members_.take(place);
   }
 
-  ProbeBody describe(std::uint32_t key) const {
+  ProbeBody describe(std::uint32_t place) const {
     ProbeBody body;
-    body.key = key;
-    const Actor* actor = world_.find(key);
-    if (!actor) return body;  // the ground
+    const Actor* actor = members_.actor(place);
+    body.key = actor ? actor->key : kGroundKey;
+    if (!actor) return body;
     body.least_J = actor->least_J;
     body.least_Ns = actor->least_Ns;
     body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
@@ -139,8 +178,8 @@ class Reach {
   }
 
   World& world_;
-  std::set<std::uint32_t>& taken_;     ///< Moving bodies of all clusters.
-  std::set<std::uint32_t> keys_;       ///< Of this cluster, held ones too.
+  Members& members_;
+  std::vector<std::uint32_t> places_;  ///< Of this cluster's bodies, held ones too.
   std::vector<std::uint32_t> moving_;  ///< Nearest first.
   std::size_t most_ = kMostBodies;
 };
@@ -148,11 +187,13 @@ class Reach {
 }  // namespace
 
 std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out) {
+  const std::vector<Seed> seeds = find_seeds(world);
   std::vector<BreakProbe> clusters;
-  std::set<std::uint32_t> taken;
-  for (const Waiter& waiter : left_out) taken.insert(waiter.key);
-  for (const Seed& seed : find_seeds(world)) {
-    Reach reach(world, taken);
+  if (seeds.empty()) return clusters;
+  Members members(world);
+  for (const Waiter& waiter : left_out) members.take(members.place(waiter.key));
+  for (const Seed& seed : seeds) {
+    Reach reach(world, members);
     if (!reach.start(seed)) continue;
     reach.grow();
     if (reach.could_break(seed.energy_J)) clusters.push_back(reach.probe());

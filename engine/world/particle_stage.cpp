@@ -2,9 +2,11 @@
 //
 // Read first: particle_stage(). Particles move once a frame, whatever the step, as they are for
 // the eye; what breaks within a frame is noted as if it had been there from the frame's start.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/parallel.h"
 #include "engine/geometry/triangulate_face.h"
 #include "engine/world/actors.h"
 
@@ -43,22 +45,35 @@ struct Surroundings {
   std::vector<ObstacleShape> shapes;
 };
 
+/// By several threads, as it is mostly waiting for memory.
 Surroundings surroundings(const World& world) {
-  Surroundings all;
-  all.bodies.reserve(world.actors.size());
-  all.shapes.reserve(world.actors.size());
-  for (const Actor& actor : world.actors) {
-    const BodyState state = world.physics->state(actor.body);
-    const auto body = static_cast<std::uint32_t>(all.bodies.size());
-    all.bodies.push_back({actor.key, state.X_WB, actor.weight.com_R, state.velocity_W,
-                          state.angular_velocity_W, !actor.is_static && !state.asleep});
-    for (const ConvexPtr& convex : actor.compound.convexes) {
-      all.shapes.push_back({body, &convex->polyhedron, convex->box, convex->solid.volume_m3, 0});
-    }
-    if (actor.compound.convexes.empty()) {
-      all.shapes.push_back({body, nullptr, {}, 0, radius_of_ball_m(actor.volume_m3)});
-    }
+  constexpr std::size_t kChunk = 64;
+  const std::size_t count = world.actors.size();
+  std::vector<std::size_t> first(count + 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    first[i + 1] = first[i] + std::max<std::size_t>(1, world.actors[i].compound.convexes.size());
   }
+  Surroundings all{std::vector<ObstacleBody>(count), std::vector<ObstacleShape>(first[count])};
+  for_chunks(count, kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Actor& actor = world.actors[i];
+      const BodyState state = world.physics->state(actor.body);
+      all.bodies[i] = {actor.key,
+                       state.X_WB,
+                       actor.weight.com_R,
+                       state.velocity_W,
+                       state.angular_velocity_W,
+                       !actor.is_static && !state.asleep};
+      const auto body = static_cast<std::uint32_t>(i);
+      ObstacleShape* shape = &all.shapes[first[i]];
+      for (const ConvexPtr& convex : actor.compound.convexes) {
+        *shape++ = {body, &convex->polyhedron, convex->box, convex->solid.volume_m3, 0};
+      }
+      if (actor.compound.convexes.empty()) {
+        *shape = {body, nullptr, {}, 0, radius_of_ball_m(actor.volume_m3)};
+      }
+    }
+  });
   return all;
 }
 

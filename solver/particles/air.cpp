@@ -10,7 +10,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr float kAir_kg_m3 = 1.2f;
-constexpr float kTolerance = 5e-4f;  // of the fastest flow, in net outflow of a cell
+constexpr float kTolerance = 8e-4f;  // of the fastest flow, in net outflow of a cell
 constexpr float kDamping = 0.25f;    // 1: advection of first order
 constexpr float kTight = 1.5f;       // a wall is tight from a thickness of 1 / kTight cells
 // Least open part of a face: a little leaks everywhere, so that closed rooms have a pressure, too.

@@ -84,6 +84,7 @@ class Air {
   void slip_on_ground();
   float fastest() const;
   float sample(int axis, const Vec3f& at) const;
+  float between(int axis, const Vec3f& at) const;
 
   Grid grid_;
   bool placed_ = false;

@@ -98,18 +98,22 @@ Vec3f Air::velocity(const Vec3f& point_W) const {
   for (int axis = 0; axis < 3; ++axis) {
     Vec3f at = cells + Vec3f::Constant(0.5f);
     at[axis] = cells[axis] + 1;
-    velocity[axis] = sample(axis, at);
+    velocity[axis] = between(axis, at);
   }
   return velocity;
 }
 
-/// Trilinear, at indices of the axis' faces.
+/// At indices of the axis' faces, kept within them.
 float Air::sample(int axis, const Vec3f& at) const {
+  const Vec3f most = (grid_.lattice.counts + Vec3i::Ones()).cast<float>();
+  return between(axis, at.cwiseMax(0.0f).cwiseMin(most));
+}
+
+/// Trilinear, between faces that are there.
+float Air::between(int axis, const Vec3f& at) const {
   const Lattice& lattice = grid_.lattice;
-  const Vec3f most = (lattice.counts + Vec3i::Ones()).cast<float>();
-  const Vec3f held = at.cwiseMax(0.0f).cwiseMin(most);
-  const Vec3i low = held.cast<int>();
-  const Vec3f part = held - low.cast<float>();
+  const Vec3i low = at.cast<int>();
+  const Vec3f part = at - low.cast<float>();
   const float* u = &of(velocity_, axis)[lattice.index(low.x(), low.y(), low.z())];
   const std::ptrdiff_t sy = lattice.stride(1), sz = lattice.stride(2);
   const auto along = [&](std::ptrdiff_t o) { return u[o] + part.x() * (u[o + 1] - u[o]); };

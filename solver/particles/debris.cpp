@@ -2,22 +2,25 @@
 #include "solver/particles/debris.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
-#include "solver/particles/turn.h"
+#include "solver/particles/place_order.h"
+#include "solver/rigid/wide.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::uint32_t kGround = 0xffffffff;  // as a support
-constexpr std::size_t kChunk = 256;
+constexpr std::size_t kBatch = 16;             // chips that look for obstacles together
+constexpr std::size_t kChunk = 32 * kBatch;
+constexpr std::uint32_t kSortEvery = 16;  // moves
 constexpr float kFriction = 0.6f;
 constexpr float kRestitution = 0.3f;
 constexpr float kBounce_m_s = 0.4f;       // slower approaches do not bounce
 constexpr double kSkin_m = 2e-4;          // kept between a chip and what it lies on
-constexpr float kAround_m = 0.005f;       // of its way, that a bounce may need
 constexpr double kPushOut_m_s = 2;        // of what starts inside an obstacle
 constexpr float kTouchedDamping_s = 150;  // high, so that chips do not roll
 constexpr float kFlyingDamping_s = 0.5f;
@@ -75,18 +78,27 @@ void Debris::add(const DebrisBirth& birth) {
   state_.push_back(State::kAwake);
   support_.push_back(kGround);
   rest_.push_back(0);
-  awake_.push_back(static_cast<std::uint32_t>(position_W_.size() - 1));
+  order_.push_back(static_cast<std::uint32_t>(position_W_.size() - 1));
+  awake_.push_back(order_.back());
 }
 
 void Debris::advance(double dt_s, const Obstacles& obstacles) {
   if (position_W_.empty()) return;
   wake_unsupported(obstacles);
   wake_touched(dt_s, obstacles);
+  sort();
   if (!listed_) list();
   move_awake(dt_s, obstacles);
   put_to_sleep(dt_s, obstacles);
   fade(static_cast<float>(dt_s));
   if (!listed_) list();
+}
+
+/// Chips on the move come apart, but not fast.
+void Debris::sort() {
+  if (awake_.empty() || moves_++ % kSortEvery != 0) return;
+  sort_by_place(position_W_, order_);
+  listed_ = false;
 }
 
 void Debris::wake(std::uint32_t chip) {
@@ -121,13 +133,18 @@ void Debris::wake_touched(double dt_s, const Obstacles& obstacles) {
   std::vector<std::uint8_t> touched(asleep_.size());
   for_chunks(asleep_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     ObstacleGrid::Near near;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3f& at = position_W_[asleep_[i]];
-      const float radius = radius_m_[asleep_[i]];
-      movers_.find(at - Vec3f::Constant(radius), at + Vec3f::Constant(radius), near);
-      if (near.empty()) continue;
-      const Vec3 here = at.cast<double>();
-      touched[i] = movers_.sweep({here, here, double{radius}, dt_s}, near).has_value();
+    std::array<ObstacleGrid::Way, kLanes> ways;
+    std::array<std::optional<Touch>, kLanes> touches;
+    for (std::size_t i = begin; i < end; i += kLanes) {
+      const std::size_t count = std::min<std::size_t>(kLanes, end - i);
+      for (std::size_t w = 0; w < count; ++w) {
+        const Vec3 here = position_W_[asleep_[i + w]].cast<double>();
+        ways[w] = {here, here, double{radius_m_[asleep_[i + w]]}, dt_s};
+      }
+      const std::span some(ways.data(), count);
+      movers_.find(some, near);
+      movers_.sweep(some, near, touches);
+      for (std::size_t w = 0; w < count; ++w) touched[i + w] = touches[w].has_value();
     }
   });
   for (std::size_t i = 0; i < touched.size(); ++i) {
@@ -135,86 +152,144 @@ void Debris::wake_touched(double dt_s, const Obstacles& obstacles) {
   }
 }
 
+/// What those awake may come to in the next dt_s.
+Box Debris::reach_of_awake(double dt_s) {
+  reaches_.assign((awake_.size() + kChunk - 1) / kChunk, Box());
+  const Vec3f fall = (dt_s * gravity_W_).cast<float>();
+  const auto step_s = static_cast<float>(dt_s);
+  for_chunks(awake_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    Vec3f low = Vec3f::Constant(1e30f), high = -low;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t chip = awake_[i];
+      const Vec3f way = step_s * (velocity_W_[chip] + fall);
+      const Vec3f reach = way.cwiseAbs().array() + radius_m_[chip];
+      low = low.cwiseMin(position_W_[chip] - reach);
+      high = high.cwiseMax(position_W_[chip] + reach);
+    }
+    reaches_[chunk] = {low.cast<double>(), high.cast<double>()};
+  });
+  Box all;
+  for (const Box& reach : reaches_) all.extend(reach);
+  return all;
+}
+
 void Debris::move_awake(double dt_s, const Obstacles& obstacles) {
-  Box region;
-  for (const std::uint32_t chip : awake_) {
-    const Vec3 at = position_W_[chip].cast<double>();
-    const Vec3 way = dt_s * (velocity_W_[chip].cast<double>() + dt_s * gravity_W_);
-    const Vec3 reach = Vec3::Constant(double{radius_m_[chip]}) + way.cwiseAbs();
-    region.extend(Box{at - reach, at + reach});
-  }
-  grid_.build(obstacles, dt_s, region, ObstacleGrid::Which::kAll);
+  grid_.build(obstacles, dt_s, reach_of_awake(dt_s), ObstacleGrid::Which::kAll);
   moved_.resize(awake_.size());
   for_chunks(awake_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     ObstacleGrid::Near near;
-    for (std::size_t i = begin; i < end; ++i) {
-      moved_[i] = move(awake_[i], dt_s, obstacles.ground_m, near);
-      spin(awake_[i], static_cast<float>(dt_s), moved_[i].touched);
+    for (std::size_t i = begin; i < end; i += kBatch) {
+      const std::size_t count = std::min(kBatch, end - i);
+      const std::span chips(&awake_[i], count);
+      move(chips, {&moved_[i], count}, dt_s, obstacles.ground_m, near);
+      spin(chips, {&moved_[i], count}, static_cast<float>(dt_s));
     }
   });
 }
 
-/// Flies to the first touch, bounces, flies on.
-Debris::Moved Debris::move(std::uint32_t chip, double dt_s, double ground_m,
-                           ObstacleGrid::Near& near) {
-  Moved moved;
-  const double radius = double{radius_m_[chip]};
-  const double lowest = ground_m + radius;
-  Vec3f& velocity = velocity_W_[chip];
-  velocity += (dt_s * gravity_W_).cast<float>();
-  Vec3 from = position_W_[chip].cast<double>();
-  double left_s = dt_s;
-  Vec3f known_low = Vec3f::Constant(1), known_high = Vec3f::Zero();  // where `near` holds
-  for (int bounces = 0;; ++bounces) {
-    Vec3 to = from + left_s * velocity.cast<double>();
-    const Vec3f low = (from.cwiseMin(to).array() - radius).cast<float>();
-    const Vec3f high = (from.cwiseMax(to).array() + radius).cast<float>();
-    if ((low.array() < known_low.array()).any() || (high.array() > known_high.array()).any()) {
-      known_low = low.array() - kAround_m;
-      known_high = high.array() + kAround_m;
-      grid_.find(known_low, known_high, near);
-    }
-    std::optional<Touch> touch = grid_.sweep({from, to, radius, left_s}, near);
-    const double fall = from.y() - to.y();
-    if (to.y() < lowest) {
-      const double time = from.y() > lowest && fall > 0 ? (from.y() - lowest) / fall : 0;
-      if (!touch || time < touch->time) {
-        touch = Touch{time, lowest - to.y(), Vec3::UnitY(), Vec3::Zero(), kGround};
-      }
-    }
-    if (!touch) {
-      from = to;
-      break;
-    }
-    moved = {true, touch->velocity_W.norm() < ObstacleGrid::kCreep_m_s, touch->body};
-    if (touch->depth_m > 0 && touch->time <= 0) {
-      from = to + std::min(touch->depth_m, kPushOut_m_s * dt_s) * touch->normal_W;
-      left_s = 0;
-    } else {
-      from += touch->time * (to - from);
-      left_s *= 1 - touch->time;
-    }
-    from += kSkin_m * touch->normal_W;
-    bounce(velocity, angular_velocity_W_[chip], radius_m_[chip], touch->normal_W.cast<float>(),
-           touch->velocity_W.cast<float>());
-    if (bounces == kBounces || left_s <= 0) break;
+/// They fly to their first touch, bounce, fly on.
+void Debris::move(std::span<const std::uint32_t> chips, std::span<Moved> moved, double dt_s,
+                  double ground_m, ObstacleGrid::Near& near) {
+  std::array<ObstacleGrid::Way, kBatch> ways;  // of those that still fly
+  std::array<std::size_t, kBatch> flying;      // which of `chips` they are
+  std::array<std::optional<Touch>, kBatch> touches;
+  const Vec3f fall = (dt_s * gravity_W_).cast<float>();
+  for (std::size_t i = 0; i < chips.size(); ++i) {
+    velocity_W_[chips[i]] += fall;
+    ways[i].from = position_W_[chips[i]].cast<double>();
+    ways[i].radius_m = double{radius_m_[chips[i]]};
+    ways[i].duration_s = dt_s;
+    flying[i] = i;
+    moved[i] = {};
   }
-  from.y() = std::max(from.y(), lowest);
-  position_W_[chip] = from.cast<float>();
-  return moved;
+  std::size_t count = chips.size();
+  for (int bounces = 0; count > 0; ++bounces) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3f& velocity = velocity_W_[chips[flying[i]]];
+      ways[i].to = ways[i].from + ways[i].duration_s * velocity.cast<double>();
+    }
+    grid_.find(std::span(ways.data(), count), near);
+    for (std::size_t i = 0; i < count; i += kLanes) {
+      const std::size_t some = std::min<std::size_t>(kLanes, count - i);
+      grid_.sweep({&ways[i], some}, near, {&touches[i], some});
+    }
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t which = flying[i];
+      const bool on = goes_on(chips[which], ways[i], touches[i], dt_s, ground_m, moved[which]);
+      if (!on || bounces == kBounces) continue;
+      ways[left] = ways[i];
+      flying[left++] = which;
+    }
+    count = left;
+  }
 }
 
-void Debris::spin(std::uint32_t chip, float dt_s, bool touched) {
-  Vec3f& spin = angular_velocity_W_[chip];
-  spin *= 1 / (1 + dt_s * (touched ? kTouchedDamping_s : kFlyingDamping_s));
-  turn(rotation_WD_[chip], spin, dt_s);
+/// Takes a chip to the end of its way, or to what it touches first: then it may go on from there.
+bool Debris::goes_on(std::uint32_t chip, ObstacleGrid::Way& way, std::optional<Touch> touch,
+                     double dt_s, double ground_m, Moved& moved) {
+  const double lowest = ground_m + way.radius_m;
+  const double fall = way.from.y() - way.to.y();
+  if (way.to.y() < lowest) {
+    const double time = way.from.y() > lowest && fall > 0 ? (way.from.y() - lowest) / fall : 0;
+    if (!touch || time < touch->time) {
+      touch = Touch{time, lowest - way.to.y(), Vec3::UnitY(), Vec3::Zero(), kGround};
+    }
+  }
+  if (!touch) {
+    way.from = way.to;
+    way.duration_s = 0;
+  } else {
+    moved = {true, touch->velocity_W.norm() < ObstacleGrid::kCreep_m_s, touch->body};
+    if (touch->depth_m > 0 && touch->time <= 0) {
+      way.from = way.to + std::min(touch->depth_m, kPushOut_m_s * dt_s) * touch->normal_W;
+      way.duration_s = 0;
+    } else {
+      way.from += touch->time * (way.to - way.from);
+      way.duration_s *= 1 - touch->time;
+    }
+    way.from += kSkin_m * touch->normal_W;
+    bounce(velocity_W_[chip], angular_velocity_W_[chip], radius_m_[chip],
+           touch->normal_W.cast<float>(), touch->velocity_W.cast<float>());
+  }
+  way.from.y() = std::max(way.from.y(), lowest);
+  position_W_[chip] = way.from.cast<float>();
+  return way.duration_s > 0;
+}
+
+/// Turns them by how they spin; accurate for turns well below a radian.
+void Debris::spin(std::span<const std::uint32_t> chips, std::span<const Moved> moved, float dt_s) {
+  const float touched = 1 / (1 + dt_s * kTouchedDamping_s);
+  const float flying = 1 / (1 + dt_s * kFlyingDamping_s);
+  float q[4][kBatch] = {}, w[3][kBatch] = {};
+  for (std::size_t i = 0; i < chips.size(); ++i) {
+    Vec3f& spin = angular_velocity_W_[chips[i]];
+    spin *= moved[i].touched ? touched : flying;
+    for (int axis = 0; axis < 3; ++axis) w[axis][i] = 0.5f * dt_s * spin[axis];
+    for (int part = 0; part < 4; ++part) q[part][i] = rotation_WD_[chips[i]].coeffs()[part];
+  }
+  float scale[kBatch];
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    // q += (0, w) q, with the scalar last.
+    const float x = q[0][i], y = q[1][i], z = q[2][i], s = q[3][i];
+    q[0][i] = x + (w[0][i] * s + w[1][i] * z - w[2][i] * y);
+    q[1][i] = y + (w[1][i] * s + w[2][i] * x - w[0][i] * z);
+    q[2][i] = z + (w[2][i] * s + w[0][i] * y - w[1][i] * x);
+    q[3][i] = s - (w[0][i] * x + w[1][i] * y + w[2][i] * z);
+    scale[i] = q[0][i] * q[0][i] + q[1][i] * q[1][i] + q[2][i] * q[2][i] + q[3][i] * q[3][i];
+  }
+  for (std::size_t i = 0; i < chips.size(); ++i) {
+    Quatf& rotation = rotation_WD_[chips[i]];
+    const float length = 1 / std::sqrt(scale[i]);
+    for (int part = 0; part < 4; ++part) rotation.coeffs()[part] = length * q[part][i];
+  }
 }
 
 void Debris::put_to_sleep(double dt_s, const Obstacles& obstacles) {
   for (std::size_t i = 0; i < awake_.size(); ++i) {
     const std::uint32_t chip = awake_[i];
     const std::uint32_t body = moved_[i].support;
-    const bool still = moved_[i].lies && velocity_W_[chip].norm() < kStill_m_s;
+    const bool still = moved_[i].lies && velocity_W_[chip].squaredNorm() < kStill_m_s * kStill_m_s;
     still_s_[chip] = still ? still_s_[chip] + static_cast<float>(dt_s) : 0;
     if (still_s_[chip] < kStill_s) continue;
     state_[chip] = State::kAsleep;
@@ -246,6 +321,7 @@ void Debris::fade(float dt_s) {
     listed_ = false;
   }
   // From the last, because removal moves the last chip into the gap.
+  std::ranges::sort(fading_);
   for (auto chip = fading_.rbegin(); chip != fading_.rend(); ++chip) {
     drawn_radius_m_[*chip] -= radius_m_[*chip] * dt_s / kFade_s;
     if (drawn_radius_m_[*chip] <= 0) remove(*chip);
@@ -268,7 +344,9 @@ void Debris::list() {
   asleep_.clear();
   fading_.clear();
   asleep_box_ = Box();
-  for (std::uint32_t chip = 0; chip < state_.size(); ++chip) {
+  // A chip that went left its number, the last, to none.
+  std::erase_if(order_, [&](std::uint32_t chip) { return chip >= state_.size(); });
+  for (const std::uint32_t chip : order_) {
     if (state_[chip] == State::kAwake) awake_.push_back(chip);
     if (state_[chip] == State::kFading) fading_.push_back(chip);
     if (state_[chip] != State::kAsleep) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/world/particles.h"
@@ -49,12 +50,17 @@ class Debris {
     Pose X_WB;  ///< When the first of them fell asleep.
   };
 
+  void sort();
   void wake_unsupported(const Obstacles& obstacles);
   void wake_touched(double dt_s, const Obstacles& obstacles);
   void wake(std::uint32_t chip);
+  Box reach_of_awake(double dt_s);
   void move_awake(double dt_s, const Obstacles& obstacles);
-  Moved move(std::uint32_t chip, double dt_s, double ground_m, ObstacleGrid::Near& near);
-  void spin(std::uint32_t chip, float dt_s, bool touched);
+  void move(std::span<const std::uint32_t> chips, std::span<Moved> moved, double dt_s,
+            double ground_m, ObstacleGrid::Near& near);
+  bool goes_on(std::uint32_t chip, ObstacleGrid::Way& way, std::optional<Touch> touch, double dt_s,
+               double ground_m, Moved& moved);
+  void spin(std::span<const std::uint32_t> chips, std::span<const Moved> moved, float dt_s);
   void put_to_sleep(double dt_s, const Obstacles& obstacles);
   void fade(float dt_s);
   void remove(std::uint32_t chip);
@@ -76,12 +82,16 @@ class Debris {
   std::vector<std::uint32_t> support_;  ///< Key of what a sleeper rests on.
   std::vector<std::uint64_t> rest_;     ///< A sleeper's place in the order of falling asleep.
 
-  std::vector<std::uint32_t> awake_, asleep_, fading_;  ///< Ascending; remade when stale.
+  /// All chips, near each other if near in the world, as far as was so when they were sorted.
+  std::vector<std::uint32_t> order_;
+  std::uint32_t moves_ = 0;                             ///< Since they were sorted.
+  std::vector<std::uint32_t> awake_, asleep_, fading_;  ///< In that order; remade when stale.
   bool listed_ = true;
   Box asleep_box_;
   std::vector<Support> supports_;  ///< Ascending by key.
   ObstacleGrid grid_, movers_;
   std::vector<Moved> moved_;  ///< Of awake_.
+  std::vector<Box> reaches_;  ///< A chunk's.
 };
 
 }  // namespace sunder::solver

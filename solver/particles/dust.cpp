@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/base/parallel.h"
+#include "solver/particles/place_order.h"
 #include "solver/particles/turn.h"
 
 namespace sunder::solver {
@@ -22,7 +24,8 @@ constexpr float kSolid = 0.9f;          // part of a cell from which dust in it 
 constexpr float kCrowded = 4;           // times faster the oldest fade when room is short
 constexpr std::size_t kCellsAPuff = 8;  // of air: finer is not worth its cost
 constexpr std::size_t kStrays = 32;     // one puff in so many, on each side, may fly out of the air
-constexpr std::uint32_t kRoom = 16;     // one part in so many is kept free for new dust
+constexpr std::size_t kSpeakers = 4096;
+constexpr std::uint32_t kRoom = 16;  // one part in so many is kept free for new dust
 
 Vec3f axis_of(const Quatf& rotation) { return rotation * Vec3f::UnitZ(); }
 
@@ -60,21 +63,30 @@ void Dust::advance(double dt_s, const Obstacles& obstacles) {
     return;
   }
   place_air(obstacles.ground_m);
+  sort_into_cells();
   load_air();
   flow_->air.advance(dt_s, gravity_W_, obstacles);
   for_chunks(position_W_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-    move(begin, end, static_cast<float>(dt_s), static_cast<float>(obstacles.ground_m));
+    Around around;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i == begin || cell_[order_[i]] != around.cell) look_around(order_[i], around);
+      move(order_[i], around, static_cast<float>(dt_s), static_cast<float>(obstacles.ground_m));
+    }
   });
   remove_settled();
 }
 
 /// Where the dust is, but for the few that have flown farthest: the air is there for the cloud.
+/// Of many puffs some speak for all.
 Box Dust::cloud() {
   Box box;
-  const std::size_t strays = position_W_.size() / kStrays;
+  const std::size_t every = 1 + position_W_.size() / kSpeakers;
+  const std::size_t strays = (position_W_.size() + every - 1) / every / kStrays;
   for (int axis = 0; axis < 3; ++axis) {
     sorted_m_.clear();
-    for (const Vec3f& position : position_W_) sorted_m_.push_back(position[axis]);
+    for (std::size_t p = 0; p < position_W_.size(); p += every) {
+      sorted_m_.push_back(position_W_[p][axis]);
+    }
     const auto low = sorted_m_.begin() + static_cast<std::ptrdiff_t>(strays);
     const auto high = sorted_m_.end() - 1 - static_cast<std::ptrdiff_t>(strays);
     std::nth_element(sorted_m_.begin(), low, sorted_m_.end());
@@ -114,16 +126,31 @@ void Dust::place_air(double ground_m) {
   flow_->air.place(box, ground_m);
 }
 
+void Dust::sort_into_cells() {
+  const Air& air = flow_->air;
+  cell_.resize(position_W_.size());
+  for_chunks(cell_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t puff = begin; puff < end; ++puff) {
+      cell_[puff] = kOutside;
+      if (!air.holds(position_W_[puff])) continue;
+      const Vec3i at = air.cell_at(position_W_[puff]);
+      cell_[puff] = static_cast<std::uint32_t>(air.grid().lattice.index(at.x(), at.y(), at.z()));
+    }
+  });
+  order_.resize(position_W_.size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  sort_by_key(cell_, order_);
+}
+
 /// Tells the air what it carries, and gathers the vortices.
 void Dust::load_air() {
   Air& air = flow_->air;
   Swirl& swirl = flow_->swirl;
   air.clear_loads();
   swirl.clear();
-  for (std::size_t puff = 0; puff < position_W_.size(); ++puff) {
-    if (!air.holds(position_W_[puff])) continue;
-    const Vec3i at = air.cell_at(position_W_[puff]);
-    const std::size_t cell = air.grid().lattice.index(at.x(), at.y(), at.z());
+  for (const std::uint32_t puff : order_) {
+    const std::uint32_t cell = cell_[puff];
+    if (cell == kOutside) break;
     air.add_dust(cell, mass_kg_[puff]);
     if (age_s_[puff] == 0) air.add_momentum(cell, mass_kg_[puff], slip_W_[puff]);
     swirl.add(cell, air.to_cells(position_W_[puff]), axis_of(rotation_WD_[puff]),
@@ -132,37 +159,45 @@ void Dust::load_air() {
   swirl.finish();
 }
 
+void Dust::look_around(std::size_t puff, Around& around) const {
+  around.cell = cell_[puff];
+  if (around.cell == kOutside) {
+    around.gradient = {};
+    around.solid = 0;
+    return;
+  }
+  const Air& air = flow_->air;
+  const Vec3i at = air.cell_at(position_W_[puff]);
+  around.gradient = air.gradient(at);
+  around.solid = std::min(1.0f, air.solid(at));
+  flow_->swirl.find(around.cell, around.swirl);
+}
+
 /// With the air, the swirl, what is left of the throw, and down.
-void Dust::move(std::size_t begin, std::size_t end, float dt_s, float ground_m) {
+void Dust::move(std::size_t puff, const Around& around, float dt_s, float ground_m) {
   const Air& air = flow_->air;
   const auto cell_m = static_cast<float>(air.grid().cell_m);
-  for (std::size_t puff = begin; puff < end; ++puff) {
-    Vec3f& position = position_W_[puff];
-    const Vec3i at = air.cell_at(position);
-    const std::size_t cell = air.grid().lattice.index(at.x(), at.y(), at.z());
-    const bool held = air.holds(position);
-    const AirGradient gradient = held ? air.gradient(at) : AirGradient{};
-    const float solid = held ? std::min(1.0f, air.solid(at)) : 0;
-    float& turbulence = turbulence_m_s_[puff];
-    turbulence = grow_turbulence(turbulence, gradient.strain_s, cell_m, dt_s);
+  Vec3f& position = position_W_[puff];
+  float& turbulence = turbulence_m_s_[puff];
+  turbulence = grow_turbulence(turbulence, around.gradient.strain_s, cell_m, dt_s);
 
-    const Vec3f axis = axis_of(rotation_WD_[puff]);
-    const Vec3f own = (turbulence / (0.5f * cell_m)) * axis;
-    turn(rotation_WD_[puff], own + rod_spin(axis, gradient.vorticity_s, gradient.strain_s), dt_s);
+  const Vec3f axis = axis_of(rotation_WD_[puff]);
+  const Vec3f own = (turbulence / (0.5f * cell_m)) * axis;
+  turn(rotation_WD_[puff],
+       own + rod_spin(axis, around.gradient.vorticity_s, around.gradient.strain_s), dt_s);
 
-    Vec3f drift = settling_m_s_[puff] * down_W_;
-    if (held) drift += flow_->swirl.velocity(cell, air.to_cells(position));
-    slip_W_[puff] /= 1 + dt_s / kThrown_s;
-    const Vec3f own_way = slip_W_[puff] + (1 - solid) * drift;
-    const Vec3f middle = position + 0.5f * dt_s * (air.velocity(position) + own_way);
-    position += dt_s * (air.velocity(middle) + own_way);
+  Vec3f drift = settling_m_s_[puff] * down_W_;
+  if (around.cell != kOutside) drift += around.swirl.velocity(air.to_cells(position));
+  slip_W_[puff] /= 1 + dt_s / kThrown_s;
+  const Vec3f own_way = slip_W_[puff] + (1 - around.solid) * drift;
+  const Vec3f middle = position + 0.5f * dt_s * (air.velocity(position) + own_way);
+  position += dt_s * (air.velocity(middle) + own_way);
 
-    float& radius = radius_m_[puff];
-    const float mixing = kSpread_m2_s + 0.1f * cell_m * turbulence;
-    radius = std::sqrt(radius * radius + dt_s * mixing);
-    age_s_[puff] += dt_s;
-    settle(puff, dt_s, solid, ground_m);
-  }
+  float& radius = radius_m_[puff];
+  const float mixing = kSpread_m2_s + 0.1f * cell_m * turbulence;
+  radius = std::sqrt(radius * radius + dt_s * mixing);
+  age_s_[puff] += dt_s;
+  settle(puff, dt_s, around.solid, ground_m);
 }
 
 void Dust::settle(std::size_t puff, float dt_s, float solid, float ground_m) {
@@ -181,10 +216,13 @@ void Dust::settle(std::size_t puff, float dt_s, float solid, float ground_m) {
 
 /// Keeps the order of birth.
 void Dust::remove_settled() {
+  const auto gone = [&](std::size_t puff) {
+    return age_s_[puff] >= kAppear_s && opacity_[puff] < kLeastOpacity;
+  };
   std::size_t kept = 0;
-  for (std::size_t puff = 0; puff < position_W_.size(); ++puff) {
-    const bool appeared = age_s_[puff] >= kAppear_s;
-    if (appeared && opacity_[puff] < kLeastOpacity) continue;
+  while (kept < position_W_.size() && !gone(kept)) ++kept;
+  for (std::size_t puff = kept; puff < position_W_.size(); ++puff) {
+    if (gone(puff)) continue;
     const auto keep = [&](auto&... arrays) { ((arrays[kept] = arrays[puff]), ...); };
     keep(position_W_, slip_W_, rotation_WD_, mass_kg_, settling_m_s_, turbulence_m_s_,
          first_radius_m_, radius_m_, opacity_, age_s_, settled_s_, material_);

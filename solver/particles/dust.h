@@ -39,6 +39,14 @@ class Dust {
   const Air* air() const { return flow_ ? &flow_->air : nullptr; }
 
  private:
+  static constexpr std::uint32_t kOutside = 0xffffffff;
+  /// The air around the puffs of one cell.
+  struct Around {
+    std::uint32_t cell = kOutside;
+    AirGradient gradient;
+    float solid = 0;
+    Swirl::Near swirl;
+  };
   /// What exists only while there is dust.
   struct Flow {
     explicit Flow(const Vec3i& cells) : air(cells), swirl(Lattice{cells}) {}
@@ -49,8 +57,10 @@ class Dust {
   Box cloud();
   Vec3i cells_for(std::size_t puffs) const;
   void place_air(double ground_m);
+  void sort_into_cells();
   void load_air();
-  void move(std::size_t begin, std::size_t end, float dt_s, float ground_m);
+  void look_around(std::size_t puff, Around& around) const;
+  void move(std::size_t puff, const Around& around, float dt_s, float ground_m);
   void settle(std::size_t puff, float dt_s, float solid, float ground_m);
   void remove_settled();
 
@@ -61,6 +71,8 @@ class Dust {
   ParticleBooks books_;
   std::optional<Flow> flow_;
   std::vector<float> sorted_m_;
+  std::vector<std::uint32_t> cell_;   ///< Of the air that holds a puff, or kOutside.
+  std::vector<std::uint32_t> order_;  ///< Puffs by cell; those outside come last.
 
   // In order of birth.
   std::vector<Vec3f> position_W_;

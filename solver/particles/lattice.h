@@ -33,7 +33,7 @@ struct Lattice {
   /// Layers of cells that are worth a thread's while; depends on nothing but the lattice.
   std::size_t layers_a_chunk() const {
     const auto layer = static_cast<std::size_t>(counts.x() * counts.y());
-    return std::max<std::size_t>(1, (1 << 14) / layer);
+    return std::max<std::size_t>(1, (1 << 13) / layer);
   }
 };
 

@@ -1,4 +1,5 @@
-// Read first: sweep(). Shapes stay in their rest frames: only their boxes are brought to the world.
+// Read first: build(). Shapes stay in their rest frames: only their boxes are brought to the world.
+// What ways meet is in obstacle_sweep.cpp.
 #include "solver/particles/obstacle_grid.h"
 
 #include <algorithm>
@@ -9,13 +10,15 @@
 namespace sunder::solver {
 namespace {
 
-constexpr float kFinest_m = 0.25f;  // cells of level 0; those of the next are twice as wide
+constexpr float kFinest_m = 0.5f;  // cells of level 0; those of the next are twice as wide
 // Shapes lie in all cells within this reach, so that what is no larger looks at one a level.
 constexpr float kReach_m = 0.0625f;
-constexpr float kMostCells = 24;  // that a shape lies in
-constexpr double kRounding_m = 1e-4;
+constexpr float kMostCells = 8;                         // that a shape lies in
+constexpr double kRounding_m = 1e-4, kRounding = 3e-7;  // of places, and of how far away they are
+constexpr float kAround_m = 0.005f;                     // of ways, that a bounce may need
+constexpr float kTogether_m = 2;                        // so large a place is looked up at once
 constexpr int kLevels = 31;
-constexpr float kFar_m = 16 * kFinest_m;  // on so long a way all shapes are looked at
+constexpr float kFar_m = 8 * kFinest_m;  // on so long a way all shapes are looked at
 constexpr std::size_t kChunk = 512;
 
 /// Cells of a level, along an axis, in a metre.
@@ -42,14 +45,15 @@ Eigen::Vector3i cell_of(const Vec3f& point_W) {
   return (point_W / kFinest_m).array().floor().max(-1e9f).min(1e9f).cast<int>();
 }
 
-/// Calls visit(hash) for the cells of a level between two of level 0.
+/// Calls visit(hash, cell) for the cells of a level between two of level 0.
 template <class Visit>
 void for_cells(int level, const Eigen::Vector3i& first, const Eigen::Vector3i& last,
                const Visit& visit) {
   for (int z = first.z() >> level; z <= last.z() >> level; ++z) {
     for (int y = first.y() >> level; y <= last.y() >> level; ++y) {
       for (int x = first.x() >> level; x <= last.x() >> level; ++x) {
-        visit(hash_of(level, Eigen::Vector3i(x, y, z)));
+        const Eigen::Vector3i cell(x, y, z);
+        visit(hash_of(level, cell), cell);
       }
     }
   }
@@ -58,36 +62,6 @@ void for_cells(int level, const Eigen::Vector3i& first, const Eigen::Vector3i& l
 bool overlap(const Vec3f& min, const Vec3f& max, const Vec3f& low, const Vec3f& high) {
   return (min.array() <= high.array()).all() && (low.array() <= max.array()).all();
 }
-
-VelocityField motion(const ObstacleBody& body) {
-  return {body.X_WB.position, body.velocity_W, body.angular_velocity_W};
-}
-
-/// Clips a way by one plane of a convex, moved outward by the sphere's radius.
-struct Clip {
-  double enter = -1, leave = 1;
-  double shallowest_m = -1e300;  ///< Greatest distance at the end of the way: the way out.
-  std::size_t enter_face = 0, shallowest_face = 0;
-
-  /// False once the way misses the convex.
-  bool add(std::size_t face, double start_m, double end_m) {
-    if (end_m > shallowest_m) {
-      shallowest_m = end_m;
-      shallowest_face = face;
-    }
-    if (start_m > 0) {
-      if (end_m >= 0) return false;
-      const double time = start_m / (start_m - end_m);
-      if (time > enter) {
-        enter = time;
-        enter_face = face;
-      }
-    } else if (end_m > 0) {
-      leave = std::min(leave, start_m / (start_m - end_m));
-    }
-    return enter <= leave;
-  }
-};
 
 }  // namespace
 
@@ -133,31 +107,22 @@ ObstacleGrid::Placed ObstacleGrid::placed(std::uint32_t index) const {
   placed.shape = index;
   placed.min = boxes_[index].min.cast<float>();
   placed.max = boxes_[index].max.cast<float>();
-  placed.center_W = body.X_WB.position;
+  Vec3 center_W = body.X_WB.position;
   Vec3 half = Vec3::Constant(shape.radius_m);
   if (shape.hull) {
-    placed.center_W += rotation * (shape.box_R.center() - body.com_R);
+    center_W += rotation * (shape.box_R.center() - body.com_R);
     half = 0.5 * shape.box_R.extent();
+    placed.faces = shape.hull->faces;
   }
-  placed.half_m = (half.array() + kRounding_m).cast<float>();
+  placed.center_W = center_W.cast<float>();
+  placed.half_m = (half.array() + kRounding_m + kRounding * center_W.norm()).cast<float>();
   placed.rotation_BW = rotation.transpose().cast<float>();
   if (body.moves) {
-    placed.velocity_W = motion(body)(placed.center_W).cast<float>();
+    const VelocityField motion{body.X_WB.position, body.velocity_W, body.angular_velocity_W};
+    placed.velocity_W = motion(center_W).cast<float>();
     placed.angular_velocity_W = body.angular_velocity_W.cast<float>();
   }
   return placed;
-}
-
-/// Whether the way, as seen from the shape, comes past all six sides of its box.
-bool ObstacleGrid::Placed::may_meet(const Way& way) const {
-  const Vec3f from_W = (way.from - center_W).cast<float>();
-  const Vec3f start_W =
-      from_W + static_cast<float>(way.duration_s) * (velocity_W + angular_velocity_W.cross(from_W));
-  const Vec3f start = rotation_BW * start_W;
-  const Vec3f end = rotation_BW * (way.to - center_W).cast<float>();
-  const Vec3f reach = half_m.array() + static_cast<float>(way.radius_m);
-  return (start.cwiseMin(end).array() <= reach.array()).all() &&
-         (start.cwiseMax(end).array() >= -reach.array()).all();
 }
 
 void ObstacleGrid::sort_into_cells() {
@@ -169,7 +134,7 @@ void ObstacleGrid::sort_into_cells() {
     const int level = level_of(placed.max - placed.min);
     levels_ |= 1u << level;
     for_cells(level, cell_of(placed.min.array() - kReach_m), cell_of(placed.max.array() + kReach_m),
-              [&](std::uint32_t hash) { visit(hash & mask_); });
+              [&](std::uint32_t hash, const Eigen::Vector3i&) { visit(hash & mask_); });
   };
   // Starts are kept one bucket behind while it is filled.
   for (const Placed& placed : shapes_) each_cell(placed, [&](std::uint32_t b) { ++first_[b + 2]; });
@@ -205,48 +170,6 @@ void ObstacleGrid::build(const Obstacles& obstacles, double dt_s, const Box& reg
   sort_into_cells();
 }
 
-/// One shape: the way in its rest frame, clipped by its planes.
-void ObstacleGrid::meet(const Placed& placed, const Way& way, std::optional<Touch>& first) const {
-  const ObstacleShape& shape = obstacles_.shapes[placed.shape];
-  const ObstacleBody& body = obstacles_.bodies[shape.body];
-  const VelocityField field = motion(body);
-  // The way as seen from the body: its end is given at the body's end pose.
-  const Vec3 start = body.moves ? Vec3(way.from + way.duration_s * field(way.from)) : way.from;
-  Touch touch;
-  touch.body = shape.body;
-  Clip clip;
-  if (shape.hull) {
-    const Mat3& rotation = rotations_WB_[shape.body];
-    const Vec3 start_R = rotation.transpose() * (start - body.X_WB.position) + body.com_R;
-    const Vec3 end_R = rotation.transpose() * (way.to - body.X_WB.position) + body.com_R;
-    for (std::size_t f = 0; f < shape.hull->faces.size(); ++f) {
-      const Plane& plane = shape.hull->faces[f].plane;
-      if (!clip.add(f, plane.distance(start_R) - way.radius_m,
-                    plane.distance(end_R) - way.radius_m)) {
-        return;
-      }
-    }
-    const std::size_t face = clip.enter >= 0 ? clip.enter_face : clip.shallowest_face;
-    touch.normal_W = rotation * shape.hull->faces[face].plane.normal;
-  } else {
-    // A ball: against its tangent plane where the way begins; exact for short ways.
-    const Vec3 away = start - body.X_WB.position;
-    const double distance = away.norm();
-    if (distance > 0) touch.normal_W = away / distance;
-    const double reach = shape.radius_m + way.radius_m;
-    const double end_m = (way.to - body.X_WB.position).dot(touch.normal_W) - reach;
-    if (!clip.add(0, distance - reach, end_m)) return;
-  }
-  touch.time = std::max(clip.enter, 0.0);
-  if (clip.enter < 0) {
-    touch.depth_m = -clip.shallowest_m;
-    if (touch.depth_m <= 0) return;  // it leaves by itself
-  }
-  if (first && first->time <= touch.time) return;
-  touch.velocity_W = field(way.to);
-  first = touch;
-}
-
 /// Without a branch a lane: which of them is wrong cannot be foreseen.
 inline bool ObstacleGrid::reaches(const Entry& entry, Four low, Four high) {
   const auto lanes = (entry.min <= high) & (low <= entry.max);
@@ -254,12 +177,12 @@ inline bool ObstacleGrid::reaches(const Entry& entry, Four low, Four high) {
   return (halves[0] & (halves[1] | 0xffffffff00000000)) == ~std::uint64_t{0};
 }
 
-void ObstacleGrid::find(const Vec3f& low, const Vec3f& high, Near& near) const {
-  near.clear();
-  if (shapes_.empty()) return;
+/// Where a box lies in several cells, only the first of them gives what it holds.
+void ObstacleGrid::find(const Vec3f& low, const Vec3f& high,
+                        std::vector<std::uint32_t>& shapes) const {
   if ((high - low).maxCoeff() > kFar_m) {
     for (std::uint32_t s = 0; s < shapes_.size(); ++s) {
-      if (overlap(shapes_[s].min, shapes_[s].max, low, high)) near.push_back(s);
+      if (overlap(shapes_[s].min, shapes_[s].max, low, high)) shapes.push_back(s);
     }
     return;
   }
@@ -268,25 +191,47 @@ void ObstacleGrid::find(const Vec3f& low, const Vec3f& high, Near& near) const {
   const Eigen::Vector3i first = cell_of((low.array() + kReach_m).min(middle.array()));
   const Eigen::Vector3i last = cell_of((high.array() - kReach_m).max(middle.array()));
   for (std::uint32_t left = levels_; left != 0; left &= left - 1) {
-    for_cells(std::countr_zero(left), first, last, [&](std::uint32_t hash) {
+    const int level = std::countr_zero(left);
+    for_cells(level, first, last, [&](std::uint32_t hash, const Eigen::Vector3i& cell) {
       const std::uint32_t bucket = hash & mask_;
       for (std::uint32_t e = first_[bucket]; e < first_[bucket + 1]; ++e) {
-        if (reaches(entries_[e], low_4, high_4)) near.push_back(entries_[e].placed());
+        const Entry& entry = entries_[e];
+        if (!reaches(entry, low_4, high_4)) continue;
+        const Vec3f corner(entry.min[0], entry.min[1], entry.min[2]);
+        const Eigen::Vector3i begin = cell_of(corner.array() - kReach_m).cwiseMax(first);
+        if (Eigen::Vector3i(begin.x() >> level, begin.y() >> level, begin.z() >> level) == cell) {
+          shapes.push_back(entry.placed());
+        }
       }
     });
   }
 }
 
-std::optional<Touch> ObstacleGrid::sweep(const Way& way, const Near& near) const {
-  std::optional<Touch> first;
-  const Vec3 reach = Vec3::Constant(way.radius_m);
-  const Vec3f low = (way.from.cwiseMin(way.to) - reach).cast<float>();
-  const Vec3f high = (way.from.cwiseMax(way.to) + reach).cast<float>();
-  for (const std::uint32_t placed : near) {
-    const Placed& shape = shapes_[placed];
-    if (overlap(shape.min, shape.max, low, high) && shape.may_meet(way)) meet(shape, way, first);
+void ObstacleGrid::find(std::span<const Way> ways, Near& near) const {
+  if (shapes_.empty()) return;
+  Vec3f low = Vec3f::Constant(1e30f), high = -low;
+  const auto low_of = [](const Way& way) {
+    return Vec3f((way.from.cwiseMin(way.to).array() - way.radius_m).cast<float>());
+  };
+  const auto high_of = [](const Way& way) {
+    return Vec3f((way.from.cwiseMax(way.to).array() + way.radius_m).cast<float>());
+  };
+  for (const Way& way : ways) {
+    low = low.cwiseMin(low_of(way));
+    high = high.cwiseMax(high_of(way));
   }
-  return first;
+  if ((low.array() >= near.low.array()).all() && (high.array() <= near.high.array()).all()) return;
+  near = {std::move(near.shapes), low.array() - kAround_m, high.array() + kAround_m};
+  near.shapes.clear();
+  if ((high - low).maxCoeff() <= kTogether_m) {
+    find(near.low, near.high, near.shapes);
+    return;
+  }
+  near.high = near.low - Vec3f::Ones();  // holds for these ways alone
+  for (const Way& way : ways) find(low_of(way), high_of(way), near.shapes);
+  std::ranges::sort(near.shapes);
+  const auto twice = std::ranges::unique(near.shapes);
+  near.shapes.erase(twice.begin(), twice.end());
 }
 
 }  // namespace sunder::solver

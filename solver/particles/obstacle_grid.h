@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/world/particles.h"
@@ -33,30 +34,36 @@ class ObstacleGrid {
   void build(const Obstacles& obstacles, double dt_s, const Box& region, Which which);
   bool empty() const { return shapes_.empty(); }
 
-  /// Indices of what may touch something within a box; some maybe twice.
-  using Near = std::vector<std::uint32_t>;
-  void find(const Vec3f& low, const Vec3f& high, Near& near) const;
   /// A sphere's way, straight, that takes the last duration_s of the step.
   struct Way {
-    Vec3 from, to;
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
     double radius_m = 0;
     double duration_s = 0;
   };
-  /// The first touch on a way with what is near all of it; obstacles move meanwhile, too.
-  std::optional<Touch> sweep(const Way& way, const Near& near) const;
+  /// What may lie in some ways, and how far around them that was looked for.
+  struct Near {
+    std::vector<std::uint32_t> shapes;  ///< Indices; some maybe twice.
+    Vec3f low = Vec3f::Constant(1), high = Vec3f::Zero();
+  };
+  /// Keeps what `near` holds where that is enough. Best for ways that lie close together.
+  void find(std::span<const Way> ways, Near& near) const;
+  /// The first touch of each of up to eight ways with what is near; obstacles move meanwhile, too.
+  void sweep(std::span<const Way> ways, const Near& near,
+             std::span<std::optional<Touch>> touches) const;
 
  private:
   /// A shape as far as most ways need it: all in one place, as memory is what takes time.
   struct Placed {
     std::uint32_t shape = 0;
-    Vec3f min, max;  ///< Swept, in W.
-    Vec3 center_W;   ///< Of its own box.
+    std::span<const ConvexPolyhedron::Face> faces;  ///< None of a ball.
+    Vec3f min, max;                                 ///< Swept, in W.
+    Vec3f center_W;                                 ///< Of its own box.
     Vec3f half_m;
     Mat3f rotation_BW;
     Vec3f velocity_W = Vec3f::Zero(), angular_velocity_W = Vec3f::Zero();  ///< Of its box.
-
-    bool may_meet(const Way& way) const;
   };
+  struct WideWays;
+  struct SeenWays;
   using Four = float __attribute__((vector_size(16)));
   static Four four(const Vec3f& v, float last = 0) { return Four{v.x(), v.y(), v.z(), last}; }
   /// A place in the hash: a box, and in the last lane of `min` the bits of an index in shapes_.
@@ -67,10 +74,13 @@ class ObstacleGrid {
   };
   static inline bool reaches(const Entry& entry, Four low, Four high);
 
+  void find(const Vec3f& low, const Vec3f& high, std::vector<std::uint32_t>& shapes) const;
   void place(std::size_t begin, std::size_t end, Which which);
   Placed placed(std::uint32_t shape) const;
   void sort_into_cells();
-  void meet(const Placed& placed, const Way& way, std::optional<Touch>& first) const;
+  void fetch(const Placed& placed) const;
+  void meet(const Placed& placed, const WideWays& wide, const SeenWays& seen,
+            std::span<const Way> ways, std::span<std::optional<Touch>> touches) const;
 
   Obstacles obstacles_;
   double dt_s_ = 0;

@@ -32,10 +32,13 @@ struct Row {
   const float *ax, *ay, *az;
   std::ptrdiff_t sy, sz;
 
-  /// Σ a · neighbour at cell i.
+  /// Σ a · neighbour at cell i, of the four in other rows and of all six.
+  float across(const float* x, int i) const {
+    return ay[i] * x[i - sy] + ay[i + sy] * x[i + sy] +
+           (az[i] * x[i - sz] + az[i + sz] * x[i + sz]);
+  }
   float neighbours(const float* x, int i) const {
-    return ax[i] * x[i - 1] + ax[i + 1] * x[i + 1] + ay[i] * x[i - sy] + ay[i + sy] * x[i + sy] +
-           az[i] * x[i - sz] + az[i + sz] * x[i + sz];
+    return ax[i] * x[i - 1] + ax[i + 1] * x[i + 1] + across(x, i);
   }
   float diagonal(int i) const {
     return ax[i] + ax[i + 1] + ay[i] + ay[i + sy] + az[i] + az[i + sz];
@@ -138,6 +141,28 @@ void PressureSolver::smooth_colour(Level& level, int colour) {
   });
 }
 
+/// The first forward sweep, from zero: much of what it would read is.
+void PressureSolver::begin(Level& level) {
+  const int count = level.lattice.counts.x();
+  for_rows(level.lattice, [&](int j, int k) {
+    if (((j + k) & 1) != 0) return;
+    const std::size_t at = level.lattice.index(1, j, k);
+    const float *rest = &level.rest[at], *inverse = &level.inverse_diagonal[at];
+    float* __restrict x = &level.correction[at];
+    for (int i = 0; i < count; ++i) x[i] = rest[i] * inverse[i];
+  });
+  for_rows(level.lattice, [&](int j, int k) {
+    if (((j + k) & 1) != 1) return;
+    const std::size_t at = level.lattice.index(1, j, k);
+    const Row row = row_of(level.lattice, level.a, at);
+    const float *rest = &level.rest[at], *inverse = &level.inverse_diagonal[at];
+    float* x = &level.correction[at];
+    float changed[kLongestRow];
+    for (int i = 0; i < count; ++i) changed[i] = (rest[i] + row.across(x, i)) * inverse[i];
+    std::copy_n(changed, count, x);
+  });
+}
+
 /// Backward is the transpose of forward, so that a cycle of both is symmetric.
 void PressureSolver::smooth(Level& level, Order order) {
   smooth_colour(level, order == Order::kForward ? 0 : 1);
@@ -179,12 +204,10 @@ void PressureSolver::prolong(const Level& coarse, Level& fine) {
 /// One V-cycle on level's `rest`, from zero.
 void PressureSolver::cycle(std::size_t at) {
   Level& level = levels_[at];
-  for_rows(level.lattice, [&](int j, int k) {
-    std::fill_n(&level.correction[level.lattice.index(1, j, k)], level.lattice.counts.x(), 0.0f);
-  });
+  begin(level);
   const bool coarsest = at + 1 == levels_.size();
   const int sweeps = coarsest ? kCoarsestSweeps : kSweeps;
-  for (int i = 0; i < sweeps; ++i) smooth(level, Order::kForward);
+  for (int i = 1; i < sweeps; ++i) smooth(level, Order::kForward);
   if (!coarsest) {
     restrict_rest(level, levels_[at + 1]);
     cycle(at + 1);
@@ -246,17 +269,22 @@ float PressureSolver::step(float alpha) {
   return static_cast<float>(*std::max_element(partial_.begin(), partial_.end()));
 }
 
+/// As far as is best along a direction whose product with what is left is known.
+float PressureSolver::go(double along) {
+  const double curvature = apply_and_dot();
+  return step(curvature > 0 ? static_cast<float>(along / curvature) : 0);
+}
+
 int PressureSolver::solve(float tolerance) {
   find_diagonal(levels_[0]);
   for (std::size_t level = 1; level < levels_.size(); ++level) {
     coarsen(levels_[level - 1], levels_[level]);
     find_diagonal(levels_[level]);
   }
-  // The pressure of last time is the first direction, gone the whole way.
+  // The pressure of last time is the first direction.
   std::swap(direction_, pressure_);
   std::fill(pressure_.begin(), pressure_.end(), 0.0f);
-  apply_and_dot();
-  float largest = step(1);
+  float largest = go(dot(levels_[0].rest, direction_));
   double before = 0;
   int iterations = 0;
   for (; largest > tolerance && iterations < kMostIterations; ++iterations) {
@@ -264,9 +292,7 @@ int PressureSolver::solve(float tolerance) {
     const double now = dot(levels_[0].rest, levels_[0].correction);
     turn(before > 0 ? static_cast<float>(now / before) : 0);
     before = now;
-    const double curvature = apply_and_dot();
-    if (!(curvature > 0)) break;
-    largest = step(static_cast<float>(now / curvature));
+    largest = go(now);
   }
   return iterations;
 }

@@ -41,6 +41,7 @@ class PressureSolver {
 
   static void find_diagonal(Level& level);
   static void coarsen(const Level& fine, Level& coarse);
+  static void begin(Level& level);
   static void smooth(Level& level, Order order);
   static void smooth_colour(Level& level, int colour);
   static void restrict_rest(const Level& fine, Level& coarse);
@@ -48,6 +49,7 @@ class PressureSolver {
   void cycle(std::size_t level);
   double apply_and_dot();
   double dot(const Field& x, const Field& y);
+  float go(double along);
   void turn(float beta);
   float step(float alpha);
 

@@ -42,8 +42,15 @@ void Swirl::finish() {
   }
 }
 
-Vec3f Swirl::velocity(std::size_t cell, const Vec3f& at) const {
-  Vec3f velocity = Vec3f::Zero();
+void Swirl::find(std::size_t cell, Near& near) const {
+  near.count_ = 0;
+  const auto add = [&](const Vec3f& at, const Vec3f& turn) {
+    for (int axis = 0; axis < 3; ++axis) {
+      near.at_[axis][near.count_] = at[axis];
+      near.turn_[axis][near.count_] = turn[axis];
+    }
+    ++near.count_;
+  };
   const auto center = static_cast<std::ptrdiff_t>(cell);
   for (int k = -1; k <= 1; ++k) {
     for (int j = -1; j <= 1; ++j) {
@@ -52,11 +59,26 @@ Vec3f Swirl::velocity(std::size_t cell, const Vec3f& at) const {
         const std::int32_t index = vortex_of_cell_[static_cast<std::size_t>(c)];
         if (index < 0) continue;
         const Vortex& vortex = vortices_[static_cast<std::size_t>(index)];
-        const Vec3f arm = at - vortex.at;
-        const float inside = 1 - arm.squaredNorm();
-        if (inside > 0) velocity += kProfile * inside * inside * vortex.turn.cross(arm);
+        add(vortex.at, vortex.turn);
       }
     }
+  }
+  while (near.count_ % kLanes != 0) add(Vec3f::Constant(1e9f), Vec3f::Zero());
+}
+
+Vec3f Swirl::Near::velocity(const Vec3f& at) const {
+  Wide3 sum{};
+  const auto wide = [](const float* from) { return *reinterpret_cast<const Wide*>(from); };
+  for (std::size_t i = 0; i < count_; i += kLanes) {
+    const Wide3 arm = {at.x() - wide(&at_[0][i]), at.y() - wide(&at_[1][i]),
+                       at.z() - wide(&at_[2][i])};
+    const Wide inside = max(1 - dot(arm, arm), Wide{});
+    const Wide3 turn = {wide(&turn_[0][i]), wide(&turn_[1][i]), wide(&turn_[2][i])};
+    sum = sum + cross(turn, arm) * (kProfile * inside * inside);
+  }
+  Vec3f velocity = Vec3f::Zero();
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+    velocity += Vec3f(sum.x[lane], sum.y[lane], sum.z[lane]);
   }
   return velocity;
 }

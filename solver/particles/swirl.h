@@ -12,6 +12,7 @@
 
 #include "engine/base/types.h"
 #include "solver/particles/lattice.h"
+#include "solver/rigid/wide.h"
 
 namespace sunder::solver {
 
@@ -25,8 +26,19 @@ class Swirl {
   void add(std::size_t cell, const Vec3f& at, const Vec3f& axis, float speed_m_s);
   /// Once all are added.
   void finish();
-  /// The velocity that the vortices within a cell's width add at a place in `cell`.
-  Vec3f velocity(std::size_t cell, const Vec3f& at) const;
+  /// The vortices within a cell's width of places in one cell, side by side.
+  class Near {
+   public:
+    /// The velocity that they add there.
+    Vec3f velocity(const Vec3f& at) const;
+
+   private:
+    friend Swirl;
+    static constexpr std::size_t kMost = 32;
+    std::size_t count_ = 0;  ///< A multiple of kLanes; the last may be nowhere.
+    alignas(Wide) float at_[3][kMost], turn_[3][kMost];
+  };
+  void find(std::size_t cell, Near& near) const;
 
  private:
   struct Vortex {

@@ -1,0 +1,185 @@
+// What small spheres meet on their ways. Read first: sweep(). Eight ways at a time go past the box
+// of each shape nearby; where some come through, they are clipped by its planes.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+#include "solver/particles/obstacle_grid.h"
+#include "solver/rigid/wide.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr float kNowhere_m = 1e30f;
+
+/// Eight ways clipped by the planes of a convex, moved outward by the spheres' radii.
+struct Clip {
+  Wide enter = splat(-1), leave = splat(1);
+  Wide shallowest_m = splat(-kNowhere_m);  ///< Greatest distance at the end: the way out.
+  WideInt enter_face{}, shallowest_face{};
+  WideInt misses{};
+
+  void add(std::int32_t face, Wide start_m, Wide end_m) {
+    const WideInt shallower = end_m > shallowest_m;
+    shallowest_m = shallower ? end_m : shallowest_m;
+    shallowest_face = shallower ? face - WideInt{} : shallowest_face;
+    const WideInt starts_out = start_m > 0, ends_out = end_m >= 0;
+    misses |= starts_out & ends_out;
+    const Wide time = start_m / (start_m - end_m);
+    const WideInt enters = starts_out & ~ends_out & (time > enter);
+    enter = enters ? time : enter;
+    enter_face = enters ? face - WideInt{} : enter_face;
+    leave = ~starts_out & (end_m > 0) & (time < leave) ? time : leave;
+    misses |= enter > leave;
+  }
+};
+
+Wide3 wide3(const Vec3f& v) { return {splat(v.x()), splat(v.y()), splat(v.z())}; }
+
+/// Whether boxes reach into that from −reach to reach, along one axis.
+WideInt inside(Wide start, Wide end, Wide reach) {
+  return (min(start, end) <= reach) & (max(start, end) >= -reach);
+}
+
+}  // namespace
+
+struct ObstacleGrid::WideWays {
+  Wide3 from, to, low, high;
+  Wide radius_m, duration_s;
+
+  explicit WideWays(std::span<const Way> ways);
+};
+
+/// Eight ways as seen from the middle of a shape's box, along its axes.
+struct ObstacleGrid::SeenWays {
+  Wide3 start, end;
+  std::uint32_t meet = 0;  ///< A bit for each that comes past all six sides of the box.
+
+  SeenWays() = default;
+  SeenWays(const WideWays& ways, const Placed& shape);
+};
+
+/// Asks memory for what meet() will read.
+void ObstacleGrid::fetch(const Placed& placed) const {
+  __builtin_prefetch(&obstacles_.shapes[placed.shape]);
+  const auto* from = reinterpret_cast<const char*>(placed.faces.data());
+  for (std::size_t at = 0; at < placed.faces.size_bytes(); at += 64) __builtin_prefetch(from + at);
+}
+
+ObstacleGrid::WideWays::WideWays(std::span<const Way> ways) {
+  alignas(Wide) float lanes[8][kLanes];
+  for (std::uint32_t i = 0; i < kLanes; ++i) {
+    const bool goes = i < ways.size();
+    for (int axis = 0; axis < 3; ++axis) {
+      lanes[axis][i] = goes ? static_cast<float>(ways[i].from[axis]) : kNowhere_m;
+      lanes[3 + axis][i] = goes ? static_cast<float>(ways[i].to[axis]) : kNowhere_m;
+    }
+    lanes[6][i] = goes ? static_cast<float>(ways[i].radius_m) : 0;
+    lanes[7][i] = goes ? static_cast<float>(ways[i].duration_s) : 0;
+  }
+  const auto wide = [&](int row) { return *reinterpret_cast<const Wide*>(lanes[row]); };
+  from = {wide(0), wide(1), wide(2)};
+  to = {wide(3), wide(4), wide(5)};
+  radius_m = wide(6);
+  duration_s = wide(7);
+  low = {min(from.x, to.x) - radius_m, min(from.y, to.y) - radius_m, min(from.z, to.z) - radius_m};
+  high = {max(from.x, to.x) + radius_m, max(from.y, to.y) + radius_m, max(from.z, to.z) + radius_m};
+}
+
+ObstacleGrid::SeenWays::SeenWays(const WideWays& ways, const Placed& shape) {
+  const Wide3 least = wide3(shape.min), most = wide3(shape.max);
+  WideInt meets = (ways.low.x <= most.x) & (ways.low.y <= most.y) & (ways.low.z <= most.z) &
+                  (ways.high.x >= least.x) & (ways.high.y >= least.y) & (ways.high.z >= least.z);
+  if (bits(meets) == 0) return;
+  const Wide3 center = wide3(shape.center_W);
+  const Wide3 from_W = ways.from - center, to_W = ways.to - center;
+  // The shape stands where it does at the end: before, it was behind by its motion.
+  const Wide3 moved = wide3(shape.velocity_W) + cross(wide3(shape.angular_velocity_W), from_W);
+  const Wide3 start_W = from_W + moved * ways.duration_s;
+  const auto seen = [&](int axis, Wide& from, Wide& until) {
+    const Wide3 row = wide3(shape.rotation_BW.row(axis));
+    from = dot(row, start_W);
+    until = dot(row, to_W);
+    meets &= inside(from, until, shape.half_m[axis] + ways.radius_m);
+  };
+  seen(0, start.x, end.x);
+  seen(1, start.y, end.y);
+  seen(2, start.z, end.z);
+  meet = bits(meets);
+}
+
+/// Where those ways that come past a shape's box touch the shape, if they do so first.
+void ObstacleGrid::meet(const Placed& placed, const WideWays& wide, const SeenWays& seen,
+                        std::span<const Way> ways, std::span<std::optional<Touch>> touches) const {
+  const ObstacleShape& shape = obstacles_.shapes[placed.shape];
+  Clip clip;
+  std::uint32_t left = seen.meet;
+  if (!placed.faces.empty()) {
+    const Vec3 center_R = shape.box_R.center();
+    std::int32_t number = 0;
+    for (const auto& face : placed.faces) {
+      const Wide3 normal = wide3(face.plane.normal.cast<float>());
+      const Wide reach = static_cast<float>(-face.plane.distance(center_R)) + wide.radius_m;
+      clip.add(number++, dot(normal, seen.start) - reach, dot(normal, seen.end) - reach);
+      left &= ~bits(clip.misses);
+      if (left == 0) return;
+    }
+  } else {
+    // A ball: against its tangent plane where the way begins; exact for short ways.
+    const Wide distance = sqrt(dot(seen.start, seen.start));
+    const Wide reach = static_cast<float>(shape.radius_m) + wide.radius_m;
+    const Wide along = dot(seen.start, seen.end) / max(distance, splat(1e-9f));
+    clip.add(0, distance - reach, along - reach);
+    left &= ~bits(clip.misses);
+  }
+  for (; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+    Touch touch;
+    touch.time = std::max(double{clip.enter[i]}, 0.0);
+    if (clip.enter[i] < 0) {
+      touch.depth_m = -double{clip.shallowest_m[i]};
+      if (touch.depth_m <= 0) continue;  // it leaves by itself
+    }
+    std::optional<Touch>& first = touches[i];
+    if (first && first->time <= touch.time) continue;
+    const ObstacleBody& body = obstacles_.bodies[shape.body];
+    if (!placed.faces.empty()) {
+      const std::int32_t face = clip.enter[i] >= 0 ? clip.enter_face[i] : clip.shallowest_face[i];
+      touch.normal_W =
+          rotations_WB_[shape.body] * placed.faces[static_cast<std::size_t>(face)].plane.normal;
+    } else {
+      const Vec3 start_B(double{seen.start.x[i]}, double{seen.start.y[i]}, double{seen.start.z[i]});
+      if (start_B.norm() > 0) touch.normal_W = rotations_WB_[shape.body] * start_B.normalized();
+    }
+    touch.velocity_W =
+        VelocityField{body.X_WB.position, body.velocity_W, body.angular_velocity_W}(ways[i].to);
+    touch.body = shape.body;
+    first = touch;
+  }
+}
+
+/// First the boxes, then the faces of those that are met: by then these have come from memory.
+void ObstacleGrid::sweep(std::span<const Way> ways, const Near& near,
+                         std::span<std::optional<Touch>> touches) const {
+  for (std::optional<Touch>& touch : touches) touch.reset();
+  if (near.shapes.empty()) return;
+  const WideWays wide(ways);
+  constexpr std::size_t kAtOnce = 16;
+  std::array<std::pair<const Placed*, SeenWays>, kAtOnce> met;
+  for (std::size_t n = 0; n < near.shapes.size();) {
+    std::size_t count = 0;
+    for (; n < near.shapes.size() && count < kAtOnce; ++n) {
+      const Placed& shape = shapes_[near.shapes[n]];
+      met[count] = {&shape, SeenWays(wide, shape)};
+      if (met[count].second.meet == 0) continue;
+      fetch(shape);
+      ++count;
+    }
+    for (const auto& [shape, seen] : std::span(met).first(count)) {
+      meet(*shape, wide, seen, ways, touches);
+    }
+  }
+}
+
+}  // namespace sunder::solver
