@@ -1,19 +1,19 @@
 // Stage `snapshot`: the frame as it stands, for the sinks.
 #include <utility>
 
+#include "engine/base/parallel.h"
 #include "engine/world/actors.h"
 
 namespace sunder {
 namespace {
 
-void add_body(const World& world, const Actor& actor, Frame& frame) {
+constexpr std::size_t kBodiesAChunk = 64, kParticlesAChunk = 4096;
+
+FrameBody body_of(const World& world, const Actor& actor) {
   const BodyState state = world.physics->state(actor.body);
-  const auto body = static_cast<std::uint32_t>(frame.bodies.size());
-  frame.bodies.push_back({actor.key, state.X_WB, actor.weight.com_R, state.velocity_W,
-                          state.angular_velocity_W, actor.is_static, state.asleep});
-  for (const MeshIndex mesh : actor.meshes) {
-    if (!mesh.none()) frame.instances.push_back({mesh, body});
-  }
+  return {
+      actor.key,       state.X_WB,  actor.weight.com_R, state.velocity_W, state.angular_velocity_W,
+      actor.is_static, state.asleep};
 }
 
 void count(const World& world, const Actor& actor, const FrameBody& body, FrameReport& report) {
@@ -29,15 +29,55 @@ void count(const World& world, const Actor& actor, const FrameBody& body, FrameR
   report.potential_J -= actor.weight.mass_kg * world.scene.gravity_W.dot(body.X_WB.position);
 }
 
+/// What a chunk of actors adds to the frame.
+struct Part {
+  std::vector<Instance> instances;
+  FrameReport report;
+};
+
+void add(const Part& part, Frame& frame) {
+  frame.instances.insert(frame.instances.end(), part.instances.begin(), part.instances.end());
+  FrameReport& report = frame.report;
+  report.mass_kg += part.report.mass_kg;
+  report.kinetic_J += part.report.kinetic_J;
+  report.potential_J += part.report.potential_J;
+  report.counts.convexes += part.report.counts.convexes;
+  report.counts.compounds += part.report.counts.compounds;
+  report.counts.bodies += part.report.counts.bodies;
+  report.counts.awake += part.report.counts.awake;
+}
+
+/// By several threads, as it is mostly waiting for memory; sums are those of fixed chunks.
+void add_bodies(const World& world, Frame& frame) {
+  const std::size_t count_all = world.actors.size();
+  frame.bodies.resize(count_all);
+  std::vector<Part> parts((count_all + kBodiesAChunk - 1) / kBodiesAChunk);
+  for_chunks(count_all, kBodiesAChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    Part& part = parts[c];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Actor& actor = world.actors[i];
+      frame.bodies[i] = body_of(world, actor);
+      for (const MeshIndex mesh : actor.meshes) {
+        if (!mesh.none()) part.instances.push_back({mesh, static_cast<std::uint32_t>(i)});
+      }
+      count(world, actor, frame.bodies[i], part.report);
+    }
+  });
+  for (const Part& part : parts) add(part, frame);
+}
+
 /// Debris and dust as they are, and what there was no room for.
 void add_particles(World& world, Frame& frame) {
   if (!world.particles) return;
   const DebrisView debris = world.particles->debris();
   frame.debris.resize(debris.position_W.size());
-  for (std::size_t i = 0; i < frame.debris.size(); ++i) {
-    frame.debris[i] = {debris.position_W[i], debris.rotation_WD[i], debris.radius_m[i],
-                       debris.material[i], debris.variant[i]};
-  }
+  for_chunks(frame.debris.size(), kParticlesAChunk,
+             [&](std::size_t begin, std::size_t end, std::size_t) {
+               for (std::size_t i = begin; i < end; ++i) {
+                 frame.debris[i] = {debris.position_W[i], debris.rotation_WD[i], debris.radius_m[i],
+                                    debris.material[i], debris.variant[i]};
+               }
+             });
   const DustView dust = world.particles->dust();
   frame.dust.resize(dust.position_W.size());
   for (std::size_t i = 0; i < frame.dust.size(); ++i) {
@@ -62,13 +102,9 @@ std::shared_ptr<Frame> snapshot(World& world) {
   frame->materials = world.materials;
   frame->meshes = world.meshes;
   world.meshes_published = true;
-  frame->bodies.reserve(world.actors.size());
   frame->report = std::exchange(world.report, {});
   FrameReport& report = frame->report;
-  for (const Actor& actor : world.actors) {
-    add_body(world, actor, *frame);
-    count(world, actor, frame->bodies.back(), report);
-  }
+  add_bodies(world, *frame);
   add_particles(world, *frame);
   report.mass_kg += world.debris_mass_kg + world.removed_mass_kg;
   for (std::size_t i = world.next_shot; i < world.scene.shots.size(); ++i) {

@@ -32,6 +32,10 @@ class Air {
   /// Counts are multiples of 8.
   explicit Air(const Vec3i& counts);
 
+  /// The smallest cells of which so many hold dust of an extent with room to spare.
+  static double cell_m_for(const Vec3& extent, const Vec3i& counts);
+  /// Whether so many cells hold dust of an extent along an axis with room to spare.
+  static bool fits(double extent_m, int count, double cell_m);
   /// Moves the grid, or makes its cells larger or smaller, so that it holds `dust` with room to
   /// spare; the flow stays where it is. True if it moved.
   bool place(const Box& dust, double ground_m);

@@ -16,13 +16,26 @@ constexpr double kGroundCells = 6;             // over the ground, within which 
 constexpr double kMargin = 0.075;              // of which so much must be left before it moves
 
 /// Whether dust of this extent fits when the grid is placed anew.
-bool fits(const Vec3& extent, const Vec3i& counts, double cell_m) {
-  return (extent.array() <= (1 - 2 * kRoom) * cell_m * counts.cast<double>().array()).all();
+bool all_fit(const Vec3& extent, const Vec3i& counts, double cell_m) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!Air::fits(extent[axis], counts[axis], cell_m)) return false;
+  }
+  return true;
 }
 
 double whole(double x, double unit) { return std::floor(x / unit + 0.5) * unit; }
 
 }  // namespace
+
+bool Air::fits(double extent_m, int count, double cell_m) {
+  return extent_m <= (1 - 2 * kRoom) * cell_m * count;
+}
+
+double Air::cell_m_for(const Vec3& extent, const Vec3i& counts) {
+  double cell_m = kSmallestCell_m;
+  while (!all_fit(extent, counts, cell_m)) cell_m *= kNotch;
+  return cell_m;
+}
 
 bool Air::place(const Box& dust, double ground_m) {
   const Vec3i& counts = grid_.lattice.counts;
@@ -34,11 +47,10 @@ bool Air::place(const Box& dust, double ground_m) {
   const bool inside = (over.array() <= 0).all() && under.x() >= 0 && under.z() >= 0 &&
                       (under.y() >= 0 || grid_.on_ground);
   const double smaller_m = grid_.cell_m / (kNotch * kNotch);
-  const bool too_large = smaller_m > 0.99 * kSmallestCell_m && fits(extent, counts, smaller_m);
+  const bool too_large = smaller_m > 0.99 * kSmallestCell_m && all_fit(extent, counts, smaller_m);
   if (placed_ && inside && !too_large) return false;
   Grid grid = grid_;
-  double cell_m = kSmallestCell_m;
-  while (!fits(extent, counts, cell_m)) cell_m *= kNotch;
+  const double cell_m = cell_m_for(extent, counts);
   // Without need the cells stay as large as they are.
   if (!placed_ || too_large || cell_m > grid_.cell_m) grid.cell_m = cell_m;
   const Vec3 corner = dust.center() - 0.5 * grid.extent_m();

@@ -16,7 +16,7 @@ constexpr std::size_t kChunk = 256;
 constexpr float kThrown_s = 0.15f;         // in which thrown dust comes to move with the air
 constexpr float kThrownTurbulence = 0.2f;  // of its speed relative to the air
 constexpr float kSpread_m2_s = 0.004f;     // growth of a puff's squared radius in still air
-constexpr float kMostOpacity = 0.6f;
+constexpr float kMostOpacity = 0.45f;
 constexpr float kLeastOpacity = 0.008f;  // thinner dust is gone
 constexpr float kAppear_s = 0.1f;
 constexpr float kSettle_s = 2;          // until dust that lies has faded
@@ -60,6 +60,7 @@ void Dust::add(const DustBirth& birth) {
 void Dust::advance(double dt_s, const Obstacles& obstacles) {
   if (position_W_.empty()) {
     flow_.reset();
+    worth_.setZero();
     return;
   }
   place_air(obstacles.ground_m);
@@ -101,20 +102,38 @@ Box Dust::cloud() {
 /// only if by far.
 Vec3i Dust::cells_for(std::size_t puffs) const {
   constexpr int kSteps = 5, kUnit = 8;
-  const Vec3i now = flow_ ? flow_->air.grid().lattice.counts : Vec3i(Vec3i::Zero());
   for (int step = 2; step < kSteps; ++step) {
     const Vec3i part = (step * air_cells_ + Vec3i::Constant(kSteps * kUnit - 1)) / (kSteps * kUnit);
     const Vec3i cells = kUnit * part;
-    const bool fewer = cells.prod() < now.prod();
+    const bool fewer = cells.prod() < worth_.prod();
     const std::size_t wanted = kCellsAPuff * puffs * (fewer ? 3 : 2) / 2;
     if (static_cast<std::size_t>(cells.prod()) >= wanted) return cells;
   }
   return air_cells_;
 }
 
+/// Half as many along axes where the cloud fits into half: the cells stay as small. As often as not
+/// a cloud is flat or long.
+Vec3i Dust::without_spare(Vec3i cells, const Vec3& extent) const {
+  constexpr double kClearly = 0.75;  // so much less before there are fewer than now
+  const Vec3i now = flow_ ? flow_->air.grid().lattice.counts : Vec3i(Vec3i::Zero());
+  const double cell_m = Air::cell_m_for(extent, cells);
+  const Vec3i least(16, 8, 8);  // what the pressure's coarser grids need
+  for (int axis = 0; axis < 3; ++axis) {
+    while (cells[axis] % 16 == 0 && cells[axis] / 2 >= least[axis]) {
+      const int half = cells[axis] / 2;
+      const double part = now[axis] > 0 && now[axis] <= half ? 1 : kClearly;
+      if (!Air::fits(extent[axis], half, part * cell_m)) break;
+      cells[axis] = half;
+    }
+  }
+  return cells;
+}
+
 void Dust::place_air(double ground_m) {
-  const Vec3i cells = cells_for(position_W_.size());
   const Box box = cloud();
+  worth_ = cells_for(position_W_.size());
+  const Vec3i cells = without_spare(worth_, box.extent());
   if (flow_ && flow_->air.grid().lattice.counts != cells) {
     Flow next(cells);
     next.air.place(box, ground_m);
@@ -211,7 +230,7 @@ void Dust::settle(std::size_t puff, float dt_s, float solid, float ground_m) {
   const float thin = first_radius_m_[puff] / radius_m_[puff];
   const float appear = std::min(1.0f, age_s_[puff] / kAppear_s);
   const float stay = std::max(0.0f, 1 - settled / kSettle_s);
-  opacity_[puff] = kMostOpacity * appear * stay * thin * thin;
+  opacity_[puff] = kMostOpacity * appear * stay * thin * std::sqrt(thin);  // it clots
 }
 
 /// Keeps the order of birth.

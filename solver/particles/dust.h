@@ -56,6 +56,7 @@ class Dust {
 
   Box cloud();
   Vec3i cells_for(std::size_t puffs) const;
+  Vec3i without_spare(Vec3i cells, const Vec3& extent) const;
   void place_air(double ground_m);
   void sort_into_cells();
   void load_air();
@@ -67,7 +68,8 @@ class Dust {
   std::uint32_t limit_;
   Vec3 gravity_W_;
   Vec3f down_W_;
-  Vec3i air_cells_;  ///< At most.
+  Vec3i air_cells_;              ///< At most.
+  Vec3i worth_ = Vec3i::Zero();  ///< As many as so many puffs are worth, whatever their cloud.
   ParticleBooks books_;
   std::optional<Flow> flow_;
   std::vector<float> sorted_m_;

@@ -102,24 +102,27 @@ TEST(Dust, KeepsItsAirFineThoughAFewPuffsFlyFar) {
 TEST(Dust, GoesOnInTheSameFlowWhenItsAirGetsFiner) {
   Dust dust(4000, Vec3::Zero(), kCounts);
   const TestObstacles obstacles;
-  const auto throw_puffs = [&](int count) {
-    Random random(2);
+  Random random(2);
+  const auto add_puffs = [&](int count, const Vec3f& velocity, float mass_kg) {
     for (int i = 0; i < count; ++i) {
-      const Vec3 at = 0.4 * random.uniform() * random.direction() + Vec3(0, 1, 0);
+      const Vec3 at = 2 * random.uniform() * random.direction() + Vec3(0, 3, 0);
       DustBirth birth = puff_at(at.cast<float>());
-      birth.velocity_W = Vec3f(5, 0, 0);
-      birth.mass_kg = 1e-4f;
+      birth.velocity_W = velocity;
+      birth.mass_kg = mass_kg;
       dust.add(birth);
     }
   };
-  throw_puffs(200);
+  add_puffs(200, Vec3f(5, 0, 0), 0.01f);
   for (int step = 0; step < 5; ++step) dust.advance(kDt, obstacles.view());
   const std::size_t few = dust.air()->grid().lattice.cells();
-  const float before = dust.air()->velocity(Vec3f(0.1f, 1, 0)).x();
-  for (int i = 0; i < 3000; ++i) dust.add(puff_at(Vec3f(0, 1, 0)));
+  const double coarse_m = dust.air()->grid().cell_m;
+  const float before = dust.air()->velocity(Vec3f(0.1f, 3, 0)).x();
+  add_puffs(3000, Vec3f::Zero(), 0);
   dust.advance(kDt, obstacles.view());
   EXPECT_GT(dust.air()->grid().lattice.cells(), few);
-  EXPECT_NEAR(dust.air()->velocity(Vec3f(0.1f, 1, 0)).x(), before, 0.25 * double{before});
+  EXPECT_LT(dust.air()->grid().cell_m, coarse_m);
+  EXPECT_GT(before, 0.1f);
+  EXPECT_NEAR(dust.air()->velocity(Vec3f(0.1f, 3, 0)).x(), before, 0.25 * double{before});
 }
 
 TEST(Dust, OverItsLimitIsIgnoredAndCounted) {

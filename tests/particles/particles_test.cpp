@@ -200,20 +200,32 @@ TEST(Particles, WithoutDustHaveNoAir) {
   EXPECT_GT(particles->report().air_cells, 0u);
 }
 
-TEST(Particles, AFewHaveLittleAirAndMostAllOfIt) {
+/// Cells of the air after each of some numbers of puffs more, from two faces one above the other.
+std::vector<std::uint32_t> cells_after(double apart_m, std::span<const double> more) {
   auto particles = make_debris_and_dust(small_options());
-  const TestFace face(Vec3(0, 3, 0));
-  const auto cells_after = [&](double more_per_m2) {
-    const Emission emission = face.emission(crumbling_of(more_per_m2, 0));
-    particles->emit(std::span(&emission, 1));
+  const TestFace low(Vec3(0, 2, 0), 10), high(Vec3(0, 2 + apart_m, 0), 10);
+  std::vector<std::uint32_t> cells;
+  for (const double puffs : more) {
+    for (const TestFace* face : {&low, &high}) {
+      const Emission emission = face->emission(crumbling_of(puffs / 200, 0));
+      particles->emit(std::span(&emission, 1));
+    }
     particles->advance(kDt, TestObstacles().view());
-    return particles->report().air_cells;
-  };
-  const std::uint32_t few = cells_after(100), more = cells_after(700), most = cells_after(3000);
-  EXPECT_LE(few, 32u * 16 * 32 / 8);
-  EXPECT_GT(more, few);
-  EXPECT_LT(more, most);
-  EXPECT_EQ(most, 32u * 16 * 32);
+    cells.push_back(particles->report().air_cells);
+  }
+  return cells;
+}
+
+TEST(Particles, AFewHaveLittleAirAndMostAllOfIt) {
+  const auto cells = cells_after(8, std::vector<double>{100, 700, 3000});
+  EXPECT_LE(cells[0], 32u * 16 * 32 / 8);
+  EXPECT_GT(cells[1], cells[0]);
+  EXPECT_LT(cells[1], cells[2]);
+  EXPECT_EQ(cells[2], 32u * 16 * 32);
+}
+
+TEST(Particles, HaveNoMoreAirThanTheirCloudIsHigh) {
+  EXPECT_EQ(cells_after(1, std::vector<double>{4000})[0], 32u * 8 * 32);
 }
 
 }  // namespace
