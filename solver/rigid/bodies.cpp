@@ -75,7 +75,7 @@ void Bodies::resize(std::uint32_t count) {
   root_B.resize(count);
   spins_freely.resize(count);
   reach_m.resize(count);
-  travelled_m.resize(count);
+  turned_m.resize(count);
   slow_s.resize(count);
   rest_position.resize(count);
   rest_rotation.resize(count);
@@ -113,7 +113,7 @@ std::uint32_t Bodies::add(const BodyDesc& desc) {
     spins_freely[body] = root.uneven;
   }
   reach_m[body] = 0;
-  travelled_m[body] = 0;
+  turned_m[body] = 0;
   slow_s[body] = 0;
   rest_position[body] = position[body];
   rest_rotation[body] = rotation[body];

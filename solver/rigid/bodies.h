@@ -40,7 +40,7 @@ struct Bodies {
   std::vector<Mat3f> root_B;
   std::vector<std::uint8_t> spins_freely;  ///< Inertia so uneven that free rotation wobbles.
   std::vector<double> reach_m;             ///< Radius about the centre of mass.
-  std::vector<double> travelled_m;         ///< Bound on the way of any of its points so far.
+  std::vector<double> turned_m;            ///< Bound on how far turns moved any of its points.
   std::vector<float> slow_s;               ///< Time it has been slow and near its rest pose.
   std::vector<Vec3> rest_position;
   std::vector<Quat> rest_rotation;

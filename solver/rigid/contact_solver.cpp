@@ -371,8 +371,7 @@ void ContactSolver::finish_body(std::uint32_t body, Bodies& bodies) const {
   if (bodies.spins_freely[body])
     bodies.angular_velocity[body] = turn * bodies.angular_velocity[body];
   bodies.place(body, bodies.position[body] + way.cast<double>(), turn * bodies.rotation[body]);
-  bodies.travelled_m[body] +=
-      double{way.norm()} + 1.1 * double{angle.norm()} * bodies.reach_m[body];
+  bodies.turned_m[body] += 1.1 * double{angle.norm()} * bodies.reach_m[body];
 }
 
 }  // namespace sunder::solver

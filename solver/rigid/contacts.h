@@ -25,7 +25,8 @@ struct Pair {
   std::uint32_t manifold = kNone;  ///< kNone: not touching.
   float clearance_m = -1;          ///< Lower bound on the distance when last looked at closely.
   float margin_m = 0;              ///< Within which it matters, besides what the bodies move.
-  double travelled_m = 0;          ///< Of both bodies when last looked at closely.
+  double turned_m = 0;             ///< Of both bodies when last looked at closely.
+  Vec3f offset_W = Vec3f::Zero();  ///< Of b's centre from a's then.
   Vec3f axis_A = Vec3f::Zero();    ///< Last axis that parted them, in A; zero if none.
   /// Siblings of a break: overlap they were born with, not pushed apart. Negative: not known yet.
   float slack_m = -1;

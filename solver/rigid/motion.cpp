@@ -79,7 +79,7 @@ void fly(Bodies& bodies, std::uint32_t body, const Vec3& gravity_W, double dt_s)
     rotation = turn_by(angle_W) * bodies.rotation[body];
   }
   bodies.place(body, bodies.position[body] + way, rotation);
-  bodies.travelled_m[body] += way.norm() + 1.1 * angle_W.norm() * bodies.reach_m[body];
+  bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
 }
 
 Vec3 gyroscopic_change(const Bodies& bodies, std::uint32_t body, double dt_s) {

@@ -11,6 +11,7 @@ constexpr float kMargin = 0.05f;         // of the smaller inner radius: contact
 constexpr float kAxisTolerance = 0.01f;  // of it: how much better another axis must be
 constexpr float kStill = 1e-6f;          // of it: a way that is not worth a look
 constexpr float kSliver = 1e-3f;         // of it: an overlap of faces that is no area
+constexpr float kRounding = 5e-7f;       // of a length in floats
 constexpr int kImpactRounds = 24;
 
 using Kind = ShapeDesc::Kind;
@@ -61,7 +62,7 @@ float time_of_impact(const Probe& probe, const PairMotion& motion, const Vec3f& 
   RelativePose pose = motion.pose;
   float time = 0;
   for (int round = 0; round < kImpactRounds; ++round) {
-    const SeparatingAxis axis = probe.axis(pose, {1e30f, Vec3f::Zero()});
+    const SeparatingAxis axis = probe.axis(pose, {target_m, (dt_s - time) * velocity_A});
     if (axis.separation_m <= target_m) return time;
     const float closing = -axis.normal_A.dot(velocity_A);
     if (closing <= 0) return -1;
@@ -119,19 +120,19 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
                   const Reach& reach, double dt_s, Pair& pair, Manifold& m,
                   NarrowScratch& scratch) {
   const Probe probe{a, b, kAxisTolerance * m.size_m, scratch};
-  const bool fast = reach.way_m > 0.5f * m.size_m;
   const auto dt = static_cast<float>(dt_s);
   const Vec3f velocity_A = bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W;
-  const AxisReach axis_reach{reach.margin_m + reach.spin_m,
-                             fast ? Vec3f::Zero() : Vec3f(dt * velocity_A)};
+  AxisReach axis_reach{reach.margin_m + reach.spin_m, dt * velocity_A};
   RelativePose pose = motion.pose;
+  SeparatingAxis axis = probe.axis(pose, axis_reach);
   float time = 0;
-  if (fast) {
+  const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
+  if (meet && reach.way_m > 0.5f * m.size_m) {
+    axis_reach.way_A.setZero();
     time = time_of_impact(probe, motion, velocity_A, axis_reach.margin_m, dt);
     pose.p += std::max(0.f, time) * velocity_A;
+    if (time >= 0) axis = probe.axis(pose, axis_reach);
   }
-  SeparatingAxis axis;
-  if (time >= 0) axis = probe.axis(pose, axis_reach);
   const float limit = axis_reach.along(axis.normal_A);
   scratch.points.clear();
   if (time >= 0 && axis.separation_m <= limit) probe.points(pose, axis, limit);
@@ -145,13 +146,12 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
 
 /// Whether the axis that parted the pair last still does, and by how much.
 bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, const AxisReach& reach,
-                  double travelled_m, Pair& pair, NarrowScratch& scratch) {
+                  Pair& pair, NarrowScratch& scratch) {
   if (pair.axis_A.isZero(0) || b.kind != Kind::kHull || a.kind != Kind::kHull) return false;
   place_in_each_other(a.hull, b.hull, motion.pose, scratch.hulls);
   const float separation_m = separation_along(pair.axis_A, a.hull, scratch.hulls);
   if (separation_m <= reach.along(pair.axis_A)) return false;
   pair.clearance_m = separation_m;
-  pair.travelled_m = travelled_m;
   return true;
 }
 
@@ -171,13 +171,22 @@ bool edges_at_rest(const Shape& a, const Shape& b, const PairMotion& motion, con
 
 }  // namespace
 
-bool same_as_before(const Bodies& bodies, std::span<const float> reach_m, const Pair& pair,
+bool same_as_before(const Bodies& bodies, std::span<const StepReach> reach, const Pair& pair,
                     const Manifold* m) {
-  if (pair.fresh) return false;
+  if (pair.fresh || (m && !(m->reusable && m->sticking)) || (!m && pair.clearance_m < 0))
+    return false;
   const std::uint32_t a = pair.body_a, b = pair.body_b;
-  const double moved_m = bodies.travelled_m[a] + bodies.travelled_m[b] - pair.travelled_m;
-  if (m) return m->reusable && m->sticking && moved_m < double{kStill * m->size_m};
-  return double{pair.clearance_m} - moved_m > double{pair.margin_m + reach_m[a] + reach_m[b]};
+  const Vec3f offset_W = (bodies.position[b] - bodies.position[a]).cast<float>();
+  const auto turned_m = static_cast<float>(bodies.turned_m[a] + bodies.turned_m[b] - pair.turned_m);
+  const float moved_m = (offset_W - pair.offset_W).norm() + turned_m;
+  if (m) return moved_m < kStill * m->size_m;
+  const Vec3f way_W = reach[b].way_W - reach[a].way_W;
+  const float closing_m = pair.axis_A.isZero(0)
+                              ? way_W.norm()
+                              : std::max(0.f, -way_W.dot(bodies.rotation_f[a] * pair.axis_A));
+  const float blur_m = kRounding * offset_W.norm();
+  return pair.clearance_m - moved_m - blur_m >
+         pair.margin_m + closing_m + reach[a].turn_m + reach[b].turn_m;
 }
 
 void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep& step, Pair& pair,
@@ -187,10 +196,10 @@ void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep
   const float size_m = std::min(a.inner_radius_m, b.inner_radius_m);
   const Reach reach = reach_of(a, b, pair, bodies, motion, step, size_m);
   const float limit = reach.margin_m + reach.spin_m + reach.way_m;
-  const double travelled = bodies.travelled_m[pair.body_a] + bodies.travelled_m[pair.body_b];
+  pair.turned_m = bodies.turned_m[pair.body_a] + bodies.turned_m[pair.body_b];
+  pair.offset_W = motion.offset_W;
   pair.margin_m = reach.margin_m;
   if (m.count > 0 && m.reusable && barely_moved(m, bodies, motion)) {
-    pair.travelled_m = travelled;
     refresh_manifold(bodies, motion, m);
     forgive_overlap(pair, m);
     return;
@@ -198,8 +207,7 @@ void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep
   const Vec3f way_A = static_cast<float>(step.dt_s) *
                       (bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W);
   const AxisReach axis_reach{reach.margin_m + reach.spin_m, way_A};
-  if (m.count == 0 && still_parted(a, b, motion, axis_reach, travelled, pair, scratch)) return;
-  pair.travelled_m = travelled;
+  if (m.count == 0 && still_parted(a, b, motion, axis_reach, pair, scratch)) return;
   if (m.count == 0 && edges_at_rest(a, b, motion, reach, size_m, pair, scratch)) return;
   m.size_m = size_m;
   m.friction = std::sqrt(a.friction * b.friction);

@@ -21,9 +21,16 @@ struct NarrowStep {
   float fall_m = 0;  ///< What gravity adds to a body's way within the step.
 };
 
-/// Whether a pair needs no look: it touches (`m` is given) and has not moved since the last one, or
-/// is too far apart to touch within the step. `reach_m`: how far each body may reach in the step.
-bool same_as_before(const Bodies& bodies, std::span<const float> reach_m, const Pair& pair,
+/// How far a body may come within the step.
+struct StepReach {
+  Vec3f way_W;
+  float turn_m;  ///< Of any of its points about its centre.
+};
+
+/// Whether a pair needs no look: it touches (`m` is given) and its bodies have not moved against
+/// each other since the last one, or it is too far apart to touch within the step. `reach` is by
+/// body slot.
+bool same_as_before(const Bodies& bodies, std::span<const StepReach> reach, const Pair& pair,
                     const Manifold* m);
 
 /// Brings the manifold of a pair up to date: carried along while the pair barely moves, otherwise

@@ -76,9 +76,9 @@ class RigidPhysics final : public Physics {
   Seeding seeding_;
   ContactsOfBodies contacts_of_bodies_;
   Held held_;
-  double dt_s_ = 0;             ///< Of the last collide.
-  std::uint32_t frozen_ = 0;    ///< Since the last solve began.
-  std::vector<float> reach_m_;  ///< How far a body may reach within the step.
+  double dt_s_ = 0;               ///< Of the last collide.
+  std::uint32_t frozen_ = 0;      ///< Since the last solve began.
+  std::vector<StepReach> reach_;  ///< By body slot.
   std::vector<std::pair<const char*, double>> timings_ms_ = {
       {"broad phase", 0}, {"narrow phase", 0}, {"contacts", 0}, {"sleep", 0}};
 };
@@ -155,11 +155,11 @@ void RigidPhysics::collide(double dt_s) {
 }
 
 void RigidPhysics::find_reaches(double dt_s) {
-  reach_m_.resize(bodies_.size());
+  reach_.resize(bodies_.size());
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
     const double turn = std::min(1.0, dt_s * bodies_.angular_velocity[i].norm());
-    const double way = dt_s * bodies_.velocity[i].norm() + turn * bodies_.reach_m[i];
-    reach_m_[i] = static_cast<float>(way) * 1.00001f;
+    reach_[i] = {(dt_s * bodies_.velocity[i]).cast<float>(),
+                 static_cast<float>(turn * bodies_.reach_m[i]) * 1.00001f};
   }
 }
 
@@ -182,7 +182,7 @@ void RigidPhysics::update_contacts(double dt_s) {
       if (!pair.fresh && !bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b]) continue;
       const bool touched = pair.touching();
       Manifold& m = touched ? contacts_.manifolds[pair.manifold] : fresh;
-      if (same_as_before(bodies_, reach_m_, pair, touched ? &m : nullptr)) continue;
+      if (same_as_before(bodies_, reach_, pair, touched ? &m : nullptr)) continue;
       const bool apart = joints_.apart(pair.body_a, pair.body_b);
       pair.fresh = apart;  // looked at again when they cease to ignore each other
       const bool near = !apart && broad_phase_.near(pair);
@@ -242,6 +242,8 @@ void RigidPhysics::set_state(BodyId id, const BodyState& state) {
   const std::uint32_t body = id.slot;
   if (!bodies_.dynamic(body)) return;
   bodies_.wake(body);
+  const Quat turn = bodies_.rotation[body].conjugate() * state.X_WB.rotation;
+  bodies_.turned_m[body] += 3.2 * turn.vec().norm() * bodies_.reach_m[body];  // angle <= pi * sine
   bodies_.place(body, state.X_WB.position, state.X_WB.rotation);
   bodies_.velocity[body] = state.velocity_W;
   bodies_.angular_velocity[body] = state.angular_velocity_W;
