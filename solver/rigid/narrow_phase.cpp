@@ -56,19 +56,19 @@ struct Probe {
 };
 
 /// Time until the shapes come within `target_m`, moving straight; negative: not within dt_s.
-/// Advancing by the gap along a separating axis never oversteps.
+/// Advancing by the gap along a separating axis never oversteps. `axis`: the best at the start, and
+/// at that time in the end.
 float time_of_impact(const Probe& probe, const PairMotion& motion, const Vec3f& velocity_A,
-                     float target_m, float dt_s) {
+                     float target_m, float dt_s, SeparatingAxis& axis) {
   RelativePose pose = motion.pose;
   float time = 0;
-  for (int round = 0; round < kImpactRounds; ++round) {
-    const SeparatingAxis axis = probe.axis(pose, {target_m, (dt_s - time) * velocity_A});
-    if (axis.separation_m <= target_m) return time;
+  for (int round = 0; round < kImpactRounds && axis.separation_m > target_m; ++round) {
     const float closing = -axis.normal_A.dot(velocity_A);
     if (closing <= 0) return -1;
     time += (axis.separation_m - 0.5f * target_m) / closing;
     if (time > dt_s) return -1;
     pose.p = motion.pose.p + time * velocity_A;
+    axis = probe.axis(pose, {target_m, (dt_s - time) * velocity_A});
   }
   return time;
 }
@@ -129,9 +129,8 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
   if (meet && reach.way_m > 0.5f * m.size_m) {
     axis_reach.way_A.setZero();
-    time = time_of_impact(probe, motion, velocity_A, axis_reach.margin_m, dt);
+    time = time_of_impact(probe, motion, velocity_A, axis_reach.margin_m, dt, axis);
     pose.p += std::max(0.f, time) * velocity_A;
-    if (time >= 0) axis = probe.axis(pose, axis_reach);
   }
   const float limit = axis_reach.along(axis.normal_A);
   scratch.points.clear();
@@ -148,7 +147,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
 bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, const AxisReach& reach,
                   Pair& pair, NarrowScratch& scratch) {
   if (pair.axis_A.isZero(0) || b.kind != Kind::kHull || a.kind != Kind::kHull) return false;
-  place_in_each_other(a.hull, b.hull, motion.pose, scratch.hulls);
+  place_in_A(b.hull, motion.pose, scratch.hulls);
   const float separation_m = separation_along(pair.axis_A, a.hull, scratch.hulls);
   if (separation_m <= reach.along(pair.axis_A)) return false;
   pair.clearance_m = separation_m;

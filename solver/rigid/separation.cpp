@@ -135,11 +135,15 @@ SeparatingAxis best_edges(const Hull& a, const Hull& b, const RelativePose& pose
 
 }  // namespace
 
-void place_in_each_other(const Hull& a, const Hull& b, const RelativePose& pose,
-                         HullScratch& scratch) {
+void place_in_A(const Hull& b, const RelativePose& pose, HullScratch& scratch) {
   scratch.b_in_A.resize(b.vertices().size());
   for (std::size_t c = 0; c < b.vertices().size(); ++c)
     scratch.b_in_A[c] = turned(pose.R, b.vertices()[c]) + splat3(pose.p);
+}
+
+void place_in_each_other(const Hull& a, const Hull& b, const RelativePose& pose,
+                         HullScratch& scratch) {
+  place_in_A(b, pose, scratch);
   scratch.a_in_B.resize(a.vertices().size());
   const Mat3f back = pose.R.transpose();
   for (std::size_t c = 0; c < a.vertices().size(); ++c)

@@ -39,6 +39,8 @@ struct AxisReach {
   float along(const Vec3f& axis_A) const { return margin_m + std::max(0.f, -axis_A.dot(way_A)); }
 };
 
+/// Fills the vertices of b in A of the scratch; enough for separation_along().
+void place_in_A(const Hull& b, const RelativePose& pose, HullScratch& scratch);
 /// Fills the vertices of the scratch; to be called before separating_axis().
 void place_in_each_other(const Hull& a, const Hull& b, const RelativePose& pose,
                          HullScratch& scratch);
@@ -51,7 +53,7 @@ SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose&
 /// have the other hull in front of them but for `sliver_m`. The scratch must be filled.
 bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, float sliver_m,
                         const HullScratch& scratch);
-/// Distance of the supporting planes along an axis given in A; the scratch must be filled.
+/// Distance of the supporting planes along an axis given in A; the scratch must have b in A.
 float separation_along(const Vec3f& axis_A, const Hull& a, const HullScratch& scratch);
 
 }  // namespace sunder::solver
