@@ -185,13 +185,14 @@ void Air::load(float dt_s, const Vec3f& gravity_W) {
     u = (air_kg * u + momentum) / (air_kg + thrown_kg);
     u += dt_s * gravity_W[axis] * dust_kg / (air_kg + dust_kg);
   };
-  for (const std::size_t cell : loaded_) {
-    for (int axis = 0; axis < 3; ++axis) {
+  for_chunks(3, 1, [&](std::size_t, std::size_t, std::size_t which) {
+    const auto axis = static_cast<int>(which);
+    for (const std::size_t cell : loaded_) {
       push(axis, cell);
       const std::size_t above = cell + static_cast<std::size_t>(grid_.lattice.stride(axis));
       if (dust_kg_[above] == 0) push(axis, above);
     }
-  }
+  });
 }
 
 void Air::couple() {
@@ -219,14 +220,17 @@ void Air::couple() {
 void Air::project() {
   const Lattice& lattice = grid_.lattice;
   const std::ptrdiff_t sy = lattice.stride(1), sz = lattice.stride(2);
-  for_cells(lattice, [&](std::size_t at, int count, int, int) {
+  fastest_.assign(static_cast<std::size_t>(lattice.counts.z()), 0);
+  for_cells(lattice, [&](std::size_t at, int count, int, int k) {
     const float *u = &velocity_[0][at], *v = &velocity_[1][at], *w = &velocity_[2][at];
+    float& layer = fastest_[static_cast<std::size_t>(k) - 1];
+    for (const float* row : {u, v, w}) layer = std::max(layer, largest_in(row, count + 1));
     float* inflow = &solver_.inflow()[at];
     for (int i = 0; i < count; ++i) {
       inflow[i] = u[i] - u[i + 1] + (v[i] - v[i + sy]) + (w[i] - w[i + sz]);
     }
   });
-  iterations_ = solver_.solve(kTolerance * fastest());
+  iterations_ = solver_.solve(kTolerance * *std::ranges::max_element(fastest_));
   for (int axis = 0; axis < 3; ++axis) {
     const std::ptrdiff_t below = -lattice.stride(axis);
     for_faces(lattice, axis, [&](std::size_t at, int count, int, int) {
@@ -252,23 +256,11 @@ void Air::slip_on_ground() {
   }
 }
 
-float Air::fastest() const {
-  std::vector<float> layers(static_cast<std::size_t>(grid_.lattice.counts.z()));
-  for (const Field& field : velocity_) {
-    for_cells(grid_.lattice, [&](std::size_t at, int count, int, int k) {
-      float& layer = layers[static_cast<std::size_t>(k) - 1];
-      layer = std::max(layer, largest_in(&field[at], count + 1));
-    });
-  }
-  return *std::max_element(layers.begin(), layers.end());
-}
-
 float Air::divergence() const {
   const Lattice& lattice = grid_.lattice;
   const auto sy = static_cast<std::size_t>(lattice.stride(1));
   const auto sz = static_cast<std::size_t>(lattice.stride(2));
-  const float speed = fastest();
-  float largest = 0;
+  float speed = 0, largest = 0;
   for (int k = 1; k <= lattice.counts.z(); ++k) {
     for (int j = 1; j <= lattice.counts.y(); ++j) {
       for (int i = 1; i <= lattice.counts.x(); ++i) {
@@ -277,6 +269,7 @@ float Air::divergence() const {
                               (velocity_[1][at + sy] - velocity_[1][at]) +
                               (velocity_[2][at + sz] - velocity_[2][at]);
         largest = std::max(largest, std::abs(outflow));
+        for (const Field& u : velocity_) speed = std::max(speed, std::abs(u[at]));
       }
     }
   }

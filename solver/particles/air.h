@@ -86,7 +86,6 @@ class Air {
   void couple();
   void project();
   void slip_on_ground();
-  float fastest() const;
   float sample(int axis, const Vec3f& at) const;
   float between(int axis, const Vec3f& at) const;
 
@@ -100,6 +99,7 @@ class Air {
   Field thrown_kg_;
   std::array<Field, 3> thrown_Ns_;
   PressureSolver solver_;
+  std::vector<float> fastest_;  ///< Of a layer's flow, before it is projected.
   int iterations_ = 0;
 };
 

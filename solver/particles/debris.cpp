@@ -181,10 +181,17 @@ void Debris::move_awake(double dt_s, const Obstacles& obstacles) {
     for (std::size_t i = begin; i < end; i += kBatch) {
       const std::size_t count = std::min(kBatch, end - i);
       const std::span chips(&awake_[i], count);
+      for (std::size_t n = i + count; n < std::min(i + count + kBatch, end); ++n) fetch(awake_[n]);
       move(chips, {&moved_[i], count}, dt_s, obstacles.ground_m, near);
       spin(chips, {&moved_[i], count}, static_cast<float>(dt_s));
     }
   });
+}
+
+/// Asks memory for what a batch will read.
+void Debris::fetch(std::uint32_t chip) const {
+  const auto ask = [chip](const auto&... arrays) { (__builtin_prefetch(&arrays[chip]), ...); };
+  ask(position_W_, velocity_W_, angular_velocity_W_, rotation_WD_, radius_m_);
 }
 
 /// They fly to their first touch, bounce, fly on.

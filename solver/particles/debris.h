@@ -56,6 +56,7 @@ class Debris {
   void wake(std::uint32_t chip);
   Box reach_of_awake(double dt_s);
   void move_awake(double dt_s, const Obstacles& obstacles);
+  void fetch(std::uint32_t chip) const;
   void move(std::span<const std::uint32_t> chips, std::span<Moved> moved, double dt_s,
             double ground_m, ObstacleGrid::Near& near);
   bool goes_on(std::uint32_t chip, ObstacleGrid::Way& way, std::optional<Touch> touch, double dt_s,

@@ -24,6 +24,7 @@ constexpr float kSolid = 0.9f;          // part of a cell from which dust in it 
 constexpr float kCrowded = 4;           // times faster the oldest fade when room is short
 constexpr std::size_t kCellsAPuff = 8;  // of air: finer is not worth its cost
 constexpr std::size_t kStrays = 32;     // one puff in so many, on each side, may fly out of the air
+constexpr std::size_t kAhead = 8;       // puffs, that memory is asked for
 constexpr std::size_t kSpeakers = 4096;
 constexpr std::uint32_t kRoom = 16;  // one part in so many is kept free for new dust
 
@@ -70,6 +71,7 @@ void Dust::advance(double dt_s, const Obstacles& obstacles) {
   for_chunks(position_W_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     Around around;
     for (std::size_t i = begin; i < end; ++i) {
+      if (i + kAhead < end) fetch(order_[i + kAhead]);
       if (i == begin || cell_[order_[i]] != around.cell) look_around(order_[i], around);
       move(order_[i], around, static_cast<float>(dt_s), static_cast<float>(obstacles.ground_m));
     }
@@ -161,21 +163,35 @@ void Dust::sort_into_cells() {
   sort_by_key(cell_, order_);
 }
 
-/// Tells the air what it carries, and gathers the vortices.
+/// Tells the air what it carries, and gathers the vortices: two things, for a thread each.
 void Dust::load_air() {
-  Air& air = flow_->air;
-  Swirl& swirl = flow_->swirl;
-  air.clear_loads();
-  swirl.clear();
-  for (const std::uint32_t puff : order_) {
-    const std::uint32_t cell = cell_[puff];
-    if (cell == kOutside) break;
-    air.add_dust(cell, mass_kg_[puff]);
-    if (age_s_[puff] == 0) air.add_momentum(cell, mass_kg_[puff], slip_W_[puff]);
-    swirl.add(cell, air.to_cells(position_W_[puff]), axis_of(rotation_WD_[puff]),
-              turbulence_m_s_[puff]);
-  }
-  swirl.finish();
+  const auto end = std::ranges::find(order_, kOutside, [&](std::uint32_t p) { return cell_[p]; });
+  const std::span held(order_.begin(), end);
+  const auto load = [&](Air& air) {
+    air.clear_loads();
+    for (const std::uint32_t puff : held) {
+      air.add_dust(cell_[puff], mass_kg_[puff]);
+      if (age_s_[puff] == 0) air.add_momentum(cell_[puff], mass_kg_[puff], slip_W_[puff]);
+    }
+  };
+  const auto gather = [&](Swirl& swirl) {
+    swirl.clear();
+    for (const std::uint32_t puff : held) {
+      swirl.add(cell_[puff], flow_->air.to_cells(position_W_[puff]), axis_of(rotation_WD_[puff]),
+                turbulence_m_s_[puff]);
+    }
+    swirl.finish();
+  };
+  for_chunks(2, 1, [&](std::size_t, std::size_t, std::size_t which) {
+    which == 0 ? load(flow_->air) : gather(flow_->swirl);
+  });
+}
+
+/// Asks memory for what move() will read.
+void Dust::fetch(std::size_t puff) const {
+  const auto ask = [puff](const auto&... arrays) { (__builtin_prefetch(&arrays[puff]), ...); };
+  ask(position_W_, slip_W_, rotation_WD_, settling_m_s_, turbulence_m_s_, first_radius_m_,
+      radius_m_, opacity_, age_s_, settled_s_);
 }
 
 void Dust::look_around(std::size_t puff, Around& around) const {

@@ -60,6 +60,7 @@ class Dust {
   void place_air(double ground_m);
   void sort_into_cells();
   void load_air();
+  void fetch(std::size_t puff) const;
   void look_around(std::size_t puff, Around& around) const;
   void move(std::size_t puff, const Around& around, float dt_s, float ground_m);
   void settle(std::size_t puff, float dt_s, float solid, float ground_m);

@@ -1,9 +1,7 @@
 // What small spheres meet on their ways. Read first: sweep(). Eight ways at a time go past the box
 // of each shape nearby; where some come through, they are clipped by its planes.
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <utility>
 
 #include "solver/particles/obstacle_grid.h"
 #include "solver/rigid/wide.h"
@@ -159,27 +157,25 @@ void ObstacleGrid::meet(const Placed& placed, const WideWays& wide, const SeenWa
   }
 }
 
-/// First the boxes, then the faces of those that are met: by then these have come from memory.
+/// What a shape is made of is asked for when its box is met, and looked at when the next one's is:
+/// by then it has come from memory.
 void ObstacleGrid::sweep(std::span<const Way> ways, const Near& near,
                          std::span<std::optional<Touch>> touches) const {
   for (std::optional<Touch>& touch : touches) touch.reset();
   if (near.shapes.empty()) return;
   const WideWays wide(ways);
-  constexpr std::size_t kAtOnce = 16;
-  std::array<std::pair<const Placed*, SeenWays>, kAtOnce> met;
-  for (std::size_t n = 0; n < near.shapes.size();) {
-    std::size_t count = 0;
-    for (; n < near.shapes.size() && count < kAtOnce; ++n) {
-      const Placed& shape = shapes_[near.shapes[n]];
-      met[count] = {&shape, SeenWays(wide, shape)};
-      if (met[count].second.meet == 0) continue;
-      fetch(shape);
-      ++count;
-    }
-    for (const auto& [shape, seen] : std::span(met).first(count)) {
-      meet(*shape, wide, seen, ways, touches);
-    }
+  const Placed* asked = nullptr;
+  SeenWays seen_by_asked;
+  for (const std::uint32_t placed : near.shapes) {
+    const Placed& shape = shapes_[placed];
+    const SeenWays seen(wide, shape);
+    if (seen.meet == 0) continue;
+    fetch(shape);
+    if (asked) meet(*asked, wide, seen_by_asked, ways, touches);
+    asked = &shape;
+    seen_by_asked = seen;
   }
+  if (asked) meet(*asked, wide, seen_by_asked, ways, touches);
 }
 
 }  // namespace sunder::solver
