@@ -57,30 +57,37 @@ Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
   add_edges();
 }
 
-void Hull::add_edges() {
-  struct HalfEdge {
-    std::uint32_t key;  // smaller vertex, larger vertex
-    std::uint16_t face;
-    bool forward;
-  };
-  std::vector<HalfEdge> halves;
+/// Sorted by their vertices, so that the two of an edge are neighbours: by counting, twice.
+std::vector<Hull::HalfEdge> Hull::half_edges() const {
+  std::vector<HalfEdge> halves, sorted(corners_.size());
   halves.reserve(corners_.size());
   for (std::uint32_t f = 0; f < face_count(); ++f) {
     const auto loop = face_corners(f);
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const std::uint32_t from = loop[i], to = loop[i + 1 < loop.size() ? i + 1 : 0];
-      halves.push_back({std::min(from, to) << 16 | std::max(from, to),
-                        static_cast<std::uint16_t>(f), from < to});
+      const std::uint16_t from = loop[i], to = loop[i + 1 < loop.size() ? i + 1 : 0];
+      halves.push_back(
+          {std::min(from, to), std::max(from, to), static_cast<std::uint16_t>(f), from < to});
     }
   }
-  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return a.key != b.key ? a.key < b.key : a.forward > b.forward;
-  });
+  std::vector<std::uint16_t> start(vertex_count_ + 1);
+  for (const auto key : {&HalfEdge::most, &HalfEdge::least}) {
+    std::fill(start.begin(), start.end(), std::uint16_t{0});
+    for (const HalfEdge& half : halves) ++start[half.*key + 1u];
+    for (std::uint32_t v = 0; v < vertex_count_; ++v)
+      start[v + 1] = static_cast<std::uint16_t>(start[v + 1] + start[v]);
+    for (const HalfEdge& half : halves) sorted[start[half.*key]++] = half;
+    halves.swap(sorted);
+  }
+  return halves;
+}
+
+void Hull::add_edges() {
+  const std::vector<HalfEdge> halves = half_edges();
   edge_vertices_.reserve(halves.size() / 2);
   edges_.resize(wide_count(static_cast<std::uint32_t>(halves.size() / 2)));
   std::uint32_t count = 0;
   auto put = [&](std::uint32_t slot, const HalfEdge& left, const HalfEdge& right) {
-    const Vec3f from = vertex(left.key >> 16), to = vertex(left.key & 0xffff);
+    const Vec3f from = vertex(left.least), to = vertex(left.most);
     EdgeChunk& chunk = edges_[slot / kLanes];
     set_lane(chunk.point, slot % kLanes, from);
     set_lane(chunk.direction, slot % kLanes, to - from);
@@ -90,13 +97,19 @@ void Hull::add_edges() {
     chunk.bulge[slot % kLanes] = 1 / std::sqrt(std::max(1e-6f, 0.5f * (1 + cosine)));
   };
   for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {
-    SUNDER_CHECK(halves[i].key == halves[i + 1].key);
-    put(count++, halves[i], halves[i + 1]);
-    edge_vertices_.emplace_back(static_cast<std::uint16_t>(halves[i].key >> 16),
-                                static_cast<std::uint16_t>(halves[i].key & 0xffff));
+    const HalfEdge &one = halves[i], &other = halves[i + 1];
+    SUNDER_CHECK(one.least == other.least && one.most == other.most);
+    put(count++, one.forward ? one : other, one.forward ? other : one);
+    edge_vertices_.emplace_back(one.least, one.most);
   }
-  for (std::uint32_t i = count; i < edges_.size() * kLanes; ++i)
-    put(i, halves[halves.size() - 2], halves[halves.size() - 1]);
+  const std::uint32_t last = (count - 1) % kLanes;  // what is over repeats the last edge
+  EdgeChunk& chunk = edges_.back();
+  for (std::uint32_t k = last + 1; k < kLanes; ++k) {
+    for (auto part : {&EdgeChunk::point, &EdgeChunk::direction, &EdgeChunk::normal_left,
+                      &EdgeChunk::normal_right})
+      set_lane(chunk.*part, k, lane(chunk.*part, last));
+    chunk.bulge[k] = chunk.bulge[last];
+  }
 }
 
 }  // namespace sunder::solver

@@ -60,6 +60,12 @@ class Hull {
   static Vec3f lane(const Wide3& v, std::uint32_t i) { return {v.x[i], v.y[i], v.z[i]}; }
 
  private:
+  struct HalfEdge {
+    std::uint16_t least, most;  ///< Its vertices.
+    std::uint16_t face;
+    bool forward;  ///< From the lesser to the greater.
+  };
+  std::vector<HalfEdge> half_edges() const;
   void add_edges();
 
   std::vector<Wide3> vertices_;
