@@ -57,8 +57,8 @@ std::uint32_t thing_named(const Scene& scene, const std::string& name, const Val
   return nearest;
 }
 
-bool is_anchored(const Scene& scene, const std::optional<std::uint32_t>& root) {
-  return !root || (*root < scene.solids.size() && scene.solids[*root].compound.is_anchored());
+bool is_held(const Scene& scene, const std::optional<std::uint32_t>& root) {
+  return !root || is_anchored(scene, *root);
 }
 
 void check(const Value& table, const JointText& text) {
@@ -97,7 +97,7 @@ Tie read_joint(const Value& table, const Scene& scene) {
   tie.a = thing_named(scene, text.a, *find(entries, "a"), text.at);
   if (text.b) tie.b = thing_named(scene, *text.b, *find(entries, "b"), tie.to_W);
   if (tie.a == tie.b) fail(table, "b", "a and b in [[joint]] are the same thing");
-  if (is_anchored(scene, tie.a) && is_anchored(scene, tie.b)) {
+  if (is_held(scene, tie.a) && is_held(scene, tie.b)) {
     fail(table, "a", "neither end of this [[joint]] can move: the world holds both");
   }
   tie.axis_W = text.axis;

@@ -9,12 +9,11 @@
 #include "engine/base/trigonometry.h"
 #include "engine/world/load_path.h"
 #include "scenes/body.h"
-#include "scenes/chain.h"
 #include "scenes/joint.h"
-#include "scenes/names.h"
 #include "scenes/patterns.h"
 #include "scenes/planar.h"
 #include "scenes/schema.h"
+#include "scenes/script.h"
 #include "scenes/structures/structure.h"
 
 namespace sunder::scenes {
@@ -54,12 +53,6 @@ class Loader {
   void add_solid(const Value& table);
   void add_body(const Value& table);
   void add_ball(const Value& table);
-  void add_script();
-  void add_shot(const Value& table);
-  void add_wrecking_ball(const Value& table);
-  void add_blast(const Value& table);
-  void add_removal(const Value& table);
-  void add_drive(const Value& table);
   void check_names() const;
 
   const Value& document_;
@@ -91,7 +84,8 @@ Scene Loader::load(const LoadOptions& options) {
   for (const Value* table : tables(document_, "ball")) add_ball(*table);
   for (const Value* table : tables(document_, "joint"))
     scene_.ties.push_back(read_joint(*table, scene_));
-  add_script();
+  if (const Value* table = find(std::get<Table>(document_.data), "script"))
+    read_script(*table, scene_);
   check_names();
   aim();
   if (scene_.planar) check_planar(scene_, find(std::get<Table>(scene->data), "planar")->where);
@@ -272,96 +266,6 @@ void Loader::add_ball(const Value& table) {
   read(schema().ball, table, scene_.materials, ball);
   scene_.balls.push_back(
       {ball.name, ball.radius_m, ball.material.index, ball.position, ball.velocity});
-}
-
-void Loader::add_script() {
-  const Value* table = find(std::get<Table>(document_.data), "script");
-  if (!table) return;
-  Script script;
-  read(schema().script, *table, {}, script);
-  // Read even if it is not enabled: a scene is right or wrong whatever is switched off.
-  for (const Value* shot : tables(*table, "shot")) add_shot(*shot);
-  for (const Value* ball : tables(*table, "wrecking_ball")) add_wrecking_ball(*ball);
-  for (const Value* blast : tables(*table, "blast")) add_blast(*blast);
-  for (const Value* removal : tables(*table, "remove")) add_removal(*removal);
-  for (const Value* drive : tables(*table, "drive")) add_drive(*drive);
-  if (!script.enabled) {
-    scene_.shots.clear();
-    scene_.blasts.clear();
-    scene_.removals.clear();
-    scene_.drives.clear();
-  }
-  const auto sort = [](auto& acts) {
-    std::ranges::stable_sort(acts, {}, [](const auto& act) { return act.time_s; });
-  };
-  sort(scene_.shots);
-  sort(scene_.blasts);
-  sort(scene_.removals);
-  sort(scene_.drives);
-}
-
-void Loader::add_wrecking_ball(const Value& table) {
-  WreckingBallText text;
-  read(schema().wrecking_ball, table, scene_.materials, text);
-  Shot shot{text.time_s,
-            {text.name, text.radius_m, text.material.index, text.from, text.velocity},
-            text.hangs_from};
-  if ((text.from - text.hangs_from).norm() <= text.radius_m) {
-    throw InputError(table.where +
-                     ": hangs_from in [[script.wrecking_ball]] is within the ball; move it out, or "
-                     "lessen radius_m");
-  }
-  shot.links = make_chain(shot, text.links);
-  scene_.shots.push_back(std::move(shot));
-}
-
-void Loader::add_blast(const Value& table) {
-  BlastText text;
-  read(schema().blast, table, {}, text);
-  scene_.blasts.push_back({text.time_s, text.at, text.radius_m, text.impulse_Ns_m2});
-}
-
-void Loader::add_removal(const Value& table) {
-  RemoveText text;
-  read(schema().remove, table, {}, text);
-  if (text.name.has_value() == (text.from || text.to) ||
-      text.from.has_value() != text.to.has_value()) {
-    throw InputError(table.where + ": [[script.remove]] needs either name, or from and to");
-  }
-  Removal removal;
-  removal.time_s = text.time_s;
-  if (text.name) {
-    removal.roots = roots_named(scene_, *text.name, *find(std::get<Table>(table.data), "name"));
-  } else {
-    removal.anchors_W.extend(*text.from);
-    removal.anchors_W.extend(*text.to);
-  }
-  scene_.removals.push_back(removal);
-}
-
-void Loader::add_drive(const Value& table) {
-  DriveText text;
-  read(schema().drive, table, {}, text);
-  scene_.drives.push_back(
-      {text.time_s, text.until_s,
-       roots_named(scene_, text.name, *find(std::get<Table>(table.data), "name")), text.velocity,
-       text.force_N});
-}
-
-void Loader::add_shot(const Value& table) {
-  ShotText text;
-  read(schema().shot, table, scene_.materials, text);
-  if (text.velocity.has_value() == text.at.has_value()) {
-    throw InputError(table.where +
-                     ": [[script.shot]] needs either velocity, or at (and speed_m_s)");
-  }
-  if (text.at && *text.at == text.from) {
-    throw InputError(table.where + ": at and from in [[script.shot]] are the same point");
-  }
-  const Vec3 velocity =
-      text.velocity ? *text.velocity : text.speed_m_s * (*text.at - text.from).normalized();
-  scene_.shots.push_back(
-      {text.time_s, {text.name, text.radius_m, text.material.index, text.from, velocity}, {}});
 }
 
 void Loader::check_names() const {

@@ -27,4 +27,8 @@ std::vector<std::uint32_t> roots_named(const Scene& scene, const std::string& na
   return roots;
 }
 
+bool is_anchored(const Scene& scene, std::uint32_t root) {
+  return root < scene.solids.size() && scene.solids[root].compound.is_anchored();
+}
+
 }  // namespace sunder::scenes

@@ -15,4 +15,7 @@ namespace sunder::scenes {
 std::vector<std::uint32_t> roots_named(const Scene& scene, const std::string& name,
                                        const Value& value);
 
+/// Whether the world holds a solid; balls it never holds.
+bool is_anchored(const Scene& scene, std::uint32_t root);
+
 }  // namespace sunder::scenes

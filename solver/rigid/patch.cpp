@@ -85,7 +85,7 @@ PatchPoint edge_point(const Hull& a, const Hull& b, const SeparatingAxis& axis,
   const float det = aa * bb - ab * ab;
   const float s = det > 0 ? (gap.dot(da) * bb - gap.dot(db) * ab) / det : 0.5f;
   const Vec3f on_a = pa + std::clamp(s, 0.f, 1.f) * da;
-  const float t = (on_a - pb).dot(db) / bb;
+  const float t = bb > 0 ? (on_a - pb).dot(db) / bb : 0.f;  // slivers have edges of no length
   const Vec3f on_b = pb + std::clamp(t, 0.f, 1.f) * db;
   return {on_a, on_b, axis.separation_m, 1u << 30 | axis.index_a << 15 | axis.index_b};
 }

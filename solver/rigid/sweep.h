@@ -43,8 +43,8 @@ void sweep_relaxed(ConstraintBlock<lanes>& block, const SolverRows& bodies, cons
 /// Adds the impulses of a substep to those of the step, where they are summed.
 template <std::uint32_t lanes>
 void sum_impulses(ConstraintBlock<lanes>& block);
-/// Takes impulses of the substep back but for the shares of their bodies, by row. To be called after
-/// their sum.
+/// Takes impulses of the substep back but for the shares of their bodies, by row. To be called
+/// after their sum.
 template <std::uint32_t lanes>
 void ease(ConstraintBlock<lanes>& block, const float* share_of_row);
 /// What conjugate gradients remember of a block, by impulse: those of its points, of sliding, of

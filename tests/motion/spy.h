@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/world/physics.h"
+#include "tests/motion/forwarding.h"
 
 namespace sunder::tests {
 
@@ -17,7 +17,7 @@ struct Motions {
   Vec3 momentum = Vec3::Zero(), spin = Vec3::Zero();
 };
 
-class SpyPhysics final : public Physics {
+class SpyPhysics final : public ForwardingPhysics {
  public:
   /// Of one step's breaks: before the first, and when all are done.
   struct Books {
@@ -26,7 +26,7 @@ class SpyPhysics final : public Physics {
   /// Of one body that gave way to others.
   using Replacement = Books;
 
-  explicit SpyPhysics(std::unique_ptr<Physics> physics) : physics_(std::move(physics)) {}
+  using ForwardingPhysics::ForwardingPhysics;
 
   std::vector<BodyId> replace(std::span<const BodyId> remove,
                               std::span<const BodyDesc> add) override {
@@ -41,33 +41,20 @@ class SpyPhysics final : public Physics {
     if (!remove.empty()) replacements.push_back(replacement);
     return ids;
   }
-  void edit(const BodyEdit& edit) override { physics_->edit(edit); }
   void collide(double dt_s) override {
     if (!std::exchange(in_step_, true)) books.before = sum();
     physics_->collide(dt_s);
   }
-  std::vector<Approach> approaches() override { return physics_->approaches(); }
-  std::vector<Touch> touches(std::span<const BodyId> bodies) override {
-    return physics_->touches(bodies);
-  }
-  void set_state(BodyId body, const BodyState& state) override { physics_->set_state(body, state); }
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override {
     note_end_of_breaks();
     physics_->apply_impulse(body, impulse_W, point_W);
   }
-  void hold(std::span<const BodyId> bodies) override { physics_->hold(bodies); }
   SolveReport solve(double dt_s, int substeps) override {
     note_end_of_breaks();
     before_solve = sum();
     SolveReport report = physics_->solve(dt_s, substeps);
     after_solve = sum();
     return report;
-  }
-  BodyState state(BodyId body) const override { return physics_->state(body); }
-  std::vector<ContactLoad> contact_loads() const override { return physics_->contact_loads(); }
-  std::vector<float> penetrations() const override { return physics_->penetrations(); }
-  std::vector<std::pair<const char*, double>> take_timings_ms() override {
-    return physics_->take_timings_ms();
   }
 
   Motions sum() const {
@@ -103,7 +90,6 @@ class SpyPhysics final : public Physics {
     all.spin += s.X_WB.position.cross(p) + s.X_WB.rotation * spin_B;
   }
 
-  std::unique_ptr<Physics> physics_;
   std::map<std::uint32_t, Body> bodies_;  ///< By slot; those that move.
   bool in_step_ = false;
 };

@@ -180,6 +180,22 @@ constexpr Fault kFaults[] = {
      "bad.toml:3: [[script.shot]] needs either velocity, or at"},
     {"[[script.shot]]\ntime_s = 1\nfrom = [0, 0, 0]\nat = [0, 0, 0]",
      "bad.toml:3: at and from in [[script.shot]] are the same point"},
+    {"[[script.wrecking_ball]]\nfrom = [0, 5, 0]\nhangs_from = [0, 5.2, 0]",
+     "bad.toml:3: hangs_from in [[script.wrecking_ball]] is within the ball; move it out, or "
+     "lessen radius_m"},
+    {"[[script.remove]]\ntime_s = 1", "bad.toml:3: [[script.remove]] needs either name, or from"},
+    {"[[script.remove]]\ntime_s = 1\nfrom = [0, 0, 0]",
+     "bad.toml:3: [[script.remove]] needs either name, or from and to"},
+    {"[[ball]]\nname = \"b\"\n[[script.remove]]\ntime_s = 1\nname = \"b\"\nfrom = [0, 0, 0]\nto = "
+     "[1, 1, 1]",
+     "bad.toml:5: [[script.remove]] needs either name, or from and to"},
+    {"[[ball]]\nname = \"b\"\n[[script.drive]]\nname = \"b\"\nvelocity = [1, 0, 0]\ntime_s = "
+     "2\nuntil_s = 1",
+     "bad.toml:5: until_s in [[script.drive]] is not after time_s"},
+    {"[[solid]]\nstructure = \"box\"\nanchored = \"bottom\"\n[[script.drive]]\nvelocity = [1, 0, "
+     "0]\nname = \"box\"",
+     "bad.toml:8: 'box' in [[script.drive]] is held by the world, which no force moves; take its "
+     "anchored away"},
     {"[view]\nfov_rad = 1\nfov_deg = 50",
      "bad.toml:5: fov_deg in [view] is given beside fov_rad; "
      "keep one"},

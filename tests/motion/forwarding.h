@@ -1,0 +1,49 @@
+// Physics that hands every call on to another: what tests look at it through starts from this.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/world/physics.h"
+
+namespace sunder::tests {
+
+class ForwardingPhysics : public Physics {
+ public:
+  explicit ForwardingPhysics(std::unique_ptr<Physics> physics) : physics_(std::move(physics)) {}
+
+  std::vector<BodyId> replace(std::span<const BodyId> remove,
+                              std::span<const BodyDesc> add) override {
+    return physics_->replace(remove, add);
+  }
+  void edit(const BodyEdit& edit) override { physics_->edit(edit); }
+  void collide(double dt_s) override { physics_->collide(dt_s); }
+  std::vector<Approach> approaches() override { return physics_->approaches(); }
+  std::vector<Touch> touches(std::span<const BodyId> bodies) override {
+    return physics_->touches(bodies);
+  }
+  void set_state(BodyId body, const BodyState& state) override { physics_->set_state(body, state); }
+  void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override {
+    physics_->apply_impulse(body, impulse_W, point_W);
+  }
+  void hold(std::span<const BodyId> bodies) override { physics_->hold(bodies); }
+  JointId join(const JointDesc& joint) override { return physics_->join(joint); }
+  void attach(JointId joint, bool end_a, BodyId body) override {
+    physics_->attach(joint, end_a, body);
+  }
+  void cut(JointId joint) override { physics_->cut(joint); }
+  std::vector<JointId> take_broken() override { return physics_->take_broken(); }
+  SolveReport solve(double dt_s, int substeps) override { return physics_->solve(dt_s, substeps); }
+  BodyState state(BodyId body) const override { return physics_->state(body); }
+  std::vector<ContactLoad> contact_loads() const override { return physics_->contact_loads(); }
+  std::vector<float> penetrations() const override { return physics_->penetrations(); }
+  std::vector<std::pair<const char*, double>> take_timings_ms() override {
+    return physics_->take_timings_ms();
+  }
+
+ protected:
+  std::unique_ptr<Physics> physics_;
+};
+
+}  // namespace sunder::tests

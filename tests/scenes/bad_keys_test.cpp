@@ -1,0 +1,184 @@
+// Every key of what is in a scene and of what happens there, given as it must not be: absent where
+// it is needed, of another type, out of range. The tables of the reader itself say what there is.
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "scenes/body.h"
+#include "scenes/joint.h"
+#include "scenes/load.h"
+#include "scenes/schema.h"
+
+namespace sunder::scenes {
+namespace {
+
+/// Lines of a table that is accepted: values by key.
+using Lines = std::map<std::string, std::string>;
+
+struct Sample {
+  std::string header;
+  std::string_view table;
+  std::span<const Key> keys;
+  Lines lines;
+};
+
+std::vector<Sample> samples() {
+  const Schema& all = schema();
+  return {
+      {"[[joint]]",
+       joint_keys().table,
+       joint_keys().keys,
+       {{"kind", "\"ball\""}, {"a", "\"x\""}, {"at", "[0, 1, 0]"}}},
+      {"[[ball]]", all.ball.table, all.ball.keys, {}},
+      {"[[body]]", body_keys().table, body_keys().keys, {{"mesh", "\"box:1,1,1\""}}},
+      {"[script]", all.script.table, all.script.keys, {}},
+      {"[[script.shot]]",
+       all.shot.table,
+       all.shot.keys,
+       {{"time_s", "1"}, {"from", "[0, 5, 5]"}, {"at", "[0, 1, 0]"}}},
+      {"[[script.wrecking_ball]]",
+       all.wrecking_ball.table,
+       all.wrecking_ball.keys,
+       {{"from", "[3, 5, 0]"}, {"hangs_from", "[0, 9, 0]"}}},
+      {"[[script.blast]]", all.blast.table, all.blast.keys, {{"time_s", "1"}, {"at", "[0, 1, 0]"}}},
+      {"[[script.remove]]",
+       all.remove.table,
+       all.remove.keys,
+       {{"time_s", "1"}, {"name", "\"x\""}}},
+      {"[[script.drive]]",
+       all.drive.table,
+       all.drive.keys,
+       {{"name", "\"x\""}, {"velocity", "[1, 0, 0]"}}},
+  };
+}
+
+constexpr const char* kBefore =
+    "[scene]\ndescription = \"x\"\n[[solid]]\nstructure = \"box\"\nname = \"x\"\n";
+constexpr int kLinesBefore = 5;
+
+struct Answer {
+  std::string said;
+  int line = 0;  ///< Of the key, or of the table if it is absent.
+};
+
+/// What is said of a sample with one key changed, or taken out.
+Answer say(const Sample& sample, const std::string& key, const std::string* value) {
+  Lines lines = sample.lines;
+  if (value) {
+    lines[key] = *value;
+  } else {
+    lines.erase(key);
+  }
+  Answer answer;
+  std::string text = kBefore + sample.header + "\n";
+  answer.line = kLinesBefore + 1;
+  int at = answer.line;
+  for (const auto& [name, given] : lines) {
+    ++at;
+    if (name == key) answer.line = at;
+    text += name + " = " + given + "\n";
+  }
+  try {
+    parse_scene(text, "bad.toml", {});
+  } catch (const InputError& error) {
+    answer.said = error.what();
+  }
+  return answer;
+}
+
+/// Values that a key cannot have.
+std::vector<std::string> wrong_values(const Key& key) {
+  using Kind = Key::Kind;
+  std::vector<std::string> wrong = {"{ x = 1 }"};  // no key but those of tables is one
+  const bool vector = key.kind == Kind::kVector || key.kind == Kind::kColor;
+  const bool number = key.kind == Kind::kInteger || key.kind == Kind::kCount ||
+                      key.kind == Kind::kNumber || key.kind == Kind::kSeed;
+  if (vector) {
+    wrong.insert(wrong.end(), {"1", "[1, 2]", "[1, 2, \"x\"]", "[1, 2, nan]"});
+    wrong.push_back("[0, " + format(2 * key.range.high + 1) + ", 0]");
+    wrong.push_back("[0, 0, " + format(2 * key.range.low - 1) + "]");
+  } else if (number) {
+    wrong.insert(wrong.end(), {"\"1\"", "true", "[1]", "nan"});
+    if (key.kind != Kind::kNumber) wrong.push_back("1.5");
+    if (key.range.high < 1e300) wrong.push_back(format(2 * key.range.high + 1));
+    wrong.push_back(format(key.range.low - 1));
+  } else if (key.kind == Kind::kBool) {
+    wrong.insert(wrong.end(), {"1", "\"true\"", "[true]"});
+  } else if (key.kind == Kind::kChoice) {
+    wrong.insert(wrong.end(), {"1", "\"nonesuch\"", "\"\""});
+  } else if (key.kind == Kind::kText) {
+    wrong.insert(wrong.end(), {"1", "true", "\"\"", "[\"x\"]"});
+  } else if (key.kind == Kind::kMaterial) {
+    wrong.push_back("1");
+  }
+  return wrong;
+}
+
+TEST(BadKeys, EverySampleIsGoodAsItIs) {
+  for (const Sample& sample : samples())
+    EXPECT_EQ(say(sample, "no such", nullptr).said, "") << sample.table;
+}
+
+TEST(BadKeys, AWrongValueOfAnyIsAnsweredWithItsLineAndWhatIsAllowed) {
+  std::size_t tried = 0;
+  for (const Sample& sample : samples()) {
+    for (const Key& key : sample.keys) {
+      if (key.kind == Key::Kind::kTable) continue;
+      for (const std::string& value : wrong_values(key)) {
+        const Answer answer = say(sample, std::string(key.name), &value);
+        const std::string start =
+            "bad.toml:" + std::to_string(answer.line) + ": " + std::string(key.name) + " in ";
+        EXPECT_TRUE(answer.said.starts_with(start) &&
+                    answer.said.find("; allowed: " + allowed(key)) != std::string::npos)
+            << sample.table << " " << key.name << " = " << value << "\nsaid: " << answer.said;
+        ++tried;
+      }
+    }
+  }
+  EXPECT_GT(tried, 250u);
+}
+
+TEST(BadKeys, OneThatIsNeededIsMissed) {
+  for (const Sample& sample : samples()) {
+    for (const Key& key : sample.keys) {
+      if (!key.required) continue;
+      const Answer answer = say(sample, std::string(key.name), nullptr);
+      const std::string start = "bad.toml:" + std::to_string(answer.line) + ": missing key '" +
+                                std::string(key.name) + "' in " + std::string(sample.table) + ": ";
+      EXPECT_TRUE(answer.said.starts_with(start)) << "said: " << answer.said;
+    }
+  }
+}
+
+TEST(BadKeys, OneThatNobodyKnowsIsNamed) {
+  const std::string value = "1";
+  for (const Sample& sample : samples()) {
+    const Answer answer = say(sample, "nonesuch", &value);
+    const std::string start = "bad.toml:" + std::to_string(answer.line) +
+                              ": unknown key 'nonesuch' in " + std::string(sample.table);
+    EXPECT_TRUE(answer.said.starts_with(start)) << "said: " << answer.said;
+  }
+}
+
+TEST(BadKeys, NamesOfNothingAreAnsweredWithWhatThereIs) {
+  const std::string nobody = "\"y\"", no_stuff = "\"stel\"";
+  for (const Sample& sample : samples()) {
+    for (const Key& key : sample.keys) {
+      const bool stuff = key.kind == Key::Kind::kMaterial;
+      const bool refers = sample.header == "[[joint]]" || sample.header == "[[script.remove]]" ||
+                          sample.header == "[[script.drive]]";
+      if (!stuff && !(refers && key.kind == Key::Kind::kText)) continue;
+      const Answer answer = say(sample, std::string(key.name), stuff ? &no_stuff : &nobody);
+      const std::string start = "bad.toml:" + std::to_string(answer.line) +
+                                (stuff ? ": unknown material 'stel'; did you mean 'steel'?"
+                                       : ": no solid or ball is named 'y'; did you mean 'x'?");
+      EXPECT_TRUE(answer.said.starts_with(start))
+          << sample.table << " " << key.name << "\nsaid: " << answer.said;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunder::scenes

@@ -1,0 +1,140 @@
+// Nothing floats: whatever is at rest in a scene that ran to its end rests on something, and that
+// on something else, down to the ground or to what the world holds.
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "engine/world/simulation.h"
+#include "fracture/pattern_breaker.h"
+#include "scenes/load.h"
+#include "solver/rigid/rigid_physics.h"
+#include "tests/motion/forwarding.h"
+
+namespace sunder::tests {
+namespace {
+
+constexpr double kTouching_m = 0.01, kStill_m = 0.01, kFromAbove = -0.5;
+
+/// Physics of which the bodies and joints are known.
+class KnownPhysics final : public ForwardingPhysics {
+ public:
+  struct Body {
+    BodyId id;
+    bool is_static = false;
+  };
+  struct Held {
+    BodyId a, b;
+  };
+
+  using ForwardingPhysics::ForwardingPhysics;
+
+  std::vector<BodyId> replace(std::span<const BodyId> remove,
+                              std::span<const BodyDesc> add) override {
+    const std::vector<BodyId> ids = physics_->replace(remove, add);
+    for (const BodyId id : remove)
+      std::erase_if(bodies, [&](auto& b) { return b.second.id == id; });
+    for (std::size_t i = 0; i < ids.size(); ++i) bodies[add[i].tag] = {ids[i], add[i].is_static};
+    return ids;
+  }
+  JointId join(const JointDesc& joint) override {
+    const JointId id = physics_->join(joint);
+    joints[id.slot] = {joint.a, joint.b};
+    return id;
+  }
+  void attach(JointId joint, bool end_a, BodyId body) override {
+    physics_->attach(joint, end_a, body);
+    (end_a ? joints[joint.slot].a : joints[joint.slot].b) = body;
+  }
+  void cut(JointId joint) override {
+    physics_->cut(joint);
+    joints.erase(joint.slot);
+  }
+  std::vector<JointId> take_broken() override {
+    const std::vector<JointId> broken = physics_->take_broken();
+    for (const JointId joint : broken) joints.erase(joint.slot);
+    return broken;
+  }
+
+  std::map<std::uint32_t, Body> bodies;  ///< By tag.
+  std::map<std::uint32_t, Held> joints;
+};
+
+/// The bodies that others or the world hold up, by tag: from what is held by the world upwards, by
+/// contacts that do not only press from above, and by joints.
+std::set<std::uint32_t> supported(KnownPhysics& physics) {
+  std::vector<BodyId> ids;
+  std::map<std::uint32_t, std::uint32_t> tag_of_slot;
+  std::set<std::uint32_t> held;
+  for (const auto& [tag, body] : physics.bodies) {
+    ids.push_back(body.id);
+    tag_of_slot[body.id.slot] = tag;
+    if (body.is_static) held.insert(tag);
+  }
+  std::multimap<std::uint32_t, std::uint32_t> holds;  // who may hold up whom
+  for (const Touch& touch : physics.touches(ids)) {
+    if (touch.separation_m > kTouching_m) continue;
+    if (touch.normal_W.y() > kFromAbove) holds.emplace(touch.body_tag_a, touch.body_tag_b);
+    if (-touch.normal_W.y() > kFromAbove) holds.emplace(touch.body_tag_b, touch.body_tag_a);
+  }
+  for (const auto& [slot, joint] : physics.joints) {
+    const auto a = tag_of_slot.find(joint.a.slot), b = tag_of_slot.find(joint.b.slot);
+    const bool has_a = !joint.a.none() && a != tag_of_slot.end();
+    const bool has_b = !joint.b.none() && b != tag_of_slot.end();
+    if (has_a && has_b) holds.emplace(a->second, b->second), holds.emplace(b->second, a->second);
+    if (has_a != has_b) held.insert(has_a ? a->second : b->second);
+  }
+  std::vector<std::uint32_t> next(held.begin(), held.end());
+  while (!next.empty()) {
+    const std::uint32_t below = next.back();
+    next.pop_back();
+    for (auto [it, end] = holds.equal_range(below); it != end; ++it)
+      if (held.insert(it->second).second) next.push_back(it->second);
+  }
+  return held;
+}
+
+struct Settled {
+  const char* scene;
+  std::vector<std::string> set;
+};
+
+class Support : public testing::TestWithParam<Settled> {};
+
+TEST_P(Support, WhatIsAtRestRestsOnSomething) {
+  Scene scene = scenes::load_scene(GetParam().scene, {"draft", GetParam().set});
+  solver::RigidOptions options;
+  options.gravity_W = scene.gravity_W;
+  auto known = std::make_unique<KnownPhysics>(solver::make_rigid_physics(options));
+  KnownPhysics& physics = *known;
+  const double end_s = scene.duration_s;
+  Simulation simulation(std::move(scene), std::move(known), fracture::make_pattern_breaker());
+  FramePtr last;
+  std::map<std::uint64_t, Vec3> before;  // half a second before the end
+  while (const FramePtr frame = simulation.next()) {
+    last = frame;
+    EXPECT_EQ(frame->report.frozen, 0u) << frame->time_s;
+    if (std::abs(frame->time_s - (end_s - 0.5)) < 1e-3)
+      for (const FrameBody& body : frame->bodies) before[body.key] = body.X_WB.position;
+  }
+  const std::set<std::uint32_t> held = supported(physics);
+  std::size_t at_rest = 0;
+  for (const FrameBody& body : last->bodies) {
+    if (body.is_static || !before.contains(body.key)) continue;
+    if ((body.X_WB.position - before[body.key]).norm() > kStill_m) continue;
+    ++at_rest;
+    EXPECT_TRUE(held.contains(static_cast<std::uint32_t>(body.key)))
+        << "body " << body.key << " floats at " << body.X_WB.position.transpose()
+        << (body.asleep ? ", asleep" : "");
+  }
+  EXPECT_GT(at_rest, 5u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Support,
+                         testing::Values(Settled{"brick_wall", {}}, Settled{"column_row", {}},
+                                         Settled{"dominoes", {}}, Settled{"glass", {}},
+                                         Settled{"blast", {}}, Settled{"wrecking_ball", {}}),
+                         [](const auto& settled) { return std::string(settled.param.scene); });
+
+}  // namespace
+}  // namespace sunder::tests
