@@ -17,7 +17,7 @@ struct ZSTD_DCtx_s;
 
 namespace sunder {
 
-inline constexpr char kTakeMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'T', '3'};
+inline constexpr char kTakeMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'T', '4'};
 inline constexpr std::size_t kTakeName = sizeof kTakeMagic - 1;  ///< What precedes the version.
 inline constexpr char kIndexMagic[8] = {'T', 'A', 'K', 'E', 'E', 'N', 'D', '1'};
 inline constexpr std::uint64_t kFramesAChunk = 120;

@@ -172,7 +172,7 @@ void write_report(ByteWriter& out, const Frame& frame) {
     out.put(value);
   }
   for (const std::uint32_t value :
-       {report.carried_over, report.limits_hit, report.aged, report.frozen}) {
+       {report.carried_over, report.limits_hit, report.aged, report.frozen, report.joints_lost}) {
     out.put(value);
   }
   out.put(static_cast<std::uint32_t>(frame.breaks.size()));
@@ -193,8 +193,8 @@ void read_report(ByteReader& in, Frame& frame) {
        {&report.mass_kg, &report.kinetic_J, &report.potential_J, &report.momentum_residual}) {
     *value = in.take<double>();
   }
-  for (std::uint32_t* value :
-       {&report.carried_over, &report.limits_hit, &report.aged, &report.frozen}) {
+  for (std::uint32_t* value : {&report.carried_over, &report.limits_hit, &report.aged,
+                               &report.frozen, &report.joints_lost}) {
     *value = in.take<std::uint32_t>();
   }
   frame.breaks.resize(in.take_count(60));

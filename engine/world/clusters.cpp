@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/world/ties.h"
+
 namespace sunder {
 namespace {
 
@@ -28,15 +30,34 @@ bool may_break(const World& world, const Actor* actor, double energy_J) {
   return actor->is_static || actor->born_step != world.step + 1;
 }
 
+/// What closes at a contact; things that joints fix to the world give no more than it does.
+double closing_energy_J(World& world, const Approach& approach,
+                        const std::vector<std::uint32_t>& fixed) {
+  const double all_J = 0.5 * approach.effective_mass_kg * approach.speed_m_s * approach.speed_m_s;
+  if (fixed.empty()) return all_J;
+  double left = 1;  // of what gives
+  for (const std::uint32_t key : {approach.body_tag_a, approach.body_tag_b}) {
+    if (!std::ranges::binary_search(fixed, key)) continue;
+    const Actor& actor = *world.find(key);
+    if (actor.is_static) continue;
+    const Pose X_WB = world.physics->state(actor.body).X_WB;
+    const Vec3 normal = X_WB.rotation.conjugate() * approach.normal_W;
+    const Vec3 lever = (X_WB.inverse() * approach.point_W).cross(normal);
+    left -= approach.effective_mass_kg *
+            (1 / actor.weight.mass_kg + lever.dot(actor.weight.inertia_R.inverse() * lever));
+  }
+  return left > 1e-6 ? all_J / left : 0;
+}
+
 /// Approaches with energy enough to break something in the world, in the order of find_clusters().
-std::vector<Seed> find_seeds(World& world) {
+std::vector<Seed> find_seeds(World& world, const std::vector<std::uint32_t>& fixed) {
   double least_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) least_J = std::min(least_J, actor.least_J);
   if (least_J == std::numeric_limits<double>::infinity()) return {};
   std::vector<Seed> pairs;
   for (const Approach& approach : world.physics->approaches()) {
-    pairs.push_back({approach.body_tag_a, approach.body_tag_b,
-                     0.5 * approach.effective_mass_kg * approach.speed_m_s * approach.speed_m_s});
+    pairs.push_back(
+        {approach.body_tag_a, approach.body_tag_b, closing_energy_J(world, approach, fixed)});
   }
   std::ranges::stable_sort(pairs, {}, [](const Seed& seed) { return std::pair(seed.a, seed.b); });
   std::vector<Seed> seeds;
@@ -90,7 +111,8 @@ class Members {
 /// Bodies reached from a seed, contact by contact.
 class Reach {
  public:
-  Reach(World& world, Members& members) : world_(world), members_(members) {
+  Reach(World& world, const std::vector<std::uint32_t>& fixed, Members& members)
+      : world_(world), fixed_(fixed), members_(members) {
     members_.begin_cluster();
   }
 
@@ -167,7 +189,7 @@ class Reach {
     body.least_J = actor->least_J;
     body.least_Ns = actor->least_Ns;
     body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
-    if (actor->is_static) return body;
+    if (actor->is_static || std::ranges::binary_search(fixed_, actor->key)) return body;
     const BodyState state = world_.physics->state(actor->body);
     const Mat3 rotation = state.X_WB.rotation.toRotationMatrix();
     body.inverse_mass = 1 / actor->weight.mass_kg;
@@ -178,6 +200,7 @@ class Reach {
   }
 
   World& world_;
+  const std::vector<std::uint32_t>& fixed_;  ///< Keys: to the world, by joints.
   Members& members_;
   std::vector<std::uint32_t> places_;  ///< Of this cluster's bodies, held ones too.
   std::vector<std::uint32_t> moving_;  ///< Nearest first.
@@ -187,13 +210,14 @@ class Reach {
 }  // namespace
 
 std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out) {
-  const std::vector<Seed> seeds = find_seeds(world);
+  const std::vector<std::uint32_t> fixed = fixed_to_world(world);
+  const std::vector<Seed> seeds = find_seeds(world, fixed);
   std::vector<BreakProbe> clusters;
   if (seeds.empty()) return clusters;
   Members members(world);
   for (const Waiter& waiter : left_out) members.take(members.place(waiter.key));
   for (const Seed& seed : seeds) {
-    Reach reach(world, members);
+    Reach reach(world, fixed, members);
     if (!reach.start(seed)) continue;
     reach.grow();
     if (reach.could_break(seed.energy_J)) clusters.push_back(reach.probe());

@@ -1,5 +1,6 @@
 #include "engine/world/ties.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -35,6 +36,7 @@ void add_tie(World& world, const Tie& tie) {
   HeldTie held;
   JointDesc joint;
   joint.kind = tie.kind;
+  held.rigid = tie.kind == JointDesc::Kind::kFixed;
   const bool apart = tie.kind == JointDesc::Kind::kDistance || tie.kind == JointDesc::Kind::kRope;
   const Vec3 end_W = apart ? tie.to_W : tie.at_W;
   Quat rotation_WR[2];
@@ -124,6 +126,20 @@ void note_broken_ties(World& world) {
     std::erase_if(world.ties, [&](const HeldTie& tie) { return tie.joint == joint; });
     ++world.report.joints_lost;
   }
+}
+
+std::vector<std::uint32_t> fixed_to_world(const World& world) {
+  const auto stands = [&](std::uint32_t key) {
+    const auto actor = std::ranges::lower_bound(world.actors, key, {}, &Actor::key);
+    return key == kGroundKey || (actor != world.actors.end() && actor->is_static);
+  };
+  std::vector<std::uint32_t> keys;
+  for (const HeldTie& tie : world.ties) {
+    if (tie.rigid && stands(tie.b.key)) keys.push_back(tie.a.key);
+    if (tie.rigid && stands(tie.a.key)) keys.push_back(tie.b.key);
+  }
+  std::ranges::sort(keys);
+  return keys;
 }
 
 }  // namespace sunder

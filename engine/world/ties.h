@@ -17,6 +17,9 @@ void hang(World& world, const Shot& shot);
 void move_ties(World& world, std::uint32_t parent, std::span<const Actor> pieces);
 /// Before actors go: their joints are cut and counted.
 void cut_ties(World& world, std::uint32_t key);
+/// Keys of what a joint that does not give holds to the world, or to what the world holds;
+/// ascending.
+std::vector<std::uint32_t> fixed_to_world(const World& world);
 /// After a solve: counts what broke under its load.
 void note_broken_ties(World& world);
 

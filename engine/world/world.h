@@ -93,6 +93,7 @@ struct TieEnd {
 struct HeldTie {
   JointId joint;
   TieEnd a, b;
+  bool rigid = false;  ///< kFixed.
 };
 
 /// A body that sits steps out until what it hits can be decided.

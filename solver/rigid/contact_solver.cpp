@@ -10,9 +10,6 @@ namespace {
 
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
-// Farthest turn of a touching body within a step: beyond, contacts that are straight lines for the
-// step would feed its spin. Free flight has no such limit.
-constexpr double kMostTurn = 0.785;
 
 enum StageKind {
   kFly,
@@ -46,11 +43,6 @@ enum StageKind {
   kJointRelax,
   kJointTest
 };
-
-void limit_spin(Vec3& angular_velocity, double dt_s) {
-  const double turn = dt_s * angular_velocity.norm();
-  if (turn > kMostTurn) angular_velocity *= kMostTurn / turn;
-}
 
 Vec3f linear(Wide v) { return {v[0], v[1], v[2]}; }
 Vec3f angular(Wide v) { return {v[3], v[4], v[5]}; }
@@ -338,7 +330,6 @@ void ContactSolver::collect_bodies(const Bodies& bodies) {
 
 void ContactSolver::begin_body(std::uint32_t body, double dt_s, Bodies& bodies) {
   bodies.angular_velocity[body] += gyroscopic_change(bodies, body, dt_s);
-  limit_spin(bodies.angular_velocity[body], dt_s);
   root_W_[body] = bodies.rotation_f[body] * bodies.root_B[body];
   const Vec3 spin_B = bodies.rotation[body].conjugate() * bodies.angular_velocity[body];
   const Vec3f spin =

@@ -45,6 +45,7 @@ class Take : public ::testing::Test {
       add_bodies(*frame);
       add_particles(*frame);
       frame->report.mass_kg = 100;
+      frame->report.joints_lost = index_ % 4;
       if (index_ % 5 == 0) {
         frame->breaks = {{frame->time_s, index_, Vec3(1, 2, 3), 10, 2, 0, 6}};
       }
@@ -141,6 +142,7 @@ void expect_shown_alike(const Frame& played, const Frame& run, const std::string
   }
   ASSERT_EQ(played.breaks.size(), run.breaks.size()) << what;
   EXPECT_EQ(played.report.mass_kg, run.report.mass_kg);
+  EXPECT_EQ(played.report.joints_lost, run.report.joints_lost);
 }
 
 TEST_F(Take, PlaysWhatWasRecorded) {
