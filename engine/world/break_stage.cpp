@@ -12,7 +12,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
-#include "engine/base/trigonometry.h"
+#include "engine/base/turn.h"
 #include "engine/world/clusters.h"
 #include "engine/world/replace.h"
 
@@ -162,14 +162,6 @@ void add_blows(World& world, Trial& trial) {
   }
 }
 
-Quat turned(const Quat& rotation, const Vec3& turn) {
-  const double angle = turn.norm();
-  if (angle <= 0) return rotation;
-  const SinCos half = sin_cos(0.5 * angle);
-  const Vec3 axis = half.sin / angle * turn;
-  return (Quat(half.cos, axis.x(), axis.y(), axis.z()) * rotation).normalized();
-}
-
 /// Takes over how the bodies move now that something gave way.
 void take_over(World& world, const BreakProbe& probe) {
   for (std::size_t b = 0; b < probe.bodies().size(); ++b) {
@@ -178,7 +170,7 @@ void take_over(World& world, const BreakProbe& probe) {
     const Actor& actor = *world.find(probe.bodies()[b].key);
     BodyState state = world.physics->state(actor.body);
     state.X_WB.position += motion.shift_W;
-    state.X_WB.rotation = turned(state.X_WB.rotation, motion.turn_W);
+    state.X_WB.rotation = (turn_by(motion.turn_W) * state.X_WB.rotation).normalized();
     state.velocity_W = motion.velocity_W;
     state.angular_velocity_W = motion.angular_velocity_W;
     world.physics->set_state(actor.body, state);

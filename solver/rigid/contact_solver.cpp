@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/base/turn.h"
 #include "solver/rigid/motion.h"
 
 namespace sunder::solver {

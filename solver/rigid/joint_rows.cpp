@@ -1,6 +1,6 @@
 #include "solver/rigid/joint_rows.h"
 
-#include "solver/rigid/motion.h"
+#include "engine/base/turn.h"
 
 namespace sunder::solver {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/trigonometry.h"
+#include "engine/base/turn.h"
 
 namespace sunder::solver {
 namespace {
@@ -53,18 +53,6 @@ bool wobbles(const Bodies& bodies, std::uint32_t body, double dt_s) {
 }
 
 }  // namespace
-
-Quat turn_by(const Vec3& angle_W) {
-  const double angle = angle_W.norm();
-  if (angle < 1e-3) {  // sin(x/2)/x to 1e-15
-    const double square = angle * angle;
-    const Vec3 v = (0.5 - square / 48) * angle_W;
-    return Quat(1 - square / 8, v.x(), v.y(), v.z()).normalized();
-  }
-  const SinCos half = sin_cos(0.5 * angle);
-  const Vec3 v = (half.sin / angle) * angle_W;
-  return Quat(half.cos, v.x(), v.y(), v.z());
-}
 
 void fly(Bodies& bodies, std::uint32_t body, const Vec3& gravity_W, double dt_s) {
   const Vec3 way = dt_s * (bodies.velocity[body] + 0.5 * dt_s * gravity_W);

@@ -14,7 +14,4 @@ void fly(Bodies& bodies, std::uint32_t body, const Vec3& gravity_W, double dt_s)
 /// keeps the energy, provided that the velocity then turns with the body.
 Vec3 gyroscopic_change(const Bodies& bodies, std::uint32_t body, double dt_s);
 
-/// The turn by a rotation vector.
-Quat turn_by(const Vec3& angle_W);
-
 }  // namespace sunder::solver

@@ -54,6 +54,17 @@ TEST(RigidPhysics, KeepsMomentumInAPileWithoutGravity) {
   EXPECT_LT((world.angular_momentum() - l).norm(), 1e-2 * momentum_scale);
 }
 
+TEST(RigidPhysics, ABodyInContactKeepsItsSpinHoweverFast) {
+  RigidWorld world;
+  world.add(W::with_friction(W::ground(), 0));
+  BodyDesc top = W::with_friction(W::box(Vec3(0.4, 0.2, 0.4), Vec3(0, 0.1, 0)), 0);
+  top.angular_velocity_W = Vec3(0, 150, 0);  // 2.5 rad a step
+  world.add(top);
+  const double spin = world.angular_momentum().y();
+  EXPECT_GT(world.run(1, 1.0 / 60, 4).contacts, 0u);
+  EXPECT_NEAR(world.angular_momentum().y(), spin, 1e-4 * spin);
+}
+
 TEST(RigidPhysics, ReportsTheImpulsesThatCameFromOutside) {
   RigidWorld world;
   world.add(W::ground());
