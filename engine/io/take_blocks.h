@@ -1,4 +1,4 @@
-// The blocks a take consists of. Layout of the file: "SUNDERT3", blocks one after the other, and,
+// The blocks a take consists of. Layout of the file: "SUNDERT4", blocks one after the other, and,
 // where the run came to its end, an index of them, of which the last 16 bytes say where it begins.
 //
 // A block is a header and bytes in zstd. Blocks of one chunk of frames (a key frame and those that
