@@ -59,7 +59,7 @@ struct Pile {
 };
 
 /// `count` hulls of 8 to 16 vertices, 0.1 to 0.5 m, dropped into a pit.
-inline Pile rubble(int count) {
+inline Pile rubble(int count, std::uint64_t seed = 1) {
   constexpr double kPitch_m = 0.45;
   Pile set;
   const int side = std::max(3, static_cast<int>(std::lround(std::cbrt(count / 2.0))));
@@ -67,7 +67,7 @@ inline Pile rubble(int count) {
   set.ground();
   for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)})
     set.ground(normal, -half * normal);
-  Random random(1);
+  Random random(seed);
   for (int i = 0; i < count; ++i) {
     const double size = random.uniform(0.1, 0.5);
     std::vector<Vec3> points(8 + random.below(9));

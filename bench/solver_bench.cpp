@@ -3,7 +3,7 @@
 // were measured at (one thread, a like machine).
 //
 //   solver_bench [--scene NAME] [--threads N] [--substeps N] [--sweeps N] [--frames N] [--rate HZ]
-//                [--colors N] [--lanes N] [--sleep]
+//                [--colors N] [--lanes N] [--seed N] [--sleep]
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -39,6 +39,7 @@ struct Options {
   int lanes = 0;
   int frames = 0;  ///< 0: the scene's own.
   double rate_Hz = 60;
+  int seed = 1;  ///< Of rubble.
   bool sleep = false;
 };
 
@@ -146,16 +147,17 @@ void run_all(const Options& options) {
   set_threads(options.threads);
   std::printf("%d thread(s), %.0f Hz, %d substeps, sleeping %s; processor time\n", options.threads,
               options.rate_Hz, options.substeps, options.sleep ? "on" : "off");
+  const auto seed = static_cast<std::uint64_t>(options.seed);
   settle(
-      "rubble-2000", [] { return rubble(2000); }, 600, options,
+      "rubble-2000", [=] { return rubble(2000, seed); }, 600, options,
       "Box3D 4.6, 6.3, 9.2 (3.8/67, 1.7/50, 1.7/50 mm); Jolt 6.9 (8.9/70); PhysX TGS 4, 16: "
       "7.1 (.62/36), 9.6 (.075/4.5)");
   settle(
-      "rubble-5000", [] { return rubble(5000); }, 600, options,
+      "rubble-5000", [=] { return rubble(5000, seed); }, 600, options,
       "Box3D 29-31, worst 62-77 (2.6/42 mm, 9e-7 m/s); Jolt 32 (11.3/56); PhysX 31 (1.15/40)");
   if (options.scene == "rubble-20000")
     settle(
-        "rubble-20000", [] { return rubble(20000); }, 420, options,
+        "rubble-20000", [=] { return rubble(20000, seed); }, 420, options,
         "Box3D 216, worst 556 (2.7/71 mm); Jolt 227 (11.7/77); PhysX 157 (1.3/66)");
   shoot_wall(options);
   settle(
@@ -196,6 +198,8 @@ bool parse(int argc, char** argv, Options& options) {
       options.lanes = std::atoi(value.c_str());
     else if (flag == "--frames")
       options.frames = std::atoi(value.c_str());
+    else if (flag == "--seed")
+      options.seed = std::atoi(value.c_str());
     else if (flag == "--rate")
       options.rate_Hz = std::atof(value.c_str());
     else
@@ -213,7 +217,7 @@ int main(int argc, char** argv) {
   if (!sunder::solver::parse(argc, argv, options)) {
     std::fprintf(stderr,
                  "usage: %s [--scene NAME] [--threads N] [--substeps N] [--sweeps N] [--frames N] "
-                 "[--rate HZ, >= 60] [--colors 0..64] [--lanes N] [--sleep]\n",
+                 "[--rate HZ, >= 60] [--colors 0..64] [--lanes N] [--seed N] [--sleep]\n",
                  argv[0]);
     return 2;
   }

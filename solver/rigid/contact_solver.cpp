@@ -72,6 +72,7 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
       bodies,      contacts, touching_, first_split_, split_, root_W_, {rows, parts_.data()},
       soft_step(h)};
   step.deep_contacts = deep_contacts_;
+  step.bears_on = bears_on_;
   step.gravity_W = gravity_W.cast<float>();
   step.impulse_scale = last_h_s_ > 0 ? static_cast<float>(h / last_h_s_) : 1.f;
   step.bounce_speed_m_s = static_cast<float>(2 * gravity_W.norm() * dt_s) + 1e-3f;
@@ -254,6 +255,7 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
   constexpr std::size_t kKeys = (kMaxColors + 1) * 4;
   std::uint32_t start[kKeys + 1] = {};
   in_contact_.assign(bodies.size(), 0);
+  bears_on_.assign(bodies.size(), 0);
   points_ = 0;
   deep_contacts_.clear();
   auto key = [](const Manifold& m) { return std::size_t{m.color} * 4 + 4 - m.count; };
@@ -266,6 +268,9 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
   for_each([&](std::uint32_t, const Manifold& m) {
     ++start[key(m) + 1];
     in_contact_[m.body_a] = in_contact_[m.body_b] = 1;
+    if (m.normal_impulse() > 0)
+      for (const std::uint32_t body : {m.body_a, m.body_b})
+        bears_on_[body] = std::min<std::uint8_t>(bears_on_[body] + 1, 3);
     points_ += m.count;
     if (!m.deep) return;
     deep_contacts_.resize(bodies.size());

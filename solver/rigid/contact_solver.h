@@ -62,6 +62,7 @@ class ContactSolver {
   std::vector<std::uint32_t> flying_;    ///< Awake bodies that touch nothing.
   std::vector<std::uint8_t> in_contact_;
   std::vector<std::uint8_t> jointed_;         ///< By body slot: held by a joint.
+  std::vector<std::uint8_t> bears_on_;        ///< Loaded manifolds by body slot, at most 3.
   std::vector<std::uint32_t> deep_contacts_;  ///< By body slot; empty if there are none.
   std::vector<BodyRow> rows_;                 ///< By body slot + 1; row 0 stays still.
   std::vector<Mat3f> root_W_;

@@ -60,6 +60,7 @@ struct Manifold {
   bool unseeded = false;     ///< Came with a new body: gets its load before the next solve.
   float friction = 0;
   float restitution = 0;
+  float ease = 1;                   ///< How soft its springs are; less where it bears much.
   float size_m = 0;                 ///< Yardstick: inner radius of the smaller shape.
   Vec3f normal_W = Vec3f::UnitY();  ///< From a to b.
   Vec3f normal_body = Vec3f::UnitY();

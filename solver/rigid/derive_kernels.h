@@ -131,6 +131,15 @@ SUNDER_INLINE void derive_points(const GatheredBlock<lanes>& g, ConstraintBlock<
   }
 }
 
+template <std::uint32_t lanes>
+SUNDER_INLINE void derive_springs(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+  using V = WideOf<lanes>;
+  const V mass = splat<V>(g.press.mass_scale), give = g.ease * splat<V>(g.press.impulse_scale);
+  c.press_mass = mass / (mass + give), c.press_give = give / (mass + give);
+  if (!c.split) return;
+  for (std::uint32_t i = 0; i < c.points; ++i) c.parts.press_ease[i] *= g.ease;
+}
+
 template <bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE void derive_rebounds(const GatheredBlock<lanes>& g, const SolverRows& bodies,
                                    ConstraintBlock<lanes>& c) {
@@ -162,6 +171,7 @@ void derive(GatheredBlock<lanes>& g, const SolverRows& bodies, ConstraintBlock<l
   derive_friction(g, c);
   if (c.rolls) derive_roll(g, c);
   derive_points(g, c);
+  derive_springs(g, c);
   if (any(g.restitution > WideOf<lanes>{}))
     c.split ? derive_rebounds<true>(g, bodies, c) : derive_rebounds<false>(g, bodies, c);
   if (g.sleepers) hold_sleepers(g, c);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kMargin = 0.05f;         // of the smaller inner radius: contact before touch
 constexpr float kAxisTolerance = 0.01f;  // of it: how much better another axis must be
+constexpr float kLayer = 0.02f;          // of it: points so far above the lowest still count
 constexpr float kStill = 1e-6f;          // of it: a way that is not worth a look
 constexpr float kSliver = 1e-3f;         // of it: an overlap of faces that is no area
 constexpr float kRounding = 5e-7f;       // of a length in floats
@@ -20,13 +21,13 @@ using Kind = ShapeDesc::Kind;
 struct Probe {
   const Shape& a;
   const Shape& b;
-  float tolerance_m;
+  float size_m;
   NarrowScratch& scratch;
 
   SeparatingAxis axis(const RelativePose& pose, const AxisReach& reach) const {
     if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
       place_in_each_other(a.hull, b.hull, pose, scratch.hulls);
-      return separating_axis(a.hull, b.hull, pose, reach, tolerance_m, scratch.hulls);
+      return separating_axis(a.hull, b.hull, pose, reach, kAxisTolerance * size_m, scratch.hulls);
     }
     const Vec3f center_b = pose.R * b.center + pose.p;
     SeparatingAxis axis;
@@ -42,11 +43,12 @@ struct Probe {
     return axis;
   }
 
-  void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m) const {
+  void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m,
+              float layer_m) const {
     scratch.points.clear();
     if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
       make_patch(a.hull, b.hull, pose, axis, reach_m, scratch.hulls, scratch.patch, scratch.points);
-      reduce_patch(axis.normal_A, scratch.points);
+      reduce_patch(axis.normal_A, layer_m, scratch.points);
     } else {
       const Vec3f on_b = pose.R * b.center + pose.p - b.radius_m * axis.normal_A;
       scratch.points.push_back(
@@ -73,8 +75,16 @@ float time_of_impact(const Probe& probe, const PairMotion& motion, const Vec3f& 
   return time;
 }
 
+struct Reach {
+  float margin_m;  ///< Always.
+  float spin_m;    ///< What turning may add within the step.
+  float way_m;     ///< What moving may add within the step.
+
+  float all_m() const { return margin_m + spin_m + way_m; }
+};
+
 void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
-                        const PairMotion& motion, float reach_m, Manifold& m,
+                        const PairMotion& motion, const Reach& reach, Manifold& m,
                         NarrowScratch& scratch) {
   const Quat& q_a = bodies.rotation[pair.body_a];
   const Vec3 normal_W = q_a * a.normal.cast<double>();
@@ -85,24 +95,18 @@ void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const 
   points.clear();
   auto add = [&](const Vec3f& point_B, std::uint32_t feature) {
     const float separation = height + normal_B.dot(point_B);
-    if (separation > reach_m) return;
+    if (separation > reach.all_m()) return;
     const Vec3f on_b = motion.pose.R * point_B + motion.pose.p;
     points.push_back({on_b - separation * a.normal, on_b, separation, feature});
   };
   if (b.kind == Kind::kHull) {
     for (std::uint32_t v = 0; v < b.hull.vertex_count(); ++v) add(b.hull.vertex(v), v);
-    reduce_patch(a.normal, points);
+    reduce_patch(a.normal, kLayer * m.size_m + reach.spin_m, points);
   } else {
     add(b.center - b.radius_m * normal_B, 0);
   }
   build_manifold(pair, bodies, motion, a.normal, points, Vec3f::Zero(), m);
 }
-
-struct Reach {
-  float margin_m;  ///< Always.
-  float spin_m;    ///< What turning may add within the step.
-  float way_m;     ///< What moving may add within the step.
-};
 
 Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
                const PairMotion& motion, const NarrowStep& step, float size_m) {
@@ -119,7 +123,7 @@ Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& b
 void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const PairMotion& motion,
                   const Reach& reach, double dt_s, Pair& pair, Manifold& m,
                   NarrowScratch& scratch) {
-  const Probe probe{a, b, kAxisTolerance * m.size_m, scratch};
+  const Probe probe{a, b, m.size_m, scratch};
   const auto dt = static_cast<float>(dt_s);
   const Vec3f velocity_A = bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W;
   AxisReach axis_reach{reach.margin_m + reach.spin_m, dt * velocity_A};
@@ -134,7 +138,8 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   }
   const float limit = axis_reach.along(axis.normal_A);
   scratch.points.clear();
-  if (time >= 0 && axis.separation_m <= limit) probe.points(pose, axis, limit);
+  if (time >= 0 && axis.separation_m <= limit)
+    probe.points(pose, axis, limit, kLayer * m.size_m + reach.spin_m);
   pair.clearance_m = time == 0 && scratch.points.empty() ? axis.separation_m : -1;
   pair.axis_A = pair.clearance_m > 0 ? axis.normal_A : Vec3f(Vec3f::Zero());
   m.normal_on_b = axis.kind == SeparatingAxis::Kind::kFaceB;
@@ -194,7 +199,6 @@ void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep
   const PairMotion motion = pair_motion(pair, bodies);
   const float size_m = std::min(a.inner_radius_m, b.inner_radius_m);
   const Reach reach = reach_of(a, b, pair, bodies, motion, step, size_m);
-  const float limit = reach.margin_m + reach.spin_m + reach.way_m;
   pair.turned_m = bodies.turned_m[pair.body_a] + bodies.turned_m[pair.body_b];
   pair.offset_W = motion.offset_W;
   pair.margin_m = reach.margin_m;
@@ -215,7 +219,7 @@ void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep
   if (a.kind == Kind::kHalfSpace) {
     m.normal_on_b = false;
     m.reusable = b.kind == Kind::kHull;
-    half_space_contact(a, b, pair, bodies, motion, limit, m, scratch);
+    half_space_contact(a, b, pair, bodies, motion, reach, m, scratch);
   } else {
     make_contact(a, b, bodies, motion, reach, step.dt_s, pair, m, scratch);
   }

@@ -107,6 +107,18 @@ PatchPoint deepest_point(const Hull& a, const Hull& b, const SeparatingAxis& axi
   return {on_a ? opposite : tip, on_a ? tip : opposite, axis.separation_m, 3u << 29 | best};
 }
 
+void drop_high(float layer_m, std::vector<PatchPoint>& points) {
+  std::array<float, 4> low;  // the least separations, ascending
+  low.fill(1e30f);
+  for (const PatchPoint& p : points) {
+    if (p.separation_m >= low[3]) continue;
+    low[3] = p.separation_m;
+    for (std::size_t i = 3; i > 0 && low[i] < low[i - 1]; --i) std::swap(low[i], low[i - 1]);
+  }
+  const float limit = std::max(low[0] + layer_m, low[3]);
+  std::erase_if(points, [&](const PatchPoint& p) { return p.separation_m > limit; });
+}
+
 }  // namespace
 
 void make_patch(const Hull& a, const Hull& b, const RelativePose& pose, const SeparatingAxis& axis,
@@ -120,7 +132,9 @@ void make_patch(const Hull& a, const Hull& b, const RelativePose& pose, const Se
   if (points.empty() && axis.separation_m < 0) points.push_back(deepest_point(a, b, axis, hulls));
 }
 
-void reduce_patch(const Vec3f& normal_A, std::vector<PatchPoint>& points) {
+void reduce_patch(const Vec3f& normal_A, float layer_m, std::vector<PatchPoint>& points) {
+  if (points.size() <= 4) return;
+  drop_high(layer_m, points);
   if (points.size() <= 4) return;
   auto best_by = [&](auto score) {
     std::size_t best = 0;

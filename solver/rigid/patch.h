@@ -30,7 +30,9 @@ void make_patch(const Hull& a, const Hull& b, const RelativePose& pose, const Se
                 float reach_m, const HullScratch& hulls, PatchScratch& scratch,
                 std::vector<PatchPoint>& points);
 
-/// Keeps at most four points: the deepest, and those that span the largest area with it.
-void reduce_patch(const Vec3f& normal_A, std::vector<PatchPoint>& points);
+/// Keeps at most four points: the deepest, and those that span the largest area with it. Points
+/// more than `layer_m` above the deepest count only if there are not four below: a piece would
+/// tip onto what was left out in their favour.
+void reduce_patch(const Vec3f& normal_A, float layer_m, std::vector<PatchPoint>& points);
 
 }  // namespace sunder::solver

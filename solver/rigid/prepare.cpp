@@ -3,9 +3,19 @@
 #include "solver/rigid/prepare.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sunder::solver {
 namespace {
+
+// Springs go by the mass they hold, so a pebble that boulders press into a corner sinks in by a
+// share of its size. What gives way by more than this share of it gets stiffer
+// (docs/decisions/031); slowly, or an impact would be thrown back by a spring that hardened while
+// it was compressed.
+constexpr float kMostGive = 0.01f;    // of the inner radius of the smaller shape
+constexpr float kLeastEase = 0.1f;    // beyond, sweeps do not keep up
+constexpr float kEaseStep = 0.97f;    // a step
+constexpr std::uint8_t kPinched = 3;  // contacts: a pebble under a column, held by two, bounces
 
 template <class V>
 void set_lane(Triple<V>& v, std::uint32_t lane, const Vec3f& value) {
@@ -76,6 +86,7 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
   c.rolls = c.rolls || m.rolling_m > 0;
   set_lane(g.roll_impulse, lane, step.impulse_scale * m.roll_impulse_W);
   g.restitution[lane] = m.restitution;
+  g.ease[lane] = m.ease;
   const float most_overlap = most_overlap_m(step, m);
   for (std::size_t i = 0; i < m.count; ++i) {
     const ManifoldPoint& p = m.points[i];
@@ -97,6 +108,7 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c) {
   c.first = first, c.count = count, c.points = points, c.split = split;
   GatheredBlock<lanes> g;
   g.bounce_speed_m_s = step.bounce_speed_m_s;
+  g.press = step.soft.press[points - 1];
   for (std::uint32_t lane = 0; lane < lanes; ++lane) g.parts_a[lane] = g.parts_b[lane] = 1;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
     const Manifold& m = step.contacts.manifolds[step.manifolds[first + lane]];
@@ -109,6 +121,24 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c) {
     g.parts_b[lane] = static_cast<float>(sides.parts_b);
   }
   derive(g, step.rows, c);
+}
+
+/// How soft a contact should be for the load it bears, approached from how soft it was.
+template <std::uint32_t lanes>
+float ease_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
+               const Manifold& m) {
+  float least = 1;
+  const bool a_is_lighter = step.bodies.inverse_mass[m.body_a] > step.bodies.inverse_mass[m.body_b];
+  if (step.bears_on[a_is_lighter ? m.body_a : m.body_b] >= kPinched) {
+    const float yield_s = step.soft.press[c.points - 1].yield_s, most_m = kMostGive * m.size_m;
+    float give_m = 0;
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const float mass = c.point[i].mass[lane], seated_m = std::abs(m.points[i].rest_m);
+      if (mass > 0) give_m = std::max(give_m, yield_s * c.point[i].impulse[lane] / mass - seated_m);
+    }
+    if (give_m > most_m) least = std::max(kLeastEase, most_m / give_m);
+  }
+  return std::clamp(least, kEaseStep * m.ease, std::min(1.f, m.ease / kEaseStep));
 }
 
 template <std::uint32_t lanes>
@@ -129,6 +159,7 @@ void store_block(const ContactStep& step, const ConstraintBlock<lanes>& c) {
     if (c.rolls)
       m.roll_impulse_W = c.roll.impulse_1[lane] * lane_of(c.tangent_1, lane) +
                          c.roll.impulse_2[lane] * lane_of(c.tangent_2, lane);
+    m.ease = ease_now(step, c, lane, m);
     m.step_impulse_W = lane_of(c.total, lane);
     const float limit = c.friction[lane] * 0.999f;
     if (s1 * s1 + s2 * s2 >= limit * limit * normal * normal) m.sticking = false;

@@ -21,6 +21,8 @@ struct alignas(64) GatheredBlock {
   Wide3Of<lanes> arm_a[4] = {}, arm_b[4] = {};
   Wide3Of<lanes> gravity = {};  ///< Acceleration of b from a.
   WideOf<lanes> restitution = {};
+  Softness press;           ///< By the number of points.
+  WideOf<lanes> ease = {};  ///< Of the springs that press.
   WideOf<lanes> awake_a = {}, awake_b = {};
   WideOf<lanes> parts_a = {}, parts_b = {};  ///< Into which a split block cuts its bodies.
   float bounce_speed_m_s = 0;                ///< Slower impacts do not bounce.

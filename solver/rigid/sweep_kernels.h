@@ -198,7 +198,8 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
     V change;
     if constexpr (kBiased) {
       u += apart ? s * soft.inverse_h : max(s * press.rate, splat<V>(-soft.push_m_s));
-      const auto spring = Spring<V>::template of<kSplit>(press, c.parts.press_ease[i]);
+      Spring<V> spring{c.press_mass, c.press_give};
+      if constexpr (kSplit) spring = Spring<V>::template of<true>(press, c.parts.press_ease[i]);
       const V mass_scale = apart ? one : spring.mass_scale;
       const V impulse_scale = apart ? zero : spring.impulse_scale;
       change = -p.mass * mass_scale * u - impulse_scale * p.impulse;

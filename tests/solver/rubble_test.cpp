@@ -1,0 +1,124 @@
+// Rubble: how deep its pieces press into each other, how still they lie, and how soon they sleep.
+#include <algorithm>
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "solver/rigid/patch.h"
+#include "tests/solver/rigid_world.h"
+
+namespace sunder::solver {
+namespace {
+
+using W = RigidWorld;
+
+constexpr double kDt_s = 1.0 / 60;
+constexpr int kSubsteps = 8;
+constexpr std::size_t kWalls = 5;
+
+/// 300 hulls of 10 to 50 cm, some 500 times as heavy as others, above a pit.
+void add_rubble(RigidWorld& world) {
+  constexpr double kPitch_m = 0.45, kHalf_m = 1.4;
+  world.add(W::ground());
+  for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+    BodyDesc wall = W::ground(normal);
+    wall.X_WB.position = -kHalf_m * normal;
+    world.add(wall);
+  }
+  Random random(1);
+  for (int i = 0; i < 300; ++i) {
+    const double size = random.uniform(0.1, 0.5);
+    std::vector<Vec3> points(8 + random.below(9));
+    for (Vec3& point : points) point = 0.5 * size * random.direction();
+    const Vec3 cell(i % 5 - 2, i / 25, i / 5 % 5 - 2);
+    const Vec3 jitter(random.uniform(-0.05, 0.05), 0.4, random.uniform(-0.05, 0.05));
+    world.add(W::hull(make_hull(points), kPitch_m * cell + jitter, 2000));
+  }
+}
+
+struct Depth {
+  double mean_m = 0, most_m = 0;
+};
+
+Depth depth_of(RigidWorld& world) {
+  Depth depth;
+  const std::vector<float> depths = world.physics().penetrations();
+  for (const float d : depths) {
+    depth.mean_m += double{d} / static_cast<double>(depths.size());
+    depth.most_m = std::max(depth.most_m, double{d});
+  }
+  return depth;
+}
+
+double rms_speed(const RigidWorld& world) {
+  double square = 0;
+  for (std::size_t i = kWalls; i < world.size(); ++i)
+    square += world.state(world.id(i)).velocity_W.squaredNorm();
+  return std::sqrt(square / static_cast<double>(world.size() - kWalls));
+}
+
+double share_asleep(const RigidWorld& world) {
+  double asleep = 0;
+  for (std::size_t i = kWalls; i < world.size(); ++i) asleep += world.state(world.id(i)).asleep;
+  return asleep / static_cast<double>(world.size() - kWalls);
+}
+
+RigidOptions never_asleep() {
+  RigidOptions options;
+  options.sleeping = false;
+  return options;
+}
+
+TEST(Rubble, AtRestPressesItsPiecesIntoEachOtherByAFewMillimetresAndLiesStill) {
+  RigidWorld world(never_asleep());
+  add_rubble(world);
+  world.run(10, kDt_s, kSubsteps);
+  const Depth depth = depth_of(world);
+  std::printf("300 hulls: %.3f mm deep, %.2f mm at most, rms speed %.1e m/s\n", 1e3 * depth.mean_m,
+              1e3 * depth.most_m, rms_speed(world));
+  EXPECT_LT(depth.mean_m, 0.2e-3);
+  EXPECT_LT(depth.most_m, 4e-3);
+  EXPECT_LT(rms_speed(world), 1e-4);
+}
+
+TEST(Rubble, SleepsWithinThreeSecondsOfItsRestAndNoDeeperThanAwake) {
+  RigidWorld awake(never_asleep()), world;
+  add_rubble(awake);
+  add_rubble(world);
+  double rest_s = 0;
+  for (; rest_s < 10 && (rest_s < 1 || rms_speed(awake) > 0.01); rest_s += kDt_s) {
+    awake.step(kDt_s, kSubsteps);
+    world.step(kDt_s, kSubsteps);
+  }
+  awake.run(3, kDt_s, kSubsteps);
+  world.run(3, kDt_s, kSubsteps);
+  const Depth allowed = depth_of(awake), depth = depth_of(world);
+  std::printf(
+      "300 hulls at rest after %.1f s, 3 s later %.1f %% asleep; %.3f mm deep, %.2f mm at "
+      "most, awake %.3f and %.2f mm\n",
+      rest_s, 100 * share_asleep(world), 1e3 * depth.mean_m, 1e3 * depth.most_m,
+      1e3 * allowed.mean_m, 1e3 * allowed.most_m);
+  EXPECT_LT(rest_s, 10);
+  EXPECT_GT(share_asleep(world), 0.9);
+  EXPECT_LT(depth.mean_m, 1.1 * allowed.mean_m);
+  EXPECT_LT(depth.most_m, 1.1 * allowed.most_m);
+}
+
+// A stone on three corners: the fourth point is far above the ground but spans the most.
+TEST(Rubble, APieceStandsOnItsLowestPointsAndNotOnThoseThatSpanTheMost) {
+  const auto point = [](double x, double z, double separation, std::uint32_t feature) {
+    const Vec3f at(static_cast<float>(x), 0, static_cast<float>(z));
+    return PatchPoint{at, at, static_cast<float>(separation), feature};
+  };
+  std::vector<PatchPoint> points = {
+      point(-55.8e-3, -29.2e-3, -0.185e-3, 0), point(16.5e-3, -54.8e-3, 3.561e-3, 4),
+      point(54e-3, -9.2e-3, -0.251e-3, 7), point(-5.8e-3, 65.4e-3, 0.803e-3, 9),
+      point(31e-3, 52.8e-3, -0.258e-3, 12)};
+  reduce_patch(Vec3f::UnitY(), 0.8e-3f, points);
+  std::vector<std::uint32_t> kept;
+  for (const PatchPoint& p : points) kept.push_back(p.feature);
+  EXPECT_EQ(kept, (std::vector<std::uint32_t>{0, 7, 9, 12}));
+}
+
+}  // namespace
+}  // namespace sunder::solver
