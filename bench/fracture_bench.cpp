@@ -42,8 +42,9 @@ BENCHMARK(Pattern_of_100_cells)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
 void run_event(benchmark::State& state, const Compound& solid, const BreakCommand& command) {
   set_threads(1);
   const auto breaker = make_pattern_breaker();
+  const Structure structure(solid);
   std::size_t pieces = 0;
-  for (auto _ : state) pieces = breaker->plan(solid, command).pieces.size();
+  for (auto _ : state) pieces = breaker->plan(structure, command).loose.pieces.size();
   state.counters["pieces"] = static_cast<double>(pieces);
 }
 
@@ -89,7 +90,7 @@ void Event_in_a_building(benchmark::State& state) {
   state.counters["convexes"] = building.structure.size();
   state.counters["bytes_per_convex"] = building.structure.bytes_per_convex();
   state.counters["touched"] =
-      static_cast<double>(building.structure.touched(building.sphere).size());
+      static_cast<double>(building.sphere.touched(building.structure).size());
   state.counters["pieces"] = static_cast<double>(pieces);
 }
 BENCHMARK(Event_in_a_building)->Arg(10000)->Arg(20000)->Arg(40000)->Unit(benchmark::kMillisecond);
@@ -120,7 +121,7 @@ BENCHMARK(Event_carried_out_in_a_building)
 /// Islands after 50 convexes are gone, from what is known.
 void Islands_after_a_break(benchmark::State& state) {
   const Building building(state.range(0));
-  const std::vector<std::uint32_t> gone = building.structure.touched(building.sphere);
+  const std::vector<std::uint32_t> gone = building.sphere.touched(building.structure);
   std::vector<std::uint32_t> seeds;
   const auto is_gone = [&](std::uint32_t slot) {
     return std::binary_search(gone.begin(), gone.end(), slot);

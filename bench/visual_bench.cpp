@@ -16,7 +16,7 @@
 #include "engine/io/mesh_reader.h"
 #include "engine/world/piece_mesh.h"
 #include "fracture/fracture.h"
-#include "fracture/structure.h"
+#include "fracture/impact_sphere.h"
 #include "fracture/vacd.h"
 
 namespace sunder::fracture {
@@ -62,7 +62,7 @@ void run_event(benchmark::State& state, const Compound& solid, int cells, double
     const BreakEdit edit = break_structure(structure, pattern, placement, sphere, ++event);
     pieces = edit.loose.pieces.size();
   }
-  state.counters["touched"] = static_cast<double>(structure.touched(sphere).size());
+  state.counters["touched"] = static_cast<double>(sphere.touched(structure).size());
   state.counters["convexes"] = static_cast<double>(solid.convexes.size());
   state.counters["pieces"] = static_cast<double>(pieces);
 }

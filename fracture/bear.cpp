@@ -21,6 +21,8 @@ constexpr double kAlike = 0.97;
 constexpr int kRounds = 64;               // of cutting and solving again in one answer
 constexpr int kMostIterations = 2000;     // a solve that needs more is given up, and cuts nothing
 constexpr std::uint64_t kSetUpWork = 10;  // iterations that making a system costs, about
+// However much making the system took: or breaks in every frame would keep it from being solved.
+constexpr std::uint64_t kLeastIterations = 4;
 // Stress at a bond's own corners is at most so many times that of its section: those well below
 // the limit need no closer look.
 constexpr double kWorthALook = 0.6;
@@ -65,15 +67,24 @@ bool same_place(const Bond& x, const Bond& y) {
   return std::tie(x.a, x.b, x.face_a, x.face_b) == std::tie(y.a, y.b, y.face_a, y.face_b);
 }
 
-/// A compound while its bonds are cut.
+/// A structure while its bonds are cut.
 class Bearing {
  public:
-  Bearing(const Compound& compound, const LoadCase& load)
-      : compound_(compound), load_(load), memory_(std::make_shared<Memory>()) {}
+  Bearing(const Structure& structure, const LoadCase& load)
+      : compound_(structure.compound()), load_(load), memory_(std::make_shared<Memory>()) {
+    structure.for_each([&](std::uint32_t slot, const Convex&) { slots_.push_back(slot); });
+    loads_.assign(load.loads.begin(), load.loads.end());
+    for (Load& one : loads_) {
+      const auto at = std::lower_bound(slots_.begin(), slots_.end(), one.convex);
+      one.convex = static_cast<std::uint32_t>(at - slots_.begin());
+    }
+  }
 
   LoadAnswer run() {
     LoadAnswer answer;
     recall(answer);
+    most_work_ =
+        std::max(load_.most_work, answer.work + kLeastIterations * memory_->system->work());
     for (int round = 0; round < kRounds; ++round) {
       if (!solve(answer)) break;
       const std::vector<std::uint32_t> cut = overloaded(answer);
@@ -81,11 +92,10 @@ class Bearing {
         answer.settled = true;
         break;
       }
-      answer.cut += static_cast<std::uint32_t>(cut.size());
       remove(cut);
       answer.work += kSetUpWork * memory_->system->work();
     }
-    make_plan(answer);
+    part(answer.edit);
     memory_->bonds = compound_.bonds;
     memory_->convexes = compound_.convexes;
     memory_->anchored = compound_.anchored;
@@ -145,11 +155,11 @@ class Bearing {
   /// False if the stress is not known by now: there is no work left, or it is given up.
   bool solve(LoadAnswer& answer) {
     const std::uint64_t each = std::max<std::uint64_t>(1, memory_->system->work());
-    if (answer.work >= load_.most_work) return false;
+    if (answer.work >= most_work_) return false;
     const auto left = static_cast<int>(
-        std::min<std::uint64_t>(kMostIterations, 1 + (load_.most_work - answer.work) / each));
-    const SolveResult result = memory_->system->solve(load_.loads, load_.gravity_R, kTolerance,
-                                                      left, memory_->displacements);
+        std::min<std::uint64_t>(kMostIterations, 1 + (most_work_ - answer.work) / each));
+    const SolveResult result =
+        memory_->system->solve(loads_, load_.gravity_R, kTolerance, left, memory_->displacements);
     answer.work += each * static_cast<std::uint64_t>(1 + result.iterations);
     memory_->iterations = result.converged ? 0 : memory_->iterations + result.iterations;
     answer.settled = memory_->iterations >= kMostIterations;
@@ -220,51 +230,78 @@ class Bearing {
         std::make_shared<const StressSystem>(compound_, std::move(geometry), load_.materials);
   }
 
-  /// Islands as pieces, in the order of their first convex.
-  void make_plan(LoadAnswer& answer) const {
+  /// The island that stays: the largest of those that are held, or of all.
+  std::uint32_t staying(const std::vector<std::uint32_t>& island, std::uint32_t islands) const {
+    std::vector<std::pair<bool, std::uint32_t>> rank(islands);
+    for (std::uint32_t c = 0; c < island.size(); ++c) {
+      rank[island[c]].first |= compound_.anchored[c] != 0;
+      ++rank[island[c]].second;
+    }
+    return static_cast<std::uint32_t>(std::max_element(rank.begin(), rank.end()) - rank.begin());
+  }
+
+  Bond by_slots(const Bond& bond) const {
+    return {slots_[bond.a], slots_[bond.b], bond.face_a, bond.face_b, bond.area_m2};
+  }
+
+  /// Islands but one come off, as pieces in the order of their first convex.
+  void part(BreakEdit& edit) const {
+    for (const Bond& bond : cut_) edit.cut.push_back(by_slots(bond));
     const std::vector<std::uint32_t> island = find_islands(compound_);
     const std::uint32_t islands = 1 + *std::max_element(island.begin(), island.end());
-    if (islands == 1 && cut_.empty()) return;
-    BreakPlan& plan = answer.plan;
-    plan.pieces.resize(islands);
+    if (islands == 1) return;
+    const std::uint32_t stays = staying(island, islands);
+    const auto piece_of = [&](std::uint32_t c) {  // as exposed faces name it
+      return island[c] == stays ? 0 : island[c] + (island[c] < stays ? 1 : 0);
+    };
+    edit.changed = true;
+    BreakPlan& plan = edit.loose;
+    plan.pieces.resize(islands - 1);
     plan.untouched = static_cast<std::uint32_t>(island.size());
-    std::vector<std::uint32_t> place(island.size());
+    std::vector<std::uint32_t> place = slots_;
     for (std::uint32_t c = 0; c < island.size(); ++c) {
-      Compound& piece = plan.pieces[island[c]];
+      if (island[c] == stays) continue;
+      Compound& piece = plan.pieces[piece_of(c) - 1];
+      edit.removed.push_back(slots_[c]);
       place[c] = static_cast<std::uint32_t>(piece.convexes.size());
       piece.convexes.push_back(compound_.convexes[c]);
       piece.anchored.push_back(compound_.anchored[c]);
     }
     for (const Bond& bond : compound_.bonds) {
-      plan.pieces[island[bond.a]].bonds.push_back(
+      if (island[bond.a] == stays) continue;
+      plan.pieces[piece_of(bond.a) - 1].bonds.push_back(
           {place[bond.a], place[bond.b], bond.face_a, bond.face_b, bond.area_m2});
     }
     for (Ghost ghost : compound_.ghosts) {
-      Compound& piece = plan.pieces[island[ghost.of[0]]];
+      if (island[ghost.of[0]] == stays) continue;
+      Compound& piece = plan.pieces[piece_of(ghost.of[0]) - 1];
       for (std::uint32_t& c : ghost.of) c = place[c];
       piece.ghosts.push_back(std::move(ghost));
     }
     for (const Bond& bond : cut_) {
       if (island[bond.a] == island[bond.b]) continue;
       plan.new_area_m2 += bond.area_m2;
-      plan.exposed.push_back({island[bond.a], place[bond.a], bond.face_a, bond.area_m2});
-      plan.exposed.push_back({island[bond.b], place[bond.b], bond.face_b, bond.area_m2});
+      plan.exposed.push_back({piece_of(bond.a), place[bond.a], bond.face_a, bond.area_m2});
+      plan.exposed.push_back({piece_of(bond.b), place[bond.b], bond.face_b, bond.area_m2});
     }
   }
 
   static constexpr std::uint32_t kNew = 0xffffffff;
 
-  Compound compound_;  ///< Less the bonds that are cut.
+  Compound compound_;                 ///< Less the bonds that are cut.
+  std::vector<std::uint32_t> slots_;  ///< Per convex.
   const LoadCase& load_;
+  std::vector<Load> loads_;  ///< On convexes, not slots.
   std::shared_ptr<Memory> memory_;
+  std::uint64_t most_work_ = 0;
   std::vector<Bond> cut_;
 };
 
 }  // namespace
 
-LoadAnswer bear_load(const Compound& compound, const LoadCase& load) {
-  SUNDER_CHECK(!compound.convexes.empty());
-  return Bearing(compound, load).run();
+LoadAnswer bear_load(const Structure& structure, const LoadCase& load) {
+  SUNDER_CHECK(!structure.empty());
+  return Bearing(structure, load).run();
 }
 
 }  // namespace sunder::fracture

@@ -12,9 +12,8 @@ namespace sunder::fracture {
 FailureLog::FailureLog(std::string folder, std::size_t most_files)
     : folder_(std::move(folder)), most_files_(most_files) {}
 
-void FailureLog::add(const Compound& compound, const BreakCommand& command, const BreakPlan& plan) {
-  if (plan.failed == 0) return;
-  failed_ += plan.failed;
+void FailureLog::add(const Compound& compound, const BreakCommand& command, std::uint32_t failed) {
+  failed_ += failed;
   if (folder_.empty() || asked_++ >= most_files_) return;
   const std::string name = folder_ + "/break-" + std::to_string(command.event) + ".case";
   const std::string unfinished = name + ".part";

@@ -19,8 +19,8 @@ class FailureLog {
   /// Writes up to `most_files` cases to `folder`, made when needed; none without a name.
   explicit FailureLog(std::string folder = {}, std::size_t most_files = kMostFiles);
 
-  /// Notes a break if it failed anywhere: to the file break-EVENT.case.
-  void add(const Compound& compound, const BreakCommand& command, const BreakPlan& plan);
+  /// Notes a break that left `failed` convexes whole: to the file break-EVENT.case.
+  void add(const Compound& compound, const BreakCommand& command, std::uint32_t failed);
 
   /// Convexes left whole so far.
   std::uint64_t failed() const { return failed_; }

@@ -37,7 +37,7 @@ void append(BreakPlan island, BreakPlan& plan) {
 BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
                           const Placement& placement, const ImpactSphere& sphere,
                           std::uint64_t event, const Fit& fit) {
-  std::vector<std::uint32_t> touched = structure.touched(sphere);
+  std::vector<std::uint32_t> touched = sphere.touched(structure);
   if (touched.empty()) return {};
   Stopwatch watch;
   Box reach;
@@ -60,6 +60,23 @@ BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
   return edit;
 }
 
+BreakPlan as_pieces(Structure& structure, BreakEdit edit) {
+  structure.apply(edit);
+  BreakPlan plan = std::move(edit.loose);
+  const bool is_gone = structure.empty();
+  if (!is_gone) plan.pieces.insert(plan.pieces.begin(), structure.compound());
+  std::vector<std::uint32_t> index(structure.slot_count());
+  for (std::uint32_t slot = 0, next = 0; slot < index.size(); ++slot) {
+    index[slot] = next;
+    next += structure.has(slot) ? 1 : 0;
+  }
+  for (ExposedFace& face : plan.exposed) {
+    if (face.piece == 0) face.convex = index[face.convex];
+    if (is_gone) --face.piece;
+  }
+  return plan;
+}
+
 BreakPlan fracture(const Compound& compound, const Pattern& pattern, const Placement& placement,
                    const ImpactSphere& sphere, std::uint64_t event, const Fit& fit) {
   const std::vector<Compound> islands = split_islands(compound);
@@ -72,24 +89,9 @@ BreakPlan fracture(const Compound& compound, const Pattern& pattern, const Place
   }
   Structure structure(compound);
   BreakEdit edit = break_structure(structure, pattern, placement, sphere, event, fit);
-  if (!edit.changed) {
-    BreakPlan plan = unbroken(compound);
-    plan.failed = edit.loose.failed;
-    return plan;
-  }
-  structure.apply(edit);
-  BreakPlan plan = std::move(edit.loose);
-  const bool is_gone = structure.size() == 0;
-  if (!is_gone) plan.pieces.insert(plan.pieces.begin(), structure.compound());
-  std::vector<std::uint32_t> index(structure.slot_count());
-  for (std::uint32_t slot = 0, next = 0; slot < index.size(); ++slot) {
-    index[slot] = next;
-    next += structure.convex(slot) ? 1 : 0;
-  }
-  for (ExposedFace& face : plan.exposed) {
-    if (face.piece == 0) face.convex = index[face.convex];
-    if (is_gone) --face.piece;
-  }
+  if (edit.changed) return as_pieces(structure, std::move(edit));
+  BreakPlan plan = unbroken(compound);
+  plan.failed = edit.loose.failed;
   return plan;
 }
 

@@ -11,7 +11,7 @@
 
 #include "engine/world/breaker.h"
 #include "fracture/align.h"
-#include "fracture/structure.h"
+#include "fracture/impact_sphere.h"
 
 namespace sunder::fracture {
 
@@ -20,7 +20,10 @@ BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
                           const Placement& placement, const ImpactSphere& sphere,
                           std::uint64_t event, const Fit& fit = {});
 
-/// The same for a compound, as pieces: what is left of it first. Gives it back as it was, if
+/// Carries an edit out, and gives all there is then as pieces: what is left of the structure first.
+BreakPlan as_pieces(Structure& structure, BreakEdit edit);
+
+/// A break of a compound, as pieces: what is left of it first. Gives it back as it was, if
 /// nothing came off. Islands that do not hang together (a compound given in may have several) break
 /// each on its own, and are pieces in any case.
 BreakPlan fracture(const Compound& compound, const Pattern& pattern, const Placement& placement,

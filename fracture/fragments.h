@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fracture/align.h"
-#include "fracture/structure.h"
+#include "fracture/impact_sphere.h"
 
 namespace sunder::fracture {
 

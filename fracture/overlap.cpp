@@ -220,13 +220,4 @@ std::vector<Ghost> find_ghosts(std::span<const ConvexPtr> convexes, const PartPa
   return ghosts;
 }
 
-void sort_ghosts(std::vector<Ghost>& ghosts) {
-  const auto key = [](const Ghost& ghost) {
-    const Vec3& at = ghost.convex->solid.centroid;
-    return std::tie(ghost.of, ghost.sign, at.x(), at.y(), at.z());
-  };
-  std::stable_sort(ghosts.begin(), ghosts.end(),
-                   [&](const Ghost& a, const Ghost& b) { return key(a) < key(b); });
-}
-
 }  // namespace sunder::fracture

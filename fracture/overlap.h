@@ -35,7 +35,4 @@ bool part_deep_overlaps(std::vector<Part>& parts, const PartPairs& overlaps, dou
 std::vector<Ghost> find_ghosts(std::span<const ConvexPtr> convexes, const PartPairs& overlaps,
                                double tolerance_m);
 
-/// Puts ghosts in the order of Compound::ghosts; those of the same convexes by where they are.
-void sort_ghosts(std::vector<Ghost>& ghosts);
-
 }  // namespace sunder::fracture

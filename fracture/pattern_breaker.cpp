@@ -72,7 +72,7 @@ class PatternBreaker final : public Breaker {
  public:
   explicit PatternBreaker(std::shared_ptr<FailureLog> log) : log_(std::move(log)) {}
 
-  BreakCommand command(const Compound& compound, const Material& material, const Hit& hit,
+  BreakCommand command(const Convex& convex, const Material& material, const Hit& hit,
                        std::uint64_t event, std::uint64_t seed) const override {
     Random random(seed, 3);
     BreakCommand command;
@@ -86,21 +86,24 @@ class PatternBreaker final : public Breaker {
       command.pattern = stronger.pattern;
       command.radius_m = stronger.impact_radius_m;
     }
-    command.X_RP = {hit.point_R, orientation(command.pattern.kind, *compound.convexes[hit.convex],
-                                             hit.direction_R, random)};
+    command.X_RP = {hit.point_R,
+                    orientation(command.pattern.kind, convex, hit.direction_R, random)};
     return command;
   }
 
-  BreakPlan plan(const Compound& compound, const BreakCommand& command) const override {
-    const ReadyBreak ready = make_ready(command, bounds(compound), library_);
-    BreakPlan plan = fracture(compound, *ready.pattern, ready.placement, ready.sphere,
-                              command.event, command.fit);
-    if (log_) log_->add(compound, command, plan);
-    return plan;
+  BreakEdit plan(const Structure& structure, const BreakCommand& command) const override {
+    const bool whole = command.radius_m == std::numeric_limits<double>::infinity();
+    const ReadyBreak ready = make_ready(command, whole ? bounds(structure) : Box(), library_);
+    BreakEdit edit = break_structure(structure, *ready.pattern, ready.placement, ready.sphere,
+                                     command.event, command.fit);
+    if (log_ && edit.loose.failed > 0) {
+      log_->add(structure.compound(), command, edit.loose.failed);
+    }
+    return edit;
   }
 
-  LoadAnswer bear(const Compound& compound, const LoadCase& load) const override {
-    return bear_load(compound, load);
+  LoadAnswer bear(const Structure& structure, const LoadCase& load) const override {
+    return bear_load(structure, load);
   }
 
  private:
@@ -124,6 +127,13 @@ ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternL
   ready.placement = {command.X_RP.rotation.toRotationMatrix() * (unit * command.stretch_P),
                      command.X_RP.position};
   return ready;
+}
+
+BreakPlan break_compound(const Compound& compound, const BreakCommand& command) {
+  PatternLibrary library;
+  const ReadyBreak ready = make_ready(command, bounds(compound), library);
+  return fracture(compound, *ready.pattern, ready.placement, ready.sphere, command.event,
+                  command.fit);
 }
 
 std::unique_ptr<Breaker> make_pattern_breaker(std::shared_ptr<FailureLog> log) {

@@ -6,8 +6,8 @@
 #include "engine/world/breaker.h"
 #include "fracture/align.h"
 #include "fracture/failure_log.h"
+#include "fracture/impact_sphere.h"
 #include "fracture/pattern_library.h"
-#include "fracture/structure.h"
 
 namespace sunder::fracture {
 
@@ -20,8 +20,11 @@ struct ReadyBreak {
 /// What a command means for a compound in the box `bounds_R`.
 ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library);
 
-/// Breaks compounds by the pattern of the command; patterns are made once and kept. What goes wrong
-/// is noted in `log`, if there is one.
+/// Carries a command out on a compound that is broken once: its pieces, what is left of it first.
+BreakPlan break_compound(const Compound& compound, const BreakCommand& command);
+
+/// Breaks structures by the pattern of the command; patterns are made once and kept. What goes
+/// wrong is noted in `log`, if there is one.
 std::unique_ptr<Breaker> make_pattern_breaker(std::shared_ptr<FailureLog> log = nullptr);
 
 }  // namespace sunder::fracture

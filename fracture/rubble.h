@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/world/breaker.h"
 #include "fracture/adjacency.h"
 #include "fracture/fragments.h"
 

@@ -1,6 +1,7 @@
 #include "scenes/joint.h"
 
 #include "engine/base/check.h"
+#include "engine/world/structure.h"
 #include "scenes/names.h"
 
 namespace sunder::scenes {
@@ -47,7 +48,7 @@ std::uint32_t thing_named(const Scene& scene, const std::string& name, const Val
   for (const std::uint32_t root : roots_named(scene, name, value)) {
     const std::size_t solids = scene.solids.size();
     const double distance = root < solids
-                                ? distance_outside(scene.solids[root].compound,
+                                ? distance_outside(Structure(scene.solids[root].compound),
                                                    scene.solids[root].X_WR.inverse() * point_W)
                                 : (scene.balls[root - solids].center_W - point_W).norm();
     if (distance >= least) continue;

@@ -231,8 +231,9 @@ Schema make_schema() {
            "ageing", "", Range{0, 200000},
            "From so many on, the smallest fragments at rest become debris; 0: when "
            "room is short."),
-       key<&Limits::cells_a_frame>("cells_a_frame", "", Range{1, 1000000},
-                                   "Pattern cells to cut by; breaks beyond it wait a frame."),
+       key<&Limits::parts_a_frame>("parts_a_frame", "", Range{1, 1000000},
+                                   "Parts to cut, about: cells of a pattern, and eight for each "
+                                   "convex in its reach; breaks beyond it wait a frame."),
        key<&Limits::load_work_a_frame>("load_work_a_frame", "", Range{1, 4e9},
                                        "Visits of joints to find out what load breaks; the rest "
                                        "waits a frame."),

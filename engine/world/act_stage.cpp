@@ -51,26 +51,23 @@ void drop(World& world, const std::vector<std::size_t>& gone) {
 
 /// What has lost an anchor goes on as it was, held by the others or by nothing.
 void loosen(World& world, const Box& region_W) {
-  std::vector<std::pair<std::uint32_t, Compound>> loosened;
-  for (const Actor& actor : world.actors) {
+  std::vector<std::uint32_t> loosened;
+  for (Actor& actor : world.actors) {
     if (!actor.is_static) continue;
     const Pose X_WB = world.physics->state(actor.body).X_WB;
-    Compound compound = actor.compound;
-    bool changed = false;
-    for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-      const Vec3 at_W = X_WB * (compound.convexes[c]->solid.centroid - actor.weight.com_R);
+    std::vector<std::uint32_t> slots;
+    actor.structure.for_each([&](std::uint32_t slot, const Convex& convex) {
+      const Vec3 at_W = X_WB * (convex.solid.centroid - actor.weight.com_R);
       const bool inside = (at_W.array() >= region_W.min.array()).all() &&
                           (at_W.array() <= region_W.max.array()).all();
-      if (compound.anchored[c] == 0 || !inside) continue;
-      compound.anchored[c] = 0;
-      changed = true;
-    }
-    if (changed) loosened.emplace_back(actor.key, std::move(compound));
+      if (inside && actor.structure.anchored(slot) != 0) slots.push_back(slot);
+    });
+    for (const std::uint32_t slot : slots) actor.structure.loosen(slot);
+    if (!slots.empty()) loosened.push_back(actor.key);
   }
-  for (auto& [key, compound] : loosened) {
-    BreakPlan plan;
-    plan.pieces.push_back(std::move(compound));
-    replace_by_pieces(world, key, plan);
+  for (const std::uint32_t key : loosened) {
+    BreakEdit nothing_more;
+    carry_out(world, key, nothing_more);
   }
 }
 
@@ -98,7 +95,7 @@ void age(World& world) {
   std::vector<std::size_t> resting;
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
     const Actor& actor = world.actors[i];
-    const bool fragment = actor.key != actor.root_key && !actor.compound.convexes.empty();
+    const bool fragment = actor.key != actor.root_key && !actor.structure.empty();
     if (fragment && !actor.is_static && world.physics->state(actor.body).asleep) {
       resting.push_back(i);
     }
@@ -113,7 +110,7 @@ void age(World& world) {
     const Actor& actor = world.actors[i];
     const BodyState state = world.physics->state(actor.body);
     const Pose X_WR{state.X_WB * Vec3(-actor.weight.com_R), state.X_WB.rotation};
-    add_chip(world, actor.compound,
+    add_chip(world, actor.structure.compound(),
              {X_WR, state.X_WB.position, state.velocity_W, state.angular_velocity_W});
     world.debris_mass_kg += actor.weight.mass_kg;
     ++world.report.aged;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <unordered_map>
+#include <numeric>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
@@ -14,19 +14,6 @@
 namespace sunder {
 namespace {
 
-std::vector<ShapeDesc> hull_shapes(const World& world, const Compound& compound) {
-  std::vector<ShapeDesc> shapes(compound.convexes.size());
-  for (std::size_t c = 0; c < shapes.size(); ++c) {
-    const Material& material = world.material(compound.convexes[c]->material);
-    shapes[c].hull = &compound.convexes[c]->polyhedron;
-    shapes[c].friction = material.friction;
-    shapes[c].restitution = material.restitution;
-    shapes[c].rolling = material.rolling;
-    shapes[c].tag = static_cast<std::uint32_t>(c);
-  }
-  return shapes;
-}
-
 double ball_volume_m3(double radius_m) {
   return 4.0 / 3.0 * std::numbers::pi * radius_m * radius_m * radius_m;
 }
@@ -34,39 +21,42 @@ double ball_volume_m3(double radius_m) {
 /// Whether load may break a compound: one that stands, or a large one that moves.
 bool bears_load(const World& world, const Actor& actor) {
   constexpr std::size_t kLeastMoving = 16;  // convexes
-  const Compound& compound = actor.compound;
-  if (compound.convexes.size() < (actor.is_static ? 2 : kLeastMoving)) return false;
-  return std::any_of(compound.convexes.begin(), compound.convexes.end(), [&](const ConvexPtr& c) {
-    return world.material(c->material).breaks_by_load();
+  if (actor.structure.size() < (actor.is_static ? 2 : kLeastMoving)) return false;
+  return std::ranges::any_of(actor.materials, [&](MaterialIndex material) {
+    return world.material(material).breaks_by_load();
   });
+}
+
+std::vector<MaterialIndex> materials_of(const Compound& compound) {
+  std::vector<MaterialIndex> all;
+  for (const ConvexPtr& convex : compound.convexes) {
+    const auto is_it = [&](MaterialIndex known) { return known.value == convex->material.value; };
+    if (std::ranges::none_of(all, is_it)) all.push_back(convex->material);
+  }
+  return all;
 }
 
 // A crack through a solid of volume V is at least this part of V^(2/3).
 constexpr double kLeastCrack = 0.1;
 
-/// The least energy and impulse that could break an actor's compound.
-void set_least(const World& world, Actor& actor) {
-  actor.least_Ns = std::numeric_limits<double>::infinity();
-  MaterialIndex last;
-  for (const ConvexPtr& convex : actor.compound.convexes) {
-    if (convex->material.value == last.value) continue;
-    last = convex->material;
-    const Material& material = world.material(last);
-    if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) continue;
-    const double radius = material.impact_radius_m;
-    const double reach_m3 = std::min(actor.volume_m3, 4.2 * radius * radius * radius);
-    const double crack_m2 = kLeastCrack * std::cbrt(reach_m3 * reach_m3);
-    actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);
-    actor.least_Ns = std::min(actor.least_Ns, material.strength_Ns);
-  }
-}
-
 /// A convex that is to be drawn anew.
 struct NewMesh {
   Actor* actor;
-  std::size_t convex;
-  std::shared_ptr<const Mesh> mesh;
+  std::uint32_t slot;
+  std::shared_ptr<const Mesh> mesh = nullptr;
 };
+
+void draw(World& world, std::vector<NewMesh>& fresh) {
+  for_chunks(fresh.size(), 8, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [actor, slot, mesh] = fresh[i];
+      fresh[i].mesh = make_mesh(*actor->structure.convex(slot), actor->hidden[slot]);
+    }
+  });
+  for (NewMesh& made : fresh) {
+    made.actor->meshes[made.slot] = made.mesh ? world.add_mesh(std::move(made.mesh)) : MeshIndex();
+  }
+}
 
 }  // namespace
 
@@ -86,19 +76,44 @@ MeshIndex World::add_mesh(std::shared_ptr<const Mesh> mesh) {
   return MeshIndex(meshes->size() - 1);
 }
 
-Actor make_actor(World& world, Compound compound) {
+void set_least(const World& world, Actor& actor) {
+  actor.least_J = actor.least_Ns = std::numeric_limits<double>::infinity();
+  for (const MaterialIndex index : actor.materials) {
+    const Material& material = world.material(index);
+    if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) continue;
+    const double radius = material.impact_radius_m;
+    const double reach_m3 = std::min(actor.volume_m3, 4.2 * radius * radius * radius);
+    const double crack_m2 = kLeastCrack * std::cbrt(reach_m3 * reach_m3);
+    actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);
+    actor.least_Ns = std::min(actor.least_Ns, material.strength_Ns);
+  }
+}
+
+Actor make_actor(World& world, const Compound& compound) {
   Actor actor;
   actor.key = actor.root_key = world.next_key++;
-  actor.is_static = compound.is_anchored();
+  actor.structure = Structure(compound);
+  actor.is_static = actor.structure.is_anchored();
   actor.weight = weigh(compound, *world.materials);
   actor.volume_m3 = volume(compound);
+  actor.materials = materials_of(compound);
   actor.born_step = world.step;
-  actor.compound = std::move(compound);
   actor.bearing.bears = bears_load(world, actor);
   actor.bearing.since_step = world.step;
   set_least(world, actor);
-  actor.hidden = hidden_faces(actor.compound);
   return actor;
+}
+
+ShapeDesc shape_of(const World& world, const Actor& actor, std::uint32_t slot) {
+  const Convex& convex = *actor.structure.convex(slot);
+  const Material& material = world.material(convex.material);
+  ShapeDesc shape;
+  shape.hull = &convex.polyhedron;
+  shape.friction = material.friction;
+  shape.restitution = material.restitution;
+  shape.rolling = material.rolling;
+  shape.tag = slot;
+  return shape;
 }
 
 BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) {
@@ -113,41 +128,46 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
     body.velocity_W =
         motion.velocity_W + motion.angular_velocity_W.cross(body.X_WB.position - motion.point_W);
   }
-  body.shapes = hull_shapes(world, actor.compound);
+  actor.structure.for_each([&](std::uint32_t slot, const Convex&) {
+    body.shapes.push_back(shape_of(world, actor, slot));
+  });
   body.tag = actor.key;
   body.bears_load = actor.bearing.bears;
   return body;
 }
 
-void add_meshes(World& world, std::span<Actor> actors, const Actor* parent) {
-  std::unordered_map<const Convex*, std::size_t> parent_convex;
-  if (parent) {
-    for (std::size_t c = 0; c < parent->compound.convexes.size(); ++c) {
-      parent_convex.emplace(parent->compound.convexes[c].get(), c);
-    }
-  }
+void add_meshes(World& world, std::span<Actor> actors, const DrawnBefore& old) {
   std::vector<NewMesh> fresh;
+  std::vector<std::uint32_t> all;
   for (Actor& actor : actors) {
-    const auto& convexes = actor.compound.convexes;
-    actor.meshes.resize(convexes.size());
-    for (std::size_t c = 0; c < convexes.size(); ++c) {
-      const auto old = parent_convex.find(convexes[c].get());
-      if (old != parent_convex.end() && parent->hidden[old->second] == actor.hidden[c]) {
-        actor.meshes[c] = parent->meshes[old->second];
+    const std::uint32_t count = actor.structure.slot_count();
+    all.resize(count);
+    std::iota(all.begin(), all.end(), 0u);
+    actor.hidden = hidden_faces(actor.structure, all);
+    actor.meshes.resize(count);
+    for (std::uint32_t c = 0; c < count; ++c) {
+      const auto known = old.find(actor.structure.convex(c).get());
+      if (known != old.end() && known->second.hidden == actor.hidden[c]) {
+        actor.meshes[c] = known->second.mesh;
       } else {
-        fresh.push_back({&actor, c, nullptr});
+        fresh.push_back({&actor, c});
       }
     }
   }
-  for_chunks(fresh.size(), 8, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& [actor, c, mesh] = fresh[i];
-      fresh[i].mesh = make_mesh(*actor->compound.convexes[c], actor->hidden[c]);
-    }
-  });
-  for (NewMesh& made : fresh) {
-    if (made.mesh) made.actor->meshes[made.convex] = world.add_mesh(std::move(made.mesh));
+  draw(world, fresh);
+}
+
+void renew_meshes(World& world, Actor& actor, std::span<const std::uint32_t> slots) {
+  std::vector<std::vector<std::uint8_t>> hidden = hidden_faces(actor.structure, slots);
+  actor.hidden.resize(actor.structure.slot_count());
+  actor.meshes.resize(actor.structure.slot_count());
+  std::vector<NewMesh> fresh;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (actor.hidden[slots[i]] == hidden[i]) continue;
+    actor.hidden[slots[i]] = std::move(hidden[i]);
+    fresh.push_back({&actor, slots[i]});
   }
+  draw(world, fresh);
 }
 
 void add_compounds(World& world, std::span<const Solid> solids) {
@@ -160,7 +180,7 @@ void add_compounds(World& world, std::span<const Solid> solids) {
     bodies.push_back(
         describe(world, actor, {solid.X_WR, com_W, solid.velocity_W, solid.angular_velocity_W}));
   }
-  add_meshes(world, actors, nullptr);
+  add_meshes(world, actors, {});
   const std::vector<BodyId> ids = world.physics->replace({}, bodies);
   for (std::size_t i = 0; i < actors.size(); ++i) {
     actors[i].body = ids[i];

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <unordered_map>
+#include <vector>
 
 #include "engine/world/world.h"
 
@@ -15,16 +17,29 @@ struct Motion {
   Vec3 angular_velocity_W = Vec3::Zero();
 };
 
+/// How a convex is drawn.
+struct Drawn {
+  MeshIndex mesh;  ///< none() where nothing shows.
+  std::vector<std::uint8_t> hidden;
+};
+using DrawnBefore = std::unordered_map<const Convex*, Drawn>;
+
 /// An actor with a new key and no body yet; anchored compounds become static.
-Actor make_actor(World& world, Compound compound);
+Actor make_actor(World& world, const Compound& compound);
 /// Its body, moving with the field (static bodies do not move).
 BodyDesc describe(const World& world, const Actor& actor, const Motion& motion);
-/// Gives new actors their meshes; convexes that look as they did in `parent` keep theirs.
-void add_meshes(World& world, std::span<Actor> actors, const Actor* parent);
+/// The shape of one of its convexes.
+ShapeDesc shape_of(const World& world, const Actor& actor, std::uint32_t slot);
+/// The least energy and impulse that could break it.
+void set_least(const World& world, Actor& actor);
+/// Gives new actors their meshes; convexes that look as they did in `old` keep theirs.
+void add_meshes(World& world, std::span<Actor> actors, const DrawnBefore& old);
+/// Draws convexes of an actor anew whose faces are hidden otherwise than before; slots may be new.
+void renew_meshes(World& world, Actor& actor, std::span<const std::uint32_t> slots);
 
 void add_compounds(World& world, std::span<const Solid> solids);
-/// Notes what a break laid bare, for the particles; before its pieces are moved elsewhere.
-void crumble(World& world, const BreakPlan& plan, const Motion& motion);
+/// Notes what a break laid bare, for the particles; before it is carried out.
+void crumble(World& world, const Structure& structure, const BreakEdit& edit, const Motion& motion);
 /// Notes a piece that is too small to be a body.
 void add_chip(World& world, const Compound& piece, const Motion& motion);
 

@@ -41,11 +41,11 @@ Vec3 impulse_Ns_m2(const Blast& blast, const Vec3& point_W) {
 }
 
 /// On the faces of a convex that nothing covers.
-Push push_on(const Blast& blast, const Actor& actor, std::size_t convex, const Pose& X_WR) {
+Push push_on(const Blast& blast, const Actor& actor, std::uint32_t slot, const Pose& X_WR) {
   Push push;
-  const ConvexPolyhedron& hull = actor.compound.convexes[convex]->polyhedron;
+  const ConvexPolyhedron& hull = actor.structure.convex(slot)->polyhedron;
   for (std::size_t f = 0; f < hull.faces.size(); ++f) {
-    if (actor.hidden[convex][f] != 0) continue;
+    if (actor.hidden[slot][f] != 0) continue;
     Vec3 middle_R = Vec3::Zero();
     const auto corners = hull.face_corners(f);
     for (const std::uint32_t corner : corners) middle_R += hull.vertices[corner];
@@ -65,8 +65,8 @@ Pose rest_pose(const World& world, const Actor& actor) {
 }
 
 bool reaches(const Blast& blast, const Actor& actor, const Pose& X_WR) {
-  if (actor.compound.convexes.empty()) return true;
-  const Box box_R = bounds(actor.compound);
+  if (actor.structure.empty()) return true;
+  const Box box_R = bounds(actor.structure);
   const Vec3 center_R = X_WR.inverse() * blast.center_W;
   const Vec3 nearest_R = center_R.cwiseMax(box_R.min).cwiseMin(box_R.max);
   return (nearest_R - center_R).norm() < blast.radius_m;
@@ -86,32 +86,31 @@ Blow blow_of(const World& world, const Burst& burst, const Actor& actor) {
   Blow blow;
   const Pose X_WR = rest_pose(world, actor);
   if (!reaches(blast, actor, X_WR)) return blow;
-  const auto& convexes = actor.compound.convexes;
-  std::vector<Push> pushes;
-  std::size_t hardest = 0;
-  for (std::size_t c = 0; c < convexes.size(); ++c) {
-    pushes.push_back(push_on(blast, actor, c, X_WR));
-    if (was_tried(world, burst, *convexes[c], pushes[c])) pushes[c] = {};
-    if (pushes[c].weight_Ns > pushes[hardest].weight_Ns) hardest = c;
-  }
+  const Structure& structure = actor.structure;
+  std::vector<Push> pushes(structure.slot_count());
+  std::uint32_t hardest = 0;
+  structure.for_each([&](std::uint32_t slot, const Convex& convex) {
+    pushes[slot] = push_on(blast, actor, slot, X_WR);
+    if (was_tried(world, burst, convex, pushes[slot])) pushes[slot] = {};
+    if (pushes[slot].weight_Ns > pushes[hardest].weight_Ns) hardest = slot;
+  });
   if (pushes.empty() || pushes[hardest].weight_Ns <= 0) return blow;
-  const Material& material = world.material(convexes[hardest]->material);
+  const Material& material = world.material(structure.convex(hardest)->material);
   if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) return blow;
   blow.key = actor.key;
   blow.other_key = kNobodyKey;
-  blow.convex = static_cast<std::uint32_t>(hardest);
+  blow.convex = hardest;
   blow.point_W = pushes[hardest].point_W();
   Vec3 impulse_W = Vec3::Zero();
   double energy_J = 0;
-  for (std::size_t c = 0; c < convexes.size(); ++c) {
-    const bool near = pushes[c].weight_Ns > 0 &&
-                      (pushes[c].point_W() - blow.point_W).norm() <= material.impact_radius_m;
-    if (!near) continue;
-    const double mass_kg =
-        world.material(convexes[c]->material).density_kg_m3 * convexes[c]->solid.volume_m3;
-    impulse_W += pushes[c].impulse_W;
-    energy_J += 0.5 * pushes[c].impulse_W.squaredNorm() / mass_kg;
-  }
+  structure.for_each([&](std::uint32_t slot, const Convex& convex) {
+    const bool near = pushes[slot].weight_Ns > 0 &&
+                      (pushes[slot].point_W() - blow.point_W).norm() <= material.impact_radius_m;
+    if (!near) return;
+    const double mass_kg = world.material(convex.material).density_kg_m3 * convex.solid.volume_m3;
+    impulse_W += pushes[slot].impulse_W;
+    energy_J += 0.5 * pushes[slot].impulse_W.squaredNorm() / mass_kg;
+  });
   if (impulse_W.norm() < material.strength_Ns || impulse_W.norm() <= 0) return blow;
   blow.direction_W = impulse_W.normalized();
   blow.energy_J = energy_J;
@@ -122,13 +121,13 @@ void push_away(World& world, const Blast& blast, const Actor& actor) {
   const Pose X_WR = rest_pose(world, actor);
   if (!reaches(blast, actor, X_WR)) return;
   Push push;
-  for (std::size_t c = 0; c < actor.compound.convexes.size(); ++c) {
-    const Push part = push_on(blast, actor, c, X_WR);
+  actor.structure.for_each([&](std::uint32_t slot, const Convex&) {
+    const Push part = push_on(blast, actor, slot, X_WR);
     push.impulse_W += part.impulse_W;
     push.weighted_point_W += part.weighted_point_W;
     push.weight_Ns += part.weight_Ns;
-  }
-  if (actor.compound.convexes.empty()) {
+  });
+  if (actor.structure.empty()) {
     const double radius = std::cbrt(actor.volume_m3 * 3 / (4 * std::numbers::pi));
     push.add(std::numbers::pi * radius * radius * impulse_Ns_m2(blast, X_WR.position),
              X_WR.position);

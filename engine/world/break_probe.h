@@ -83,6 +83,7 @@ class BreakProbe {
   /// After release() or pause(): per body.
   const std::vector<ProbeMotion>& motions() const { return motions_; }
   const std::vector<ProbeBody>& bodies() const { return bodies_; }
+  const std::vector<ProbeContact>& contacts() const { return contacts_; }
 
  private:
   struct Velocity {

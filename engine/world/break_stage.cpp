@@ -7,6 +7,7 @@
 // inherit the velocity field of the whole.
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "engine/base/hash.h"
@@ -22,13 +23,14 @@ namespace {
 constexpr int kRounds = 8;  // solids that can break one behind the other within one step
 // A blow with less than this part of what the last fruitless plan asked for is not planned.
 constexpr double kWorthPlanning = 0.7;
+constexpr int kAdmitted = 3;  // clusters that have waited and are looked at in one round
 
 /// A blow and what it would do.
 struct Planned {
   Blow blow;
   std::uint32_t load = 0;  ///< Index in the probe's answer.
   BreakCommand command;
-  BreakPlan plan;
+  BreakEdit edit;
   double plan_ms = 0;
   double needed_J = 0;
 };
@@ -42,10 +44,10 @@ struct Trial {
 };
 
 /// Energy that the new crack surface takes; each crack has two sides.
-double crack_energy_J(const World& world, const BreakPlan& plan) {
+double crack_energy_J(const World& world, const Structure& structure, const BreakEdit& edit) {
   double energy = 0;
-  for (const ExposedFace& face : plan.exposed) {
-    const Convex& convex = *plan.pieces[face.piece].convexes[face.convex];
+  for (const ExposedFace& face : edit.loose.exposed) {
+    const Convex& convex = edit.exposed_convex(structure, face);
     energy += 0.5 * face.area_m2 * world.material(convex.material).toughness_J_m2;
   }
   return energy;
@@ -64,56 +66,69 @@ void prepare(World& world, Planned& planned) {
   // Of the actor: hit once more, it would break the same way, or a blow that comes in several steps
   // would be given several chances.
   const std::uint64_t seed = combine(world.scene.seed, blow.key);
-  planned.command = world.breaker->command(
-      actor.compound, world.material(actor.compound.convexes[blow.convex]->material), hit, event,
-      seed);
+  const Convex& convex = *actor.structure.convex(blow.convex);
+  planned.command =
+      world.breaker->command(convex, world.material(convex.material), hit, event, seed);
 }
 
 void plan_all(World& world, std::span<Planned* const> all) {
-  for (Planned* planned : all) prepare(world, *planned);
   for_chunks(all.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       Planned& planned = *all[i];
       const Stopwatch watch;
-      planned.plan = world.breaker->plan(world.find(planned.blow.key)->compound, planned.command);
+      const Structure& structure = world.find(planned.blow.key)->structure;
+      planned.edit = world.breaker->plan(structure, planned.command);
       planned.plan_ms = watch.ms();
-      planned.needed_J = crack_energy_J(world, planned.plan);
+      planned.needed_J = crack_energy_J(world, structure, planned.edit);
     }
   });
 }
 
-/// Whether the frame's budget allows for cutting by the patterns of the blows. A frame that has
-/// spent none yet can afford anything, or what costs more than a frame has would wait for ever.
-bool afford(World& world, std::span<const Planned> all) {
-  std::uint32_t cells = 0;
-  for (const Planned& planned : all) {
-    const Actor& actor = *world.find(planned.blow.key);
-    const ConvexPtr& convex = actor.compound.convexes[planned.blow.convex];
-    cells += static_cast<std::uint32_t>(world.material(convex->material).pattern.cell_count());
+/// How many parts a blow cuts, about: what it costs follows that (docs/decisions/031).
+std::uint32_t parts_of(World& world, const Planned& planned) {
+  constexpr std::size_t kPartsOfConvex = 8;
+  const BreakCommand& command = planned.command;
+  const Structure& structure = world.find(planned.blow.key)->structure;
+  const std::size_t reached = structure.within(command.X_RP.position, command.radius_m).size();
+  const auto cells = static_cast<std::size_t>(command.pattern.cell_count());
+  return static_cast<std::uint32_t>(cells + kPartsOfConvex * reached);
+}
+
+/// Whether the frame's budget allows for the blows, which are made ready. A frame that has spent
+/// none yet can afford anything, or what costs more than a frame has would wait for ever.
+bool afford(World& world, std::span<Planned> all) {
+  std::uint32_t parts = 0;
+  for (Planned& planned : all) {
+    prepare(world, planned);
+    parts += parts_of(world, planned);
   }
-  const bool untouched = world.pieces_left == world.scene.limits.cells_a_frame;
-  if (cells > world.pieces_left && !untouched) return false;
-  world.pieces_left -= std::min(world.pieces_left, cells);
+  const bool untouched = world.parts_left == world.scene.limits.parts_a_frame;
+  if (parts > world.parts_left && !untouched) {
+    world.parts_left = 0;  // for what comes later, too, however cheap
+    return false;
+  }
+  world.parts_left -= std::min(world.parts_left, parts);
   return true;
 }
 
 /// Breaks the actor of a blow that has paid for it.
-void carry_out(World& world, Planned& planned) {
+void break_actor(World& world, Planned& planned) {
   const Blow& blow = planned.blow;
-  const auto pieces = static_cast<std::uint32_t>(planned.plan.pieces.size());
+  const std::uint32_t pieces = pieces_after(world.find(blow.key)->structure, planned.edit);
   world.breaks.push_back({world.time_s(), blow.key, blow.point_W, planned.needed_J,
-                          planned.plan.new_area_m2, planned.plan_ms, pieces});
-  world.report.failed += planned.plan.failed;
-  replace_by_pieces(world, blow.key, planned.plan);
+                          planned.edit.loose.new_area_m2, planned.plan_ms, pieces});
+  world.report.failed += planned.edit.loose.failed;
+  carry_out(world, blow.key, planned.edit);
 }
 
 /// Whether the blow's plan could be carried out; remembers what it asked for, if not.
 bool worth(World& world, const Planned& planned) {
   Actor& actor = *world.find(planned.blow.key);
   const double energy_J = planned.blow.energy_J;
-  if (planned.plan.broke() && energy_J > planned.needed_J) return has_room(world, planned.plan);
-  actor.least_J = std::max(
-      actor.least_J, planned.plan.broke() ? kWorthPlanning * planned.needed_J : 1.4 * energy_J);
+  const bool breaks = planned.edit.changed;
+  if (breaks && energy_J > planned.needed_J) return has_room(world, planned.edit);
+  actor.least_J =
+      std::max(actor.least_J, breaks ? kWorthPlanning * planned.needed_J : 1.4 * energy_J);
   return false;
 }
 
@@ -122,7 +137,8 @@ bool break_by_blasts(World& world) {
   std::vector<Planned> all;
   for (Blow& blow : std::exchange(world.waiting, {})) {
     const auto same = [&](const Planned& known) { return known.blow.key == blow.key; };
-    if (!world.find(blow.key) || std::any_of(all.begin(), all.end(), same)) continue;
+    const Actor* actor = world.find(blow.key);
+    if (!actor || !actor->structure.has(blow.convex) || std::ranges::any_of(all, same)) continue;
     Planned planned;
     planned.blow = blow;
     if (afford(world, std::span(&planned, 1))) {
@@ -137,7 +153,7 @@ bool break_by_blasts(World& world) {
   bool broke = false;
   for (Planned& planned : all) {
     if (!worth(world, planned)) continue;
-    carry_out(world, planned);
+    break_actor(world, planned);
     broke = true;
   }
   return broke;
@@ -149,7 +165,7 @@ void add_blows(World& world, Trial& trial) {
   for (std::uint32_t i = 0; i < trial.loads.size(); ++i) {
     const ProbeLoad& load = trial.loads[i];
     const Actor& actor = *world.find(trial.probe.bodies()[load.body].key);
-    const Material& material = world.material(actor.compound.convexes[load.shape]->material);
+    const Material& material = world.material(actor.structure.convex(load.shape)->material);
     if (!material.breakable() || load.impulse_Ns < material.strength_Ns) continue;
     Planned planned;
     planned.load = i;
@@ -187,23 +203,67 @@ void wait(World& world, Trial& trial, std::vector<Waiter>& waiters) {
     if (body.inverse_mass <= 0) continue;
     const auto known = std::ranges::lower_bound(world.waiters, body.key, {}, &Waiter::key);
     const bool waited = known != world.waiters.end() && known->key == body.key;
-    waiters.push_back({body.key, waited ? known->since_step : world.step});
+    waiters.push_back({body.key, waited ? known->since_step : world.step, world.next_waiting});
     bodies.push_back(world.find(body.key)->body);
   }
   world.physics->hold(bodies);
+  ++world.next_waiting;
   ++world.trials_waiting;
 }
 
-/// Whether another trial has broken a solid of this one.
-bool is_stale(World& world, const Trial& trial) {
-  const auto gone = [&](const ProbeBody& body) {
-    return body.key != kGroundKey && !world.find(body.key);
-  };
-  return std::any_of(trial.probe.bodies().begin(), trial.probe.bodies().end(), gone);
+/// What waits since earlier steps, in the order in which it is to be decided: cluster by cluster,
+/// the longest waiting first.
+std::vector<Waiter> queue_of(World& world) {
+  std::vector<Waiter> queue = world.waiters;
+  std::erase_if(queue, [&](const Waiter& waiter) { return !world.find(waiter.key); });
+  std::ranges::sort(queue, {}, [](const Waiter& waiter) {
+    return std::tuple(waiter.since_step, waiter.cluster, waiter.key);
+  });
+  return queue;
 }
 
-/// Breaks what a trial can pay for, if anything.
-bool settle(World& world, Trial& trial) {
+/// Takes the first clusters out of the queue; their bodies are looked at.
+void admit(std::vector<Waiter>& queue, Keys& fresh) {
+  std::size_t end = 0;
+  for (int clusters = 0; clusters < kAdmitted && end < queue.size(); ++clusters) {
+    const std::uint64_t cluster = queue[end].cluster;
+    while (end < queue.size() && queue[end].cluster == cluster) ++end;
+  }
+  for (std::size_t i = 0; i < end; ++i) fresh.insert(queue[i].key);
+  queue.erase(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+/// What is still in the queue waits on, as it is.
+void wait_on(World& world, const std::vector<Waiter>& queue, std::vector<Waiter>& waiters) {
+  std::vector<BodyId> bodies;
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    bodies.push_back(world.find(queue[i].key)->body);
+    if (i == 0 || queue[i].cluster != queue[i - 1].cluster) ++world.trials_waiting;
+  }
+  world.physics->hold(bodies);
+  waiters.insert(waiters.end(), queue.begin(), queue.end());
+}
+
+/// Whether what a trial hits is among what others broke: a body that is gone, or the convex hit of
+/// one that stands.
+bool is_stale(World& world, const Trial& trial, std::span<const std::uint32_t> broken) {
+  const std::vector<ProbeBody>& bodies = trial.probe.bodies();
+  for (const std::uint32_t key : broken) {
+    const auto body = std::ranges::find(bodies, key, &ProbeBody::key);
+    if (body == bodies.end()) continue;
+    const Actor* actor = world.find(key);
+    if (!actor) return true;
+    const auto index = static_cast<std::uint32_t>(body - bodies.begin());
+    for (const ProbeContact& contact : trial.probe.contacts()) {
+      if (contact.a == index && !actor->structure.has(contact.shape_a)) return true;
+      if (contact.b == index && !actor->structure.has(contact.shape_b)) return true;
+    }
+  }
+  return false;
+}
+
+/// Breaks what a trial can pay for, if anything, and adds it to `all_broken`.
+bool settle(World& world, Trial& trial, std::vector<std::uint32_t>& all_broken) {
   std::vector<ProbeBreak> wanted;
   std::vector<std::uint32_t> of_load(trial.loads.size());
   for (std::uint32_t i = 0; i < trial.planned.size(); ++i) {
@@ -215,7 +275,11 @@ bool settle(World& world, Trial& trial) {
   const std::vector<std::uint32_t> broken = trial.probe.release(wanted);
   if (broken.empty()) return false;
   take_over(world, trial.probe);
-  for (const std::uint32_t load : broken) carry_out(world, trial.planned[of_load[load]]);
+  for (const std::uint32_t load : broken) {
+    Planned& planned = trial.planned[of_load[load]];
+    break_actor(world, planned);
+    all_broken.push_back(planned.blow.key);
+  }
   return true;
 }
 
@@ -238,10 +302,17 @@ std::vector<Trial> leave_for_later(World& world, std::vector<Trial>& trials) {
 }
 
 /// Follows all probes until each has broken something or come to the end of the step, or has to
-/// wait (if it is not `in_time`, or too costly); true if another round is due. What another trial
-/// has broken meanwhile is hit again in that round, as what became of it.
-bool decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<Waiter>& waiters) {
-  bool again = false;
+/// wait (if it is not `in_time`, or too costly). The answer is what another round has to look at:
+/// the bodies of what broke something, and of what hit something that another has broken.
+Keys decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<Waiter>& waiters) {
+  Keys again;
+  const auto look_again = [&](const Trial& trial) {
+    for (const ProbeBody& body : trial.probe.bodies()) {
+      if (body.inverse_mass > 0) again.insert(body.key);
+    }
+    return true;
+  };
+  std::vector<std::uint32_t> broken;  // since the stale ones were sorted out
   while (!trials.empty()) {
     for_chunks(trials.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -249,7 +320,9 @@ bool decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<
       }
     });
     std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
-    again |= std::erase_if(trials, [&](const Trial& trial) { return is_stale(world, trial); }) > 0;
+    const auto stale = [&](const Trial& trial) { return is_stale(world, trial, broken); };
+    std::erase_if(trials, [&](const Trial& trial) { return stale(trial) && look_again(trial); });
+    broken.clear();
     for (Trial& trial : trials) add_blows(world, trial);
     std::vector<Trial> next = leave_for_later(world, trials);
     std::vector<Trial> affordable;
@@ -267,8 +340,8 @@ bool decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<
     }
     plan_all(world, planned);
     for (Trial& trial : trials) {
-      if (is_stale(world, trial) || settle(world, trial)) {
-        again = true;
+      if (stale(trial) || settle(world, trial, broken)) {
+        look_again(trial);
         continue;
       }
       trial.probe.hold();
@@ -286,15 +359,28 @@ void break_stage(World& world) {
   const auto collide = [&] { world.physics->collide(world.horizon_s()); };
   if (break_by_blasts(world)) collide();
   world.trials_waiting = 0;
-  std::vector<Waiter> waiters;
+  std::vector<Waiter> queue = queue_of(world), waiters;
+  Keys fresh;
   for (int round = 0; round <= kRounds; ++round) {
+    const bool in_time = round < kRounds;
+    const bool affordable = in_time && world.parts_left > 0;
+    if (affordable) admit(queue, fresh);
+    std::vector<Waiter> left_out = waiters;
+    left_out.insert(left_out.end(), queue.begin(), queue.end());
     std::vector<Trial> trials;
-    for (BreakProbe& probe : find_clusters(world, waiters)) {
+    // What was looked at and held holds on, if nothing about it is fresh.
+    for (BreakProbe& probe : find_clusters(world, left_out, round > 0 ? &fresh : nullptr)) {
       trials.push_back({std::move(probe)});
     }
-    if (!decide(world, trials, round < kRounds, waiters)) break;
-    collide();
+    fresh = decide(world, trials, in_time, waiters);
+    if (!fresh.empty()) {
+      collide();
+    } else if (!affordable || queue.empty()) {
+      break;
+    }
   }
+  std::erase_if(queue, [&](const Waiter& waiter) { return !world.find(waiter.key); });
+  wait_on(world, queue, waiters);
   std::ranges::sort(waiters, {}, &Waiter::key);
   world.waiters = std::move(waiters);
 }

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/world/compound.h"
+#include "engine/world/structure.h"
 
 namespace sunder {
 
@@ -15,7 +15,7 @@ namespace sunder {
 struct Hit {
   Vec3 point_R = Vec3::Zero();
   Vec3 direction_R = Vec3::UnitY();  ///< Unit, the way the blow pushes (into the solid).
-  std::uint32_t convex = 0;          ///< The one that was hit.
+  std::uint32_t convex = 0;          ///< Slot of the one that was hit.
   double energy_J = 0;
 };
 
@@ -53,9 +53,31 @@ struct BreakPlan {
   bool broke() const { return pieces.size() > 1; }
 };
 
-/// A force on a convex of a compound, in its rest frame R.
+/// What a break does to a structure, and what comes off it.
+struct BreakEdit {
+  std::vector<std::uint32_t> removed;  ///< Slots whose convexes were cut or came off; ascending.
+  /// Convexes that take new slots, in this order from the structure's slot_count() on.
+  std::vector<ConvexPtr> added;
+  std::vector<std::uint8_t> added_anchors;
+  std::vector<Bond> bonds;    ///< Contacts of added convexes: a and b are slots.
+  std::vector<Ghost> ghosts;  ///< Of added convexes, and of them with others, by slots.
+  /// The pieces that came off, and the figures of the whole break. Exposed faces name piece p as
+  /// p + 1; 0 is the structure, and their convex a slot of it.
+  BreakPlan loose;
+  bool changed = false;   ///< Something came off; otherwise nothing above is set.
+  std::vector<Bond> cut;  ///< Contacts that hold no longer, by slots; also where nothing came off.
+
+  /// The convex of a face of `loose.exposed`; of `structure` as it was before the edit.
+  const Convex& exposed_convex(const Structure& structure, const ExposedFace& face) const {
+    if (face.piece > 0) return *loose.pieces[face.piece - 1].convexes[face.convex];
+    const std::uint32_t slots = structure.slot_count();
+    return face.convex < slots ? *structure.convex(face.convex) : *added[face.convex - slots];
+  }
+};
+
+/// A force on a convex of a structure, in its rest frame R.
 struct Load {
-  std::uint32_t convex = 0;
+  std::uint32_t convex = 0;  ///< Slot.
   Vec3 force_N = Vec3::Zero();
   Vec3 point_R = Vec3::Zero();
   Vec3 torque_Nm = Vec3::Zero();  ///< Besides that of the force.
@@ -74,32 +96,32 @@ struct LoadCase {
   std::span<const Material> materials;
   std::span<const Load> loads;
   Vec3 gravity_R = Vec3::Zero();
-  std::uint64_t most_work = 0;  ///< To spend on the answer, in visits of bonds.
-  LoadMemoryPtr memory;         ///< Of this compound, or of what it was a piece of; null at first.
+  /// To spend on the answer, in visits of bonds, about: a few iterations are made in any case.
+  std::uint64_t most_work = 0;
+  LoadMemoryPtr memory;  ///< Of this compound, or of what it was a piece of; null at first.
 };
 
 /// What becomes of it.
 struct LoadAnswer {
-  /// Islands of what is left of the bonds; one that holds may have fewer bonds than before.
-  BreakPlan plan;
-  std::uint32_t cut = 0;   ///< Bonds that were too weak.
+  BreakEdit edit;          ///< Bonds that were too weak are cut; what they held comes off.
   double worst = 0;        ///< Highest stress in what is left, in parts of the limit; <= 1.
   bool settled = false;    ///< Nothing is left to do until the load, or the compound, changes.
   std::uint64_t work = 0;  ///< Spent.
   LoadMemoryPtr memory;    ///< For the next time, of any of the pieces.
 };
 
-/// Pure and const: any thread may ask about any compound.
+/// Pure and const: any thread may ask about any structure.
 class Breaker {
  public:
   virtual ~Breaker() = default;
   /// The command that a blow amounts to; `material` is that of the convex hit.
-  virtual BreakCommand command(const Compound& compound, const Material& material, const Hit& hit,
+  virtual BreakCommand command(const Convex& convex, const Material& material, const Hit& hit,
                                std::uint64_t event, std::uint64_t seed) const = 0;
-  /// Carries a command out. A pattern that misses gives back the one compound it was given.
-  virtual BreakPlan plan(const Compound& compound, const BreakCommand& command) const = 0;
-  /// Which bonds of a compound a steady load breaks, judged by the stress that balances it.
-  virtual LoadAnswer bear(const Compound& compound, const LoadCase& load) const = 0;
+  /// Carries a command out, at a cost that depends on what it reaches; the structure stays as it
+  /// is. A pattern that misses changes nothing.
+  virtual BreakEdit plan(const Structure& structure, const BreakCommand& command) const = 0;
+  /// Which bonds of a structure a steady load breaks, judged by the stress that balances it.
+  virtual LoadAnswer bear(const Structure& structure, const LoadCase& load) const = 0;
 };
 
 }  // namespace sunder

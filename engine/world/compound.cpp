@@ -1,7 +1,7 @@
 #include "engine/world/compound.h"
 
 #include <algorithm>
-#include <limits>
+#include <tuple>
 
 #include "engine/base/check.h"
 #include "engine/geometry/polygon_mesh.h"
@@ -69,15 +69,20 @@ Box bounds(const Compound& compound) {
   return box;
 }
 
-double distance_outside(const Compound& compound, const Vec3& point_R) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const ConvexPtr& convex : compound.convexes) {
-    double farthest = 0;
-    for (const ConvexPolyhedron::Face& face : convex->polyhedron.faces)
-      farthest = std::max(farthest, face.plane.distance(point_R));
-    least = std::min(least, farthest);
-  }
-  return least;
+double distance_outside(const Convex& convex, const Vec3& point_R) {
+  double farthest = 0;
+  for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces)
+    farthest = std::max(farthest, face.plane.distance(point_R));
+  return farthest;
+}
+
+void sort_ghosts(std::vector<Ghost>& ghosts) {
+  const auto key = [](const Ghost& ghost) {
+    const Vec3& at = ghost.convex->solid.centroid;
+    return std::tie(ghost.of, ghost.sign, at.x(), at.y(), at.z());
+  };
+  std::stable_sort(ghosts.begin(), ghosts.end(),
+                   [&](const Ghost& a, const Ghost& b) { return key(a) < key(b); });
 }
 
 }  // namespace sunder

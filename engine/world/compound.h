@@ -80,7 +80,10 @@ Weight weigh(const Compound& compound, std::span<const Material> materials);
 /// Of the union of the convexes.
 double volume(const Compound& compound);
 Box bounds(const Compound& compound);
-/// How far a point is from a compound, at least; 0 inside.
-double distance_outside(const Compound& compound, const Vec3& point_R);
+/// How far a point is beyond the farthest of a convex's faces; 0 inside.
+double distance_outside(const Convex& convex, const Vec3& point_R);
+
+/// Puts ghosts in the order of Compound::ghosts; those of the same convexes by where they are.
+void sort_ghosts(std::vector<Ghost>& ghosts);
 
 }  // namespace sunder

@@ -63,7 +63,7 @@ bool changed(const World& world, const Actor& actor) {
     Press before, after;
     if (i < x.size() && x[i].convex == convex) before = x[i++];
     if (j < y.size() && y[j].convex == convex) after = y[j++];
-    const Convex& body = *actor.compound.convexes[convex];
+    const Convex& body = *actor.structure.convex(convex);
     const double density = world.material(body.material).density_kg_m3;
     const double own = weight_N(world, density * body.solid.volume_m3);
     const double allowed = std::max(trifle, kChange * (own + before.force_R.norm()));
@@ -81,13 +81,13 @@ std::vector<std::vector<Press>> presses(World& world) {
   const double dt = world.scene.accuracy.dt_s;
   for (const ContactLoad& contact : world.physics->contact_loads()) {
     const Actor* actor = world.find(contact.body_tag);
-    if (!actor || contact.shape_tag >= actor->compound.convexes.size()) continue;
+    if (!actor || !actor->structure.has(contact.shape_tag)) continue;
     const Pose X_WB = world.physics->state(actor->body).X_WB;
     Press press;
     press.convex = contact.shape_tag;
     press.force_R = X_WB.rotation.conjugate() * contact.impulse_W / dt;
     const Vec3 point_R = X_WB.inverse() * contact.point_W + actor->weight.com_R;
-    const Vec3 centroid = actor->compound.convexes[press.convex]->solid.centroid;
+    const Vec3 centroid = actor->structure.convex(press.convex)->solid.centroid;
     press.torque_R = (point_R - centroid).cross(press.force_R);
     all[static_cast<std::size_t>(actor - world.actors.data())].push_back(press);
   }
@@ -124,7 +124,7 @@ std::vector<std::uint32_t> due(World& world) {
 LoadAnswer judge(const World& world, const Actor& actor, std::uint64_t most_work) {
   std::vector<Load> loads;
   for (const Press& press : actor.bearing.pressing) {
-    const Vec3& centroid = actor.compound.convexes[press.convex]->solid.centroid;
+    const Vec3& centroid = actor.structure.convex(press.convex)->solid.centroid;
     loads.push_back({press.convex, press.force_R, centroid, press.torque_R});
   }
   LoadCase load;
@@ -134,7 +134,7 @@ LoadAnswer judge(const World& world, const Actor& actor, std::uint64_t most_work
       world.physics->state(actor.body).X_WB.rotation.conjugate() * world.scene.gravity_W;
   load.most_work = most_work;
   load.memory = actor.bearing.memory;
-  return world.breaker->bear(actor.compound, load);
+  return world.breaker->bear(actor.structure, load);
 }
 
 struct Judged {
@@ -152,7 +152,7 @@ void judge_all(World& world, std::vector<Judged>& batch) {
     judged.ms = watch.ms();
   };
   const auto large = [&](const Judged& judged) {
-    return world.find(judged.key)->compound.convexes.size() >= kLarge;
+    return world.find(judged.key)->structure.size() >= kLarge;
   };
   for_chunks(batch.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
     if (!large(batch[i])) one(batch[i]);
@@ -170,23 +170,23 @@ void apply(World& world, Judged& judged) {
   actor.bearing.memory = answer.memory;
   actor.bearing.settled = answer.settled;
   actor.bearing.since_step = world.step;
-  BreakPlan& plan = answer.plan;
-  if (plan.pieces.size() == 1) actor.compound.bonds = std::move(plan.pieces[0].bonds);
-  if (!plan.broke()) return;
-  if (!has_room(world, plan)) {
+  BreakEdit& edit = answer.edit;
+  if (!edit.changed) {
+    actor.structure.apply(edit);
+    return;
+  }
+  if (!has_room(world, edit)) {
     actor.bearing.settled = true;
     return;
   }
   const Pose X_WB = world.physics->state(actor.body).X_WB;
   Vec3 middle_R = actor.weight.com_R;
-  if (!plan.exposed.empty()) {
-    const ExposedFace& face = plan.exposed[0];
-    middle_R = plan.pieces[face.piece].convexes[face.convex]->solid.centroid;
+  if (!edit.loose.exposed.empty()) {
+    middle_R = edit.exposed_convex(actor.structure, edit.loose.exposed[0]).solid.centroid;
   }
   world.breaks.push_back({world.time_s(), actor.key, X_WB * Vec3(middle_R - actor.weight.com_R), 0,
-                          plan.new_area_m2, judged.ms,
-                          static_cast<std::uint32_t>(plan.pieces.size())});
-  replace_by_pieces(world, judged.key, plan);
+                          edit.loose.new_area_m2, judged.ms, pieces_after(actor.structure, edit)});
+  carry_out(world, judged.key, edit);
 }
 
 }  // namespace
@@ -199,16 +199,16 @@ void load_stage(World& world) {
   std::size_t next = 0;
   while (next < keys.size() && world.load_work_left > 0) {
     std::vector<Judged> batch;
-    std::uint64_t left = world.load_work_left;
+    auto left = static_cast<std::uint64_t>(world.load_work_left);
     for (; next < keys.size() && left > 0; ++next) {
-      const std::uint64_t bonds = world.find(keys[next])->compound.bonds.size();
+      const std::uint64_t bonds = world.find(keys[next])->structure.bond_count();
       const std::uint64_t reserved = std::min(left, kReserve * (bonds + 1));
       batch.push_back({keys[next], reserved, {}, 0});
       left -= reserved;
     }
     judge_all(world, batch);
     for (Judged& judged : batch) {
-      world.load_work_left -= std::min(world.load_work_left, judged.answer.work);
+      world.load_work_left -= static_cast<std::int64_t>(judged.answer.work);
       apply(world, judged);
     }
   }

@@ -51,7 +51,7 @@ Surroundings surroundings(const World& world) {
   const std::size_t count = world.actors.size();
   std::vector<std::size_t> first(count + 1);
   for (std::size_t i = 0; i < count; ++i) {
-    first[i + 1] = first[i] + std::max<std::size_t>(1, world.actors[i].compound.convexes.size());
+    first[i + 1] = first[i] + std::max(1u, world.actors[i].structure.size());
   }
   Surroundings all{std::vector<ObstacleBody>(count), std::vector<ObstacleShape>(first[count])};
   for_chunks(count, kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -66,10 +66,10 @@ Surroundings surroundings(const World& world) {
                        !actor.is_static && !state.asleep};
       const auto body = static_cast<std::uint32_t>(i);
       ObstacleShape* shape = &all.shapes[first[i]];
-      for (const ConvexPtr& convex : actor.compound.convexes) {
-        *shape++ = {body, &convex->polyhedron, convex->box, convex->solid.volume_m3, 0};
-      }
-      if (actor.compound.convexes.empty()) {
+      actor.structure.for_each([&](std::uint32_t, const Convex& convex) {
+        *shape++ = {body, &convex.polyhedron, convex.box, convex.solid.volume_m3, 0};
+      });
+      if (actor.structure.empty()) {
         *shape = {body, nullptr, {}, 0, radius_of_ball_m(actor.volume_m3)};
       }
     }
@@ -101,13 +101,14 @@ void for_polygons(const Convex& convex, std::uint32_t face, const Use& use) {
 
 }  // namespace
 
-void crumble(World& world, const BreakPlan& plan, const Motion& motion) {
+void crumble(World& world, const Structure& structure, const BreakEdit& edit,
+             const Motion& motion) {
   if (!world.particles) return;
   const double back_s = elapsed_s(world);
   const VelocityField field{motion.point_W, motion.velocity_W, motion.angular_velocity_W};
   Crumbs& crumbs = world.crumbs;
-  for (const ExposedFace& exposed : plan.exposed) {
-    const Convex& convex = *plan.pieces[exposed.piece].convexes[exposed.convex];
+  for (const ExposedFace& exposed : edit.loose.exposed) {
+    const Convex& convex = edit.exposed_convex(structure, exposed);
     const Crumbling& crumbling = world.material(convex.material).crumbling;
     if (!(crumbling.particles_per_m2 > 0)) continue;
     Emission face;

@@ -1,9 +1,11 @@
 #include "engine/world/piece_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numbers>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
 
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/triangulate_face.h"
@@ -14,25 +16,37 @@ namespace {
 // A face counts as covered when less than this part of it shows: bond areas carry rounding.
 constexpr double kCovered = 1 - 1e-6;
 
-constexpr std::uint32_t kAlone = 0xffffffff;
+/// What overlaps what, directly or over others, found out where somebody asks.
+class Heaps {
+ public:
+  explicit Heaps(const Structure& structure) : structure_(structure) {}
 
-/// Per convex the lowest that it overlaps, over others or not; kAlone if it overlaps none. Faces
-/// beyond which two of a heap lie are covered by the larger: nobody knows how far both cover it.
-std::vector<std::uint32_t> heaps(const Compound& compound) {
-  std::vector<std::uint32_t> lowest(compound.convexes.size(), kAlone);
-  for (bool changed = !compound.ghosts.empty(); changed;) {
-    changed = false;
-    for (const Ghost& ghost : compound.ghosts) {
-      std::uint32_t least = ghost.of[0];
-      for (const std::uint32_t c : ghost.of) least = std::min(least, lowest[c]);
-      for (const std::uint32_t c : ghost.of) {
-        changed = changed || lowest[c] != least;
-        lowest[c] = least;
+  static constexpr std::uint32_t kAlone = 0xffffffff;
+
+  /// The lowest slot that a convex overlaps; kAlone if it overlaps none. Faces beyond which two of
+  /// a heap lie are covered by the larger: nobody knows how far both cover it.
+  std::uint32_t of(std::uint32_t slot) {
+    if (structure_.ghosts_of(slot).empty()) return kAlone;
+    if (const auto known = lowest_.find(slot); known != lowest_.end()) return known->second;
+    std::vector<std::uint32_t> heap = {slot};
+    std::uint32_t least = slot;
+    lowest_[slot] = slot;
+    for (std::size_t i = 0; i < heap.size(); ++i) {
+      least = std::min(least, heap[i]);
+      for (const std::uint32_t number : structure_.ghosts_of(heap[i])) {
+        for (const std::uint32_t other : structure_.ghost(number).of) {
+          if (lowest_.emplace(other, other).second) heap.push_back(other);
+        }
       }
     }
+    for (const std::uint32_t member : heap) lowest_[member] = least;
+    return least;
   }
-  return lowest;
-}
+
+ private:
+  const Structure& structure_;
+  std::unordered_map<std::uint32_t, std::uint32_t> lowest_;
+};
 
 std::vector<std::uint8_t> covered_faces(const ConvexPolyhedron& polyhedron,
                                         const std::vector<double>& covered_m2) {
@@ -114,33 +128,37 @@ void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, M
 
 }  // namespace
 
-std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound) {
-  std::vector<std::vector<double>> covered_m2(compound.convexes.size());
-  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-    covered_m2[c].assign(compound.convexes[c]->polyhedron.faces.size(), 0.0);
-  }
-  const std::vector<std::uint32_t> heap = heaps(compound);
-  std::map<std::array<std::uint32_t, 3>, double> most_m2;  // by convex, face and heap beyond
-  const auto cover = [&](std::uint32_t convex, std::uint32_t face, std::uint32_t by, double area) {
-    if (heap[by] == kAlone) {
-      covered_m2[convex][face] += area;
-    } else {
-      double& most = most_m2[{convex, face, heap[by]}];
-      most = std::max(most, area);
+std::vector<std::vector<std::uint8_t>> hidden_faces(const Structure& structure,
+                                                    std::span<const std::uint32_t> slots) {
+  Heaps heaps(structure);
+  std::vector<std::vector<std::uint8_t>> hidden;
+  hidden.reserve(slots.size());
+  std::vector<double> covered_m2;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> most_m2;  // by face and heap beyond
+  for (const std::uint32_t slot : slots) {
+    const Convex& convex = *structure.convex(slot);
+    covered_m2.assign(convex.polyhedron.faces.size(), 0.0);
+    most_m2.clear();
+    for (const Link& link : structure.links(slot)) {
+      const std::uint32_t heap = heaps.of(link.other);
+      if (heap == Heaps::kAlone) {
+        covered_m2[link.face] += link.area_m2;
+      } else {
+        double& most = most_m2[{link.face, heap}];
+        most = std::max(most, link.area_m2);
+      }
     }
-  };
-  for (const Bond& bond : compound.bonds) {
-    cover(bond.a, bond.face_a, bond.b, bond.area_m2);
-    cover(bond.b, bond.face_b, bond.a, bond.area_m2);
-  }
-  for (const auto& [at, area] : most_m2) covered_m2[at[0]][at[1]] += area;
-  std::vector<std::vector<std::uint8_t>> hidden(compound.convexes.size());
-  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-    const Convex& convex = *compound.convexes[c];
-    hidden[c] = convex.is_internal() ? covered_faces(convex.polyhedron, covered_m2[c])
-                                     : covered_caps(convex, covered_m2[c]);
+    for (const auto& [at, area] : most_m2) covered_m2[at.first] += area;
+    hidden.push_back(convex.is_internal() ? covered_faces(convex.polyhedron, covered_m2)
+                                          : covered_caps(convex, covered_m2));
   }
   return hidden;
+}
+
+std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound) {
+  std::vector<std::uint32_t> all(compound.convexes.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return hidden_faces(Structure(compound), all);
 }
 
 std::shared_ptr<const Mesh> make_mesh(const Convex& convex,

@@ -4,15 +4,20 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
-#include "engine/world/compound.h"
 #include "engine/world/mesh.h"
+#include "engine/world/structure.h"
 
 namespace sunder {
 
-/// Per convex of a compound, a flag for each face of its polyhedron: 1 where bonds cover the whole
-/// of it, or of the cap of the visual mesh that lies in it.
+/// For each of some convexes of a structure, a flag for each face of its polyhedron: 1 where bonds
+/// cover the whole of it, or of the cap of the visual mesh that lies in it.
+std::vector<std::vector<std::uint8_t>> hidden_faces(const Structure& structure,
+                                                    std::span<const std::uint32_t> slots);
+/// The same for all convexes of a compound.
 std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound);
 
 /// What is seen of `convex` but for the faces, or caps in faces, whose flag in `hidden` is 1; null

@@ -1,4 +1,4 @@
-// A broken solid gives way to its pieces. Internal to engine/world.
+// What a break does to an actor: pieces come off it. Internal to engine/world.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,15 @@
 
 namespace sunder {
 
-/// Whether the limit of bodies allows for the pieces; counts it as hit if not.
-bool has_room(World& world, const BreakPlan& plan);
+/// Pieces that an edit makes of a structure, what stays of it included.
+std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit);
 
-/// Puts the pieces in the place of the actor `key`, moving as it did (each with the parent's
-/// velocity field, so that linear and angular momentum stay); the smallest become debris.
-void replace_by_pieces(World& world, std::uint32_t key, BreakPlan& plan);
+/// Whether the limit of bodies allows for the pieces that come off; counts it as hit if not.
+bool has_room(World& world, const BreakEdit& edit);
+
+/// Breaks the actor `key`. One that stands, and is still held, stays and loses what came off;
+/// another gives way to its pieces, what stays of its structure first. Pieces move as it did (each
+/// with its velocity field, so that linear and angular momentum stay); the smallest become debris.
+void carry_out(World& world, std::uint32_t key, BreakEdit& edit);
 
 }  // namespace sunder

@@ -102,7 +102,9 @@ struct Limits {
   std::uint32_t bodies = 20000;
   /// From so many bodies on, the smallest fragments at rest become debris; 0: when room is short.
   std::uint32_t ageing = 0;
-  std::uint32_t cells_a_frame = 2000;  ///< Pattern cells to cut by; breaks beyond it wait a frame.
+  /// Parts to cut, about: cells of a pattern, and eight for each convex in its reach; breaks beyond
+  /// it wait a frame.
+  std::uint32_t parts_a_frame = 500;
   /// Visits of bonds to find out what load breaks; what is beyond it waits a frame.
   std::uint32_t load_work_a_frame = 400000;
   std::uint32_t debris = 20000;  ///< Pieces of debris alive at once.

@@ -90,8 +90,9 @@ FramePtr Simulation::next() {
       return nullptr;
     }
     ++world.frame;
-    world.pieces_left = world.scene.limits.cells_a_frame;
-    world.load_work_left = world.scene.limits.load_work_a_frame;
+    world.parts_left = world.scene.limits.parts_a_frame;
+    const std::int64_t load_work = world.scene.limits.load_work_a_frame;
+    world.load_work_left = std::min(load_work, world.load_work_left + load_work);
     for (int i = 0; i < steps; ++i) advance();
   }
   world.started = true;

@@ -18,8 +18,8 @@ FrameBody body_of(const World& world, const Actor& actor) {
 
 void count(const World& world, const Actor& actor, const FrameBody& body, FrameReport& report) {
   report.mass_kg += actor.weight.mass_kg;
-  report.counts.convexes += static_cast<std::uint32_t>(actor.compound.convexes.size());
-  if (!actor.compound.convexes.empty()) ++report.counts.compounds;
+  report.counts.convexes += actor.structure.size();
+  if (!actor.structure.empty()) ++report.counts.compounds;
   if (body.is_static) return;
   ++report.counts.bodies;
   if (!body.asleep) ++report.counts.awake;

@@ -11,15 +11,15 @@ namespace {
 
 constexpr double kReach = 0.02;  // of a piece's size: an anchor so far off it is still its own
 
-/// The piece that has a point, or is nearest within reach; null if none.
-const Actor* piece_at(std::span<const Actor> pieces, const Vec3& point_R) {
+/// The actor that has a point, or is nearest within reach; null if none.
+const Actor* actor_at(std::span<const Actor* const> actors, const Vec3& point_R) {
   const Actor* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (const Actor& piece : pieces) {
-    const double distance = distance_outside(piece.compound, point_R);
-    if (distance >= least || distance > kReach * std::cbrt(piece.volume_m3)) continue;
+  for (const Actor* actor : actors) {
+    const double distance = distance_outside(actor->structure, point_R);
+    if (distance >= least || distance > kReach * std::cbrt(actor->volume_m3)) continue;
     least = distance;
-    nearest = &piece;
+    nearest = actor;
   }
   return nearest;
 }
@@ -92,16 +92,19 @@ void hang(World& world, const Shot& shot) {
   add_tie(world, tie);
 }
 
-void move_ties(World& world, std::uint32_t parent, std::span<const Actor> pieces) {
+void move_ties(World& world, const Actor& parent, bool stays, std::span<const Actor> pieces) {
+  std::vector<const Actor*> actors;
+  if (stays) actors.push_back(&parent);
+  for (const Actor& piece : pieces) actors.push_back(&piece);
   for (auto tie = world.ties.begin(); tie != world.ties.end();) {
     bool held = true;
     for (TieEnd* end : {&tie->a, &tie->b}) {
-      if (end->key != parent) continue;
-      const Actor* piece = piece_at(pieces, end->anchor_R);
-      held = held && piece;
-      if (!piece) continue;
-      end->key = piece->key;
-      world.physics->attach(tie->joint, end == &tie->a, piece->body);
+      if (end->key != parent.key) continue;
+      const Actor* actor = actor_at(actors, end->anchor_R);
+      held = held && actor;
+      if (!actor || actor == &parent) continue;
+      end->key = actor->key;
+      world.physics->attach(tie->joint, end == &tie->a, actor->body);
     }
     if (held) {
       ++tie;

@@ -12,9 +12,9 @@ namespace sunder {
 void add_tie(World& world, const Tie& tie);
 /// A shot ball on its rope, or on its chain, which appears with it.
 void hang(World& world, const Shot& shot);
-/// After `parent` gave way to pieces: its ends go to the piece that has the anchor, and joints
-/// without one are cut and counted.
-void move_ties(World& world, std::uint32_t parent, std::span<const Actor> pieces);
+/// After `parent` gave way to pieces, or lost them and stays: its ends go to what has the anchor
+/// now, and joints without one are cut and counted.
+void move_ties(World& world, const Actor& parent, bool stays, std::span<const Actor> pieces);
 /// Before actors go: their joints are cut and counted.
 void cut_ties(World& world, std::uint32_t key);
 /// Keys of what a joint that does not give holds to the world, or to what the world holds;

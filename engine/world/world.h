@@ -17,7 +17,7 @@ namespace sunder {
 
 inline constexpr std::uint32_t kNoConvex = 0xffffffff;
 
-/// What presses on a convex: force in the rest frame, torque about its centroid.
+/// What presses on a convex (a slot): force in the rest frame, torque about its centroid.
 struct Press {
   std::uint32_t convex = 0;
   Vec3 force_R = Vec3::Zero();
@@ -40,17 +40,19 @@ struct Actor {
   std::uint32_t root_key = 0;  ///< Of what it came off in the end: a solid or ball of the scene.
   BodyId body;
   bool is_static = false;
-  Compound compound;  ///< Without convexes for a ball.
+  Structure structure;  ///< Without convexes for a ball.
+  /// Of what stands, the centre is where it was when its body was made: there B has its origin.
   Weight weight;
   double volume_m3 = 0;
+  std::vector<MaterialIndex> materials;  ///< Of its convexes when it was made, each once.
   std::uint64_t born_step = 0;
   /// No blow with less energy can break it: it is too tough, or its last fruitless plan asked for
   /// more. Infinite if nothing can.
   double least_J = std::numeric_limits<double>::infinity();
   double least_Ns = 0;  ///< No blow with less impulse can break it.
   Bearing bearing;
-  std::vector<MeshIndex> meshes;                  ///< Per convex; none() where nothing shows.
-  std::vector<std::vector<std::uint8_t>> hidden;  ///< Per convex, a flag for each face.
+  std::vector<MeshIndex> meshes;                  ///< Per slot; none() where nothing shows.
+  std::vector<std::vector<std::uint8_t>> hidden;  ///< Per slot, a flag for each face.
 };
 
 /// The body tag of the ground, which is no actor.
@@ -62,7 +64,7 @@ inline constexpr std::uint32_t kNobodyKey = 0xfffffffe;
 struct Blow {
   std::uint32_t key = 0;        ///< The actor that may break.
   std::uint32_t other_key = 0;  ///< What hits it.
-  std::uint32_t convex = 0;     ///< The convex that is hit.
+  std::uint32_t convex = 0;     ///< The convex that is hit, by slot.
   Vec3 point_W = Vec3::Zero();
   Vec3 direction_W = Vec3::UnitY();  ///< Unit, into the actor.
   double energy_J = 0;               ///< The work it would do.
@@ -100,6 +102,7 @@ struct HeldTie {
 struct Waiter {
   std::uint32_t key = 0;
   std::uint64_t since_step = 0;
+  std::uint64_t cluster = 0;  ///< Waits together with the others of this number.
 };
 
 struct World {
@@ -122,9 +125,10 @@ struct World {
   std::vector<HeldTie> ties;
   std::vector<Blow> waiting;    ///< Of blasts, over the frame's budget: decided first in the next.
   std::vector<Waiter> waiters;  ///< Ascending by key; as of the last step.
+  std::uint64_t next_waiting = 0;    ///< Number of the next cluster to wait.
   std::uint32_t trials_waiting = 0;  ///< Clusters that they are in.
-  std::uint32_t pieces_left = 0;     ///< Of the frame's budget, in cells of patterns to cut by.
-  std::uint64_t load_work_left = 0;  ///< Of the frame's budget, in visits of bonds.
+  std::uint32_t parts_left = 0;      ///< Of the frame's budget, in parts to cut.
+  std::int64_t load_work_left = 0;   ///< Of the frame's budget, in visits of bonds; may be owed.
   std::uint32_t loads_waiting = 0;   ///< Actors whose load is not judged yet.
   double debris_mass_kg = 0;
   double removed_mass_kg = 0;  ///< By the script.

@@ -26,9 +26,6 @@
 namespace sunder::app {
 namespace {
 
-using fracture::BreakEdit;
-using fracture::Structure;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kEvent = 1;
 /// A brick is at least this part of the largest convex.
@@ -87,7 +84,8 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
     check_bricks(options, material.pattern.brick_m, compound);
   }
   const auto breaker = fracture::make_pattern_breaker();
-  BreakCommand command = breaker->command(compound, material, hit, kEvent, options.seed);
+  BreakCommand command =
+      breaker->command(*compound.convexes[hit.convex], material, hit, kEvent, options.seed);
   using Kind = PatternSpec::Kind;
   const Kind kind = material.pattern.kind;
   if (!options.radius_m &&

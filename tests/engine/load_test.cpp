@@ -35,7 +35,7 @@ Scene scene_of(const Compound& compound) {
 
 /// A run whose breaker answers what the test says, and counts how often it is asked.
 struct LoadRun {
-  using Answer = std::function<LoadAnswer(const Compound&, const LoadCase&)>;
+  using Answer = std::function<LoadAnswer(const Structure&, const LoadCase&)>;
 
   ScriptedPhysics* physics = nullptr;
   int asked = 0;
@@ -47,11 +47,11 @@ struct LoadRun {
         [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
     physics = owned.get();
     auto breaker = std::make_unique<ScriptedBreaker>(1.0);
-    breaker->bearing = [this, answer](const Compound& compound, const LoadCase& load) {
+    breaker->bearing = [this, answer](const Structure& structure, const LoadCase& load) {
       ++asked;
       asked_force.setZero();
       for (const Load& one : load.loads) asked_force += one.force_N;
-      return answer(compound, load);
+      return answer(structure, load);
     };
     simulation =
         std::make_unique<Simulation>(std::move(scene), std::move(owned), std::move(breaker));
@@ -66,18 +66,16 @@ struct LoadRun {
   }
 };
 
-LoadAnswer holds(const Compound&, const LoadCase&) {
+LoadAnswer holds(const Structure&, const LoadCase&) {
   LoadAnswer answer;
   answer.settled = true;
   return answer;
 }
 
-LoadAnswer parts(const Compound& compound, const LoadCase&) {
+LoadAnswer parts(const Structure& structure, const LoadCase&) {
   LoadAnswer answer;
   answer.settled = true;
-  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-    answer.plan.pieces.push_back({{compound.convexes[c]}, {compound.anchored[c]}, {}, {}});
-  }
+  answer.edit = ScriptedBreaker::part(structure);
   return answer;
 }
 
@@ -110,7 +108,7 @@ TEST(LoadStage, ABlowIsSpreadOverTheTimeOfTheAverageWhateverTheStep) {
     Scene scene = scene_of(two_boxes(true));
     scene.accuracy.dt_s = 1.0 / (60 * steps);
     double highest = 0;
-    LoadRun run(scene, [&](const Compound&, const LoadCase& load) {
+    LoadRun run(scene, [&](const Structure&, const LoadCase& load) {
       for (const Load& one : load.loads) highest = std::max(highest, one.force_N.norm());
       LoadAnswer answer;
       answer.settled = true;
@@ -154,9 +152,9 @@ TEST(LoadStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   scene.solids.push_back(scene.solids[0]);
   scene.limits.load_work_a_frame = 10;
   std::vector<std::uint64_t> allowed;
-  LoadRun run(scene, [&](const Compound& compound, const LoadCase& load) {
+  LoadRun run(scene, [&](const Structure& structure, const LoadCase& load) {
     allowed.push_back(load.most_work);
-    LoadAnswer answer = parts(compound, load);
+    LoadAnswer answer = parts(structure, load);
     answer.work = load.most_work;
     return answer;
   });
@@ -173,7 +171,7 @@ TEST(LoadStage, GivesTheMemoryBack) {
   struct Marked final : LoadMemory {};
   const auto memory = std::make_shared<const Marked>();
   LoadMemoryPtr seen;
-  LoadRun run(scene_of(two_boxes(true)), [&](const Compound&, const LoadCase& load) {
+  LoadRun run(scene_of(two_boxes(true)), [&](const Structure&, const LoadCase& load) {
     seen = load.memory;
     LoadAnswer answer;
     answer.settled = seen != nullptr;

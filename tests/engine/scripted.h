@@ -139,8 +139,8 @@ class ScriptedPhysics final : public Physics {
 class ScriptedBreaker final : public Breaker {
  public:
   explicit ScriptedBreaker(double area_m2) : area_m2_(area_m2) {}
-  BreakCommand command(const Compound&, const Material& material, const Hit& hit,
-                       std::uint64_t event, std::uint64_t seed) const override {
+  BreakCommand command(const Convex&, const Material& material, const Hit& hit, std::uint64_t event,
+                       std::uint64_t seed) const override {
     BreakCommand command;
     command.event = event;
     command.seed = seed;
@@ -148,19 +148,30 @@ class ScriptedBreaker final : public Breaker {
     command.X_RP.position = hit.point_R;
     return command;
   }
-  BreakPlan plan(const Compound& compound, const BreakCommand&) const override {
-    BreakPlan plan;
-    for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-      plan.pieces.push_back({{compound.convexes[c]}, {compound.anchored[c]}, {}, {}});
-      plan.exposed.push_back({static_cast<std::uint32_t>(c), 0, 0, area_m2_});
+  BreakEdit plan(const Structure& structure, const BreakCommand&) const override {
+    BreakEdit edit = part(structure);
+    for (std::uint32_t p = 1; p <= edit.loose.pieces.size(); ++p) {
+      edit.loose.exposed.push_back({p, 0, 0, area_m2_});
     }
-    return plan;
+    return edit;
   }
-  LoadAnswer bear(const Compound& compound, const LoadCase& load) const override {
-    return bearing ? bearing(compound, load) : LoadAnswer{};
+  LoadAnswer bear(const Structure& structure, const LoadCase& load) const override {
+    return bearing ? bearing(structure, load) : LoadAnswer{};
   }
 
-  std::function<LoadAnswer(const Compound&, const LoadCase&)> bearing;  ///< What bear() answers.
+  /// Every convex comes off, if there are several.
+  static BreakEdit part(const Structure& structure) {
+    BreakEdit edit;
+    edit.changed = structure.size() > 1;
+    if (!edit.changed) return edit;
+    structure.for_each([&](std::uint32_t slot, const Convex&) {
+      edit.removed.push_back(slot);
+      edit.loose.pieces.push_back({{structure.convex(slot)}, {structure.anchored(slot)}, {}, {}});
+    });
+    return edit;
+  }
+
+  std::function<LoadAnswer(const Structure&, const LoadCase&)> bearing;  ///< What bear() answers.
 
  private:
   double area_m2_;

@@ -165,7 +165,7 @@ TEST(BreakStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   const Solid back{"back", two_boxes(Vec3(0, 0, -2), false), {}};
   Scene scene = scene_of({front, back}, {ball_at(Vec3(-0.25, 0.5, 0.5), Vec3(30, 0, 0)),
                                          ball_at(Vec3(-0.25, 0.5, -1.5), Vec3(20, 0, 0))});
-  scene.limits.cells_a_frame = static_cast<std::uint32_t>(scene.materials[0].pattern.cells);
+  scene.limits.parts_a_frame = static_cast<std::uint32_t>(scene.materials[0].pattern.cells);
   const auto script = [](const ScriptedPhysics& physics, int) {
     std::vector<Approach> both = physics.approach(2, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0));
     const auto second = physics.approach(3, 1, Vec3(0, 0.5, -1.5), Vec3(1, 0, 0));

@@ -8,6 +8,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
+#include "fracture/fracture.h"
 #include "fracture/solids.h"
 #include "tests/fracture/frames.h"
 #include "tests/fracture/solids.h"
@@ -17,10 +18,20 @@ namespace {
 
 constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40;
 
-LoadAnswer bear(const Compound& compound, const std::vector<Material>& materials,
-                std::vector<Load> loads = {}, LoadMemoryPtr memory = nullptr,
-                std::uint64_t most_work = kPlenty) {
-  return bear_load(compound, {materials, loads, kDown, most_work, std::move(memory)});
+/// An answer, and what becomes of the compound as pieces; none if nothing does.
+struct Outcome : LoadAnswer {
+  std::size_t cut = 0;
+  BreakPlan plan = {};
+};
+
+Outcome bear(const Compound& compound, const std::vector<Material>& materials,
+             std::vector<Load> loads = {}, LoadMemoryPtr memory = nullptr,
+             std::uint64_t most_work = kPlenty) {
+  Structure structure(compound);
+  Outcome outcome{bear_load(structure, {materials, loads, kDown, most_work, std::move(memory)})};
+  outcome.cut = outcome.edit.cut.size();
+  if (outcome.edit.changed || outcome.cut > 0) outcome.plan = as_pieces(structure, outcome.edit);
+  return outcome;
 }
 
 // The root of a cantilever bears 6 F L / b h².
@@ -61,12 +72,12 @@ TEST(Bear, ACantileverBearsNineTenthsOfItsLoadForEverAndSnapsAtElevenTenths) {
   for (int step = 0; step < 200; ++step) {
     // A load that trembles is solved for anew each time; nothing must add up.
     const double load_N = (0.9 + (step % 2 ? 0.01 : -0.01)) * kSnaps_N;
-    const LoadAnswer answer = bear(compound, materials, at_tip(compound, load_N), memory);
+    const Outcome answer = bear(compound, materials, at_tip(compound, load_N), memory);
     ASSERT_TRUE(answer.settled && answer.cut == 0 && answer.plan.pieces.empty()) << step;
     ASSERT_LE(answer.worst, 1);
     memory = answer.memory;
   }
-  const LoadAnswer answer = bear(compound, materials, at_tip(compound, 1.1 * kSnaps_N), memory);
+  const Outcome answer = bear(compound, materials, at_tip(compound, 1.1 * kSnaps_N), memory);
   EXPECT_TRUE(answer.settled);
   expect_snapped_at_root(answer.plan);
 }
@@ -75,14 +86,14 @@ TEST(Bear, ACantileverThatIsTooLongSnapsUnderItsOwnWeightAtTheRoot) {
   // 3 ρ g L² / h
   const double length = std::sqrt(kRootStrength * kWidth / (3 * kDensity * kGravity));
   EXPECT_EQ(bear(bar(0.95 * length, kWidth, 30, 4), stone(kRootStrength)).cut, 0u);
-  const LoadAnswer answer = bear(bar(1.05 * length, kWidth, 30, 4), stone(kRootStrength));
+  const Outcome answer = bear(bar(1.05 * length, kWidth, 30, 4), stone(kRootStrength));
   expect_snapped_at_root(answer.plan);
 }
 
 TEST(Bear, TheSameLoadAgainCostsOneLookAndChangesNothing) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
-  const LoadAnswer first = bear(compound, stone(1e9));
-  const LoadAnswer second = bear(compound, stone(1e9), {}, first.memory);
+  const Outcome first = bear(compound, stone(1e9));
+  const Outcome second = bear(compound, stone(1e9), {}, first.memory);
   EXPECT_TRUE(second.settled);
   EXPECT_LT(second.work, first.work / 5);
   EXPECT_EQ(first.worst, second.worst);
@@ -98,7 +109,7 @@ TEST(Bear, WorkPutOffIsNotLost) {
   std::size_t pieces = 1;
   int calls = 0;
   for (; pieces == 1 && calls < 1000; ++calls) {
-    LoadAnswer answer = bear(left, materials, loads, memory, little);
+    Outcome answer = bear(left, materials, loads, memory, little);
     EXPECT_LE(answer.work, 20 * compound.bonds.size());
     memory = answer.memory;
     pieces = std::max<std::size_t>(1, answer.plan.pieces.size());
@@ -132,7 +143,7 @@ Compound arch(bool keystone) {
 TEST(Bear, AnArchStandsByItsKeystone) {
   const std::vector<Material> weak_mortar = stone(1e5);
   EXPECT_EQ(bear(arch(true), weak_mortar).cut, 0u);
-  const LoadAnswer answer = bear(arch(false), weak_mortar);
+  const Outcome answer = bear(arch(false), weak_mortar);
   EXPECT_TRUE(answer.settled);
   ASSERT_GE(answer.plan.pieces.size(), 4u);
   int falling = 0;
@@ -146,7 +157,7 @@ TEST(Bear, WhatHangsOnNothingIsAPieceOfItsOwn) {
   std::vector<Part> parts;
   add_grid(Vec3(0, 0, 0), Vec3(1, 1, 1), 1, 2, 1, true, parts);
   add_grid(Vec3(0, 3, 0), Vec3(1, 4, 1), 2, 1, 1, false, parts);
-  const LoadAnswer answer = bear(make_compound(std::move(parts)), stone(1e6));
+  const Outcome answer = bear(make_compound(std::move(parts)), stone(1e6));
   ASSERT_EQ(answer.plan.pieces.size(), 2u);
   EXPECT_TRUE(answer.settled);
   EXPECT_EQ(answer.cut, 0u);
@@ -177,7 +188,7 @@ TEST(Bear, AnyCompoundGivesPiecesThatAddUpAndTheSameForAnyNumberOfThreads) {
     std::vector<std::uint64_t> hashes;
     for (const int count : {1, 2, 4}) {
       set_threads(count);
-      LoadAnswer answer = bear(compound, materials, loads);
+      Outcome answer = bear(compound, materials, loads);
       for (int more = 0; !answer.settled && more < 50; ++more) {
         if (answer.plan.pieces.size() > 1) break;
         const Compound cracked = answer.plan.pieces[0];

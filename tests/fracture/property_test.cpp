@@ -86,7 +86,6 @@ BreakCommand random_blow(Random& random, const Compound& solid, std::uint64_t ev
 
 TEST(Truths, hold_over_ten_thousand_random_breaks) {
   constexpr std::size_t kBreaks = 10000;
-  const auto breaker = make_pattern_breaker();
   std::vector<std::string> problems(kBreaks);
   std::vector<std::uint32_t> pieces(kBreaks), failed(kBreaks);
   std::vector<double> debris(kBreaks);
@@ -95,7 +94,7 @@ TEST(Truths, hold_over_ten_thousand_random_breaks) {
       Random random(seed, 11);
       const Compound solid = random_solid(random, seed);
       const BreakCommand command = random_blow(random, solid, seed + 1);
-      const BreakPlan plan = breaker->plan(solid, command);
+      const BreakPlan plan = break_compound(solid, command);
       problems[seed] = broken_truth(solid, plan);
       pieces[seed] = static_cast<std::uint32_t>(plan.pieces.size());
       failed[seed] = plan.failed;
@@ -120,7 +119,6 @@ TEST(Truths, hold_over_ten_thousand_random_breaks) {
 
 /// Breaks of breaks of what overlaps: whether the ghosts still fit after several cuts.
 TEST(Truths, hold_where_convexes_overlap_over_three_generations) {
-  const auto breaker = make_pattern_breaker();
   std::size_t pieces = 0, ghosts = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     Random random(seed, 31);
@@ -132,7 +130,7 @@ TEST(Truths, hold_where_convexes_overlap_over_three_generations) {
       const std::size_t which = random.below(static_cast<std::uint32_t>(solids.size()));
       const Compound target = solids[which];
       const BreakCommand command = random_blow(random, target, 10 * seed + generation);
-      const BreakPlan plan = breaker->plan(target, command);
+      const BreakPlan plan = break_compound(target, command);
       ASSERT_EQ(broken_truth(target, plan), "") << "seed " << seed << " generation " << generation;
       EXPECT_EQ(plan.failed, 0u);
       after += plan.debris_volume_m3;
@@ -151,7 +149,6 @@ TEST(Truths, hold_where_convexes_overlap_over_three_generations) {
 }
 
 TEST(Truths, survive_torture_to_five_levels) {
-  const auto breaker = make_pattern_breaker();
   std::vector<Compound> solids{box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1))};
   double debris = 0;
   std::uint64_t event = 0;
@@ -166,7 +163,7 @@ TEST(Truths, survive_torture_to_five_levels) {
       command.pattern.falloff = 1;
       command.X_RP.position = bounds(solid).center() + 1e-3 * random.direction();
       command.radius_m = std::numeric_limits<double>::infinity();
-      const BreakPlan plan = breaker->plan(solid, command);
+      const BreakPlan plan = break_compound(solid, command);
       ASSERT_EQ(broken_truth(solid, plan), "") << "event " << event;
       ASSERT_EQ(plan.failed, 0u) << "event " << event;
       debris += plan.debris_volume_m3;

@@ -7,8 +7,8 @@
 #include "engine/base/parallel.h"
 #include "engine/geometry/repair.h"
 #include "engine/io/mesh_reader.h"
+#include "fracture/impact_sphere.h"
 #include "fracture/pattern_breaker.h"
-#include "fracture/structure.h"
 #include "fracture/vacd.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/visual_truths.h"
@@ -34,7 +34,6 @@ BreakCommand blow(int cells, const Vec3& at, double radius_m, std::uint64_t even
 
 TEST(RealMeshes, break_whole_and_keep_every_truth) {
   SUNDER_NEEDS_MESHES();
-  const auto breaker = make_pattern_breaker();
   for (const auto& file : test::meshes("good")) {
     const std::string name = file.filename().string();
     for (PolygonMesh& shell : read_repaired(file).shells) {
@@ -42,7 +41,7 @@ TEST(RealMeshes, break_whole_and_keep_every_truth) {
       for (const int cells : {1, 20, 100}) {
         const Vec3 center = bounds(solid).center();
         const BreakPlan plan =
-            breaker->plan(solid, blow(cells, center, std::numeric_limits<double>::infinity()));
+            break_compound(solid, blow(cells, center, std::numeric_limits<double>::infinity()));
         EXPECT_EQ(broken_visual_truth(solid, plan), "") << name << " in " << cells;
         EXPECT_EQ(plan.failed, 0u) << name << " in " << cells;
         EXPECT_LT(plan.debris_volume_m3, 1e-5 * volume(solid)) << name << " in " << cells;
@@ -54,7 +53,6 @@ TEST(RealMeshes, break_whole_and_keep_every_truth) {
 
 TEST(RealMeshes, survive_three_levels) {
   SUNDER_NEEDS_MESHES();
-  const auto breaker = make_pattern_breaker();
   const RepairedMesh mesh = read_repaired(test::meshes_folder() / "good" / "bunny_12k.off");
   std::vector<Compound> solids{solid_of(mesh.shells[0])};
   const double whole = volume(solids[0]);
@@ -65,7 +63,7 @@ TEST(RealMeshes, survive_three_levels) {
     std::vector<Compound> next;
     for (const Compound& solid : solids) {
       ++event;
-      const BreakPlan plan = breaker->plan(
+      const BreakPlan plan = break_compound(
           solid, blow(8, bounds(solid).center(), std::numeric_limits<double>::infinity(), event));
       ASSERT_EQ(broken_visual_truth(solid, plan), "") << "event " << event;
       ASSERT_EQ(plan.failed, 0u) << "event " << event;
@@ -88,7 +86,6 @@ TEST(RealMeshes, survive_three_levels) {
 
 TEST(RealMeshes, break_where_they_are_hit_and_nowhere_else) {
   SUNDER_NEEDS_MESHES();
-  const auto breaker = make_pattern_breaker();
   VacdOptions options;
   options.node_count = 12;
   const Compound solid =
@@ -100,7 +97,7 @@ TEST(RealMeshes, break_where_they_are_hit_and_nowhere_else) {
   const Box box = bounds(solid);
   const BreakCommand command =
       blow(30, box.center() + 0.3 * box.extent(), 0.15 * box.extent().norm());
-  const BreakPlan plan = breaker->plan(solid, command);
+  const BreakPlan plan = break_compound(solid, command);
   ASSERT_TRUE(plan.broke());
   EXPECT_EQ(broken_visual_truth(solid, plan), "");
   const ImpactSphere sphere{command.X_RP.position, command.radius_m};
@@ -120,7 +117,6 @@ TEST(RealMeshes, break_where_they_are_hit_and_nowhere_else) {
 
 TEST(RealMeshes, break_alike_with_any_number_of_threads) {
   SUNDER_NEEDS_MESHES();
-  const auto breaker = make_pattern_breaker();
   VacdOptions options;
   options.node_count = 5;
   const Compound solid =
@@ -128,8 +124,8 @@ TEST(RealMeshes, break_alike_with_any_number_of_threads) {
   std::vector<std::uint64_t> hashes;
   for (const int count : {1, 2, 4}) {
     set_threads(count);
-    const BreakPlan plan =
-        breaker->plan(solid, blow(60, bounds(solid).center(), 0.3 * bounds(solid).extent().norm()));
+    const BreakPlan plan = break_compound(
+        solid, blow(60, bounds(solid).center(), 0.3 * bounds(solid).extent().norm()));
     EXPECT_TRUE(plan.broke());
     hashes.push_back(hash_of(plan));
   }

@@ -53,7 +53,6 @@ std::size_t count_internal(const BreakPlan& plan) {
 }
 
 TEST(Visual, every_kind_of_mesh_keeps_the_truths) {
-  const auto breaker = make_pattern_breaker();
   const PatternSpec::Kind kinds[] = {PatternSpec::Kind::kVoronoi, PatternSpec::Kind::kGrid,
                                      PatternSpec::Kind::kSlabs, PatternSpec::Kind::kWeb,
                                      PatternSpec::Kind::kBrick};
@@ -66,7 +65,7 @@ TEST(Visual, every_kind_of_mesh_keeps_the_truths) {
       for (const double radius : {0.7, kEndless}) {
         const int cells = kind == PatternSpec::Kind::kGrid ? 4 : 20;
         const BreakPlan plan =
-            breaker->plan(solid, blow(kind, cells, Vec3(.1, .2, .3), radius, ++event));
+            break_compound(solid, blow(kind, cells, Vec3(.1, .2, .3), radius, ++event));
         EXPECT_EQ(broken_visual_truth(solid, plan), "")
             << "event " << event << " of kind " << static_cast<int>(kind);
         EXPECT_EQ(plan.failed, 0u) << "event " << event;
@@ -76,9 +75,8 @@ TEST(Visual, every_kind_of_mesh_keeps_the_truths) {
 }
 
 TEST(Visual, cells_wholly_inside_become_internal_convexes) {
-  const auto breaker = make_pattern_breaker();
   const Compound solid = solid_of(box_mesh(Vec3::Constant(-1), Vec3::Constant(1)));
-  const BreakPlan plan = breaker->plan(solid, blow(PatternSpec::Kind::kVoronoi, 200));
+  const BreakPlan plan = break_compound(solid, blow(PatternSpec::Kind::kVoronoi, 200));
   EXPECT_EQ(broken_visual_truth(solid, plan), "");
   EXPECT_GT(count_internal(plan), 10u);
   for (const Compound& piece : plan.pieces) {
@@ -96,11 +94,10 @@ TEST(Visual, cells_wholly_inside_become_internal_convexes) {
 }
 
 TEST(Visual, only_internal_convexes_weld) {
-  const auto breaker = make_pattern_breaker();
   const Compound solid = solid_of(box_mesh(Vec3::Constant(-1), Vec3::Constant(1)));
   // The pattern is √3 in size: the middle 5 of its 9 cells along an axis are inside the box.
   BreakCommand command = blow(PatternSpec::Kind::kGrid, 9);
-  const BreakPlan first = breaker->plan(solid, command);
+  const BreakPlan first = break_compound(solid, command);
   ASSERT_GT(count_internal(first), 0u);
   Compound whole;  // what was broken, as one compound again
   for (const Compound& piece : first.pieces) {
@@ -109,20 +106,19 @@ TEST(Visual, only_internal_convexes_weld) {
   whole.anchored.assign(whole.convexes.size(), 0);
   whole.bonds = find_contacts(whole.convexes);
   command = blow(PatternSpec::Kind::kVoronoi, 300, Vec3::Zero(), kEndless, 2);
-  const BreakPlan second = breaker->plan(whole, command);
+  const BreakPlan second = break_compound(whole, command);
   EXPECT_GT(second.welded, 0u);
   EXPECT_EQ(broken_visual_truth(whole, second), "");
 }
 
 TEST(Visual, legs_that_are_cut_off_are_convexes_of_their_own) {
-  const auto breaker = make_pattern_breaker();
   const Compound comb = solid_of(original(test::comb(2)));  // a U: two legs on a bar
   PatternSpec slabs;
   BreakCommand command = blow(PatternSpec::Kind::kSlabs, 2);
   command.pattern.jitter = 0;
   // Slabs lie across y; turned so that they lie across z, along the bar.
   command.X_RP.rotation = Quat(Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitX()));
-  const BreakPlan plan = breaker->plan(comb, command);
+  const BreakPlan plan = break_compound(comb, command);
   EXPECT_EQ(broken_visual_truth(comb, plan), "");
   ASSERT_EQ(plan.pieces.size(), 3u);
   int legs = 0;
@@ -200,8 +196,7 @@ TEST(Visual, corner_attributes_are_interpolated_along_cuts) {
     mesh.corner_normals[c] = (p - ring).normalized().cast<float>();
     mesh.corner_uvs[c] = Vec2f(static_cast<float>(2 * p.x()), static_cast<float>(p.y() - p.z()));
   }
-  const auto breaker = make_pattern_breaker();
-  const BreakPlan plan = breaker->plan(solid_of(mesh), blow(PatternSpec::Kind::kVoronoi, 30));
+  const BreakPlan plan = break_compound(solid_of(mesh), blow(PatternSpec::Kind::kVoronoi, 30));
   ASSERT_GT(plan.pieces.size(), 10u);
   std::size_t caps = 0;
   for (const Compound& piece : plan.pieces) {
@@ -237,14 +232,13 @@ TEST(Visual, corner_attributes_are_interpolated_along_cuts) {
 }
 
 TEST(Visual, tighter_fits_enclose_less_and_bonds_remain) {
-  const auto breaker = make_pattern_breaker();
   const Compound solid = solid_of(original(test::torus(40, 20)));
   double before = kEndless;
   for (const Fit& fit : {Fit{Fit::Kind::kAabb}, Fit{Fit::Kind::k14Dop}, Fit{Fit::Kind::k26Dop},
                          Fit{Fit::Kind::kHull, 64}}) {
     BreakCommand command = blow(PatternSpec::Kind::kVoronoi, 40, Vec3(.7, 0, 0), 0.3);
     command.fit = fit;
-    const BreakPlan plan = breaker->plan(solid, command);
+    const BreakPlan plan = break_compound(solid, command);
     ASSERT_TRUE(plan.broke());
     EXPECT_EQ(broken_visual_truth(solid, plan), "") << name_of(fit);
     double hulls = 0;
@@ -282,14 +276,13 @@ double drawn_area(const Compound& piece) {
 }
 
 TEST(Visual, what_is_drawn_is_what_shows) {
-  const auto breaker = make_pattern_breaker();
   for (const PolygonMesh& mesh : {test::torus(40, 20), test::ring(), test::hollow_box()}) {
     const Compound solid = solid_of(original(mesh));
     double surface = 0;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) surface += face_area(mesh, f);
     EXPECT_NEAR(drawn_area(solid), surface, 1e-5);
     const BreakPlan plan =
-        breaker->plan(solid, blow(PatternSpec::Kind::kVoronoi, 20, Vec3(.7, .1, 0), 0.4));
+        break_compound(solid, blow(PatternSpec::Kind::kVoronoi, 20, Vec3(.7, .1, 0), 0.4));
     ASSERT_TRUE(plan.broke());
     double drawn = 0;
     for (const Compound& piece : plan.pieces) drawn += drawn_area(piece);
@@ -299,20 +292,18 @@ TEST(Visual, what_is_drawn_is_what_shows) {
 }
 
 TEST(Visual, a_break_that_leaves_the_mesh_whole_gives_the_convex_back) {
-  const auto breaker = make_pattern_breaker();
   const Compound solid = solid_of(original(test::ring()));
   // In the middle of the hole: cells cut the convex, but not the mesh.
   const BreakPlan plan =
-      breaker->plan(solid, blow(PatternSpec::Kind::kVoronoi, 10, Vec3(0, .5, 0), 0.05));
+      break_compound(solid, blow(PatternSpec::Kind::kVoronoi, 10, Vec3(0, .5, 0), 0.05));
   ASSERT_EQ(plan.pieces.size(), 1u);
   EXPECT_EQ(plan.failed, 0u);
 }
 
 TEST(Visual, the_same_break_gives_the_same_bits) {
-  const auto breaker = make_pattern_breaker();
   const Compound solid = solid_of(original(test::torus(30, 12)));
   const BreakCommand command = blow(PatternSpec::Kind::kVoronoi, 25);
-  EXPECT_EQ(hash_of(breaker->plan(solid, command)), hash_of(breaker->plan(solid, command)));
+  EXPECT_EQ(hash_of(break_compound(solid, command)), hash_of(break_compound(solid, command)));
 }
 
 }  // namespace

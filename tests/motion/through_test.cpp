@@ -80,7 +80,7 @@ TEST_P(AtAnyStep, BallsThatHitOneWallAtOnceEachLoseWhatTheyBreak) {
 
 TEST_P(AtAnyStep, ABallThatHasToWaitForTheBudgetLosesNothingByIt) {
   Scene scene = bare_scene(GetParam(), 9000, 2);
-  scene.limits.cells_a_frame = 12;  // one break a frame
+  scene.limits.parts_a_frame = 12;  // one break a frame
   for (int i = 0; i < 4; ++i) {
     scene.solids.push_back(wall(0, Vec3(1, 0, 3 * i), 2, 0.05));
     scene.balls.push_back(steel_ball(0.15, Vec3(0, 0.05, 3 * i), Vec3(25, 0, 0)));

@@ -1,19 +1,14 @@
-#include "fracture/structure.h"
+#include "engine/world/structure.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
-#include "fracture/adjacency.h"
-#include "fracture/overlap.h"
-#include "fracture/polygon.h"
+#include "engine/world/breaker.h"
 
-namespace sunder::fracture {
+namespace sunder {
 namespace {
-
-double distance_to_box(const Vec3& point, const Box& box) {
-  return (box.min - point).cwiseMax(point - box.max).cwiseMax(0.0).norm();
-}
 
 template <class T>
 std::size_t bytes(const std::vector<T>& vector) {
@@ -22,20 +17,11 @@ std::size_t bytes(const std::vector<T>& vector) {
 
 }  // namespace
 
-bool ImpactSphere::is_endless() const {
-  return radius_m == std::numeric_limits<double>::infinity();
-}
-
-bool ImpactSphere::touches(const Convex& convex) const {
-  if (is_endless()) return true;
-  return distance_to_box(center_R, convex.box) <= radius_m &&
-         distance(center_R, convex.polyhedron) <= radius_m;
-}
-
 Structure::Structure(const Compound& compound) {
   slots_.resize(compound.convexes.size());
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     slots_[i] = {compound.convexes[i], compound.anchored[i], {}, {}};
+    anchored_ += compound.anchored[i] != 0 ? 1 : 0;
   }
   size_ = slot_count();
   for (const Bond& bond : compound.bonds) link(bond);
@@ -48,6 +34,17 @@ Structure::Structure(const Compound& compound) {
 void Structure::link(const Bond& bond) {
   slots_[bond.a].links.push_back({bond.b, bond.face_a, bond.face_b, bond.area_m2});
   slots_[bond.b].links.push_back({bond.a, bond.face_b, bond.face_a, bond.area_m2});
+  ++bonds_;
+}
+
+void Structure::unlink(const Bond& bond) {
+  const auto is_it = [&](std::uint32_t other, std::uint32_t face, std::uint32_t other_face) {
+    return [=](const Link& link) {
+      return std::tie(link.other, link.face, link.other_face) == std::tie(other, face, other_face);
+    };
+  };
+  bonds_ -= std::erase_if(slots_[bond.a].links, is_it(bond.b, bond.face_a, bond.face_b));
+  std::erase_if(slots_[bond.b].links, is_it(bond.a, bond.face_b, bond.face_a));
 }
 
 void Structure::add_ghost(Ghost ghost) {
@@ -76,44 +73,56 @@ void Structure::add_level(std::vector<std::uint32_t> slots) {
   levels_.push_back({Bvh(boxes), std::move(slots)});
 }
 
-std::vector<std::uint32_t> Structure::touched(const ImpactSphere& sphere) const {
+std::vector<std::uint32_t> Structure::within(const Vec3& center_R, double radius_m) const {
   std::vector<std::uint32_t> found, hits;
+  const bool is_all = radius_m == std::numeric_limits<double>::infinity();
   for (const Level& level : levels_) {
     hits.clear();
-    if (sphere.is_endless()) {
+    if (is_all) {
       hits.resize(level.slots.size());
       std::iota(hits.begin(), hits.end(), 0u);
     } else {
-      level.tree.within(sphere.center_R, sphere.radius_m, hits);
+      level.tree.within(center_R, radius_m, hits);
     }
     for (const std::uint32_t hit : hits) {
-      const ConvexPtr& convex = slots_[level.slots[hit]].convex;
-      if (convex && sphere.touches(*convex)) found.push_back(level.slots[hit]);
+      if (slots_[level.slots[hit]].convex) found.push_back(level.slots[hit]);
     }
   }
   std::sort(found.begin(), found.end());
   return found;
 }
 
-void Structure::apply(const BreakEdit& edit) {
-  if (!edit.changed) return;
-  for (const std::uint32_t gone : edit.removed) {
-    for (const Link& link : slots_[gone].links) {
-      std::erase_if(slots_[link.other].links, [&](const Link& back) { return back.other == gone; });
-    }
-    while (!slots_[gone].ghosts.empty()) remove_ghost(slots_[gone].ghosts.back());
-    slots_[gone] = {};
+void Structure::remove_slot(std::uint32_t slot) {
+  Slot& gone = slots_[slot];
+  for (const Link& link : gone.links) {
+    std::erase_if(slots_[link.other].links, [&](const Link& back) { return back.other == slot; });
   }
+  bonds_ -= gone.links.size();
+  while (!gone.ghosts.empty()) remove_ghost(gone.ghosts.back());
+  anchored_ -= gone.anchored != 0 ? 1 : 0;
+  gone = {};
+  --size_;
+}
+
+void Structure::apply(const BreakEdit& edit) {
+  for (const Bond& bond : edit.cut) unlink(bond);
+  if (!edit.changed) return;
+  for (const std::uint32_t slot : edit.removed) remove_slot(slot);
   std::vector<std::uint32_t> fresh;
   for (std::size_t i = 0; i < edit.added.size(); ++i) {
     fresh.push_back(slot_count());
     slots_.push_back({edit.added[i], edit.added_anchors[i], {}, {}});
+    anchored_ += edit.added_anchors[i] != 0 ? 1 : 0;
   }
   size_ += static_cast<std::uint32_t>(edit.added.size());
-  size_ -= static_cast<std::uint32_t>(edit.removed.size());
   for (const Bond& bond : edit.bonds) link(bond);
   for (const Ghost& ghost : edit.ghosts) add_ghost(ghost);
   add_level(std::move(fresh));
+}
+
+void Structure::loosen(std::uint32_t slot) {
+  anchored_ -= slots_[slot].anchored != 0 ? 1 : 0;
+  slots_[slot].anchored = 0;
 }
 
 Compound Structure::compound() const {
@@ -125,14 +134,18 @@ Compound Structure::compound() const {
     compound.convexes.push_back(slots_[i].convex);
     compound.anchored.push_back(slots_[i].anchored);
   }
+  std::vector<Bond> of_slot;
   for (std::uint32_t i = 0; i < slot_count(); ++i) {
+    of_slot.clear();
     for (const Link& link : slots_[i].links) {
       if (i > link.other) continue;
-      compound.bonds.push_back(
-          {index[i], index[link.other], link.face, link.other_face, link.area_m2});
+      of_slot.push_back({index[i], index[link.other], link.face, link.other_face, link.area_m2});
     }
+    std::sort(of_slot.begin(), of_slot.end(), [](const Bond& x, const Bond& y) {
+      return std::tie(x.b, x.face_a, x.face_b) < std::tie(y.b, y.face_a, y.face_b);
+    });
+    compound.bonds.insert(compound.bonds.end(), of_slot.begin(), of_slot.end());
   }
-  sort_bonds(compound.bonds);
   for (Ghost ghost : ghosts_) {
     if (!ghost.convex) continue;
     for (std::uint32_t& slot : ghost.of) slot = index[slot];
@@ -153,4 +166,18 @@ double Structure::bytes_per_convex() const {
   return static_cast<double>(sum) / std::max(1u, size_);
 }
 
-}  // namespace sunder::fracture
+Box bounds(const Structure& structure) {
+  Box box;
+  structure.for_each([&](std::uint32_t, const Convex& convex) { box.extend(convex.box); });
+  return box;
+}
+
+double distance_outside(const Structure& structure, const Vec3& point_R) {
+  double least = std::numeric_limits<double>::infinity();
+  structure.for_each([&](std::uint32_t, const Convex& convex) {
+    least = std::min(least, distance_outside(convex, point_R));
+  });
+  return least;
+}
+
+}  // namespace sunder

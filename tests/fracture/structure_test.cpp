@@ -1,0 +1,87 @@
+// What a structure knows after any number of edits is what one made afresh of what is left knows.
+#include <gtest/gtest.h>
+
+#include "engine/base/random.h"
+#include "fracture/adjacency.h"
+#include "fracture/fracture.h"
+#include "fracture/islands.h"
+#include "fracture/pattern.h"
+#include "tests/fracture/solids.h"
+
+namespace sunder::fracture {
+namespace {
+
+Compound heap(Random& random) { return split_islands(compound_of(random_boxes(random, 12)))[0]; }
+
+/// Contacts, islands, anchors and places of what is left, found from scratch.
+void expect_as_rebuilt(const Structure& structure, Random& random) {
+  const Compound left = structure.compound();
+  ASSERT_EQ(left.convexes.size(), structure.size());
+  EXPECT_EQ(left.bonds.size(), structure.bond_count());
+  EXPECT_EQ(left.is_anchored(), structure.is_anchored());
+  const std::vector<std::uint32_t> islands = find_islands(left);
+  EXPECT_EQ(std::count(islands.begin(), islands.end(), 0u), std::ssize(islands));
+  if (left.ghosts.empty()) {
+    const std::vector<Bond> fresh = find_contacts(left.convexes);
+    ASSERT_EQ(left.bonds.size(), fresh.size());
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+      const Bond &x = left.bonds[i], &y = fresh[i];
+      EXPECT_EQ(std::tie(x.a, x.b, x.face_a, x.face_b), std::tie(y.a, y.b, y.face_a, y.face_b));
+      EXPECT_NEAR(x.area_m2, y.area_m2, 1e-9 * y.area_m2);
+    }
+  }
+  const Box box = bounds(structure);
+  const Vec3 at = box.center() + 0.5 * box.extent().norm() * random.direction();
+  const double radius = random.uniform() * box.extent().norm();
+  std::vector<std::uint32_t> near;
+  structure.for_each([&](std::uint32_t slot, const Convex& convex) {
+    const Vec3 gap = (convex.box.min - at).cwiseMax(at - convex.box.max).cwiseMax(0.0);
+    if (gap.norm() <= radius) near.push_back(slot);
+  });
+  EXPECT_EQ(structure.within(at, radius), near);
+}
+
+TEST(Structure, knows_after_random_breaks_what_one_made_of_the_rest_would_know) {
+  int edits = 0;
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    Random random(seed, 5);
+    const Compound whole =
+        seed % 3 == 2 ? heap(random) : grid_compound(7, 6, 5, Vec3::Ones(), true);
+    const double before = volume(whole);
+    Structure structure(whole);
+    const Pattern pattern = voronoi_pattern(12, 2, false, seed);
+    double gone = 0;
+    for (std::uint64_t event = 1; event <= 8 && !structure.empty(); ++event) {
+      const Box box = bounds(structure);
+      const Vec3 at =
+          box.min +
+          Vec3(random.uniform(), random.uniform(), random.uniform()).cwiseProduct(box.extent());
+      const double radius = random.uniform(0.1, 0.4) * box.extent().maxCoeff();
+      const BreakEdit edit =
+          break_structure(structure, pattern, {radius * Mat3::Identity(), at}, {at, radius}, event);
+      structure.apply(edit);
+      edits += edit.changed ? 1 : 0;
+      for (const Compound& piece : edit.loose.pieces) gone += volume(piece);
+      gone += edit.loose.debris_volume_m3;
+      if (structure.empty()) break;
+      expect_as_rebuilt(structure, random);
+      EXPECT_NEAR(volume(structure.compound()) + gone, before, 1e-9 * before) << seed;
+    }
+  }
+  EXPECT_GT(edits, 100);
+}
+
+TEST(Structure, loses_a_contact_that_is_cut_on_both_sides) {
+  Structure structure(grid_compound(3, 1, 1, Vec3::Ones(), true));
+  ASSERT_EQ(structure.bond_count(), 2u);
+  BreakEdit edit;
+  edit.cut = {structure.compound().bonds[1]};
+  structure.apply(edit);
+  EXPECT_EQ(structure.bond_count(), 1u);
+  EXPECT_EQ(structure.links(1).size(), 1u);
+  EXPECT_TRUE(structure.links(2).empty());
+  EXPECT_EQ(structure.size(), 3u);
+}
+
+}  // namespace
+}  // namespace sunder::fracture

@@ -1,0 +1,65 @@
+// A building stays the body it was while pieces come off it, whatever hits it, and however many.
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "engine/io/state_hash.h"
+#include "tests/motion/run.h"
+
+namespace sunder::tests {
+namespace {
+
+/// A wall of blocks that stands on its anchors, shot in many places at once.
+Scene wall_under_fire(int shots) {
+  Scene scene = bare_scene(1.0 / 120, 600, 2000);
+  scene.gravity_W = Vec3(0, -9.81, 0);
+  scene.materials[0].youngs_Pa = 1e9;
+  scene.materials[0].tensile_Pa = 1e7;
+  scene.materials[0].smallest_break_m3 = 0.1;  // blocks break once
+  scene.solids = {{"wall", fracture::grid_compound(14, 8, 2, Vec3::Constant(0.5), true), {}}};
+  for (int i = 0; i < shots; ++i) {
+    const Vec3 from(0.75 + 0.8 * (i % 7), 1.2 + 1.6 * (i / 7), 1.4);
+    scene.balls.push_back(steel_ball(0.15, from, Vec3(0, 0, -30)));
+  }
+  return scene;
+}
+
+TEST(Building, StaysTheBodyItWasAndLosesOnlyWhatCameOff) {
+  Scene scene = wall_under_fire(14);
+  scene.limits.parts_a_frame = 2000;
+  Trial run(scene);
+  const double mass = run.frame->report.mass_kg;
+  std::uint32_t most_waiting = 0;
+  while (run.frame->time_s < 0.4) {
+    run.step();
+    EXPECT_NEAR(run.frame->report.mass_kg, mass, 1e-9 * mass);
+    EXPECT_LT(run.frame->report.momentum_residual, 1e-4);
+    most_waiting = std::max(most_waiting, run.frame->report.carried_over);
+  }
+  EXPECT_TRUE(run.body(0).is_static);
+  std::size_t of_wall = 0;
+  for (const BreakEvent& event : run.breaks) of_wall += event.body_key == 0 ? 1 : 0;
+  EXPECT_GE(of_wall, 14u);
+  EXPECT_GT(most_waiting, 4u);
+  EXPECT_EQ(run.frame->report.carried_over, 0u);
+  EXPECT_GT(run.frame->bodies.size(), 60u);
+}
+
+TEST(Building, BreaksAlikeForAnyNumberOfThreads) {
+  std::vector<std::string> hashes;
+  for (const int count : {1, 2, 4, 7}) {
+    set_threads(count);
+    Trial run(wall_under_fire(7));
+    StateHash hash;
+    while (run.frame->time_s < 0.25) {
+      run.step();
+      hash.take(run.frame);
+    }
+    EXPECT_FALSE(run.breaks.empty());
+    hashes.push_back(hash.hex());
+  }
+  set_threads(0);
+  for (const std::string& hash : hashes) EXPECT_EQ(hash, hashes[0]);
+}
+
+}  // namespace
+}  // namespace sunder::tests
