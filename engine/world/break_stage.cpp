@@ -84,7 +84,7 @@ void plan_all(World& world, std::span<Planned* const> all) {
   });
 }
 
-/// How many parts a blow cuts, about: what it costs follows that (docs/decisions/031).
+/// How many parts a blow cuts, about: what it costs follows that (docs/decisions/032).
 std::uint32_t parts_of(World& world, const Planned& planned) {
   constexpr std::size_t kPartsOfConvex = 8;
   const BreakCommand& command = planned.command;
