@@ -84,6 +84,7 @@ description = "A block high above the ground, hit by a ball."
 duration_s = 1.5
 [limits]
 debris = 0
+parts_a_frame = 100000  # what waits for its turn is held where it is
 dust = 0
 [[material]]
 name = "concrete"
