@@ -222,14 +222,13 @@ std::vector<Waiter> queue_of(World& world) {
   return queue;
 }
 
-/// Takes the first clusters out of the queue; their bodies are looked at.
-void admit(std::vector<Waiter>& queue, Keys& fresh) {
+/// Takes the first clusters out of the queue.
+void admit(std::vector<Waiter>& queue) {
   std::size_t end = 0;
   for (int clusters = 0; clusters < kAdmitted && end < queue.size(); ++clusters) {
     const std::uint64_t cluster = queue[end].cluster;
     while (end < queue.size() && queue[end].cluster == cluster) ++end;
   }
-  for (std::size_t i = 0; i < end; ++i) fresh.insert(queue[i].key);
   queue.erase(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
@@ -302,16 +301,10 @@ std::vector<Trial> leave_for_later(World& world, std::vector<Trial>& trials) {
 }
 
 /// Follows all probes until each has broken something or come to the end of the step, or has to
-/// wait (if it is not `in_time`, or too costly). The answer is what another round has to look at:
-/// the bodies of what broke something, and of what hit something that another has broken.
-Keys decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<Waiter>& waiters) {
-  Keys again;
-  const auto look_again = [&](const Trial& trial) {
-    for (const ProbeBody& body : trial.probe.bodies()) {
-      if (body.inverse_mass > 0) again.insert(body.key);
-    }
-    return true;
-  };
+/// wait (if it is not `in_time`, or too costly); true if another round is due. What another trial
+/// has broken meanwhile is hit again in that round, as what became of it.
+bool decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<Waiter>& waiters) {
+  bool again = false;
   std::vector<std::uint32_t> broken;  // since the stale ones were sorted out
   while (!trials.empty()) {
     for_chunks(trials.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -321,7 +314,7 @@ Keys decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<
     });
     std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
     const auto stale = [&](const Trial& trial) { return is_stale(world, trial, broken); };
-    std::erase_if(trials, [&](const Trial& trial) { return stale(trial) && look_again(trial); });
+    again |= std::erase_if(trials, stale) > 0;
     broken.clear();
     for (Trial& trial : trials) add_blows(world, trial);
     std::vector<Trial> next = leave_for_later(world, trials);
@@ -341,7 +334,7 @@ Keys decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<
     plan_all(world, planned);
     for (Trial& trial : trials) {
       if (stale(trial) || settle(world, trial, broken)) {
-        look_again(trial);
+        again = true;
         continue;
       }
       trial.probe.hold();
@@ -360,20 +353,17 @@ void break_stage(World& world) {
   if (break_by_blasts(world)) collide();
   world.trials_waiting = 0;
   std::vector<Waiter> queue = queue_of(world), waiters;
-  Keys fresh;
   for (int round = 0; round <= kRounds; ++round) {
     const bool in_time = round < kRounds;
     const bool affordable = in_time && world.parts_left > 0;
-    if (affordable) admit(queue, fresh);
+    if (affordable) admit(queue);
     std::vector<Waiter> left_out = waiters;
     left_out.insert(left_out.end(), queue.begin(), queue.end());
     std::vector<Trial> trials;
-    // What was looked at and held holds on, if nothing about it is fresh.
-    for (BreakProbe& probe : find_clusters(world, left_out, round > 0 ? &fresh : nullptr)) {
+    for (BreakProbe& probe : find_clusters(world, left_out)) {
       trials.push_back({std::move(probe)});
     }
-    fresh = decide(world, trials, in_time, waiters);
-    if (!fresh.empty()) {
+    if (decide(world, trials, in_time, waiters)) {
       collide();
     } else if (!affordable || queue.empty()) {
       break;

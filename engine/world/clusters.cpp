@@ -50,8 +50,7 @@ double closing_energy_J(World& world, const Approach& approach,
 }
 
 /// Approaches with energy enough to break something in the world, in the order of find_clusters().
-std::vector<Seed> find_seeds(World& world, const std::vector<std::uint32_t>& fixed,
-                             const Keys* fresh) {
+std::vector<Seed> find_seeds(World& world, const std::vector<std::uint32_t>& fixed) {
   double least_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) least_J = std::min(least_J, actor.least_J);
   if (least_J == std::numeric_limits<double>::infinity()) return {};
@@ -61,18 +60,12 @@ std::vector<Seed> find_seeds(World& world, const std::vector<std::uint32_t>& fix
         {approach.body_tag_a, approach.body_tag_b, closing_energy_J(world, approach, fixed)});
   }
   std::ranges::stable_sort(pairs, {}, [](const Seed& seed) { return std::pair(seed.a, seed.b); });
-  const auto is_fresh = [&](std::uint32_t key) {
-    if (fresh->contains(key)) return true;
-    const Actor* actor = world.find(key);
-    return actor && actor->born_step == world.step + 1;
-  };
   std::vector<Seed> seeds;
   for (std::size_t i = 0, end = 0; i < pairs.size(); i = end) {
     Seed seed = pairs[i];
     for (end = i + 1; end < pairs.size() && pairs[end].a == seed.a && pairs[end].b == seed.b; ++end)
       seed.energy_J += pairs[end].energy_J;
     if (seed.energy_J <= least_J) continue;
-    if (fresh && !is_fresh(seed.a) && !is_fresh(seed.b)) continue;
     seed.since_step = std::min(waits_since(world, seed.a), waits_since(world, seed.b));
     seeds.push_back(seed);
   }
@@ -216,10 +209,9 @@ class Reach {
 
 }  // namespace
 
-std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out,
-                                      const Keys* fresh) {
+std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out) {
   const std::vector<std::uint32_t> fixed = fixed_to_world(world);
-  const std::vector<Seed> seeds = find_seeds(world, fixed, fresh);
+  const std::vector<Seed> seeds = find_seeds(world, fixed);
   std::vector<BreakProbe> clusters;
   if (seeds.empty()) return clusters;
   Members members(world);

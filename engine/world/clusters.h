@@ -2,8 +2,6 @@
 // something breakable. Internal to engine/world.
 #pragma once
 
-#include <cstdint>
-#include <set>
 #include <vector>
 
 #include "engine/world/break_probe.h"
@@ -11,13 +9,9 @@
 
 namespace sunder {
 
-/// Keys of bodies.
-using Keys = std::set<std::uint32_t>;
-
 /// Clusters, without the bodies `left_out`, around the approaches of the last collide(); a body
 /// that can move is in one at most. What has waited the longest comes first, then the hardest
-/// approach. With `fresh` only around approaches of those, and of what came off in this step.
-std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out,
-                                      const Keys* fresh);
+/// approach.
+std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out);
 
 }  // namespace sunder

@@ -104,7 +104,7 @@ struct Limits {
   std::uint32_t ageing = 0;
   /// Parts to cut, about: cells of a pattern, and eight for each convex in its reach; breaks beyond
   /// it wait a frame.
-  std::uint32_t parts_a_frame = 500;
+  std::uint32_t parts_a_frame = 700;
   /// Visits of bonds to find out what load breaks; what is beyond it waits a frame.
   std::uint32_t load_work_a_frame = 400000;
   std::uint32_t debris = 20000;  ///< Pieces of debris alive at once.
