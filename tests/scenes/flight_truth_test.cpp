@@ -8,6 +8,7 @@
 #include "fracture/pattern_breaker.h"
 #include "scenes/load.h"
 #include "solver/rigid/rigid_physics.h"
+#include "tests/motion/forwarding.h"
 
 namespace sunder::tests {
 namespace {
@@ -23,44 +24,26 @@ struct Whole {
 };
 
 /// The rigid solver, with the masses of what is in it.
-class WeighedPhysics final : public Physics {
+class WeighedPhysics final : public ForwardingPhysics {
  public:
   explicit WeighedPhysics(const solver::RigidOptions& options)
-      : inner_(solver::make_rigid_physics(options)) {}
+      : ForwardingPhysics(solver::make_rigid_physics(options)) {}
 
   std::vector<BodyId> replace(std::span<const BodyId> remove,
                               std::span<const BodyDesc> add) override {
     std::erase_if(bodies_, [&](const auto& body) {
       return std::find(remove.begin(), remove.end(), body.first) != remove.end();
     });
-    const std::vector<BodyId> ids = inner_->replace(remove, add);
+    const std::vector<BodyId> ids = physics_->replace(remove, add);
     for (std::size_t i = 0; i < ids.size(); ++i)
       if (!add[i].is_static) bodies_.emplace_back(ids[i], add[i]);
     return ids;
-  }
-  void edit(const BodyEdit& edit) override { inner_->edit(edit); }
-  void collide(double dt_s) override { inner_->collide(dt_s); }
-  std::vector<Approach> approaches() override { return inner_->approaches(); }
-  std::vector<Touch> touches(std::span<const BodyId> bodies) override {
-    return inner_->touches(bodies);
-  }
-  void set_state(BodyId body, const BodyState& state) override { inner_->set_state(body, state); }
-  void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override {
-    inner_->apply_impulse(body, impulse_W, point_W);
-  }
-  void hold(std::span<const BodyId> bodies) override { inner_->hold(bodies); }
-  SolveReport solve(double dt_s, int substeps) override { return inner_->solve(dt_s, substeps); }
-  BodyState state(BodyId body) const override { return inner_->state(body); }
-  std::vector<ContactLoad> contact_loads() const override { return inner_->contact_loads(); }
-  std::vector<float> penetrations() const override { return inner_->penetrations(); }
-  std::vector<std::pair<const char*, double>> take_timings_ms() override {
-    return inner_->take_timings_ms();
   }
 
   Whole whole() const {
     Whole sum;
     for (const auto& [id, desc] : bodies_) {
-      const BodyState s = inner_->state(id);
+      const BodyState s = physics_->state(id);
       const Mat3 R = s.X_WB.rotation.toRotationMatrix();
       const Vec3 momentum = desc.mass_kg * s.velocity_W;
       sum.mass_kg += desc.mass_kg;
@@ -74,7 +57,6 @@ class WeighedPhysics final : public Physics {
   std::size_t count() const { return bodies_.size(); }
 
  private:
-  std::unique_ptr<Physics> inner_;
   std::vector<std::pair<BodyId, BodyDesc>> bodies_;
 };
 
