@@ -252,13 +252,11 @@ void ContactSolver::choose_beta(bool first) {
 }
 
 void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contacts) {
-  constexpr std::size_t kKeys = (kMaxColors + 1) * 4;
-  std::uint32_t start[kKeys + 1] = {};
+  std::uint32_t start[kSweepKeys + 1] = {};
   in_contact_.assign(bodies.size(), 0);
   bears_on_.assign(bodies.size(), 0);
   points_ = 0;
   deep_contacts_.clear();
-  auto key = [](const Manifold& m) { return std::size_t{m.color} * 4 + 4 - m.count; };
   auto for_each = [&](const auto& visit) {
     for (std::uint32_t i = 0; i < contacts.manifolds.size(); ++i) {
       const Manifold& m = contacts.manifolds[i];
@@ -266,21 +264,21 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
     }
   };
   for_each([&](std::uint32_t, const Manifold& m) {
-    ++start[key(m) + 1];
+    ++start[m.sweep_key() + 1];
     in_contact_[m.body_a] = in_contact_[m.body_b] = 1;
     if (m.normal_impulse() > 0)
       for (const std::uint32_t body : {m.body_a, m.body_b})
-        bears_on_[body] = std::min<std::uint8_t>(bears_on_[body] + 1, 3);
+        bears_on_[body] = std::min<std::uint8_t>(bears_on_[body] + 1, kPinched);
     points_ += m.count;
     if (!m.deep) return;
     deep_contacts_.resize(bodies.size());
     ++deep_contacts_[m.body_a], ++deep_contacts_[m.body_b];
   });
-  for (std::size_t k = 0; k < kKeys; ++k) start[k + 1] += start[k];
-  touching_.resize(start[kKeys]);
-  std::uint32_t next[kKeys];
-  std::copy(start, start + kKeys, next);
-  for_each([&](std::uint32_t i, const Manifold& m) { touching_[next[key(m)]++] = i; });
+  for (std::size_t k = 0; k < kSweepKeys; ++k) start[k + 1] += start[k];
+  touching_.resize(start[kSweepKeys]);
+  std::uint32_t next[kSweepKeys];
+  std::copy(start, start + kSweepKeys, next);
+  for_each([&](std::uint32_t i, const Manifold& m) { touching_[next[m.sweep_key()]++] = i; });
 
   blocks_->clear(touching_.size());
   colors_.clear();

@@ -12,7 +12,8 @@
 namespace sunder::solver {
 
 inline constexpr std::uint8_t kNoColor = 0xff;
-inline constexpr std::uint8_t kMaxColors = 64;  ///< As a colour: none was free.
+inline constexpr std::uint8_t kMaxColors = 64;                   ///< As a colour: none was free.
+inline constexpr std::size_t kSweepKeys = (kMaxColors + 1) * 4;  ///< Of manifolds that touch.
 
 inline std::uint64_t pair_key(std::uint32_t shape_a, std::uint32_t shape_b) {
   return std::uint64_t{shape_a} << 32 | shape_b;
@@ -77,6 +78,8 @@ struct Manifold {
   Vec3f rest_force_W = Vec3f::Zero();    ///< On b, N, when a body of the two last fell asleep.
   std::array<ManifoldPoint, 4> points;
 
+  /// Its place in the order of sweeps: by colour, and in each those of most points first.
+  std::uint32_t sweep_key() const { return color * 4u + 4u - count; }
   float least_separation() const {
     float least = 1e30f;
     for (int i = 0; i < count; ++i) least = std::min(least, points[i].separation_m);

@@ -12,10 +12,9 @@ namespace {
 // share of its size. What gives way by more than this share of it gets stiffer
 // (docs/decisions/031); slowly, or an impact would be thrown back by a spring that hardened while
 // it was compressed.
-constexpr float kMostGive = 0.01f;    // of the inner radius of the smaller shape
-constexpr float kLeastEase = 0.1f;    // beyond, sweeps do not keep up
-constexpr float kEaseStep = 0.97f;    // a step
-constexpr std::uint8_t kPinched = 3;  // contacts: a pebble under a column, held by two, bounces
+constexpr float kMostGive = 0.01f;  // of the inner radius of the smaller shape
+constexpr float kLeastEase = 0.1f;  // beyond, sweeps do not keep up
+constexpr float kEaseStep = 0.97f;  // a step
 
 template <class V>
 void set_lane(Triple<V>& v, std::uint32_t lane, const Vec3f& value) {

@@ -16,6 +16,10 @@ struct SplitSides {
   std::uint32_t parts_a = 1, parts_b = 1;
 };
 
+/// From so many loaded manifolds on a piece is pinched; a pebble under a column, held by two, would
+/// bounce off contacts that get stiffer.
+inline constexpr std::uint8_t kPinched = 3;
+
 /// What the blocks of a step are made from, and what they work on.
 struct ContactStep {
   const Bodies& bodies;
@@ -30,7 +34,7 @@ struct ContactStep {
   float impulse_scale = 1;                            ///< Substep over that of the last step.
   float bounce_speed_m_s = 0;                         ///< Slower impacts do not bounce.
   std::span<const std::uint32_t> deep_contacts = {};  ///< By body slot; empty: there are none.
-  std::span<const std::uint8_t> bears_on = {};        ///< Loaded manifolds by body slot, at most 3.
+  std::span<const std::uint8_t> bears_on = {};  ///< Loaded manifolds by body slot, up to kPinched.
 };
 
 /// With more deep contacts on a body than these, each is pushed apart at a share of the fastest,

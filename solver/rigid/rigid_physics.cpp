@@ -168,8 +168,9 @@ void RigidPhysics::find_reaches(double dt_s) {
 void RigidPhysics::update_contacts(double dt_s) {
   constexpr std::size_t kChunk = 1024;
   auto& pairs = contacts_.pairs;
-  changes_.resize(std::max(changes_.size(), (pairs.size() + kChunk - 1) / kChunk));
-  const auto changes = std::span(changes_).first((pairs.size() + kChunk - 1) / kChunk);
+  const std::size_t chunks = (pairs.size() + kChunk - 1) / kChunk;
+  changes_.resize(std::max(changes_.size(), chunks));
+  const auto changes = std::span(changes_).first(chunks);
   for (ContactChanges& chunk : changes) chunk.clear();
   const NarrowStep step{dt_s, static_cast<float>(options_.gravity_W.norm() * dt_s * dt_s)};
   find_reaches(dt_s);

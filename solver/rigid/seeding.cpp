@@ -135,8 +135,7 @@ bool Seeding::collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
 /// Lists what is to be seeded by colour and number of points.
 void Seeding::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
                            Contacts& contacts) {
-  constexpr std::size_t kKeys = (kMaxColors + 1) * 4;
-  std::uint32_t start[kKeys + 1] = {};
+  std::uint32_t start[kSweepKeys + 1] = {};
   std::vector<std::pair<std::uint32_t, std::uint32_t>> resting;  // key, manifold
   resting.reserve(contacts.unseeded.size());
   const double slow_m_s = 2 * dt_s * gravity_W.norm();
@@ -147,10 +146,10 @@ void Seeding::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bod
     if (m.count == 0 || !(bodies.awake(m.body_a) || bodies.awake(m.body_b))) continue;
     const bool rests = m.least_separation() > -kMostOverlap * m.size_m;
     if (!rests || relative_speed(m, bodies) >= slow_m_s) continue;
-    resting.emplace_back(m.color * 4u + 4u - m.count, i);
+    resting.emplace_back(m.sweep_key(), i);
     ++start[resting.back().first + 1];
   }
-  for (std::size_t k = 0; k < kKeys; ++k) start[k + 1] += start[k];
+  for (std::size_t k = 0; k < kSweepKeys; ++k) start[k + 1] += start[k];
   manifolds_.resize(resting.size());
   for (const auto& [key, i] : resting) manifolds_[start[key]++] = i;
 }
