@@ -7,7 +7,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
-#include "solver/particles/place_order.h"
+#include "solver/place_order.h"
 #include "solver/rigid/wide.h"
 
 namespace sunder::solver {

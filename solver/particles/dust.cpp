@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "engine/base/parallel.h"
-#include "solver/particles/place_order.h"
 #include "solver/particles/turn.h"
+#include "solver/place_order.h"
 
 namespace sunder::solver {
 namespace {

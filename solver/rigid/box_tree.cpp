@@ -2,32 +2,13 @@
 #include "solver/rigid/box_tree.h"
 
 #include <algorithm>
-#include <utility>
+#include <numeric>
 
 #include "engine/base/parallel.h"
+#include "solver/place_order.h"
 
 namespace sunder::solver {
 namespace {
-
-/// Spreads the low 10 bits, two zeros between each.
-std::uint32_t spread(std::uint32_t x) {
-  x = (x | x << 16) & 0x030000ff;
-  x = (x | x << 8) & 0x0300f00f;
-  x = (x | x << 4) & 0x030c30c3;
-  return (x | x << 2) & 0x09249249;
-}
-
-/// Orders (key, item) by key, stably: radix sort in three passes of 10 bits.
-void sort_by_key(std::vector<std::pair<std::uint32_t, std::uint32_t>>& items) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> other(items.size());
-  for (int shift = 0; shift < 30; shift += 10) {
-    std::uint32_t start[1025] = {};
-    for (const auto& item : items) ++start[((item.first >> shift) & 1023) + 1];
-    for (int i = 0; i < 1024; ++i) start[i + 1] += start[i];
-    for (const auto& item : items) other[start[(item.first >> shift) & 1023]++] = item;
-    items.swap(other);
-  }
-}
 
 float reduce_min(Wide v) {
   float least = v[0];
@@ -47,16 +28,17 @@ void BoxTree::build(std::span<const FloatBox> boxes, std::span<const std::uint32
   }
   const float extent = std::max(1e-6f, items.empty() ? 0.f : (all.max - all.min).maxCoeff());
   const float scale = 1023.f / extent;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed(items.size());
+  std::vector<std::uint32_t> keys(items.size()), order(items.size());
+  std::iota(order.begin(), order.end(), 0u);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const FloatBox& box = boxes[items[i]];
     const Vec3f at = (0.5f * (box.min + box.max) - all.min) * scale;
-    auto code = [&](int k) { return spread(static_cast<std::uint32_t>(at[k])); };
-    keyed[i] = {code(0) | code(1) << 1 | code(2) << 2, items[i]};
+    auto cell = [&](int k) { return static_cast<std::uint32_t>(at[k]); };
+    keys[i] = place_key(cell(0), cell(1), cell(2));
   }
-  sort_by_key(keyed);
+  sort_by_key(keys, order);
   items_.resize(items.size());
-  for (std::size_t i = 0; i < keyed.size(); ++i) items_[i] = keyed[i].second;
+  for (std::size_t i = 0; i < order.size(); ++i) items_[i] = items[order[i]];
 
   levels_.clear();
   std::uint32_t count = static_cast<std::uint32_t>(items_.size());

@@ -1,4 +1,4 @@
-#include "solver/particles/place_order.h"
+#include "solver/place_order.h"
 
 #include <algorithm>
 #include <array>
@@ -29,11 +29,14 @@ std::uint32_t place_of(const Vec3f& position_W) {
     return static_cast<std::uint32_t>(
         static_cast<std::int32_t>(std::min(std::max(std::floor(kCells_m * x), -most), most)));
   };
-  return spread(cell(position_W.x())) | spread(cell(position_W.y())) << 1 |
-         spread(cell(position_W.z())) << 2;
+  return place_key(cell(position_W.x()), cell(position_W.y()), cell(position_W.z()));
 }
 
 }  // namespace
+
+std::uint32_t place_key(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  return spread(x) | spread(y) << 1 | spread(z) << 2;
+}
 
 void sort_by_key(std::span<const std::uint32_t> keys, std::vector<std::uint32_t>& order) {
   struct Item {
