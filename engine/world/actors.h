@@ -38,8 +38,10 @@ void add_meshes(World& world, std::span<Actor> actors, const DrawnBefore& old);
 void renew_meshes(World& world, Actor& actor, std::span<const std::uint32_t> slots);
 
 void add_compounds(World& world, std::span<const Solid> solids);
-/// Notes what a break laid bare, for the particles; before it is carried out.
-void crumble(World& world, const Structure& structure, const BreakEdit& edit, const Motion& motion);
+/// Notes what a break laid bare, for the particles, once it is carried out: `edit` was applied to
+/// `structure`, and its pieces are the actors with these keys (kNobodyKey: too small for one).
+void crumble(World& world, const Structure& structure, const BreakEdit& edit, const Motion& before,
+             std::span<const std::uint32_t> piece_keys);
 /// Notes a piece that is too small to be a body.
 void add_chip(World& world, const Compound& piece, const Motion& motion);
 

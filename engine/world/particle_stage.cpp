@@ -23,20 +23,52 @@ double elapsed_s(const World& world) {
          world.scene.accuracy.dt_s;
 }
 
+/// A face where it was when the frame began, moving as it does now; a face of what is gone again
+/// moves as the solid did that it came off.
+Emission emission_of(World& world, const Crumbs::Face& face, std::span<const Vec3> corners_R,
+                     std::vector<Vec3>& corners_W) {
+  const Crumbs::Parent& parent = world.crumbs.parents[face.parent];
+  Pose X_WR = parent.X_WR;
+  Emission emission;
+  emission.motion = parent.motion;
+  emission.parting_m_s = 0;
+  emission.material = face.material;
+  emission.crumbling = world.material(face.material).crumbling;
+  double back_s = parent.back_s;
+  if (const Actor* owner = world.find(face.owner_key)) {
+    const BodyState now = world.physics->state(owner->body);
+    const Vec3 was_W = parent.X_WR * corners_R[0];
+    X_WR = {now.X_WB * Vec3(-owner->weight.com_R), now.X_WB.rotation};
+    emission.motion = {now.X_WB.position, now.velocity_W, now.angular_velocity_W};
+    const Vec3 velocity_W = emission.motion(X_WR * corners_R[0]);
+    emission.parting_m_s = (velocity_W - parent.motion(was_W)).norm();
+    back_s = world.steps_per_frame * world.scene.accuracy.dt_s;
+  }
+  emission.normal_W = X_WR.rotation * face.normal_R;
+  for (const Vec3& corner_R : corners_R) {
+    const Vec3 corner_W = X_WR * corner_R;
+    corners_W.push_back(corner_W - back_s * emission.motion(corner_W));
+  }
+  emission.motion.at_W -= back_s * emission.motion.velocity_W;
+  return emission;
+}
+
 void emit(World& world) {
   Crumbs& crumbs = world.crumbs;
+  std::vector<Emission> emissions;
+  std::vector<Vec3> corners_W;
+  corners_W.reserve(crumbs.corners_R.size());  // spans into it stay
   std::size_t begin = 0;
-  for (std::size_t f = 0; f < crumbs.faces.size(); ++f) {
-    const std::size_t end = crumbs.corners_end[f];
-    crumbs.faces[f].corners_W = std::span(crumbs.corners_W).subspan(begin, end - begin);
-    begin = end;
+  for (const Crumbs::Face& face : crumbs.faces) {
+    const std::size_t count = face.corners_end - begin;
+    const std::span<const Vec3> corners_R = std::span(crumbs.corners_R).subspan(begin, count);
+    emissions.push_back(emission_of(world, face, corners_R, corners_W));
+    emissions.back().corners_W = std::span(corners_W).subspan(begin, count);
+    begin = face.corners_end;
   }
-  if (!crumbs.faces.empty()) world.particles->emit(crumbs.faces);
+  if (!emissions.empty()) world.particles->emit(emissions);
   if (!crumbs.chips.empty()) world.particles->emit(crumbs.chips);
-  crumbs.corners_W.clear();
-  crumbs.corners_end.clear();
-  crumbs.faces.clear();
-  crumbs.chips.clear();
+  crumbs = {};
 }
 
 /// All bodies as they stand, with the convexes they consist of.
@@ -101,28 +133,24 @@ void for_polygons(const Convex& convex, std::uint32_t face, const Use& use) {
 
 }  // namespace
 
-void crumble(World& world, const Structure& structure, const BreakEdit& edit,
-             const Motion& motion) {
-  if (!world.particles) return;
-  const double back_s = elapsed_s(world);
-  const VelocityField field{motion.point_W, motion.velocity_W, motion.angular_velocity_W};
+void crumble(World& world, const Structure& structure, const BreakEdit& edit, const Motion& before,
+             std::span<const std::uint32_t> piece_keys) {
+  if (!world.particles || edit.loose.exposed.empty()) return;
   Crumbs& crumbs = world.crumbs;
+  crumbs.parents.push_back({before.X_WR,
+                            {before.point_W, before.velocity_W, before.angular_velocity_W},
+                            elapsed_s(world)});
   for (const ExposedFace& exposed : edit.loose.exposed) {
     const Convex& convex = edit.exposed_convex(structure, exposed);
-    const Crumbling& crumbling = world.material(convex.material).crumbling;
-    if (!(crumbling.particles_per_m2 > 0)) continue;
-    Emission face;
-    face.normal_W = motion.X_WR.rotation * convex.polyhedron.faces[exposed.face].plane.normal;
-    face.motion = field;
-    face.motion.at_W -= back_s * field.velocity_W;
+    if (!(world.material(convex.material).crumbling.particles_per_m2 > 0)) continue;
+    Crumbs::Face face;
+    face.parent = static_cast<std::uint32_t>(crumbs.parents.size() - 1);
+    face.owner_key = piece_keys[exposed.piece];
+    face.normal_R = convex.polyhedron.faces[exposed.face].plane.normal;
     face.material = convex.material;
-    face.crumbling = crumbling;
     for_polygons(convex, exposed.face, [&](std::span<const Vec3> polygon_R) {
-      for (const Vec3& corner : polygon_R) {
-        const Vec3 point_W = motion.X_WR * corner;
-        crumbs.corners_W.push_back(point_W - back_s * field(point_W));
-      }
-      crumbs.corners_end.push_back(static_cast<std::uint32_t>(crumbs.corners_W.size()));
+      crumbs.corners_R.insert(crumbs.corners_R.end(), polygon_R.begin(), polygon_R.end());
+      face.corners_end = crumbs.corners_R.size();
       crumbs.faces.push_back(face);
     });
   }

@@ -32,6 +32,9 @@ struct Emission {
   std::span<const Vec3> corners_W;  ///< A convex polygon; outlives the call only.
   Vec3 normal_W = Vec3::UnitY();    ///< Unit, out of the solid.
   VelocityField motion;             ///< Of the solid.
+  /// How fast the break drove the solid from what it was part of: the faster, the more comes off,
+  /// up to what the material says, and the faster that flies.
+  double parting_m_s = 5;
   MaterialIndex material;
   Crumbling crumbling;
 };

@@ -92,11 +92,12 @@ struct Pieces {
   std::vector<Actor> actors;
   std::vector<BodyDesc> bodies;
 
-  /// A body, or debris if it is too small.
-  void add(World& world, const Compound& compound, const Actor& parent, const Motion& motion) {
+  /// A body, or debris if it is too small. Returns its key.
+  std::uint32_t add(World& world, const Compound& compound, const Actor& parent,
+                    const Motion& motion) {
     if (!is_body(world, compound)) {
       add_chip(world, compound, motion);
-      return;
+      return kNobodyKey;
     }
     Actor& piece = actors.emplace_back(make_actor(world, compound));
     piece.born_step = world.step + 1;
@@ -104,6 +105,7 @@ struct Pieces {
     if (piece.bearing.bears) piece.bearing.memory = parent.bearing.memory;
     world.debris_mass_kg -= piece.weight.mass_kg;
     bodies.push_back(describe(world, piece, motion));
+    return piece.key;
   }
 };
 
@@ -157,7 +159,6 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
   const BodyState state = world.physics->state(parent.body);
   const Pose X_WR{state.X_WB * Vec3(-parent.weight.com_R), state.X_WB.rotation};
   const Motion motion{X_WR, state.X_WB.position, state.velocity_W, state.angular_velocity_W};
-  crumble(world, parent.structure, edit, motion);
   std::vector<std::uint32_t> changed;
   if (parent.is_static) changed = changed_looks(parent.structure, edit);
   DrawnBefore looks = looks_of(parent, edit.removed);
@@ -170,6 +171,7 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
   const bool stays = parent.is_static && parent.structure.is_anchored();
 
   Pieces pieces;
+  std::vector<std::uint32_t> keys{stays ? parent.key : kNobodyKey};  // as exposed faces name them
   world.debris_mass_kg += stays ? left_kg : parent.weight.mass_kg;
   if (!stays && !parent.structure.empty()) {
     const Compound rest = parent.structure.compound();
@@ -177,9 +179,12 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
       if (slot >= parent.meshes.size()) return;  // new
       looks[&convex] = {parent.meshes[slot], parent.hidden[slot]};
     });
-    pieces.add(world, rest, parent, motion);
+    keys[0] = pieces.add(world, rest, parent, motion);
   }
-  for (const Compound& piece : edit.loose.pieces) pieces.add(world, piece, parent, motion);
+  for (const Compound& piece : edit.loose.pieces) {
+    keys.push_back(pieces.add(world, piece, parent, motion));
+  }
+  crumble(world, parent.structure, edit, motion, keys);
   add_meshes(world, pieces.actors, looks);
   const Vec3 before = momentum_of(world, std::span(&parent, 1));
   std::vector<BodyId> ids;

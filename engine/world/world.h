@@ -70,12 +70,25 @@ struct Blow {
   double energy_J = 0;               ///< The work it would do.
 };
 
-/// What breaks laid bare since the particles last moved, where it was when this frame began.
+/// What breaks laid bare since the particles last moved.
 struct Crumbs {
-  std::vector<Vec3> corners_W;
-  std::vector<std::uint32_t> corners_end;  ///< Per face.
-  std::vector<Emission> faces;             ///< Their corners are set when they are emitted.
-  std::vector<Chip> chips;
+  /// The solid that a break took apart, as it was then.
+  struct Parent {
+    Pose X_WR;
+    VelocityField motion;
+    double back_s = 0;  ///< Since this frame began.
+  };
+  struct Face {
+    std::uint32_t parent = 0;     ///< Index in `parents`.
+    std::uint32_t owner_key = 0;  ///< The actor that it is a face of; none may have this key.
+    Vec3 normal_R = Vec3::UnitY();
+    MaterialIndex material;
+    std::size_t corners_end = 0;
+  };
+  std::vector<Parent> parents;
+  std::vector<Face> faces;
+  std::vector<Vec3> corners_R;
+  std::vector<Chip> chips;  ///< Where they were when this frame began.
 };
 
 /// A blast under way: it breaks, one place of each solid a step, then it pushes.

@@ -315,15 +315,23 @@ void Debris::add_support(const ObstacleBody& body) {
   if (at == supports_.end() || at->key != body.key) supports_.insert(at, {body.key, body.X_WB});
 }
 
-/// Makes room before the limit is reached: those that have lain longest shrink and go.
+/// Makes room before the limit is reached: those go that have lain long and are small, a chip of
+/// twice the radius when it has lain four times as long. They shrink until they are gone.
 void Debris::fade(float dt_s) {
   const std::size_t kept = limit_ - limit_ / kRoom;
   const std::size_t staying = awake_.size() + asleep_.size();
   if (staying > kept && !asleep_.empty()) {
     const std::size_t count = std::min(staying - kept + limit_ / kRoom, asleep_.size());
     const auto end = asleep_.begin() + static_cast<std::ptrdiff_t>(count);
+    const auto stays = [&](std::uint32_t chip) {
+      const auto lain = static_cast<double>(next_rest_ - rest_[chip]);
+      return double{radius_m_[chip]} * double{radius_m_[chip]} / lain;
+    };
     std::nth_element(asleep_.begin(), end - 1, asleep_.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return rest_[a] < rest_[b]; });
+                     [&](std::uint32_t a, std::uint32_t b) {
+                       const double of_a = stays(a), of_b = stays(b);
+                       return of_a != of_b ? of_a < of_b : rest_[a] < rest_[b];
+                     });
     for (auto chip = asleep_.begin(); chip != end; ++chip) state_[*chip] = State::kFading;
     listed_ = false;
   }

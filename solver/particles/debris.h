@@ -22,7 +22,7 @@ struct DebrisBirth {
 };
 
 /// All debris. Resting chips sleep and cost nothing until their support goes, moves, or something
-/// else runs into them. Where many lie, the ones that have lain longest fade.
+/// else runs into them. Where many lie, small ones that have lain long fade.
 class Debris {
  public:
   Debris(std::uint32_t limit, const Vec3& gravity_W);

@@ -74,10 +74,29 @@ ConvexPtr box_with_a_half_cap(const Vec3& min) {
   return make_convex(std::move(polyhedron), MaterialIndex(0), std::move(visual));
 }
 
+/// A ball flies towards a body; in the first solve, what the world has by then is kicked.
+class KickingPhysics final : public ScriptedPhysics {
+ public:
+  explicit KickingPhysics(const Vec3& kick_m_s)
+      : ScriptedPhysics([](const ScriptedPhysics& physics, int) {
+          return physics.approach(1, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX());
+        }),
+        kick_m_s_(kick_m_s) {}
+
+  SolveReport solve(double dt_s, int substeps) override {
+    for (Body& body : bodies) body.state.velocity_W += kick_m_s_;
+    kick_m_s_.setZero();
+    return ScriptedPhysics::solve(dt_s, substeps);
+  }
+
+ private:
+  Vec3 kick_m_s_;
+};
+
 /// Two unit boxes of stone that fly along z, and a ball that parts them in the first step.
 struct ParticleRun {
   explicit ParticleRun(double dt_s, double smallest_piece_m3 = 0, double particles_per_m2 = 10,
-                       bool visual = false) {
+                       bool visual = false, const Vec3& kick_m_s = Vec3::Zero()) {
     Material stone;
     stone.density_kg_m3 = 1000;
     stone.pattern.kind = PatternSpec::Kind::kVoronoi;
@@ -102,12 +121,9 @@ struct ParticleRun {
     scene.balls = {{"ball", 0.25, MaterialIndex(1), Vec3(-0.3, 0.5, 0.5), Vec3(60, 0, 2)}};
     auto owned = std::make_unique<RecordingParticles>();
     particles = owned.get();
-    simulation = std::make_unique<Simulation>(
-        std::move(scene),
-        std::make_unique<ScriptedPhysics>([](const ScriptedPhysics& physics, int) {
-          return physics.approach(1, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX());
-        }),
-        std::make_unique<ScriptedBreaker>(1.0), std::move(owned));
+    simulation =
+        std::make_unique<Simulation>(std::move(scene), std::make_unique<KickingPhysics>(kick_m_s),
+                                     std::make_unique<ScriptedBreaker>(1.0), std::move(owned));
     simulation->next();
   }
   RecordingParticles* particles;
@@ -129,6 +145,21 @@ TEST(ParticleStage, IsToldOfEveryFaceThatABreakLaidBare) {
   EXPECT_EQ(face.emission.material, MaterialIndex(0));
   EXPECT_EQ(face.emission.crumbling.particles_per_m2, 10);
   EXPECT_NEAR(face.emission.motion(face.corners_W[0]).z(), 2, 1e-9);
+}
+
+TEST(ParticleStage, FacesMoveAsTheirPiecesDoOnceTheBlowHasDrivenThemApart) {
+  ParticleRun run(1.0 / 60, 0, 10, false, Vec3(0, 3, 4));
+  run.simulation->next();
+  ASSERT_EQ(run.particles->faces.size(), 2u);
+  const ConvexPolyhedron box = make_box(Vec3::Zero(), Vec3::Ones());
+  for (const RecordingParticles::Face& face : run.particles->faces) {
+    const Vec3 velocity_W = face.emission.motion(face.corners_W[0]);
+    EXPECT_LT((velocity_W - Vec3(0, 3, 6)).norm(), 1e-9) << "the parent's, and what the blow added";
+    EXPECT_NEAR(face.emission.parting_m_s, 5, 1e-9);
+  }
+  const Vec3 corner = box.vertices[box.face_corners(0)[0]];
+  EXPECT_LT((run.particles->faces[0].corners_W[0] - corner).norm(), 1e-9)
+      << "they start where the frame began, so that they keep up with their piece";
 }
 
 TEST(ParticleStage, AVisualMeshCrumblesWhereItsCapsAre) {

@@ -12,7 +12,7 @@
 namespace sunder::testing {
 
 /// Bodies that fly straight on; approaches are whatever `script` says for the number of collides.
-class ScriptedPhysics final : public Physics {
+class ScriptedPhysics : public Physics {
  public:
   struct Body {
     BodyDesc desc;

@@ -186,5 +186,35 @@ TEST(Debris, OverItsBudgetFadesTheOldestRestingAndIgnoresWhatIsOverItsLimit) {
   }
 }
 
+TEST(Debris, OverItsBudgetShrinksSmallChipsBeforeLargeOnes) {
+  Debris debris(160, kGravity);
+  const TestObstacles obstacles;
+  for (int i = 0; i < 100; ++i) {
+    DebrisBirth chip = chip_at(Vec3f(float(i), 0.15f, 0));
+    chip.radius_m = i % 2 == 0 ? 0.15f : 0.05f;
+    debris.add(chip);
+  }
+  run(debris, obstacles, 1);
+  for (int i = 0; i < 55; ++i) debris.add(chip_at(Vec3f(float(i), 0.05f, 5)));
+  ASSERT_EQ(debris.books().ignored, 0u);
+  std::vector<float> drawn_m(155, 1);
+  std::size_t shrinking = 0;
+  for (int step = 0; step < 20; ++step) {
+    run(debris, obstacles, kDt);
+    ASSERT_EQ(debris.books().alive, 155u) << "none pops out of sight";
+    shrinking = 0;
+    for (std::size_t chip = 0; chip < 155; ++chip) {
+      const float radius_m = debris.view().radius_m[chip];
+      EXPECT_LE(radius_m, drawn_m[chip]);
+      EXPECT_GT(radius_m, 0.4f * (chip < 100 && chip % 2 == 0 ? 0.15f : 0.05f));
+      drawn_m[chip] = radius_m;
+      const bool large = chip < 100 && chip % 2 == 0;
+      if (large) EXPECT_EQ(radius_m, 0.15f);
+      shrinking += !large && radius_m < 0.05f;
+    }
+  }
+  EXPECT_GE(shrinking, 10u);
+}
+
 }  // namespace
 }  // namespace sunder::solver

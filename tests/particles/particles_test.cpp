@@ -139,6 +139,32 @@ TEST(Particles, OfManySmallFacesAreAsManyAsOfOneLargeFace) {
   EXPECT_NEAR(report.debris.emitted + report.dust.emitted, 1000, 100);
 }
 
+TEST(Particles, AreFewAndSlowWhereACrackStaysShutAndManyAndFastWhereABlowOpensIt) {
+  const TestFace face(Vec3(0, 3, 0));
+  std::uint32_t alive[3];
+  double mean_m[3];
+  int i = 0;
+  for (const double parting_m_s : {0.0, 2.0, 20.0}) {
+    DebrisAndDustOptions options = small_options();
+    options.gravity_W.setZero();
+    auto particles = make_debris_and_dust(options);
+    Emission emission = face.emission(crumbling_of(4000, 0.5));
+    emission.parting_m_s = parting_m_s;
+    particles->emit(std::span(&emission, 1));
+    alive[i] = particles->report().debris.alive + particles->report().dust.alive;
+    particles->advance(kDt, TestObstacles().view());
+    double sum_m = 0;
+    for (const Vec3f& at : particles->debris().position_W) sum_m += 3 - double{at.y()};
+    mean_m[i++] = sum_m / particles->report().debris.alive;
+  }
+  EXPECT_GT(alive[0], 0u);
+  EXPECT_LT(alive[0] * 5, alive[1]);
+  EXPECT_LT(alive[1], alive[2]);
+  EXPECT_EQ(alive[2], 4000u) << "never more than the material says";
+  EXPECT_LT(mean_m[0], mean_m[1]);
+  EXPECT_LT(2 * mean_m[1], mean_m[2]);
+}
+
 TEST(Particles, DebrisSizesFollowAPowerLaw) {
   auto particles = make_debris_and_dust(small_options());
   Crumbling crumbling = crumbling_of(40000, 1);
