@@ -10,8 +10,6 @@
 namespace sunder {
 namespace {
 
-constexpr double kTouching_m = 1e-4;      // closer than this, bodies touch
-constexpr double kLeastSpeed_m_s = 0.01;  // slower contacts rest
 constexpr int kMostEvents = 24;
 // After so many events each is the hardest yet to come, and takes what closes before it along, so
 // that a ball behind much debris is not forgotten.
@@ -28,10 +26,11 @@ constexpr double kConverged = 1e-6;  // of the greatest closing speed squared
 }  // namespace
 
 BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts,
-                       double dt_s)
+                       double dt_s, double still_m_s)
     : bodies_(std::move(bodies)),
       contacts_(std::move(contacts)),
       dt_s_(dt_s),
+      still_m_s_(still_m_s),
       velocities_(bodies_.size()),
       way_(bodies_.size()),
       undecided_(bodies_.size(), 0) {
@@ -72,8 +71,8 @@ double BreakProbe::wait_s() const {
     const double inverse = rows_[i].inverse_mass;
     if (inverse <= 0) continue;
     const double speed = rows_[i].speed(velocities_), gap = gap_m(i);
-    if (speed < kLeastSpeed_m_s || speed * speed < 2 * kLeastEvent * least_J_ * inverse) continue;
-    if (gap <= kTouching_m) {
+    if (speed < still_m_s_ || speed * speed < 2 * kLeastEvent * least_J_ * inverse) continue;
+    if (gap <= still_m_s_ * dt_s_) {
       if (events_ == 1) return 0;
     } else if (events_ <= kSingleEvents) {
       wait = std::min(wait, gap / speed);
@@ -98,7 +97,7 @@ bool BreakProbe::advance_to_event() {
   closed_.clear();
   fastest_m_s_ = 0;
   for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
-    if (rows_[i].inverse_mass <= 0 || gap_m(i) > kTouching_m) continue;
+    if (rows_[i].inverse_mass <= 0 || gap_m(i) > still_m_s_ * dt_s_) continue;
     closed_.push_back(i);
     fastest_m_s_ = std::max(fastest_m_s_, rows_[i].speed(velocities_));
   }

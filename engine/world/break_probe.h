@@ -65,7 +65,10 @@ struct ProbeBreak {
 
 class BreakProbe {
  public:
-  BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts, double dt_s);
+  /// What closes more slowly than `still_m_s` rests; what is as near as that closes in the step
+  /// touches.
+  BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts, double dt_s,
+             double still_m_s);
 
   /// Runs on to what next loads breakable bodies with more than their least; empty at the end of
   /// the step. Ordered by body.
@@ -152,6 +155,7 @@ class BreakProbe {
   std::vector<ProbeBody> bodies_;
   std::vector<ProbeContact> contacts_;
   double dt_s_;
+  double still_m_s_;
   double least_J_ = std::numeric_limits<double>::infinity();  ///< Of the breakable bodies.
   double give_ = 0;                                           ///< Speed per impulse.
   double time_s_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/fall_scale.h"
 #include "engine/world/ties.h"
 
 namespace sunder {
@@ -160,7 +161,8 @@ class Reach {
       contacts.push_back({index(a), index(b), touch.shape_tag_a, touch.shape_tag_b, touch.arm_a_W,
                           touch.arm_b_W, touch.normal_W, touch.separation_m});
     }
-    return BreakProbe(std::move(bodies), std::move(contacts), world_.horizon_s());
+    return BreakProbe(std::move(bodies), std::move(contacts), world_.horizon_s(),
+                      FallScale(world_.scene.gravity_W).still_m_s(world_.scene.accuracy.dt_s));
   }
 
   bool could_break(double energy_J) const {

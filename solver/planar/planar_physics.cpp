@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/base/fall_scale.h"
 #include "engine/base/trace.h"
 #include "engine/base/trigonometry.h"
 #include "solver/check_bodies.h"
@@ -18,9 +19,8 @@ namespace {
 
 // Box2D's own, of which it is called well tried.
 constexpr int kVelocityIterations = 8, kPositionIterations = 3;
-constexpr double kLeastSpeed_m_s = 0.01;  // slower contacts rest
-constexpr double kBounce_s = 0.05;        // a contact bounces if faster than falls in this
-constexpr double kFastest_m_s = 1e9;      // as good as infinite
+constexpr double kBounce_s = 0.05;    // a contact bounces if faster than falls in this
+constexpr double kFastest_m_s = 1e9;  // as good as infinite
 constexpr float kLeastWay = 0.02f, kMostWay = 0.9f * b2_maxTranslation;  // units a step
 constexpr int kMostSteps = 4096;
 
@@ -140,6 +140,7 @@ double PlanarPhysics::inverse_mass(const PlanarBody& body, const Vec3& arm_W,
 }
 
 std::vector<Approach> PlanarPhysics::approaches() {
+  const double still_m_s = FallScale(options_.gravity_W).still_m_s(dt_s_);
   std::vector<Approach> all;
   for (const Nearby& near : nearby()) {
     const PlanarBody &a = bodies_.items[near.body_a], &b = bodies_.items[near.body_b];
@@ -154,7 +155,7 @@ std::vector<Approach> PlanarPhysics::approaches() {
     int closing = 0;
     for (int i = 0; i < near.count; ++i) {
       const double speed = speed_at(near.points_W[i]);
-      if (speed < kLeastSpeed_m_s || near.separations_m[i] > speed * dt_s_) continue;
+      if (speed < still_m_s || near.separations_m[i] > speed * dt_s_) continue;
       approach.separation_m = closing == 0 ? near.separations_m[i]
                                            : std::min(approach.separation_m, near.separations_m[i]);
       approach.point_W += near.points_W[i];

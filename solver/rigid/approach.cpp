@@ -9,7 +9,10 @@
 namespace sunder::solver {
 namespace {
 
-constexpr double kLeastSpeed_m_s = 0.01;  // below, it rests
+struct StepTime {
+  double dt_s;
+  double still_m_s;  ///< What closes more slowly rests.
+};
 
 double inverse_effective_mass(const Bodies& bodies, std::uint32_t body, const Vec3f& arm_W,
                               const Vec3f& normal_W) {
@@ -20,7 +23,7 @@ double inverse_effective_mass(const Bodies& bodies, std::uint32_t body, const Ve
 }
 
 /// Middle of the points that close within the step; false if none does.
-bool closing_middle(const Manifold& m, const Bodies& bodies, double dt_s, Vec3f& arm_A,
+bool closing_middle(const Manifold& m, const Bodies& bodies, const StepTime& step, Vec3f& arm_A,
                     Vec3f& arm_B, float& separation_m) {
   int closing = 0;
   arm_A.setZero(), arm_B.setZero();
@@ -28,7 +31,7 @@ bool closing_middle(const Manifold& m, const Bodies& bodies, double dt_s, Vec3f&
   for (std::size_t i = 0; i < m.count; ++i) {
     const ManifoldPoint& p = m.points[i];
     const double speed = closing_speed(m, bodies, p.arm_A, p.arm_B);
-    if (speed < kLeastSpeed_m_s || double{p.separation_m} > speed * dt_s) continue;
+    if (speed < step.still_m_s || double{p.separation_m} > speed * step.dt_s) continue;
     ++closing;
     arm_A += p.arm_A, arm_B += p.arm_B;
     separation_m = std::min(separation_m, p.separation_m);
@@ -39,10 +42,10 @@ bool closing_middle(const Manifold& m, const Bodies& bodies, double dt_s, Vec3f&
 }
 
 bool make_approach(const Pair& pair, const Manifold& m, const Bodies& bodies, const Shapes& shapes,
-                   double dt_s, Approach& approach) {
+                   const StepTime& step, Approach& approach) {
   Vec3f arm_A, arm_B;
   float separation = 0;
-  if (!closing_middle(m, bodies, dt_s, arm_A, arm_B, separation)) return false;
+  if (!closing_middle(m, bodies, step, arm_A, arm_B, separation)) return false;
   approach.speed_m_s = closing_speed(m, bodies, arm_A, arm_B);
   const double inverse = inverse_effective_mass(bodies, m.body_a, arm_A, m.normal_W) +
                          inverse_effective_mass(bodies, m.body_b, arm_B, m.normal_W);
@@ -73,8 +76,9 @@ double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A
 }
 
 std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
-                                      const Shapes& shapes, double dt_s) {
+                                      const Shapes& shapes, double dt_s, const FallScale& fall) {
   constexpr std::size_t kChunk = 4096;
+  const StepTime step{dt_s, fall.still_m_s(dt_s)};
   using Keyed = std::pair<std::uint64_t, Approach>;
   std::vector<std::vector<Keyed>> found((contacts.manifolds.size() + kChunk - 1) / kChunk);
   for_chunks(contacts.manifolds.size(), kChunk,
@@ -84,7 +88,7 @@ std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bo
                  if (m.count == 0 || (!bodies.awake(m.body_a) && !bodies.awake(m.body_b))) continue;
                  const Pair& pair = contacts.pairs[m.pair];
                  Approach approach;
-                 if (make_approach(pair, m, bodies, shapes, dt_s, approach))
+                 if (make_approach(pair, m, bodies, shapes, step, approach))
                    found[c].emplace_back(pair.key(), approach);
                }
              });

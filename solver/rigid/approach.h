@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/fall_scale.h"
 #include "solver/rigid/bodies.h"
 #include "solver/rigid/contacts.h"
 
@@ -12,7 +13,7 @@ namespace sunder::solver {
 
 /// One approach for each manifold that closes, or would within dt_s; in order of pair keys.
 std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
-                                      const Shapes& shapes, double dt_s);
+                                      const Shapes& shapes, double dt_s, const FallScale& fall);
 
 /// The manifolds of each body that can move.
 class ContactsOfBodies {

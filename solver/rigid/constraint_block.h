@@ -81,6 +81,7 @@ struct alignas(64) ConstraintBlock {
   Wide3Of<lanes> normal, tangent_1, tangent_2;
   WideOf<lanes> friction;
   WideOf<lanes> press_mass, press_give;  ///< Scales of mass and impulse of the spring that presses.
+  WideOf<lanes> push_m_s;                ///< Fastest correction of an overlap.
   Wide3Of<lanes> slide_1_a, slide_1_b, slide_2_a, slide_2_b, twist_a, twist_b;  ///< Jacobians.
   WideOf<lanes> slide_11, slide_12, slide_22;  ///< Effective mass, 2×2.
   WideOf<lanes> twist_mass;

@@ -68,18 +68,23 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
                         contacts);
   const double h = dt_s / substeps;
   BodyRow* rows = rows_.data();
-  ContactStep step{
-      bodies,      contacts, touching_, first_split_, split_, root_W_, {rows, parts_.data()},
-      soft_step(h)};
+  ContactStep step{bodies,
+                   contacts,
+                   touching_,
+                   first_split_,
+                   split_,
+                   root_W_,
+                   {rows, parts_.data()},
+                   soft_step(h, FallScale(gravity_W))};
   step.deep_contacts = deep_contacts_;
   step.bears_on = bears_on_;
   step.gravity_W = gravity_W.cast<float>();
   step.impulse_scale = last_h_s_ > 0 ? static_cast<float>(h / last_h_s_) : 1.f;
-  step.bounce_speed_m_s = static_cast<float>(2 * gravity_W.norm() * dt_s) + 1e-3f;
+  step.bounce_speed_m_s = static_cast<float>(2 * gravity_W.norm() * dt_s);
   const Vec3f kick = (h * gravity_W).cast<float>();
   const Wide gravity = {kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
   const auto h_f = static_cast<float>(h);
-  const JointStep joint_step{h, double{step.impulse_scale}};
+  const JointStep joint_step{h, double{step.impulse_scale}, FallScale(gravity_W)};
 
   auto work_on_body = [&](int kind, std::uint32_t i) {
     const std::uint32_t body = (kind == kFly ? flying_ : active_)[i];

@@ -8,7 +8,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr double kRate = 0.25;      // of an error that a substep takes out
-constexpr double kPush_m_s = 4;     // fastest correction, rad/s too
+constexpr double kPush = 2;         // fastest correction, in speeds of falling
 constexpr double kSoftness = 1e-6;  // of a row's response: two hinges of a door say the same twice
 
 /// Response of row i of one joint to an impulse along row j of another, through what they share.
@@ -85,10 +85,14 @@ void fill(JointGroup& group, std::span<const JointWork> works) {
 }
 
 /// What the correction of an error asks for, as a speed.
-double bias(const JointWork& work, double error, const JointStep& step, bool biased) {
+double bias(const JointWork& work, int i, const JointStep& step, bool biased) {
+  const double error = work.row[static_cast<std::size_t>(i)].error;
   const double apart = work.kind == JointDesc::Kind::kRope ? std::min(0.0, error) : 0;
   if (apart < 0) return apart / step.h_s;  // a slack rope may run out
-  return biased ? std::clamp(kRate / step.h_s * error, -kPush_m_s, kPush_m_s) : 0;
+  if (!biased) return 0;
+  const double push_m_s = kPush * step.fall.speed_m_s(work.reach_m);
+  const double most = i < work.place_rows ? push_m_s : push_m_s / work.reach_m;
+  return std::clamp(kRate / step.h_s * error, -most, most);
 }
 
 void take_out(JointWork& work) {
@@ -147,10 +151,9 @@ void solve_group(JointGroup& group, std::span<JointWork> works, const JointStep&
   for (const JointWork& work : works) {
     for (int i = 0; i < work.rows; ++i, ++at) {
       const auto r = static_cast<std::size_t>(i);
-      change[at] = work.broken
-                       ? 0
-                       : -work.speed(i, rows) - bias(work, work.row[r].error, step, biased) -
-                             group.softness[at] * work.impulse[r];
+      change[at] = work.broken ? 0
+                               : -work.speed(i, rows) - bias(work, i, step, biased) -
+                                     group.softness[at] * work.impulse[r];
     }
   }
   group.matrix.solve(change);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/fall_scale.h"
 #include "solver/rigid/joint_rows.h"
 
 namespace sunder::solver {
@@ -38,6 +39,7 @@ struct JointGroup {
 struct JointStep {
   double h_s = 0;
   double impulse_scale = 1;  ///< Substep over that of the last step.
+  FallScale fall;
 };
 
 /// Rows for the bodies as the step begins.

@@ -1,5 +1,7 @@
 #include "solver/rigid/joint_rows.h"
 
+#include <algorithm>
+
 #include "engine/base/turn.h"
 
 namespace sunder::solver {
@@ -89,6 +91,7 @@ JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bod
     row = body + 1;
     inverse_mass = bodies.inverse_mass[body];
     root = root_W[body];
+    w.reach_m = w.reach_m > 0 ? std::min(w.reach_m, bodies.reach_m[body]) : bodies.reach_m[body];
   };
   take(joint.body_a, w.row_a, w.inverse_mass_a, w.root_a);
   take(joint.body_b, w.row_b, w.inverse_mass_b, w.root_b);

@@ -43,6 +43,7 @@ struct JointWork {
   Vec3 axis_a = Vec3::Zero(), axis_b = Vec3::Zero();  ///< kHinge, likewise.
   Vec3 side_a = Vec3::Zero();                         ///< kHinge: across its axis, fixed to a.
   Quat twist = Quat::Identity();  ///< kFixed: how far b is turned from where a wants it.
+  double reach_m = 0;             ///< Of the smaller body that moves.
   double length_m = 0, breaking_N = 0, breaking_Nm = 0;
   std::array<JointRow, kMostJointRows> row;
   std::array<double, kMostJointRows> impulse = {};  ///< Of this substep.

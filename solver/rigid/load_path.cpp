@@ -46,9 +46,15 @@ struct Share {
 /// two axes across): the least in squares, those that would pull left out.
 void bear(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float weight,
           const Vec3f& turn, std::vector<Share>& shares) {
-  auto row = [&](const Share& s) { return Vec3f(1, s.arm.dot(across_1), s.arm.dot(across_2)); };
+  float longest = 0;  // arms are measured by it
+  for (const Share& s : shares) longest = std::max(longest, s.arm.norm());
+  const float inverse = longest > 0 ? 1 / longest : 0;
+  auto row = [&](const Share& s) {
+    return Vec3f(1, inverse * s.arm.dot(across_1), inverse * s.arm.dot(across_2));
+  };
   // A push along `up` at x·across_1 + y·across_2 turns by x·(across_1 × up) + y·(across_2 × up).
-  const Vec3f wanted(weight, turn.dot(across_1.cross(up)), turn.dot(across_2.cross(up)));
+  const Vec3f wanted(weight, inverse * turn.dot(across_1.cross(up)),
+                     inverse * turn.dot(across_2.cross(up)));
   Mat3f normal = Mat3f::Zero();
   for (const Share& s : shares) normal += row(s) * row(s).transpose();
   const float arms = normal(1, 1) + normal(2, 2);

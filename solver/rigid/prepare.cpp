@@ -59,6 +59,10 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   set_lane(g.gravity, lane, ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.gravity_W);
 }
 
+float push_m_s(const ContactStep& step, const Manifold& m) {
+  return step.soft.push * std::sqrt(m.size_m);
+}
+
 /// The overlap that is pushed apart at the share of speed that a contact has: see kCrowdOfDeep.
 float most_overlap_m(const ContactStep& step, const Manifold& m) {
   if (step.deep_contacts.empty() || !m.deep) return 1e30f;
@@ -68,7 +72,7 @@ float most_overlap_m(const ContactStep& step, const Manifold& m) {
   const std::uint32_t many = std::max(of(m.body_a), of(m.body_b));
   if (many <= kCrowdOfDeep) return 1e30f;
   const float share = static_cast<float>(kDeepTogether) / static_cast<float>(many);
-  return share * step.soft.push_m_s / step.soft.press[m.count - 1].rate;
+  return share * push_m_s(step, m) / step.soft.press[m.count - 1].rate;
 }
 
 template <std::uint32_t lanes>
@@ -86,6 +90,7 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
   set_lane(g.roll_impulse, lane, step.impulse_scale * m.roll_impulse_W);
   g.restitution[lane] = m.restitution;
   g.ease[lane] = m.ease;
+  c.push_m_s[lane] = push_m_s(step, m);
   const float most_overlap = most_overlap_m(step, m);
   for (std::size_t i = 0; i < m.count; ++i) {
     const ManifoldPoint& p = m.points[i];

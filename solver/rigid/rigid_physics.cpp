@@ -148,7 +148,7 @@ void RigidPhysics::collide(double dt_s) {
   broad_phase_.update(shapes_, bodies_, options_.gravity_W, dt_s, contacts_);
   timings_ms_[0].second += watch.lap_ms();
   update_contacts(dt_s);
-  sleep_.wake_hit(contacts_, dt_s, bodies_);
+  sleep_.wake_hit(contacts_, options_.gravity_W, dt_s, bodies_);
   contacts_of_bodies_.clear();
   dt_s_ = dt_s;
   timings_ms_[1].second += watch.lap_ms();
@@ -225,7 +225,7 @@ Vec3 RigidPhysics::freeze_broken() {
 }
 
 std::vector<Approach> RigidPhysics::approaches() {
-  return find_approaches(contacts_, bodies_, shapes_, dt_s_);
+  return find_approaches(contacts_, bodies_, shapes_, dt_s_, FallScale(options_.gravity_W));
 }
 
 std::vector<Touch> RigidPhysics::touches(std::span<const BodyId> bodies) {

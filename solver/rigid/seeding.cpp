@@ -48,8 +48,11 @@ BlockLoads sum(const BlockLoads& a, float s, const BlockLoads& b) {
   return loads;
 }
 
-double square_of(const BlockLoads& a) {
-  Wide4 square = a.slide_1 * a.slide_1 + a.slide_2 * a.slide_2 + a.twist * a.twist;
+/// Twist counts at the lever of the first point.
+double square_of(const SeedBlock& c, const BlockLoads& a) {
+  const Wide4 zero = {}, lever = c.point[0].arm;
+  const Wide4 twist = lever > zero ? a.twist / (lever > zero ? lever : splat<Wide4>(1)) : zero;
+  Wide4 square = a.slide_1 * a.slide_1 + a.slide_2 * a.slide_2 + twist * twist;
   for (int i = 0; i < 4; ++i) square += a.press[i] * a.press[i];
   double all = 0;
   for (std::uint32_t lane = 0; lane < kSeedLanes; ++lane) all += double{square[lane]};
@@ -116,7 +119,7 @@ void Seeding::seed(const Vec3& gravity_W, double dt_s, int substeps, double stor
   estimate(gravity_W, h_s, static_cast<float>(1 / scale), bodies, contacts);
   const auto first_split = static_cast<std::uint32_t>(manifolds_.size());
   ContactStep step{bodies, contacts, manifolds_,     first_split,
-                   {},     root_W_,  {rows_.data()}, soft_step(h_s)};
+                   {},     root_W_,  {rows_.data()}, soft_step(h_s, FallScale(gravity_W))};
   step.impulse_scale = static_cast<float>(scale);
   step.bounce_speed_m_s = 1e30f;
   find_loads(step);
@@ -248,7 +251,7 @@ void Seeding::find_loads(const ContactStep& step) {
       if (kind == kSweep) {
         sweep_relaxed(c, step.rows, step.soft);
         step_[i] = sum(loads_of(c), -1, before);
-        square_[i] = {square_of(step_[i]), square_of(before)};
+        square_[i] = {square_of(c, step_[i]), square_of(c, before)};
       } else {
         set_loads(sum({}, lever, direction_[i]), c);
         warm_start(c, step.rows);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/fall_scale.h"
 #include "solver/rigid/bodies.h"
 #include "solver/rigid/contacts.h"
 #include "solver/rigid/joint.h"
@@ -15,13 +16,14 @@ namespace sunder::solver {
 
 class Sleep {
  public:
-  /// Puts bodies to sleep that have been at rest for half a second and stand on something, by
-  /// loaded contacts or joints through other sleepers, that cannot move; what is joined, only
-  /// together. `h_s` is the last substep. The answer is the momentum that was taken away.
+  /// Puts bodies to sleep that have been at rest for longer than they would take to tip, and stand
+  /// on something, by loaded contacts or joints through other sleepers, that cannot move; what is
+  /// joined, only together. `h_s` is the last substep. The answer is the momentum that was taken
+  /// away.
   Vec3 put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, const Joints& joints,
                     Bodies& bodies, Contacts& contacts);
   /// Wakes sleepers that something awake is about to hit.
-  void wake_hit(const Contacts& contacts, double dt_s, Bodies& bodies) const;
+  void wake_hit(const Contacts& contacts, const Vec3& gravity_W, double dt_s, Bodies& bodies) const;
   /// Wakes sleepers on which the load has changed in the last solve, and what stood on them if it
   /// was their support that went.
   void wake_changed(const Vec3& gravity_W, double h_s, const Contacts& contacts, Bodies& bodies);
@@ -30,7 +32,7 @@ class Sleep {
                  const Contacts& contacts, Bodies& bodies);
 
  private:
-  void note_rest(double dt_s, Bodies& bodies);
+  void note_rest(const FallScale& fall, double dt_s, Bodies& bodies);
   void hold_by_joints(const Bodies& bodies, const Joints& joints);
   void keep_joined_awake(const Bodies& bodies, const Joints& joints);
   std::uint32_t root(std::uint32_t body);

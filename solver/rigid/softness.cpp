@@ -11,8 +11,8 @@ namespace {
 // wall.
 constexpr double kPressStiffness[4] = {0.25, 0.25, 0.2, 0.18};
 constexpr double kSlideStiffness[4] = {0.25, 0.25, 0.125, 0.125};
-constexpr double kDamping = 5;   // ratio to critical
-constexpr double kPush_m_s = 4;  // fastest correction of an overlap
+constexpr double kDamping = 5;  // ratio to critical
+constexpr double kPush = 4;     // fastest correction of an overlap, in speeds of falling
 
 /// A spring of (omega·h)² of the mass over h²; what it gives way under an impulse p a substep is
 /// p / (mass · h) / omega².
@@ -25,14 +25,14 @@ Softness softness(double stiffness, double h) {
 
 }  // namespace
 
-SoftStep soft_step(double h_s) {
+SoftStep soft_step(double h_s, const FallScale& fall) {
   SoftStep step;
   for (int i = 0; i < 4; ++i) {
     step.press[i] = softness(kPressStiffness[i], h_s);
     step.slide[i] = softness(kSlideStiffness[i], h_s);
   }
   step.inverse_h = static_cast<float>(1 / h_s);
-  step.push_m_s = static_cast<float>(kPush_m_s);
+  step.push = static_cast<float>(kPush * fall.speed_m_s(1));
   return step;
 }
 

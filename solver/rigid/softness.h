@@ -1,6 +1,8 @@
 // How soft contacts are, from the length of a substep.
 #pragma once
 
+#include "engine/base/fall_scale.h"
+
 namespace sunder::solver {
 
 /// A spring and damper in the form of a soft constraint (Catto 2011, "Soft Constraints").
@@ -17,10 +19,11 @@ struct SoftStep {
   Softness press[4];    ///< Along the normal, by the number of points less one.
   Softness slide[4];    ///< Of friction that sticks.
   float inverse_h = 0;  ///< 1/s.
-  float push_m_s = 0;   ///< Fastest correction.
+  /// Fastest correction of an overlap, √(m)/s: times the root of the smaller piece's inner radius.
+  float push = 0;
 };
 
 /// Of a substep of h_s.
-SoftStep soft_step(double h_s);
+SoftStep soft_step(double h_s, const FallScale& fall);
 
 }  // namespace sunder::solver

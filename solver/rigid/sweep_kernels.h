@@ -197,7 +197,7 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
     V u = v.along(c.normal, p.turn_a, p.turn_b);
     V change;
     if constexpr (kBiased) {
-      u += apart ? s * soft.inverse_h : max(s * press.rate, splat<V>(-soft.push_m_s));
+      u += apart ? s * soft.inverse_h : max(s * press.rate, -c.push_m_s);
       Spring<V> spring{c.press_mass, c.press_give};
       if constexpr (kSplit) spring = Spring<V>::template of<true>(press, c.parts.press_ease[i]);
       const V mass_scale = apart ? one : spring.mass_scale;

@@ -8,6 +8,7 @@ namespace sunder {
 namespace {
 
 constexpr double kStep_s = 1.0 / 60;
+constexpr double kStill_m_s = 0.01;
 
 ProbeBody ball(double mass_kg, const Vec3& velocity_W) {
   ProbeBody body;
@@ -59,7 +60,7 @@ TEST(BreakProbe, FindsTheWorkOfABlowPassedOnByAPlate) {
   std::vector<ProbeContact> contacts = four_corners(1, 0);
   contacts.push_back(contact(2, 1));
   BreakProbe probe({pane(), ball(plate_kg, Vec3::Zero()), ball(m, Vec3(0, -v, 0))}, contacts,
-                   kStep_s);
+                   kStep_s, kStill_m_s);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 1u);
   const double work_J = 0.5 * m * m * v * v / (m + plate_kg);
@@ -80,7 +81,7 @@ TEST(BreakProbe, FindsTheWorkOfABlowPassedAlongARow) {
       const auto self = static_cast<std::uint32_t>(i + 1);
       contacts.push_back(contact(self, self - 1, i == n - 1 ? 0 : gap_m));
     }
-    BreakProbe probe(bodies, contacts, 1.0 / 30);
+    BreakProbe probe(bodies, contacts, 1.0 / 30, kStill_m_s);
     const auto loads = probe.next();
     ASSERT_EQ(loads.size(), 1u) << gap_m;
     const double work_J = 0.5 * m * v * v / n;
@@ -96,7 +97,7 @@ TEST(BreakProbe, SharesAFlatLandingAmongTenColumns) {
   for (std::uint32_t i = 0; i < 10; ++i) {
     contacts.push_back(contact(10, i, 0, Vec3(i % 5 - 2.0, 0, i < 5 ? -1 : 1)));
   }
-  BreakProbe probe(bodies, contacts, kStep_s);
+  BreakProbe probe(bodies, contacts, kStep_s, kStill_m_s);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 10u);
   const double all_J = 0.5 * m * v * v;
@@ -120,7 +121,7 @@ TEST(BreakProbe, BreaksNoColumnThatTheOthersRelieve) {
   for (std::uint32_t i = 0; i < 4; ++i) {
     contacts.push_back(contact(4, i, 0, Vec3(i % 2 ? 1 : -1, 0, i < 2 ? 1 : -1)));
   }
-  BreakProbe probe(bodies, contacts, kStep_s);
+  BreakProbe probe(bodies, contacts, kStep_s, kStill_m_s);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 4u);
   // One of four legs gives way: the slab still stands on a diagonal and one leg more, and goes
@@ -132,7 +133,7 @@ TEST(BreakProbe, BreaksNoColumnThatTheOthersRelieve) {
 TEST(BreakProbe, HasTheBallBehindItsDebrisBreakTheNextLayer) {
   const double m = 3, crumb_kg = 1e-3, v = 25;
   BreakProbe probe({pane(), ball(crumb_kg, Vec3(0, -v, 0)), ball(m, Vec3(0, -v, 0))},
-                   {contact(1, 0, 1e-3), contact(2, 1, 0)}, kStep_s);
+                   {contact(1, 0, 1e-3), contact(2, 1, 0)}, kStep_s, kStill_m_s);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 1u);
   const double work_J = 0.5 * (m + crumb_kg) * v * v;
@@ -143,7 +144,8 @@ TEST(BreakProbe, TakesTheEnergyAtTheTimeOfTheHitAndLeavesTheBallThere) {
   const double m = 0.1, v = 200, energy_J = 40, distance_m = 0.5;
   for (const double dt_s : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
     BreakProbe probe({pane(), pane(), ball(m, Vec3(0, -v, 0))},
-                     {contact(2, 0, distance_m), contact(2, 1, distance_m + 0.1)}, dt_s);
+                     {contact(2, 0, distance_m), contact(2, 1, distance_m + 0.1)}, dt_s,
+                     kStill_m_s);
     const auto loads = probe.next();
     ASSERT_EQ(loads.size(), 1u);
     EXPECT_EQ(loads[0].body, 0u);  // the nearer one first
@@ -162,7 +164,7 @@ TEST(BreakProbe, LoadsWhatIsBehindASolidThatHolds) {
   brick.breakable = true;
   brick.least_J = 0.01;
   BreakProbe probe({pane(0.01), brick, ball(2, Vec3(0, -10, 0))}, {contact(1, 0), contact(2, 1)},
-                   kStep_s);
+                   kStep_s, kStill_m_s);
   auto loads = probe.next();
   ASSERT_EQ(loads.size(), 1u);
   EXPECT_EQ(loads[0].body, 1u);

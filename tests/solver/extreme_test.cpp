@@ -17,7 +17,11 @@ namespace {
 
 using W = RigidWorld;
 constexpr double kG = 9.81;
-constexpr double kPush_m_s = 4;  // the solver's fastest correction of an overlap
+
+/// The solver's fastest correction of an overlap of cubes of this side.
+double push_m_s(double side_m, double gravity_m_s2) {
+  return 4 * std::sqrt(gravity_m_s2 * 0.5 * side_m);
+}
 
 RigidOptions awake(bool gravity = true) {
   RigidOptions options;
@@ -111,7 +115,7 @@ Heap burst(int count, double jitter_m, int steps) {
   for (int i = 0; i < count; ++i) {
     const BodyDesc box =
         W::box(Vec3(0.2, 0.2, 0.2), Vec3(0, 2, 0) + jitter_m * Vec3(random.direction()));
-    heap.allowed_J += 0.5 * box.mass_kg * kPush_m_s * kPush_m_s;
+    heap.allowed_J += 0.5 * box.mass_kg * std::pow(push_m_s(0.2, kG), 2);
     masses.push_back(box.mass_kg);
     world.add(box);
   }
@@ -152,7 +156,7 @@ TEST(Extremes, PiecesThatOverlapByHalfPartWithBoundedEnergy) {
   for (int i = 0; i < 125; ++i) {
     const Vec3 cell(i % 5, i / 5 % 5, i / 25);
     const BodyDesc box = W::box(Vec3(0.2, 0.2, 0.2), 0.1 * cell);
-    allowed_J += 0.5 * box.mass_kg * kPush_m_s * kPush_m_s;
+    allowed_J += 0.5 * box.mass_kg * std::pow(push_m_s(0.2, 1), 2);
     world.add(box);
   }
   double most_J = 0;

@@ -85,6 +85,13 @@ class RigidWorld {
     return desc;
   }
 
+  /// The hull for as long as the program runs: it must live until a description is used.
+  static const ConvexPolyhedron* keep(const ConvexPolyhedron& convex) {
+    static std::vector<std::shared_ptr<ConvexPolyhedron>> kept;
+    kept.push_back(std::make_shared<ConvexPolyhedron>(convex));
+    return kept.back().get();
+  }
+
   BodyId add(const BodyDesc& desc) {
     ids_.push_back(physics_->replace({}, std::span(&desc, 1)).front());
     masses_.push_back(desc.is_static ? 0 : desc.mass_kg);
@@ -173,17 +180,10 @@ class RigidWorld {
 
  private:
   static BodyDesc with_hull(BodyDesc desc, const ConvexPolyhedron& convex) {
-    auto kept = std::make_shared<ConvexPolyhedron>(convex);
-    hulls().push_back(kept);
     ShapeDesc shape;
-    shape.hull = kept.get();
+    shape.hull = keep(convex);
     desc.shapes = {shape};
     return desc;
-  }
-  /// Hulls must live until the description is used.
-  static std::vector<std::shared_ptr<ConvexPolyhedron>>& hulls() {
-    static std::vector<std::shared_ptr<ConvexPolyhedron>> kept;
-    return kept;
   }
   template <class Visit>
   void for_dynamic(const Visit& visit) const {
