@@ -15,8 +15,10 @@ namespace {
 constexpr std::uint32_t kGrain = 8;
 constexpr double kWork = 2e5;  // points swept at most, unless there are too many for it
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
-constexpr double kDone = 1e-12;        // of the loads' squares, a step's
-constexpr double kMostLeft = 0.01;     // of the energy of a substep of free fall
+constexpr int kFirstLook = 32;        // whenever as many rounds again are over: are more in vain?
+constexpr double kNearlyDone = 1e-7;  // of the loads' squares: what is not held by then will not be
+constexpr double kDone = 1e-12;       // of the loads' squares, a step's
+constexpr double kMostLeft = 0.01;    // of the energy of a substep of free fall
 constexpr float kMostOverlap = 0.04f;  // of the inner radius: what is deeper is not at rest
 constexpr float kMostRest = 0.1f;      // of it
 
@@ -59,12 +61,15 @@ double square_of(const SeedBlock& c, const BlockLoads& a) {
   return all;
 }
 
-/// Of the two surfaces against each other at the middle of the contact.
-double relative_speed(const Manifold& m, const Bodies& bodies) {
+/// Of what is faster: the two surfaces against each other at the middle of the contact, or one of
+/// them against the world. What moves together, as the pieces of a slab that topples do, is not at
+/// rest either, whatever it stands on.
+double greatest_speed(const Manifold& m, const Bodies& bodies) {
   auto velocity = [&](std::uint32_t body, const Vec3f& arm) {
     return Vec3(bodies.velocity[body] + bodies.angular_velocity[body].cross(arm.cast<double>()));
   };
-  return (velocity(m.body_b, m.friction_arm_B) - velocity(m.body_a, m.friction_arm_A)).norm();
+  const Vec3 a = velocity(m.body_a, m.friction_arm_A), b = velocity(m.body_b, m.friction_arm_B);
+  return std::max({(b - a).norm(), a.norm(), b.norm()});
 }
 
 /// How deep a point gives way under its load.
@@ -122,8 +127,9 @@ void Seeding::seed(const Vec3& gravity_W, double dt_s, int substeps, double stor
                    {},     root_W_,  {rows_.data()}, soft_step(h_s, FallScale(gravity_W))};
   step.impulse_scale = static_cast<float>(scale);
   step.bounce_speed_m_s = 1e30f;
-  find_loads(step);
-  find_held(gravity_W, h_s, bodies);
+  const double kick_m_s = h_s * gravity_W.norm();
+  find_loads(step, kick_m_s);
+  find_held(kick_m_s, bodies);
   release_overloaded(gravity_W, step.soft, bodies, contacts);
   store(step.soft, static_cast<float>(1 / scale), static_cast<float>(factor), bodies, contacts);
 }
@@ -148,7 +154,7 @@ void Seeding::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bod
     m.unseeded = false;
     if (m.count == 0 || !(bodies.awake(m.body_a) || bodies.awake(m.body_b))) continue;
     const bool rests = m.least_separation() > -kMostOverlap * m.size_m;
-    if (!rests || relative_speed(m, bodies) >= slow_m_s) continue;
+    if (!rests || greatest_speed(m, bodies) >= slow_m_s) continue;
     resting.emplace_back(m.sweep_key(), i);
     ++start[resting.back().first + 1];
   }
@@ -185,10 +191,12 @@ void Seeding::begin(const Vec3& gravity_W, float impulse_scale, double h_s, cons
   rows_[0] = BodyRow{};
   root_W_.resize(bodies.size());
   concerned_.assign(bodies.size(), 0);
+  concerned_bodies_.clear();
   for (const std::uint32_t i : manifolds_) {
     for (const std::uint32_t body : {contacts.manifolds[i].body_a, contacts.manifolds[i].body_b}) {
       if (concerned_[body] || !bodies.awake(body)) continue;
       concerned_[body] = 1;
+      concerned_bodies_.push_back(body);
       rows_[body + 1] = BodyRow{};
       rows_[body + 1].velocity = Wide{kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
       root_W_[body] = bodies.rotation_f[body] * bodies.root_B[body];
@@ -232,7 +240,7 @@ void Seeding::estimate(const Vec3& gravity_W, double h_s, float stored_scale, co
   follow_loads(gravity_W, manifolds_, stored_scale, bodies, loads_, contacts);
 }
 
-void Seeding::find_loads(const ContactStep& step) {
+void Seeding::find_loads(const ContactStep& step, double kick_m_s) {
   enum { kPrepare, kWarmStart, kSweep, kLeap };
   double points = 0;
   for (const SeedBlock& c : blocks_) points += c.points * static_cast<double>(c.count);
@@ -266,12 +274,24 @@ void Seeding::find_loads(const ContactStep& step) {
   };
   run(kPrepare);
   run(kWarmStart);
-  double last = 0;
+  double last = 0, last_seen = 0;
+  std::size_t last_held = 0;
+  int look = kFirstLook;
   for (int round = 0; round < rounds; ++round) {
     run(kSweep);
     double square = 0, loads = 0;
     for (const auto& [of_step, of_loads] : square_) square += of_step, loads += of_loads;
     if (square <= kDone * std::max(square, loads) || round + 1 == rounds) return;
+    if (round == look) {
+      // Rounding or sliding contacts may keep the loads from ever coming to rest.
+      const double seen = square / loads;
+      const std::size_t held = find_held(kick_m_s, step.bodies);
+      const bool stuck = seen > 0.5 * last_seen;
+      const bool all = held == concerned_bodies_.size();
+      if (seen < kNearlyDone && held <= last_held && (stuck || !all)) return;
+      last_seen = seen, last_held = held;
+      look *= 2;
+    }
     lever = last > 0 && square <= last ? static_cast<float>(square / last) : 0.f;
     last = square;
     run(kLeap);
@@ -279,17 +299,18 @@ void Seeding::find_loads(const ContactStep& step) {
 }
 
 /// A body that its loads would leave with more energy than gravity gave it is not held: the rounds
-/// were too few, or nothing can hold it.
-void Seeding::find_held(const Vec3& gravity_W, double h_s, const Bodies& bodies) {
-  const double kick_m_s = h_s * gravity_W.norm();
-  for (std::uint32_t body = 0; body < bodies.size(); ++body) {
-    if (!concerned_[body]) continue;
+/// were too few, or nothing can hold it. Answers how many are.
+std::size_t Seeding::find_held(double kick_m_s, const Bodies& bodies) {
+  std::size_t held = 0;
+  for (const std::uint32_t body : concerned_bodies_) {
     const Wide& v = rows_[body + 1].velocity;
     const Vec3f velocity(v[0], v[1], v[2]), spin(v[3], v[4], v[5]);  // of unit inertia
     const double energy =
         double{velocity.squaredNorm()} + double{bodies.inverse_mass[body] * spin.squaredNorm()};
     loads_[body].held = energy <= kMostLeft * kick_m_s * kick_m_s;
+    held += loads_[body].held;
   }
+  return held;
 }
 
 /// What would have to give way further than contacts can be seated is not held, nor what stands on

@@ -44,8 +44,8 @@ class Seeding {
              const Contacts& contacts);
   void estimate(const Vec3& gravity_W, double h_s, float stored_scale, const Bodies& bodies,
                 Contacts& contacts);
-  void find_loads(const ContactStep& step);
-  void find_held(const Vec3& gravity_W, double h_s, const Bodies& bodies);
+  void find_loads(const ContactStep& step, double kick_m_s);
+  std::size_t find_held(double kick_m_s, const Bodies& bodies);
   void release_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
                           const Contacts& contacts);
   void store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
@@ -57,7 +57,8 @@ class Seeding {
   std::vector<BlockLoads> step_, direction_;
   std::vector<std::pair<double, double>> square_;  ///< Of each block's step, and of its loads.
   std::vector<BodyRow> rows_;                      ///< By body slot + 1; row 0 stays still.
-  std::vector<std::uint8_t> concerned_;
+  std::vector<std::uint8_t> concerned_;            ///< By body slot.
+  std::vector<std::uint32_t> concerned_bodies_;
   std::vector<Mat3f> root_W_;
   std::vector<BodyLoad> loads_;  ///< By body slot.
 };
