@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "engine/world/complementarity.h"
-
 namespace sunder {
 namespace {
 
@@ -19,9 +17,6 @@ constexpr double kFaster = 2;  // than before, no contact closes once others hav
 constexpr double kLeastEvent = 0.1;
 // Contacts give a little, against the heaviest body, so that supports share what they bear.
 constexpr double kGive = 1e-5;
-constexpr std::size_t kMostExact = 48;  // contacts that are solved exactly; more, by sweeps
-constexpr int kMostSweeps = 20;
-constexpr double kConverged = 1e-6;  // of the greatest closing speed squared
 
 }  // namespace
 
@@ -48,10 +43,11 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   give_ = kGive * least;
 }
 
-BreakProbe::Row BreakProbe::make_row(const ProbeContact& c) const {
+RelaxRow BreakProbe::make_row(const ProbeContact& c) const {
   const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
-  Row row;
+  RelaxRow row;
   row.a = c.a, row.b = c.b;
+  row.moves_a = a.inverse_mass > 0, row.moves_b = b.inverse_mass > 0;
   row.normal = c.normal_W;
   row.lever_a = c.arm_a_W.cross(c.normal_W);
   row.lever_b = c.arm_b_W.cross(c.normal_W);
@@ -114,84 +110,13 @@ double BreakProbe::closing_energy_J() const {
   return energy;
 }
 
-/// One sweep of projected Gauss-Seidel, there and back; `change` is what it did to the impulses.
-void BreakProbe::sweep(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed,
-                       std::vector<double>& change) const {
-  const auto n = in_way.size();
-  std::fill(change.begin(), change.end(), 0.0);
-  for (std::size_t k = 0; k < 2 * n; ++k) {
-    const std::size_t i = in_way[k < n ? k : 2 * n - 1 - k];
-    const Row& row = rows_[closed_[i]];
-    double& sum = relaxed.impulses_Ns[i];
-    const double wanted =
-        (row.speed(relaxed.velocities) - give_ * sum) / (row.inverse_mass + give_);
-    const double impulse = std::max(sum + wanted, 0.0) - sum;
-    if (impulse == 0) continue;
-    sum += impulse;
-    change[i] += impulse;
-    row.push(relaxed.velocities, impulse);
-  }
-}
-
-/// The closed contacts solved without rebound, those of `removed` bodies left out.
-BreakProbe::Relaxed BreakProbe::relax(const std::vector<std::uint8_t>& removed) const {
+/// The closed contacts solved, those of `removed` bodies left out.
+Relaxed BreakProbe::relax(const std::vector<std::uint8_t>& removed) const {
   std::vector<std::uint32_t> in_way;  // of closed_
   for (std::uint32_t i = 0; i < closed_.size(); ++i) {
     if (!rows_[closed_[i]].touches(removed)) in_way.push_back(i);
   }
-  Relaxed relaxed{velocities_, std::vector<double>(closed_.size(), 0)};
-  if (in_way.size() <= kMostExact) {
-    relax_exactly(in_way, relaxed);
-  } else {
-    relax_by_sweeps(in_way, relaxed);
-  }
-  return relaxed;
-}
-
-void BreakProbe::relax_exactly(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed) const {
-  const auto n = static_cast<Eigen::Index>(in_way.size());
-  Eigen::MatrixXd A(n, n);
-  Eigen::VectorXd closing(n);
-  const auto row = [&](Eigen::Index i) -> const Row& {
-    return rows_[closed_[in_way[static_cast<std::size_t>(i)]]];
-  };
-  for (Eigen::Index i = 0; i < n; ++i) {
-    closing[i] = row(i).speed(velocities_);
-    for (Eigen::Index j = 0; j < i; ++j) A(i, j) = A(j, i) = row(i).coupling(row(j));
-    A(i, i) = row(i).inverse_mass + give_;
-  }
-  const Eigen::VectorXd impulses = solve_complementarity(A, closing);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    relaxed.impulses_Ns[in_way[static_cast<std::size_t>(i)]] = impulses[i];
-    row(i).push(relaxed.velocities, impulses[i]);
-  }
-}
-
-/// Nonlinear conjugate gradients over sweeps (Silcowitz-Hansen, Niebe and Erleben 2010).
-void BreakProbe::relax_by_sweeps(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed) const {
-  std::vector<double> change(closed_.size(), 0), direction(closed_.size(), 0);
-  double last = 0;
-  for (int round = 0; round < kMostSweeps; ++round) {
-    sweep(in_way, relaxed, change);
-    double size = 0, worst = 0;
-    for (const std::uint32_t i : in_way) {
-      const double scaled = change[i] * change[i] * rows_[closed_[i]].inverse_mass;
-      size += scaled;
-      worst = std::max(worst, scaled * rows_[closed_[i]].inverse_mass);
-    }
-    if (worst <= kConverged * fastest_m_s_ * fastest_m_s_) return;
-    const double beta = last > 0 && size <= last ? size / last : 0;
-    for (const std::uint32_t i : in_way) {
-      direction[i] *= beta;
-      if (direction[i] != 0) {
-        relaxed.impulses_Ns[i] += direction[i];
-        rows_[closed_[i]].push(relaxed.velocities, direction[i]);
-      }
-      direction[i] += change[i];
-    }
-    last = size;
-  }
-  sweep(in_way, relaxed, change);
+  return relax_contacts(rows_, closed_, in_way, give_, fastest_m_s_, velocities_);
 }
 
 /// The undecided body that a contact's work counts for: the weaker, if both are.
@@ -210,7 +135,7 @@ std::vector<ProbeLoad> BreakProbe::loads(const Relaxed& without) const {
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const ProbeContact& c = contacts_[closed_[i]];
     const double impulse = with_->impulses_Ns[i];
-    const Row& row = rows_[closed_[i]];
+    const RelaxRow& row = rows_[closed_[i]];
     if (impulse <= 0 || !row.touches(undecided_)) continue;
     const std::uint32_t body = charged(c);
     ProbeLoad& load = all[body];
@@ -274,7 +199,7 @@ void BreakProbe::hold() {
 BreakProbe::Release BreakProbe::released(const Relaxed& without) const {
   Release release;
   for (std::size_t i = 0; i < closed_.size(); ++i) {
-    const Row& row = rows_[closed_[i]];
+    const RelaxRow& row = rows_[closed_[i]];
     const double impulse = with_->impulses_Ns[i] - without.impulses_Ns[i];
     const double u0 = row.speed(without.velocities), u1 = row.speed(with_->velocities);
     release.a_J += 0.5 * impulse * (u0 - u1);
@@ -319,7 +244,7 @@ std::vector<std::uint32_t> BreakProbe::release(std::span<const ProbeBreak> wante
 void BreakProbe::finish(const Relaxed& without, double share) {
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Velocity &with = with_->velocities[b], &v0 = without.velocities[b];
+    const BodyVelocity &with = with_->velocities[b], &v0 = without.velocities[b];
     ProbeMotion& motion = motions_[b];
     motion.velocity_W = with.linear + share * (v0.linear - with.linear);
     motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/types.h"
+#include "engine/world/relax.h"
 
 namespace sunder {
 
@@ -89,52 +90,13 @@ class BreakProbe {
   const std::vector<ProbeContact>& contacts() const { return contacts_; }
 
  private:
-  struct Velocity {
-    Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
-  };
-  /// What the closed contacts make of the velocities.
-  struct Relaxed {
-    std::vector<Velocity> velocities;  ///< Per body.
-    std::vector<double> impulses_Ns;   ///< Per closed contact.
-  };
-
   /// The energy between two motions.
   struct Release {
     double a_J = 0, b_J = 0;
     double share(double energy_J) const;
   };
 
-  /// A contact as the solve sees it.
-  struct Row {
-    std::uint32_t a = 0, b = 0;
-    Vec3 normal = Vec3::Zero(), lever_a = Vec3::Zero(), lever_b = Vec3::Zero();
-    Vec3 push_a = Vec3::Zero(), push_b = Vec3::Zero();  ///< Change of velocity per impulse,
-    Vec3 turn_a = Vec3::Zero(), turn_b = Vec3::Zero();  ///< and of angular velocity.
-    double inverse_mass = 0;                            ///< Of the pair along the normal.
-
-    double speed(const std::vector<Velocity>& v) const {
-      return normal.dot(v[a].linear - v[b].linear) + lever_a.dot(v[a].angular) -
-             lever_b.dot(v[b].angular);
-    }
-    void push(std::vector<Velocity>& v, double impulse_Ns) const {
-      v[a].linear -= impulse_Ns * push_a;
-      v[a].angular -= impulse_Ns * turn_a;
-      v[b].linear += impulse_Ns * push_b;
-      v[b].angular += impulse_Ns * turn_b;
-    }
-    /// The change of speed per impulse of another row.
-    double coupling(const Row& other) const {
-      double sum = 0;
-      if (other.a == a) sum += normal.dot(other.push_a) + lever_a.dot(other.turn_a);
-      if (other.a == b) sum -= normal.dot(other.push_a) + lever_b.dot(other.turn_a);
-      if (other.b == a) sum -= normal.dot(other.push_b) + lever_a.dot(other.turn_b);
-      if (other.b == b) sum += normal.dot(other.push_b) + lever_b.dot(other.turn_b);
-      return sum;
-    }
-    bool touches(const std::vector<std::uint8_t>& bodies) const { return bodies[a] || bodies[b]; }
-  };
-
-  Row make_row(const ProbeContact& c) const;
+  RelaxRow make_row(const ProbeContact& c) const;
   double gap_m(std::size_t contact) const {
     return contacts_[contact].separation_m - rows_[contact].speed(way_);
   }
@@ -142,10 +104,6 @@ class BreakProbe {
   bool advance_to_event();
   double closing_energy_J() const;
   bool may_load() const;
-  void sweep(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed,
-             std::vector<double>& change) const;
-  void relax_exactly(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed) const;
-  void relax_by_sweeps(const std::vector<std::uint32_t>& in_way, Relaxed& relaxed) const;
   Relaxed relax(const std::vector<std::uint8_t>& removed) const;
   std::uint32_t charged(const ProbeContact& c) const;
   std::vector<ProbeLoad> loads(const Relaxed& without) const;
@@ -160,14 +118,14 @@ class BreakProbe {
   double give_ = 0;                                           ///< Speed per impulse.
   double time_s_ = 0;
   int events_ = 0;
-  std::vector<Velocity> velocities_;     ///< Now.
-  std::vector<Velocity> way_;            ///< Displacement and turn since the start of the step.
-  std::vector<std::uint32_t> closed_;    ///< Contacts, ascending.
-  std::vector<Row> rows_;                ///< Per contact.
-  double fastest_m_s_ = 0;               ///< Of the contacts that closed at this event.
-  std::vector<std::uint8_t> undecided_;  ///< Per body, of this event.
-  std::vector<ProbeLoad> loads_;         ///< Of this event.
-  std::optional<Relaxed> with_;          ///< Nothing removed; empty between events.
+  std::vector<BodyVelocity> velocities_;  ///< Now.
+  std::vector<BodyVelocity> way_;         ///< Displacement and turn since the start of the step.
+  std::vector<std::uint32_t> closed_;     ///< Contacts, ascending.
+  std::vector<RelaxRow> rows_;            ///< Per contact.
+  double fastest_m_s_ = 0;                ///< Of the contacts that closed at this event.
+  std::vector<std::uint8_t> undecided_;   ///< Per body, of this event.
+  std::vector<ProbeLoad> loads_;          ///< Of this event.
+  std::optional<Relaxed> with_;           ///< Nothing removed; empty between events.
   std::vector<ProbeMotion> motions_;
 };
 

@@ -80,33 +80,46 @@ std::vector<Seed> find_seeds(World& world, const std::vector<std::uint32_t>& fix
 /// behind them all.
 class Members {
  public:
-  explicit Members(const World& world) : world_(world), cluster_(world.actors.size() + 1, 0) {
-    for (const Actor& actor : world.actors) keys_.push_back(actor.key);
-    taken_.assign(cluster_.size(), 0);
+  explicit Members(const World& world)
+      : world_(world), place_of_key_(world.next_key, ground()), all_(world.actors.size() + 1) {
+    for (std::uint32_t place = 0; place < ground(); ++place) {
+      place_of_key_[world.actors[place].key] = place;
+    }
   }
 
   std::uint32_t place(std::uint32_t key) const {
-    const auto at = std::ranges::lower_bound(keys_, key);
-    const bool known = at != keys_.end() && *at == key;
-    return static_cast<std::uint32_t>(known ? at - keys_.begin() : std::ssize(keys_));
+    return key < place_of_key_.size() ? place_of_key_[key] : ground();
   }
   /// Null for the ground.
   const Actor* actor(std::uint32_t place) const {
-    return place < keys_.size() ? &world_.actors[place] : nullptr;
+    return place < ground() ? &world_.actors[place] : nullptr;
   }
   void begin_cluster() { ++clusters_; }
   /// False if it was in this cluster already.
-  bool add(std::uint32_t place) { return std::exchange(cluster_[place], clusters_) != clusters_; }
-  bool holds(std::uint32_t place) const { return cluster_[place] == clusters_; }
+  bool add(std::uint32_t place) {
+    return std::exchange(all_[place].cluster, clusters_) != clusters_;
+  }
+  bool holds(std::uint32_t place) const { return all_[place].cluster == clusters_; }
   /// Moving bodies are in one cluster at most.
-  void take(std::uint32_t place) { taken_[place] = 1; }
-  bool taken(std::uint32_t place) const { return taken_[place] != 0; }
+  void take(std::uint32_t place) { all_[place].taken = true; }
+  bool taken(std::uint32_t place) const { return all_[place].taken; }
+  /// In the cluster under way.
+  void number(std::uint32_t place, std::uint32_t index) { all_[place].index = index; }
+  std::uint32_t index(std::uint32_t place) const { return all_[place].index; }
 
  private:
+  struct Member {
+    std::uint32_t cluster = 0;  ///< The last that saw it.
+    std::uint32_t index = 0;    ///< In that.
+    bool taken = false;
+  };
+
+  std::uint32_t ground() const { return static_cast<std::uint32_t>(world_.actors.size()); }
+
   const World& world_;
-  std::vector<std::uint32_t> keys_, cluster_;
-  std::vector<std::uint8_t> taken_;
-  std::uint32_t clusters_ = 0;  ///< The number of the last; cluster_ says which one saw an actor.
+  std::vector<std::uint32_t> place_of_key_;
+  std::vector<Member> all_;
+  std::uint32_t clusters_ = 0;  ///< The number of the last.
 };
 
 /// Bodies reached from a seed, contact by contact.
@@ -136,9 +149,12 @@ class Reach {
     for (std::size_t done = 0; done < moving_.size() && moving_.size() < most_;) {
       layer.clear();
       for (; done < moving_.size(); ++done) layer.push_back(members_.actor(moving_[done])->body);
+      std::pair last(kNobodyKey, kNobodyKey);
       for (const Touch& touch : world_.physics->touches(layer)) {
-        add(members_.place(touch.body_tag_a));
-        add(members_.place(touch.body_tag_b));
+        const std::pair pair(touch.body_tag_a, touch.body_tag_b);
+        if (std::exchange(last, pair) == pair) continue;  // another point of the same contact
+        add(members_.place(pair.first));
+        add(members_.place(pair.second));
       }
     }
   }
@@ -147,19 +163,23 @@ class Reach {
   BreakProbe probe() {
     std::ranges::sort(places_);
     std::vector<ProbeBody> bodies;
-    for (const std::uint32_t place : places_) bodies.push_back(describe(place));
+    bodies.reserve(places_.size());
+    for (const std::uint32_t place : places_) {
+      members_.number(place, static_cast<std::uint32_t>(bodies.size()));
+      bodies.push_back(describe(place));
+    }
     std::vector<BodyId> moving;
     for (const std::uint32_t place : moving_) moving.push_back(members_.actor(place)->body);
-    const auto index = [&](std::uint32_t place) {
-      return static_cast<std::uint32_t>(std::ranges::lower_bound(places_, place) - places_.begin());
-    };
+    const std::vector<Touch> touches = world_.physics->touches(moving);
     std::vector<ProbeContact> contacts;
-    for (const Touch& touch : world_.physics->touches(moving)) {
+    contacts.reserve(touches.size());
+    for (const Touch& touch : touches) {
       const std::uint32_t a = members_.place(touch.body_tag_a),
                           b = members_.place(touch.body_tag_b);
       if (!members_.holds(a) || !members_.holds(b)) continue;
-      contacts.push_back({index(a), index(b), touch.shape_tag_a, touch.shape_tag_b, touch.arm_a_W,
-                          touch.arm_b_W, touch.normal_W, touch.separation_m});
+      contacts.push_back({members_.index(a), members_.index(b), touch.shape_tag_a,
+                          touch.shape_tag_b, touch.arm_a_W, touch.arm_b_W, touch.normal_W,
+                          touch.separation_m});
     }
     return BreakProbe(std::move(bodies), std::move(contacts), world_.horizon_s(),
                       FallScale(world_.scene.gravity_W).still_m_s(world_.scene.accuracy.dt_s));

@@ -122,19 +122,15 @@ ContactsOfBodies::ContactsOfBodies(const Contacts& contacts, const Bodies& bodie
 std::vector<Touch> find_touches(const Contacts& contacts, const Bodies& bodies,
                                 const Shapes& shapes, const ContactsOfBodies& contacts_of_bodies,
                                 std::span<const std::uint32_t> of) {
-  std::vector<std::uint32_t> found;
-  for (const std::uint32_t body : of) {
-    const auto manifolds = contacts_of_bodies.of(body);
-    found.insert(found.end(), manifolds.begin(), manifolds.end());
-  }
-  const auto key = [&](std::uint32_t i) {
-    return contacts.pairs[contacts.manifolds[i].pair].key();
-  };
-  std::sort(found.begin(), found.end(),
-            [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> found;  // by key
+  for (const std::uint32_t body : of)
+    for (const std::uint32_t i : contacts_of_bodies.of(body))
+      found.emplace_back(contacts.pairs[contacts.manifolds[i].pair].key(), i);
+  std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   std::vector<Touch> touches;
-  for (const std::uint32_t i : found) {
+  touches.reserve(3 * found.size());
+  for (const auto& [key, i] : found) {
     const Manifold& m = contacts.manifolds[i];
     const Pair& pair = contacts.pairs[m.pair];
     Touch touch;
