@@ -1,5 +1,7 @@
 #include "engine/world/complementarity.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -10,7 +12,8 @@ namespace {
 
 constexpr double kTolerance = 1e-9;
 constexpr int kMostPivots = 200;
-constexpr int kPatience = 3;  // block exchanges without progress before single ones
+constexpr int kPatience = 3;      // block exchanges without progress before single ones
+constexpr int kMostSweeps = 200;  // where pivoting comes to no end
 
 /// x with A·x = b where `free`, 0 elsewhere.
 Eigen::VectorXd solve_free(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
@@ -24,24 +27,28 @@ Eigen::VectorXd solve_free(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
   return x;
 }
 
-}  // namespace
+/// What x does to the energy, with A·x ≥ b: never more than nothing for the solution.
+double energy(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::VectorXd& x) {
+  return x.dot(0.5 * (A * x) - b);
+}
 
-Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+/// The solution, or, if rounding keeps pivoting from an end, the least energy that it came to.
+Eigen::VectorXd pivot(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool& solved) {
   const auto n = static_cast<std::size_t>(b.size());
-  const double greatest = b.cwiseMax(0).size() ? b.maxCoeff() : 0;
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
-  if (greatest <= 0) return x;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), best = x;
+  double best_energy = 0;
   std::vector<std::uint8_t> free(n, 0);
   std::size_t fewest = n + 1;
   int patience = kPatience;
-  for (int pivot = 0; pivot < kMostPivots; ++pivot) {
+  for (int pivots = 0; pivots < kMostPivots; ++pivots) {
     const Eigen::VectorXd missing = b - A * x;
     std::vector<std::size_t> wrong;
     for (std::size_t i = 0; i < n; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      if (free[i] ? x[row] < 0 : missing[row] > kTolerance * greatest) wrong.push_back(i);
+      if (free[i] ? x[row] < 0 : missing[row] > kTolerance * b.maxCoeff()) wrong.push_back(i);
     }
-    if (wrong.empty()) break;
+    solved = wrong.empty();
+    if (solved) break;
     if (wrong.size() < fewest) {
       fewest = wrong.size();
       patience = kPatience;
@@ -52,8 +59,40 @@ Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& A, const Eigen::Vec
     }
     for (const std::size_t i : wrong) free[i] ^= 1;
     x = solve_free(A, b, free);
+    const Eigen::VectorXd allowed = x.cwiseMax(0);
+    const double now = energy(A, b, allowed);
+    if (now < best_energy) best = allowed, best_energy = now;
   }
-  return x.cwiseMax(0);
+  solved = solved && energy(A, b, x) <= 0;
+  return solved ? x : best;
+}
+
+/// Projected Gauss-Seidel: every change of x takes energy.
+void sweep(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
+  const double enough = kTolerance * b.maxCoeff();
+  for (int i = 0; i < kMostSweeps; ++i) {
+    double most = 0;
+    for (Eigen::Index row = 0; row < b.size(); ++row) {
+      const double was = x[row];
+      x[row] = std::max(0.0, was + (b[row] - A.row(row).dot(x)) / A(row, row));
+      most = std::max(most, std::abs(x[row] - was));
+    }
+    if (most <= enough) return;
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  if (b.size() == 0 || b.maxCoeff() <= 0) return Eigen::VectorXd::Zero(b.size());
+  // In units in which all are alike: a pebble under a roof is a millionth of it.
+  const Eigen::VectorXd unit = A.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd A_unit = unit.asDiagonal() * A * unit.asDiagonal();
+  const Eigen::VectorXd b_unit = unit.cwiseProduct(b);
+  bool solved = false;
+  Eigen::VectorXd x = pivot(A_unit, b_unit, solved);
+  if (!solved) sweep(A_unit, b_unit, x);
+  return unit.cwiseProduct(x);
 }
 
 }  // namespace sunder
