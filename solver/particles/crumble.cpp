@@ -12,6 +12,8 @@ constexpr double kSpall_m_s = 0.25, kSpallOfParting = 0.04, kFewest = 0.07;
 // A crack that stays shut has room for little; one that opens at kOpen_m_s gives all there is.
 constexpr double kShut = 0.05, kOpen_m_s = 4;
 constexpr double kSpin_s = 15;
+constexpr double kDustFollows =
+    0.4;                          // of the motion of its solid: air holds it, or puffs fly alone
 constexpr double kPuff_m = 0.09;  // least radius of dust; at most twice that
 
 double area(const Emission& face) {
@@ -68,17 +70,13 @@ std::uint8_t any_variant(Random& random) {
   return static_cast<std::uint8_t>(random.below(kDebrisVariants));
 }
 
-/// That of the solid, and a little of its own.
-Vec3 velocity_at(const Emission& face, const Vec3& point_W, Random& random) {
-  const double spall_m_s = kSpall_m_s + kSpallOfParting * face.parting_m_s;
-  const double speed = spall_m_s / (random.uniform() + kFewest);
-  return face.motion(point_W) + speed * (face.normal_W + random.direction());
-}
+double spall_m_s(const Emission& face) { return kSpall_m_s + kSpallOfParting * face.parting_m_s; }
 
 DebrisBirth chip_from(const Emission& face, double area_m2, Random& random) {
   const Crumbling& crumbling = face.crumbling;
   const Vec3 point = point_on(face, area_m2, random);
-  const Vec3 velocity = velocity_at(face, point, random);
+  const double speed = spall_m_s(face) / (random.uniform() + kFewest);
+  const Vec3 velocity = face.motion(point) + speed * (face.normal_W + random.direction());
   const double radius = power_law(crumbling.debris_smallest_m, crumbling.debris_largest_m, random);
   const Vec3 center = point + radius * face.normal_W;
   const Vec3 spin = kSpin_s * random.uniform() * random.direction();
@@ -90,7 +88,8 @@ DebrisBirth chip_from(const Emission& face, double area_m2, Random& random) {
 DustBirth puff_from(const Emission& face, double area_m2, Random& random) {
   const Crumbling& crumbling = face.crumbling;
   const Vec3 point = point_on(face, area_m2, random);
-  const Vec3 velocity = velocity_at(face, point, random);
+  const Vec3 velocity =
+      kDustFollows * face.motion(point) + spall_m_s(face) * (face.normal_W + random.direction());
   // All the dust of the face, shared out.
   const double mass_kg =
       crumbling.dust_kg_m2 / (crumbling.particles_per_m2 * (1 - crumbling.debris_ratio));
