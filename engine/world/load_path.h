@@ -26,10 +26,13 @@ double expected_sink_m(const LoadPath& path, double gravity_m_s2, double h_s);
 /// Substeps of `dt_s` so that it sinks no farther than `target_m`; at least 1.
 int substeps_for_sink(const LoadPath& path, double gravity_m_s2, double dt_s, double target_m);
 /// Substeps so that what stands does not buckle: soft contacts let a column of N bodies of size a
-/// sink by less than 3.5·a/N² under its own weight, or 1.1·a/N² under a load on top.
+/// sink by less than 1.96·a/N² under its own weight, or 0.62·a/N² under a load on top.
 int substeps_to_stand(const LoadPath& path, double gravity_m_s2, double dt_s);
+/// The scene's accuracy with so many; a shorter step where that is more than `most_substeps`.
+Accuracy accuracy_to_stand(const Scene& scene, int most_substeps);
 
-/// What a user should know about a scene's accuracy; empty if nothing.
-std::string accuracy_warning(const Scene& scene);
+/// What a user, who may ask for so many substeps, should know about a scene's accuracy; empty if
+/// nothing.
+std::string accuracy_warning(const Scene& scene, int most_substeps);
 
 }  // namespace sunder

@@ -10,6 +10,7 @@
 #include "engine/world/load_path.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/planar.h"
+#include "scenes/schema.h"
 #include "solver/particles/debris_and_dust.h"
 #include "solver/planar/planar_physics.h"
 #include "solver/rigid/rigid_physics.h"
@@ -54,7 +55,7 @@ std::unique_ptr<Physics> make_physics(const Scene& scene) {
 }
 
 std::vector<std::string> warnings_of(const Scene& scene) {
-  const std::string warning = accuracy_warning(scene);
+  const std::string warning = accuracy_warning(scene, scenes::kMostSubsteps);
   return warning.empty() ? std::vector<std::string>{} : std::vector{warning};
 }
 

@@ -3,6 +3,7 @@
 #include "solver/rigid/seeding.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "solver/rigid/load_path.h"
@@ -19,8 +20,10 @@ constexpr int kFirstLook = 32;        // whenever as many rounds again are over:
 constexpr double kNearlyDone = 1e-7;  // of the loads' squares: what is not held by then will not be
 constexpr double kDone = 1e-12;       // of the loads' squares, a step's
 constexpr double kMostLeft = 0.01;    // of the energy of a substep of free fall
-constexpr float kMostOverlap = 0.04f;  // of the inner radius: what is deeper is not at rest
-constexpr float kMostRest = 0.1f;      // of it
+// Of the inner radius: what is deeper is not at rest, and what is as far apart bears nothing.
+constexpr float kMostOverlap = 0.04f;
+constexpr float kMostRest = 0.1f;  // of it
+constexpr float kNoGap = 1e-4f;    // of it: rounding, or what would hardly be seen
 
 Vec3f lane_of(const Wide3Of<kSeedLanes>& v, std::uint32_t lane) {
   return {v.x[lane], v.y[lane], v.z[lane]};
@@ -70,6 +73,17 @@ double greatest_speed(const Manifold& m, const Bodies& bodies) {
   };
   const Vec3 a = velocity(m.body_a, m.friction_arm_A), b = velocity(m.body_b, m.friction_arm_B);
   return std::max({(b - a).norm(), a.norm(), b.norm()});
+}
+
+/// What touches but for rounding bears as if it did, however short the substep.
+void close_gaps(const ContactStep& step, SeedBlock& c) {
+  for (std::uint32_t lane = 0; lane < c.count; ++lane) {
+    const float none_m = kNoGap * step.contacts.manifolds[step.manifolds[c.first + lane]].size_m;
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const float separation_m = c.point[i].separation[lane];
+      if (separation_m > 0 && separation_m < none_m) c.point[i].separation[lane] = 0;
+    }
+  }
 }
 
 /// How deep a point gives way under its load.
@@ -153,7 +167,7 @@ void Seeding::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bod
     if (!m.unseeded) continue;  // gone, or here for the second time
     m.unseeded = false;
     if (m.count == 0 || !(bodies.awake(m.body_a) || bodies.awake(m.body_b))) continue;
-    const bool rests = m.least_separation() > -kMostOverlap * m.size_m;
+    const bool rests = std::abs(m.least_separation()) < kMostOverlap * m.size_m;
     if (!rests || greatest_speed(m, bodies) >= slow_m_s) continue;
     resting.emplace_back(m.sweep_key(), i);
     ++start[resting.back().first + 1];
@@ -252,7 +266,7 @@ void Seeding::find_loads(const ContactStep& step, double kick_m_s) {
   auto work = [&](int kind, std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t i = first; i < end; ++i) {
       SeedBlock& c = blocks_[i];
-      if (kind == kPrepare) prepare_block(step, c);
+      if (kind == kPrepare) prepare_block(step, c), close_gaps(step, c);
       if (kind == kWarmStart) warm_start(c, step.rows);
       if (kind < kSweep) continue;
       const BlockLoads before = loads_of(c);

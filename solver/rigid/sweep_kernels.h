@@ -197,12 +197,16 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
     V u = v.along(c.normal, p.turn_a, p.turn_b);
     V change;
     if constexpr (kBiased) {
-      u += apart ? s * soft.inverse_h : max(s * press.rate, -c.push_m_s);
+      const V free = u;
+      u += s * (apart ? splat<V>(soft.inverse_h) : splat<V>(press.rate));
       Spring<V> spring{c.press_mass, c.press_give};
       if constexpr (kSplit) spring = Spring<V>::template of<true>(press, c.parts.press_ease[i]);
       const V mass_scale = apart ? one : spring.mass_scale;
       const V impulse_scale = apart ? zero : spring.impulse_scale;
       change = -p.mass * mass_scale * u - impulse_scale * p.impulse;
+      // What bears a load is a spring; what overlaps without one parts no faster than this.
+      const V push = p.mass * mass_scale * (c.push_m_s - free);
+      change = apart ? change : min(change, push);
     } else {
       u += apart ? s * soft.inverse_h : zero;
       change = -p.mass * u;

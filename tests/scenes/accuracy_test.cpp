@@ -7,6 +7,7 @@
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/load.h"
+#include "scenes/schema.h"
 #include "solver/rigid/rigid_physics.h"
 
 namespace sunder::tests {
@@ -26,6 +27,10 @@ Scene stack(int count, double top, const std::string& preset, std::vector<std::s
   text += "[[solid]]\nstructure = \"box\"\nname = \"top\"\nmaterial = \"heavy\"\nposition = [0, " +
           std::to_string(count - 1) + ", 0]\n";
   return scenes::parse_scene(text, "stack.toml", {preset, std::move(set)});
+}
+
+std::string warning_of(const Scene& scene) {
+  return accuracy_warning(scene, scenes::kMostSubsteps);
 }
 
 double deepest_m(Scene scene) {
@@ -65,16 +70,98 @@ TEST(Accuracy, SubstepsFollowFromTheTargetAndItIsMet) {
 }
 
 TEST(Accuracy, AWarningNamesTheSubstepsThatWouldDo) {
-  EXPECT_EQ(accuracy_warning(stack(10, 1, "draft")), "");
-  EXPECT_EQ(accuracy_warning(stack(10, 1, "accurate")), "");
+  EXPECT_EQ(warning_of(stack(10, 1, "draft")), "");
+  EXPECT_EQ(warning_of(stack(10, 1, "accurate")), "");
   const Scene heavy = stack(10, 10000, "accurate");
   const int needed = substeps_to_stand(load_paths(heavy).weakest, kG, heavy.accuracy.dt_s);
   EXPECT_GT(needed, heavy.accuracy.substeps);
-  const std::string warning = accuracy_warning(heavy);
+  const std::string warning = warning_of(heavy);
   EXPECT_NE(warning.find(std::to_string(needed) + " substeps"), std::string::npos) << warning;
   EXPECT_NE(warning.find("10 bodies"), std::string::npos) << warning;
   const Scene held = stack(10, 10000, "accurate", {"accuracy.substeps=" + std::to_string(needed)});
-  EXPECT_EQ(accuracy_warning(held), "");
+  EXPECT_EQ(warning_of(held), "");
+}
+
+/// Stacked boxes of 2 kg/m³, so that none breaks.
+Scene tower(int count, double size_m, const std::string& duration_s, const std::string& preset,
+            std::vector<std::string> set = {}) {
+  const std::string size = std::to_string(size_m);
+  std::string text = "[scene]\ndescription = \"x\"\nduration_s = " + duration_s + "\n";
+  text += "[accuracy]\n[[material]]\nname = \"light\"\nlike = \"steel\"\ndensity_kg_m3 = 2\n";
+  text +=
+      "[[solid]]\nstructure = \"stack\"\nmaterial = \"light\"\ncount = " + std::to_string(count) +
+      "\nsize_m = [" + size + ", " + size + ", " + size + "]\n";
+  return scenes::parse_scene(text, "tower.toml", {preset, std::move(set)});
+}
+
+/// How far any body went from where it began, in its own size; none may sleep.
+double wandered(Scene scene, double size_m) {
+  solver::RigidOptions options;
+  options.gravity_W = scene.gravity_W;
+  options.sleeping = false;
+  Simulation simulation(std::move(scene), solver::make_rigid_physics(options),
+                        fracture::make_pattern_breaker());
+  const FramePtr first = simulation.next();
+  double most = 0;
+  while (const FramePtr frame = simulation.next()) {
+    EXPECT_EQ(frame->bodies.size(), first->bodies.size());
+    for (std::size_t i = 0; i < std::min(first->bodies.size(), frame->bodies.size()); ++i)
+      most =
+          std::max(most, (frame->bodies[i].X_WB.position - first->bodies[i].X_WB.position).norm());
+  }
+  return most / size_m;
+}
+
+/// What the warning tells the user to set.
+std::vector<std::string> named(const Scene& scene) {
+  const Accuracy stand = accuracy_to_stand(scene, scenes::kMostSubsteps);
+  char text[80];
+  std::snprintf(text, sizeof text, "%d substeps of dt 1/%.4g s", stand.substeps, 1 / stand.dt_s);
+  EXPECT_NE(warning_of(scene).find(text), std::string::npos) << warning_of(scene);
+  std::printf("%s: ", text);
+  std::snprintf(text, sizeof text, "accuracy.dt_s=%.17g", stand.dt_s);
+  return {"accuracy.substeps=" + std::to_string(stand.substeps), text};
+}
+
+/// A box of 1 kg under a slab of a million.
+Scene under_a_million(std::vector<std::string> set = {}) {
+  std::string text = "[scene]\ndescription = \"x\"\nduration_s = 3\n[accuracy]\n";
+  for (const auto& [name, density] : {std::pair("light", "1"), {"heavy", "30000"}})
+    text += std::string("[[material]]\nlike = \"steel\"\nname = \"") + name +
+            "\"\ndensity_kg_m3 = " + density + "\n";
+  text += "[[solid]]\nstructure = \"box\"\nname = \"low\"\nmaterial = \"light\"\n";
+  text +=
+      "[[solid]]\nstructure = \"box\"\nname = \"top\"\nmaterial = \"heavy\"\n"
+      "size_m = [5, 1.3333, 5]\nposition = [0, 1, 0]\n";
+  return scenes::parse_scene(text, "million.toml", {"accurate", std::move(set)});
+}
+
+TEST(Accuracy, WhatIsAMillionTimesAsHeavyStandsWithTheSubstepsThatTheWarningNames) {
+  const std::vector<std::string> set = named(under_a_million());
+  const double before = wandered(under_a_million(), 1);
+  const double then = wandered(under_a_million(set), 1);
+  std::printf("a top of 1e6 weights: moves by %.2g sides, by %.2g before\n", then, before);
+  EXPECT_GT(before, 0.1);
+  EXPECT_LT(then, 0.02);
+  EXPECT_EQ(warning_of(under_a_million(set)), "");
+}
+
+TEST(Accuracy, WhatIsTooSmallForItsSubstepsStandsWithThoseThatTheWarningNames) {
+  const std::vector<std::string> set = named(tower(12, 0.001, "3", "draft"));
+  const double before = wandered(tower(12, 0.001, "3", "draft"), 0.001);
+  const double then = wandered(tower(12, 0.001, "3", "draft", set), 0.001);
+  std::printf("12 boxes of a millimetre: move by %.2g sides, by %.2g before\n", then, before);
+  EXPECT_GT(before, 0.1);
+  EXPECT_LT(then, 0.02);
+}
+
+TEST(Accuracy, ATowerFallsAwakeBelowTheSubstepsThatTheWarningNamesAndStandsWithThem) {
+  const std::vector<std::string> set = named(tower(40, 0.1, "30", "accurate"));
+  const double before = wandered(tower(40, 0.1, "30", "accurate"), 0.1);
+  const double then = wandered(tower(40, 0.1, "30", "accurate", set), 0.1);
+  std::printf("tower of 40: moves by %.2g sides, by %.2g before\n", then, before);
+  EXPECT_GT(before, 1);
+  EXPECT_LT(then, 0.02);
 }
 
 }  // namespace
