@@ -230,8 +230,7 @@ void ObstacleGrid::find(std::span<const Way> ways, Near& near) const {
   near.high = near.low - Vec3f::Ones();  // holds for these ways alone
   for (const Way& way : ways) find(low_of(way), high_of(way), near.shapes);
   std::ranges::sort(near.shapes);
-  const auto twice = std::ranges::unique(near.shapes);
-  near.shapes.erase(twice.begin(), twice.end());
+  near.shapes.erase(std::unique(near.shapes.begin(), near.shapes.end()), near.shapes.end());
 }
 
 }  // namespace sunder::solver

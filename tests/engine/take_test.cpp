@@ -262,7 +262,7 @@ TEST_F(Take, CorruptAnywherePlaysWhatIsReadableAndSaysSo) {
 
 TEST_F(Take, OfAnotherKindOrNoneIsRefused) {
   EXPECT_THROW(TakeReader("/nowhere/at/all.take"), InputError);
-  EXPECT_THROW(TakeReader(fs::temp_directory_path()), InputError);
+  EXPECT_THROW(TakeReader{fs::temp_directory_path()}, InputError);
   write_file(path_, std::vector<std::byte>(100));
   EXPECT_THROW(TakeReader{path_}, InputError);
   EXPECT_THROW(TakeWriter("/proc/no/such.take"), InputError);
