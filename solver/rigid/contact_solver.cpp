@@ -42,7 +42,8 @@ enum StageKind {
   kJointPush,
   kJointTurn,
   kJointRelax,
-  kJointTest
+  kJointTest,
+  kJointEase
 };
 
 Vec3f linear(Wide v) { return {v[0], v[1], v[2]}; }
@@ -64,8 +65,8 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
   joint_solver_.collect(bodies, joints, jointed_);
   for (std::uint32_t i = 0; i < bodies.size(); ++i) in_contact_[i] |= jointed_[i];
   collect_bodies(bodies);
-  energy_guard_.collect(touching_, active_, jointed_, 4 * dt_s * gravity_W.norm(), bodies,
-                        contacts);
+  energy_guard_.collect(touching_, active_, joint_solver_.joined(), 4 * dt_s * gravity_W.norm(),
+                        bodies, contacts);
   const double h = dt_s / substeps;
   BodyRow* rows = rows_.data();
   ContactStep step{bodies,
@@ -139,6 +140,10 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
         return joint_solver_.relax(i, joint_step, rows);
       case kJointTest:
         return joint_solver_.test(i, joint_step, rows);
+      case kJointEase:
+        if (energy_guard_.objects())
+          joint_solver_.ease(i, joint_step, energy_guard_.share_of_row(), rows);
+        return;
     }
   };
   auto work = [&](int kind, std::uint32_t begin, std::uint32_t end) {
@@ -237,6 +242,7 @@ std::vector<Stage> ContactSolver::plan(int substeps) const {
     stages.push_back({kJudge, 0, 1, 1});
     all_bodies(kEaseBody);
     all_blocks(kEase);
+    joint_solver_.each_color(kJointEase, stages);
   }
   each_color(kBounce);
   join();

@@ -19,9 +19,8 @@ double lanes_sum(const Wide& a, const Wide& b, double linear) {
 }  // namespace
 
 void EnergyGuard::collect(std::span<const std::uint32_t> manifolds,
-                          std::span<const std::uint32_t> active,
-                          std::span<const std::uint8_t> exempt, double slow_m_s,
-                          const Bodies& bodies, const Contacts& contacts) {
+                          std::span<const std::uint32_t> active, std::span<const Pair> joined,
+                          double slow_m_s, const Bodies& bodies, const Contacts& contacts) {
   watches_ = std::ranges::any_of(active, [&](std::uint32_t body) {
     const double turn_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
     return bodies.velocity[body].norm() + turn_m_s > slow_m_s;
@@ -32,14 +31,31 @@ void EnergyGuard::collect(std::span<const std::uint32_t> manifolds,
     const Manifold& m = contacts.manifolds[i];
     if (bodies.awake(m.body_a) && bodies.awake(m.body_b)) groups.join(m.body_a, m.body_b);
   }
+  for (const auto& [a, b] : joined) {
+    if (bodies.awake(a) && bodies.awake(b)) groups.join(a, b);
+  }
   group_ = groups.roots();
-  std::vector<std::uint8_t> left_alone(bodies.size());
-  for (const std::uint32_t body : active) left_alone[group_[body]] |= exempt[body];
-  for (const std::uint32_t body : active)
-    if (left_alone[group_[body]]) group_[body] = kNone;
+  if (!joined.empty()) leave_alone_what_swings_free(manifolds, active, joined, contacts);
   of_body_.resize(bodies.size());
   of_group_.resize(bodies.size());
   share_.assign(bodies.size() + 1, 1);
+}
+
+/// Joints alone keep energy as well as their substeps do, and would only lose by this.
+void EnergyGuard::leave_alone_what_swings_free(std::span<const std::uint32_t> manifolds,
+                                               std::span<const std::uint32_t> active,
+                                               std::span<const Pair> joined,
+                                               const Contacts& contacts) {
+  std::vector<std::uint8_t> free(group_.size());
+  const auto mark = [&](std::uint32_t body, bool is_free) {
+    if (group_[body] != kNone) free[group_[body]] = is_free;
+  };
+  for (const auto& [a, b] : joined) mark(a, true), mark(b, true);
+  for (const std::uint32_t i : manifolds) {
+    mark(contacts.manifolds[i].body_a, false), mark(contacts.manifolds[i].body_b, false);
+  }
+  for (const std::uint32_t body : active)
+    if (free[group_[body]]) group_[body] = kNone;
 }
 
 void EnergyGuard::weigh(std::uint32_t body, float inverse_mass, const BodyRow& row) {

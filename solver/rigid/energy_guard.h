@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/rigid/bodies.h"
@@ -14,10 +15,12 @@ namespace sunder::solver {
 
 class EnergyGuard {
  public:
-  /// Groups the awake bodies of these manifolds. Groups with one of `exempt`, by slot, are left
-  /// alone; where nothing moves fast, all are.
+  using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+  /// Groups the awake bodies of these manifolds, and of these pairs in joints. What hangs in joints
+  /// and touches nothing is left alone; where nothing moves fast, all are.
   void collect(std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> active,
-               std::span<const std::uint8_t> exempt, double slow_m_s, const Bodies& bodies,
+               std::span<const Pair> joined, double slow_m_s, const Bodies& bodies,
                const Contacts& contacts);
   /// Whether any group is watched in this step.
   bool watches() const { return watches_; }
@@ -37,6 +40,10 @@ class EnergyGuard {
   struct Work {
     double first = 0, second = 0;
   };
+
+  void leave_alone_what_swings_free(std::span<const std::uint32_t> manifolds,
+                                    std::span<const std::uint32_t> active,
+                                    std::span<const Pair> joined, const Contacts& contacts);
 
   bool watches_ = false, objects_ = false;
   std::vector<std::uint32_t> group_;  ///< By slot, of awake bodies in contact; kNone: not watched.

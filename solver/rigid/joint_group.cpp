@@ -95,6 +95,15 @@ double bias(const JointWork& work, int i, const JointStep& step, bool biased) {
   return std::clamp(kRate / step.h_s * error, -most, most);
 }
 
+/// On b, of this substep.
+Vec3 push_of(const JointWork& work) {
+  Vec3 push = Vec3::Zero();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(work.rows); ++i) {
+    push += work.impulse[i] * work.row[i].push.cast<double>();
+  }
+  return push;
+}
+
 void take_out(JointWork& work) {
   work.broken = true;
   work.impulse = {};
@@ -177,16 +186,34 @@ void turn_group(JointGroup& group, std::span<JointWork> works, const BodyRow* ro
   fill(group, works);
 }
 
+void ease_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
+                const float* share_of_row, BodyRow* rows) {
+  bool any = false;
+  for (JointWork& work : works) {
+    const float share = share_of_row[work.row_b != 0 ? work.row_b : work.row_a];
+    if (share == 1) continue;
+    any = true;
+    work.total_W -= push_of(work);
+    for (double& impulse : work.impulse) impulse *= double{share};
+    work.owed = {share * work.owed.push, share * work.owed.turn_a, share * work.owed.turn_b};
+    work.total_W += push_of(work);
+  }
+  if (!any) return;
+  for (JointWork& work : works) work.total_W -= push_of(work);
+  solve_group(group, works, step, false, rows);
+  for (JointWork& work : works) work.total_W += push_of(work);
+}
+
 void test_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
                 BodyRow* rows) {
   bool any = false;
   for (JointWork& work : works) {
     if (work.broken) continue;
-    Vec3 push = Vec3::Zero();
+    const Vec3 push = push_of(work);
     double turn = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(work.rows); ++i) {
-      push += work.impulse[i] * work.row[i].push.cast<double>();
-      if (i >= static_cast<std::size_t>(work.place_rows)) turn += work.impulse[i] * work.impulse[i];
+    for (int i = work.place_rows; i < work.rows; ++i) {
+      const double impulse = work.impulse[static_cast<std::size_t>(i)];
+      turn += impulse * impulse;
     }
     if (push.norm() <= step.h_s * work.breaking_N &&
         std::sqrt(turn) <= step.h_s * work.breaking_Nm) {

@@ -55,4 +55,9 @@ void turn_group(JointGroup& group, std::span<JointWork> works, const BodyRow* ro
 void test_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
                 BodyRow* rows);
 
+/// Bodies have kept a share of the substep's impulses, by row: joints keep it too, and then hold
+/// again, which takes energy as any joint does.
+void ease_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
+                const float* share_of_row, BodyRow* rows);
+
 }  // namespace sunder::solver

@@ -36,14 +36,18 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
   active_.clear();
   groups_.clear();
   colors_.clear();
+  joined_.clear();
   for (std::uint32_t i = 0; i < joints.size(); ++i) {
     if (!joints[i].holds()) continue;
-    bool moves = false;
+    std::uint32_t first = kNone, last = kNone;
     for_moving(joints[i], bodies, [&](std::uint32_t body) {
-      moves = true;
+      if (first == kNone) first = body;
+      last = body;
       in_contact[body] = 1;
     });
-    if (moves) active_.push_back(i);
+    if (first == kNone) continue;
+    active_.push_back(i);
+    joined_.emplace_back(first, last);
   }
   works_.resize(active_.size());
   if (active_.empty()) return;

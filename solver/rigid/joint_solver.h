@@ -8,6 +8,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/rigid/joint_group.h"
@@ -41,6 +42,12 @@ class JointSolver {
   void test(std::uint32_t i, const JointStep& step, BodyRow* rows) {
     test_group(groups_[i], works(groups_[i]), step, rows);
   }
+  /// Bodies keep this share of a substep's impulses, by row: so do joints, which then hold again.
+  void ease(std::uint32_t i, const JointStep& step, const float* share_of_row, BodyRow* rows) {
+    ease_group(groups_[i], works(groups_[i]), step, share_of_row, rows);
+  }
+  /// What hangs together and may move, a joint at a time: a joint to the world twice the same body.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& joined() const { return joined_; }
   /// Hands impulses back; joints that bore too much go. The answer is the impulse on bodies from
   /// what cannot move.
   Vec3 finish(Bodies& bodies, Joints& joints);
@@ -52,6 +59,7 @@ class JointSolver {
     return std::span(works_).subspan(group.first, group.count);
   }
 
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_;
   std::vector<std::uint32_t> active_;  ///< Joints, island by island, ascending within one.
   std::vector<JointGroup> groups_;     ///< By colour.
   std::vector<Stage> colors_;
