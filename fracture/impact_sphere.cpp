@@ -2,24 +2,17 @@
 
 #include <limits>
 
+#include "engine/geometry/box_distance.h"
 #include "fracture/polygon.h"
 
 namespace sunder::fracture {
-namespace {
-
-double distance_to_box(const Vec3& point, const Box& box) {
-  return (box.min - point).cwiseMax(point - box.max).cwiseMax(0.0).norm();
-}
-
-}  // namespace
-
 bool ImpactSphere::is_endless() const {
   return radius_m == std::numeric_limits<double>::infinity();
 }
 
 bool ImpactSphere::touches(const Convex& convex) const {
   if (is_endless()) return true;
-  return distance_to_box(center_R, convex.box) <= radius_m &&
+  return squared_distance(convex.box, center_R) <= radius_m * radius_m &&
          distance(center_R, convex.polyhedron) <= radius_m;
 }
 

@@ -7,6 +7,8 @@
 #include <array>
 #include <numeric>
 
+#include "engine/geometry/box_distance.h"
+
 namespace sunder {
 namespace {
 
@@ -17,10 +19,6 @@ double half_area(const Box& box) {
   if (box.empty()) return 0;
   const Vec3 e = box.extent();
   return e.x() * e.y() + e.y() * e.z() + e.z() * e.x();
-}
-
-double squared_distance(const Box& box, const Vec3& point) {
-  return (point - point.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
 }
 
 /// Where boxes fall when an axis is cut into kBins.

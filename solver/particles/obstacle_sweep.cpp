@@ -76,11 +76,10 @@ ObstacleGrid::WideWays::WideWays(std::span<const Way> ways) {
     lanes[6][i] = goes ? static_cast<float>(ways[i].radius_m) : 0;
     lanes[7][i] = goes ? static_cast<float>(ways[i].duration_s) : 0;
   }
-  const auto wide = [&](int row) { return *reinterpret_cast<const Wide*>(lanes[row]); };
-  from = {wide(0), wide(1), wide(2)};
-  to = {wide(3), wide(4), wide(5)};
-  radius_m = wide(6);
-  duration_s = wide(7);
+  from = {load(lanes[0]), load(lanes[1]), load(lanes[2])};
+  to = {load(lanes[3]), load(lanes[4]), load(lanes[5])};
+  radius_m = load(lanes[6]);
+  duration_s = load(lanes[7]);
   low = {min(from.x, to.x) - radius_m, min(from.y, to.y) - radius_m, min(from.z, to.z) - radius_m};
   high = {max(from.x, to.x) + radius_m, max(from.y, to.y) + radius_m, max(from.z, to.z) + radius_m};
 }

@@ -68,12 +68,11 @@ void Swirl::find(std::size_t cell, Near& near) const {
 
 Vec3f Swirl::Near::velocity(const Vec3f& at) const {
   Wide3 sum{};
-  const auto wide = [](const float* from) { return *reinterpret_cast<const Wide*>(from); };
   for (std::size_t i = 0; i < count_; i += kLanes) {
-    const Wide3 arm = {at.x() - wide(&at_[0][i]), at.y() - wide(&at_[1][i]),
-                       at.z() - wide(&at_[2][i])};
+    const Wide3 arm = {at.x() - load(&at_[0][i]), at.y() - load(&at_[1][i]),
+                       at.z() - load(&at_[2][i])};
     const Wide inside = max(1 - dot(arm, arm), Wide{});
-    const Wide3 turn = {wide(&turn_[0][i]), wide(&turn_[1][i]), wide(&turn_[2][i])};
+    const Wide3 turn = {load(&turn_[0][i]), load(&turn_[1][i]), load(&turn_[2][i])};
     sum = sum + cross(turn, arm) * (kProfile * inside * inside);
   }
   Vec3f velocity = Vec3f::Zero();

@@ -11,6 +11,7 @@
 #include "solver/rigid/approach.h"
 #include "solver/rigid/bodies.h"
 #include "solver/rigid/broad_phase.h"
+#include "solver/rigid/contact_reports.h"
 #include "solver/rigid/contact_solver.h"
 #include "solver/rigid/contacts.h"
 #include "solver/rigid/crowd.h"
@@ -51,8 +52,10 @@ class RigidPhysics final : public Physics {
   void hold(std::span<const BodyId> bodies) override;
   SolveReport solve(double dt_s, int substeps) override;
   BodyState state(BodyId body) const override;
-  std::vector<ContactLoad> contact_loads() const override;
-  std::vector<float> penetrations() const override;
+  std::vector<ContactLoad> contact_loads() const override {
+    return find_contact_loads(contacts_, bodies_, shapes_);
+  }
+  std::vector<float> penetrations() const override { return find_penetrations(contacts_); }
   std::vector<std::pair<const char*, double>> take_timings_ms() override;
 
  private:
@@ -341,39 +344,6 @@ BodyState RigidPhysics::state(BodyId id) const {
           bodies_.velocity[id.slot],
           bodies_.angular_velocity[id.slot],
           bodies_.motion[id.slot] == Motion::kAsleep};
-}
-
-std::vector<ContactLoad> RigidPhysics::contact_loads() const {
-  std::vector<const Manifold*> loaded;
-  for (const Manifold& m : contacts_.manifolds)
-    if (m.count > 0 && (bodies_.bears_load[m.body_a] || bodies_.bears_load[m.body_b]))
-      loaded.push_back(&m);
-  std::sort(loaded.begin(), loaded.end(), [&](const Manifold* m, const Manifold* n) {
-    return contacts_.pairs[m->pair].key() < contacts_.pairs[n->pair].key();
-  });
-  std::vector<ContactLoad> loads;
-  for (const Manifold* loaded_m : loaded) {
-    const Manifold& m = *loaded_m;
-    const Pair& pair = contacts_.pairs[m.pair];
-    const Vec3 impulse = m.step_impulse_W.cast<double>();
-    if (impulse.isZero(0)) continue;
-    const Vec3 point = bodies_.position[m.body_a] + m.middle_of_load().cast<double>();
-    for (const bool on_b : {false, true}) {
-      const std::uint32_t body = on_b ? m.body_b : m.body_a;
-      if (!bodies_.bears_load[body]) continue;
-      const Shape& shape = shapes_[on_b ? pair.shape_b : pair.shape_a];
-      loads.push_back({bodies_.tag[body], shape.tag, on_b ? impulse : Vec3(-impulse), point});
-    }
-  }
-  return loads;
-}
-
-std::vector<float> RigidPhysics::penetrations() const {
-  std::vector<float> depths;
-  for (const Manifold& m : contacts_.manifolds)
-    for (std::size_t i = 0; i < m.count; ++i)
-      if (m.points[i].impulse_Ns > 0) depths.push_back(std::max(0.f, -m.points[i].separation_m));
-  return depths;
 }
 
 std::vector<std::pair<const char*, double>> RigidPhysics::take_timings_ms() {

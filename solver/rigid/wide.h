@@ -64,6 +64,11 @@ template <class V = Wide>
 SUNDER_INLINE V splat(float x) {
   return x - V{};
 }
+/// Eight floats side by side, on no boundary in particular.
+SUNDER_INLINE Wide load(const float* from) {
+  typedef float Floats __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
+  return *reinterpret_cast<const Floats*>(from);
+}
 template <class V>
 SUNDER_INLINE V min(V a, V b) {
   return a < b ? a : b;
