@@ -188,7 +188,7 @@ TEST(Debris, OverItsBudgetFadesTheOldestRestingAndIgnoresWhatIsOverItsLimit) {
 
 TEST(Debris, OverItsBudgetShrinksSmallChipsBeforeLargeOnes) {
   Debris debris(160, kGravity);
-  const TestObstacles obstacles;
+  TestObstacles obstacles;
   for (int i = 0; i < 100; ++i) {
     DebrisBirth chip = chip_at(Vec3f(float(i), 0.15f, 0));
     chip.radius_m = i % 2 == 0 ? 0.15f : 0.05f;
@@ -209,7 +209,9 @@ TEST(Debris, OverItsBudgetShrinksSmallChipsBeforeLargeOnes) {
       EXPECT_GT(radius_m, 0.4f * (chip < 100 && chip % 2 == 0 ? 0.15f : 0.05f));
       drawn_m[chip] = radius_m;
       const bool large = chip < 100 && chip % 2 == 0;
-      if (large) EXPECT_EQ(radius_m, 0.15f);
+      if (large) {
+        EXPECT_EQ(radius_m, 0.15f);
+      }
       shrinking += !large && radius_m < 0.05f;
     }
   }
