@@ -1,7 +1,9 @@
 // What one sweep over the contacts costs, beside what it costs to stream the same bytes through the
 // processor once, read and written; and what it costs to give contacts their colours.
 //
-//   sweep_bench [--sides A,B,...] [--colors N]
+//   sweep_bench [--sides A,B,...] [--colors N] [--growth]
+//
+// With --growth: how the cost of a point grows with the number of bodies, in a sweep and in a step.
 //
 // A sweep is timed as the difference between steps with few and with many of them, each the best of
 // several, so that the machine may be busy. Bytes are those that a sweep touches: the front of
@@ -30,7 +32,8 @@ using bench::Pile;
 using bench::touching_cubes;
 
 constexpr double kDt_s = 1.0 / 60;
-constexpr int kMoreSweeps = 10, kTries = 7;
+constexpr double kRestDt_s = 1.0 / 480;  // in which columns of 46 cubes stand
+constexpr int kMoreSweeps = 10, kTries = 7, kSteps = 6, kStepSubsteps = 4;
 
 /// Of this thread where it works alone: a busy machine changes that least.
 double now_ms() {
@@ -92,23 +95,79 @@ double bytes_of(const SolveReport& report, std::size_t bodies) {
          static_cast<double>(bodies) * 64;
 }
 
-void sweep(const Pile& set, int colors, int lanes, int thread_count) {
-  set_threads(thread_count);
+double bytes_of(const SolveReport& report, std::size_t bodies, int lanes) {
+  return lanes == 16  ? bytes_of<16>(report, bodies)
+         : lanes == 8 ? bytes_of<8>(report, bodies)
+         : lanes == 4 ? bytes_of<4>(report, bodies)
+                      : bytes_of<1>(report, bodies);
+}
+
+/// Of one sweep, and what was swept.
+struct Swept {
+  double ms = 0, bytes = 0;
+  SolveReport report;
+};
+
+Swept time_sweep(const Pile& set, int colors, int lanes) {
   Timed few(set, colors, lanes, 1), many(set, colors, lanes, 1 + kMoreSweeps);
   for (int i = 0; i < kTries; ++i) few.solve(), many.solve();
-  const double ms = (many.best_ms - few.best_ms) / (2 * kMoreSweeps);
-  const SolveReport& report = few.report;
-  const std::size_t bodies = set.bodies.size() - 1;
-  const double bytes = lanes == 16  ? bytes_of<16>(report, bodies)
-                       : lanes == 8 ? bytes_of<8>(report, bodies)
-                       : lanes == 4 ? bytes_of<4>(report, bodies)
-                                    : bytes_of<1>(report, bodies);
-  const double stream = stream_ms(static_cast<std::size_t>(bytes));
-  const double points = report.contact_points;
-  std::printf("%8zu %9.0f %6d %8d %9.3f %9.2f %10.2f %12.2f %7.1f %9.0f\n", bodies, points, lanes,
-              thread_count, ms, 1e6 * ms / points, bytes / 1e6, 1e6 * stream / points, ms / stream,
-              bytes / points);
+  return {(many.best_ms - few.best_ms) / (2 * kMoreSweeps),
+          bytes_of(few.report, set.bodies.size() - 1, lanes), few.report};
+}
+
+void sweep(const Pile& set, int colors, int lanes, int thread_count) {
+  set_threads(thread_count);
+  const Swept swept = time_sweep(set, colors, lanes);
+  const double stream = stream_ms(static_cast<std::size_t>(swept.bytes));
+  const double points = swept.report.contact_points;
+  std::printf("%8zu %9.0f %6d %8d %9.3f %9.2f %10.2f %12.2f %7.1f %9.0f\n", set.bodies.size() - 1,
+              points, lanes, thread_count, swept.ms, 1e6 * swept.ms / points, swept.bytes / 1e6,
+              1e6 * stream / points, swept.ms / stream, swept.bytes / points);
   std::fflush(stdout);
+}
+
+/// Nanoseconds a point of a step of cubes that rest, the best of several, by what a step does.
+struct StepCost {
+  double collide_ns = 1e30, solve_ns = 1e30;
+  double points = 0;  ///< In the last.
+};
+
+StepCost time_steps(const Pile& set) {
+  RigidOptions options;
+  options.sleeping = false;
+  const auto physics = make_rigid_physics(options);
+  physics->replace({}, set.bodies);
+  StepCost cost;
+  for (int i = 0; i < kSteps; ++i) {
+    const double start = now_ms();
+    physics->collide(kRestDt_s);
+    const double middle = now_ms();
+    cost.points = physics->solve(kRestDt_s, kStepSubsteps).contact_points;
+    cost.collide_ns = std::min(cost.collide_ns, 1e6 * (middle - start) / cost.points);
+    cost.solve_ns = std::min(cost.solve_ns, 1e6 * (now_ms() - middle) / cost.points);
+  }
+  return cost;
+}
+
+/// What a contact point costs among more and more bodies, beside what its bytes do.
+int growth(const std::vector<int>& sides) {
+  set_threads(1);
+  const int lanes = lanes_in_use(0);
+  std::printf("touching cubes at rest, one thread, %d lanes, steps of %d substeps; ns a point\n",
+              lanes, kStepSubsteps);
+  std::printf("  bodies    points  megabytes   sweep  stream  times    step  collide   solve\n");
+  for (const int side : sides) {
+    const Pile set = touching_cubes(side);
+    const Swept swept = time_sweep(set, kMaxColors, lanes);
+    const double stream = stream_ms(static_cast<std::size_t>(swept.bytes));
+    const double ns = 1e6 / swept.report.contact_points;
+    const StepCost step = time_steps(set);
+    std::printf("%8zu %9.0f %10.2f %7.2f %7.2f %6.2f %7.1f %8.1f %7.1f\n", set.bodies.size() - 1,
+                step.points, swept.bytes / 1e6, ns * swept.ms, ns * stream, swept.ms / stream,
+                step.collide_ns + step.solve_ns, step.collide_ns, step.solve_ns);
+    std::fflush(stdout);
+  }
+  return 0;
 }
 
 /// Contacts of a grid of bodies, each touching its neighbours; some go and come back.
@@ -176,21 +235,25 @@ int run(const std::vector<int>& sides, int colors) {
 }  // namespace sunder::solver
 
 int main(int argc, char** argv) {
-  std::vector<int> sides = {10, 20, 46};
+  std::vector<int> sides;
   int colors = 64;
+  bool grows = false;
   for (int i = 1; i < argc; ++i) {
     const bool last = i + 1 == argc;
     if (!last && std::strcmp(argv[i], "--colors") == 0) {
       colors = std::atoi(argv[++i]);
+    } else if (std::strcmp(argv[i], "--growth") == 0) {
+      grows = true;
     } else if (!last && std::strcmp(argv[i], "--sides") == 0) {
-      sides.clear();
       for (const char* text = argv[++i]; text && *text;
            text = std::strchr(text, ',') ? std::strchr(text, ',') + 1 : nullptr)
         sides.push_back(std::atoi(text));
     } else {
-      std::fprintf(stderr, "usage: %s [--sides A,B,...] [--colors 0..64]\n", argv[0]);
+      std::fprintf(stderr, "usage: %s [--sides A,B,...] [--colors 0..64] [--growth]\n", argv[0]);
       return 2;
     }
   }
-  return sunder::solver::run(sides, colors);
+  using sunder::solver::growth, sunder::solver::run;
+  if (grows) return growth(sides.empty() ? std::vector{10, 14, 22, 31, 46} : sides);
+  return run(sides.empty() ? std::vector{10, 20, 46} : sides, colors);
 }

@@ -7,6 +7,8 @@
 namespace sunder::solver {
 namespace {
 
+constexpr std::size_t kCacheLine = 64;
+
 template <std::uint32_t kWidth>
 class BlocksOf final : public ContactBlocks {
  public:
@@ -31,18 +33,25 @@ class BlocksOf final : public ContactBlocks {
   }
 
   void prepare(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
-    for (std::uint32_t i = begin; i < end; ++i) prepare_block(step, blocks_[i]);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (i + 1 < end) fetch_manifolds(blocks_[i + 1], step);
+      prepare_block(step, blocks_[i]);
+    }
   }
   void warm_start(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::warm_start(blocks_[i], step.rows);
   }
   void sweep_biased(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
-    for (std::uint32_t i = begin; i < end; ++i)
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (i + 1 < end) fetch_bodies(blocks_[i + 1], step);
       solver::sweep_biased(blocks_[i], step.rows, step.soft);
+    }
   }
   void sweep_relaxed(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
-    for (std::uint32_t i = begin; i < end; ++i)
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (i + 1 < end) fetch_bodies(blocks_[i + 1], step);
       solver::sweep_relaxed(blocks_[i], step.rows, step.soft);
+    }
   }
   void sum_impulses(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::sum_impulses(blocks_[i]);
@@ -68,7 +77,10 @@ class BlocksOf final : public ContactBlocks {
     for (std::uint32_t i = begin; i < end; ++i) solver::bounce(blocks_[i], step.rows);
   }
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
-    for (std::uint32_t i = begin; i < end; ++i) store_block(step, blocks_[i]);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (i + 1 < end) fetch_manifolds(blocks_[i + 1], step);
+      store_block(step, blocks_[i]);
+    }
   }
 
   Vec3 outside_impulse_Ns() const override {
@@ -84,6 +96,21 @@ class BlocksOf final : public ContactBlocks {
   }
 
  private:
+  // What lies scattered is asked for a block ahead; the blocks themselves stream.
+  static void fetch_manifolds(const ConstraintBlock<kWidth>& c, const ContactStep& step) {
+    for (std::uint32_t lane = 0; lane < c.count; ++lane) {
+      const Manifold* m = &step.contacts.manifolds[step.manifolds[c.first + lane]];
+      for (std::size_t at = 0; at < sizeof *m; at += kCacheLine)
+        __builtin_prefetch(reinterpret_cast<const char*>(m) + at, 1);
+    }
+  }
+  static void fetch_bodies(const ConstraintBlock<kWidth>& c, const ContactStep& step) {
+    for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+      __builtin_prefetch(&step.rows.rows[c.row_a[lane]], 1);
+      __builtin_prefetch(&step.rows.rows[c.row_b[lane]], 1);
+    }
+  }
+
   std::vector<ConstraintBlock<kWidth>> blocks_;
   std::vector<SearchLanes<kWidth>> search_;
   std::uint32_t used_ = 0;
