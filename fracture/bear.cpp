@@ -18,9 +18,12 @@ constexpr double kTolerance = 1e-3;  // of the solve
 // Of an overloaded region the worst bond goes, and those of its plane whose stress is this near:
 // by symmetry many are alike, and which is a shade worse is rounding.
 constexpr double kAlike = 0.97;
-constexpr int kRounds = 64;               // of cutting and solving again in one answer
-constexpr int kMostIterations = 2000;     // a solve that needs more is given up, and cuts nothing
-constexpr std::uint64_t kSetUpWork = 10;  // iterations that making a system costs, about
+constexpr int kRounds = 64;            // of cutting and solving again in one answer
+constexpr int kMostIterations = 2000;  // a solve that needs more is given up, and cuts nothing
+// Iterations that making a system costs, about, and editing one.
+constexpr std::uint64_t kSetUpWork = 10, kEditWork = 3;
+// A system is edited if so much of it stays; else it is made anew.
+constexpr double kStays = 0.5;
 // However much making the system took: or breaks in every frame would keep it from being solved.
 constexpr std::uint64_t kLeastIterations = 4;
 // Stress at a bond's own corners is at most so many times that of its section: those well below
@@ -29,6 +32,7 @@ constexpr double kWorthALook = 0.6;
 
 /// What is handed back to the next solve.
 struct Memory final : LoadMemory {
+  std::vector<std::uint32_t> slots;  ///< Per convex.
   std::vector<ConvexPtr> convexes;
   std::vector<std::uint8_t> anchored;
   std::vector<Bond> bonds;
@@ -63,8 +67,33 @@ double part_of(const BondStress& stress, const Limits& limits) {
                    stress.compression_Pa / limits.compressive_Pa});
 }
 
-bool same_place(const Bond& x, const Bond& y) {
-  return std::tie(x.a, x.b, x.face_a, x.face_b) == std::tie(y.a, y.b, y.face_a, y.face_b);
+auto place_of(const Bond& bond) { return std::tie(bond.a, bond.b, bond.face_a, bond.face_b); }
+
+constexpr std::uint32_t kNew = StressOrigin::kNew;
+
+/// Where the convexes and bonds of a compound, with these slots, were in what the memory is of; few
+/// are known if that was no earlier state of the same structure.
+StressOrigin origin_in(const Memory& old, const Compound& compound,
+                       const std::vector<std::uint32_t>& slots) {
+  StressOrigin origin;
+  std::uint32_t was = 0;
+  for (std::uint32_t c = 0; c < slots.size(); ++c) {
+    while (was < old.slots.size() && old.slots[was] < slots[c]) ++was;
+    const bool known = was < old.slots.size() && old.slots[was] == slots[c] &&
+                       old.convexes[was] == compound.convexes[c];
+    origin.convexes.push_back(known ? was : kNew);
+  }
+  std::uint32_t next = 0;
+  for (Bond bond : compound.bonds) {
+    bond.a = origin.convexes[bond.a];
+    bond.b = origin.convexes[bond.b];
+    origin.bonds.push_back(kNew);
+    if (bond.a == kNew || bond.b == kNew) continue;
+    while (next < old.bonds.size() && place_of(old.bonds[next]) < place_of(bond)) ++next;
+    if (next == old.bonds.size() || place_of(old.bonds[next]) != place_of(bond)) continue;
+    origin.bonds.back() = next;
+  }
+  return origin;
 }
 
 /// A structure while its bonds are cut.
@@ -93,9 +122,10 @@ class Bearing {
         break;
       }
       remove(cut);
-      answer.work += kSetUpWork * memory_->system->work();
+      answer.work += kEditWork * memory_->system->work();
     }
     part(answer.edit);
+    memory_->slots = slots_;
     memory_->bonds = compound_.bonds;
     memory_->convexes = compound_.convexes;
     memory_->anchored = compound_.anchored;
@@ -111,9 +141,38 @@ class Bearing {
       *memory_ = *old;
       return;
     }
+    memory_->displacements.resize(compound_.convexes.size());
+    if (old && edit_system(*old)) {
+      answer.work += kEditWork * memory_->system->work();
+      return;
+    }
+    make_system(old);
+    answer.work += kSetUpWork * memory_->system->work();
+  }
+
+  /// False if too little of the system is still there.
+  bool edit_system(const Memory& old) {
+    const StressOrigin origin = origin_in(old, compound_, slots_);
+    const auto known = std::ranges::count_if(origin.convexes, [](auto was) { return was != kNew; });
+    if (static_cast<double>(known) < kStays * static_cast<double>(old.slots.size())) return false;
+    for (std::size_t c = 0; c < origin.convexes.size(); ++c) {
+      if (origin.convexes[c] != kNew) {
+        memory_->displacements[c] = old.displacements[origin.convexes[c]];
+      }
+    }
+    std::vector<BondGeometry> geometry;
+    for (std::size_t i = 0; i < origin.bonds.size(); ++i) {
+      geometry.push_back(origin.bonds[i] != kNew ? old.system->geometry()[origin.bonds[i]]
+                                                 : bond_geometry(compound_, compound_.bonds[i]));
+    }
+    memory_->system = std::make_shared<const StressSystem>(
+        *old.system, compound_, std::move(geometry), load_.materials, origin);
+    return true;
+  }
+
+  void make_system(const Memory* old) {
     std::vector<BondGeometry> geometry(compound_.bonds.size());
     std::vector<std::uint32_t> old_of_new(compound_.convexes.size(), kNew);
-    memory_->displacements.resize(compound_.convexes.size());
     if (old) {
       std::unordered_map<const Convex*, std::uint32_t> numbers;
       for (std::uint32_t c = 0; c < old->convexes.size(); ++c) {
@@ -132,9 +191,8 @@ class Bearing {
         geometry[i] = known ? *known : bond_geometry(compound_, compound_.bonds[i]);
       }
     });
-    memory_->system =
-        std::make_shared<const StressSystem>(compound_, std::move(geometry), load_.materials);
-    answer.work += kSetUpWork * memory_->system->work();
+    memory_->system = std::make_shared<const StressSystem>(
+        compound_, std::move(geometry), load_.materials, compound_.convexes.size() / 8);
   }
 
   const BondGeometry* known_geometry(const Memory& old,
@@ -144,11 +202,10 @@ class Bearing {
     bond.a = old_of_new[bond.a];
     bond.b = old_of_new[bond.b];
     if (bond.a == kNew || bond.b == kNew || bond.a > bond.b) return nullptr;
-    const auto at = std::lower_bound(
-        old.bonds.begin(), old.bonds.end(), bond, [](const Bond& x, const Bond& y) {
-          return std::tie(x.a, x.b, x.face_a, x.face_b) < std::tie(y.a, y.b, y.face_a, y.face_b);
-        });
-    if (at == old.bonds.end() || !same_place(*at, bond)) return nullptr;
+    const auto at =
+        std::lower_bound(old.bonds.begin(), old.bonds.end(), bond,
+                         [](const Bond& x, const Bond& y) { return place_of(x) < place_of(y); });
+    if (at == old.bonds.end() || place_of(*at) != place_of(bond)) return nullptr;
     return &old.system->geometry()[static_cast<std::size_t>(at - old.bonds.begin())];
   }
 
@@ -215,6 +272,9 @@ class Bearing {
   void remove(const std::vector<std::uint32_t>& cut) {
     std::vector<BondGeometry> geometry;
     std::vector<Bond> bonds;
+    StressOrigin origin;
+    origin.convexes.resize(compound_.convexes.size());
+    std::iota(origin.convexes.begin(), origin.convexes.end(), 0u);
     auto next = cut.begin();
     for (std::uint32_t i = 0; i < compound_.bonds.size(); ++i) {
       if (next != cut.end() && *next == i) {
@@ -223,11 +283,12 @@ class Bearing {
         continue;
       }
       bonds.push_back(compound_.bonds[i]);
+      origin.bonds.push_back(i);
       geometry.push_back(memory_->system->geometry()[i]);
     }
     compound_.bonds = std::move(bonds);
-    memory_->system =
-        std::make_shared<const StressSystem>(compound_, std::move(geometry), load_.materials);
+    memory_->system = std::make_shared<const StressSystem>(
+        *memory_->system, compound_, std::move(geometry), load_.materials, origin);
   }
 
   /// The island that stays: the largest of those that are held, or of all.
@@ -285,8 +346,6 @@ class Bearing {
       plan.exposed.push_back({piece_of(bond.b), place[bond.b], bond.face_b, bond.area_m2});
     }
   }
-
-  static constexpr std::uint32_t kNew = 0xffffffff;
 
   Compound compound_;                 ///< Less the bonds that are cut.
   std::vector<std::uint32_t> slots_;  ///< Per convex.

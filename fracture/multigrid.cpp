@@ -83,22 +83,43 @@ Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
     : springs_(nodes, springs), unit_N_m_(0) {
   for (const Spring& spring : springs) unit_N_m_ += spring.stretch_N_m;
   unit_N_m_ /= static_cast<double>(springs.size());
-  for (Spring& spring : springs) {
-    spring.stretch_N_m /= unit_N_m_;
-    spring.turn /= unit_N_m_;
-  }
+  to_units(springs);
   levels_.emplace_back(nodes, std::move(springs));
-  factorize();
-}
-
-void Multigrid::factorize() {
   while (levels_.back().size() > kDenseNodes) {
     SpringLevel<float> coarse = levels_.back().coarsen(kGroup);
     if (coarse.size() == levels_.back().size()) break;  // no two hang together
     levels_.push_back(std::move(coarse));
   }
+  factorize();
+}
+
+Multigrid::Multigrid(const Multigrid& old, SpringEdit edit)
+    : springs_(old.springs_, edit), unit_N_m_(old.unit_N_m_) {
+  to_units(edit.springs);
+  levels_.emplace_back(old.levels_[0], edit);
+  for (std::size_t level = 1; level < old.levels_.size(); ++level) {
+    SpringLevel<float>& fine = levels_.back();
+    edit = fine.edit_of_groups(edit, old.levels_[level].size());
+    SpringLevel<float> coarse(old.levels_[level], edit);
+    fine.place_in(coarse);
+    levels_.push_back(std::move(coarse));
+  }
+  factorize();
+}
+
+void Multigrid::to_units(std::vector<Spring>& springs) const {
+  for (Spring& spring : springs) {
+    spring.stretch_N_m /= unit_N_m_;
+    spring.turn /= unit_N_m_;
+  }
+}
+
+/// The coarsest level, made ready to be solved.
+void Multigrid::factorize() {
+  std::vector<Spring> springs;
+  levels_.back().for_each_spring([&](const Spring& spring) { springs.push_back(spring); });
   // In double precision: how softly all of it hangs on the world is lost beside its stiffness.
-  const SpringLevel<double> last(levels_.back().size(), levels_.back().springs());
+  const SpringLevel<double> last(levels_.back().size(), std::move(springs));
   const auto rows = static_cast<Eigen::Index>(6 * last.size());
   Eigen::MatrixXd matrix(rows, rows);
   Nodal<double> unit = last.zero(), column = unit;
@@ -115,12 +136,16 @@ void Multigrid::factorize() {
       }
     }
   }
+  double most = matrix.diagonal().maxCoeff();
+  if (!(most > 0)) most = 1;  // nothing is left that could move
+  for (Eigen::Index i = 0; i < rows; ++i) {  // groups that an edit has emptied
+    if (matrix(i, i) == 0) matrix(i, i) = most;
+  }
   // What hangs by next to nothing gets a little ground of its own, as much as it takes.
-  const double size = matrix.diagonal().maxCoeff();
   for (double ground = 1e-13; ground < 1; ground *= 100) {
     coarsest_.compute(matrix);
     if (coarsest_.info() == Eigen::Success) return;
-    matrix.diagonal().array() += ground * size;
+    matrix.diagonal().array() += ground * most;
   }
   SUNDER_CHECK(false);
 }

@@ -25,6 +25,9 @@ class Multigrid {
  public:
   /// Every node hangs on the world, by springs over other nodes perhaps.
   Multigrid(std::size_t nodes, std::vector<Spring> springs);
+  /// Another after an edit of its springs: on all levels, groups that an edit does not reach stay
+  /// as they are, and what is new joins the groups beside it.
+  Multigrid(const Multigrid& old, SpringEdit edit);
 
   const SpringLevel<double>& springs() const { return springs_; }
   /// Improves x until residual and error are at most `tolerance`, what is left is rounding
@@ -38,6 +41,7 @@ class Multigrid {
     Nodal<float> rest, coarse_r, coarse_z, coarse_rest, correction;
   };
 
+  void to_units(std::vector<Spring>& springs) const;
   void factorize();
   std::vector<Scratch> scratch() const;
   /// z = (about) K⁻¹ r, on one level and those below it; symmetric.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 #include <tuple>
 
 #include "fracture/islands.h"
@@ -33,13 +33,39 @@ std::vector<double> cell_sizes(const Compound& compound) {
 }  // namespace
 
 StressSystem::StressSystem(const Compound& compound, std::vector<BondGeometry> geometry,
-                           std::span<const Material> materials)
-    : geometry_(std::move(geometry)) {
-  for (const ConvexPtr& convex : compound.convexes) {
-    const double density = materials[convex->material.value].density_kg_m3;
-    centroids_.push_back(convex->solid.centroid);
-    masses_kg_.push_back(density * convex->solid.volume_m3);
-    inertias_.push_back(density * convex->solid.inertia());
+                           std::span<const Material> materials, std::size_t spare_nodes)
+    : geometry_(std::move(geometry)), overlaps_(!compound.ghosts.empty()) {
+  weigh(compound, materials, nullptr);
+  for (const std::uint8_t held : find_held(compound)) {
+    node_of_convex_.push_back(held ? Spring::kWorld : static_cast<std::uint32_t>(nodes_++));
+  }
+  make_joints(compound, materials, nullptr);
+  std::vector<Spring> springs;
+  for (std::uint32_t i = 0; i < joints_.size(); ++i) {
+    if (has_spring(i)) springs.push_back(spring_of(i));
+  }
+  add_overlaps(compound, materials, springs);
+  springs_ = springs.size();
+  if (nodes_ == 0) return;
+  nodes_ += spare_nodes;
+  multigrid_ = std::make_shared<const Multigrid>(nodes_, std::move(springs));
+}
+
+void StressSystem::weigh(const Compound& compound, std::span<const Material> materials,
+                         const Edited* edited) {
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+    if (edited && !overlaps_ && edited->origin.convexes[c] != StressOrigin::kNew) {
+      const std::uint32_t was = edited->origin.convexes[c];
+      centroids_.push_back(edited->old.centroids_[was]);
+      masses_kg_.push_back(edited->old.masses_kg_[was]);
+      inertias_.push_back(edited->old.inertias_[was]);
+      continue;
+    }
+    const Convex& convex = *compound.convexes[c];
+    const double density = materials[convex.material.value].density_kg_m3;
+    centroids_.push_back(convex.solid.centroid);
+    masses_kg_.push_back(density * convex.solid.volume_m3);
+    inertias_.push_back(density * convex.solid.inertia());
   }
   for (const Ghost& ghost : compound.ghosts) {  // what is counted twice, shared
     const Convex& common = *ghost.convex;
@@ -48,25 +74,13 @@ StressSystem::StressSystem(const Compound& compound, std::vector<BondGeometry> g
       masses_kg_[c] += ghost.sign * mass / static_cast<double>(ghost.of.size());
     }
   }
-  number_nodes(compound);
-  std::vector<Spring> springs = make_joints(compound, materials);
-  by_plane_.resize(joints_.size());
-  std::iota(by_plane_.begin(), by_plane_.end(), 0u);
-  std::sort(by_plane_.begin(), by_plane_.end(), [&](std::uint32_t x, std::uint32_t y) {
-    return std::tie(joints_[x].plane, x) < std::tie(joints_[y].plane, y);
-  });
-  springs_ = springs.size();
-  std::size_t nodes = 0;
-  for (const std::uint32_t node : node_of_convex_) nodes += node != Spring::kWorld;
-  if (nodes > 0) multigrid_ = std::make_shared<const Multigrid>(nodes, std::move(springs));
 }
 
-/// Convexes that may move are nodes; of an island that nothing holds, the heaviest is held.
-void StressSystem::number_nodes(const Compound& compound) {
-  const std::size_t count = compound.convexes.size();
+/// Convexes that do not move: anchored ones, and, of an island that nothing holds, the heaviest.
+std::vector<std::uint8_t> StressSystem::find_held(const Compound& compound) {
   const std::vector<std::uint32_t> island = find_islands(compound);
   std::vector<std::vector<std::uint32_t>> members;
-  for (std::uint32_t c = 0; c < count; ++c) {
+  for (std::uint32_t c = 0; c < island.size(); ++c) {
     if (island[c] == members.size()) members.emplace_back();
     members[island[c]].push_back(c);
   }
@@ -81,10 +95,7 @@ void StressSystem::number_nodes(const Compound& compound) {
     held[*heaviest] = 1;
     add_loose(std::move(convexes));
   }
-  std::uint32_t nodes = 0;
-  for (std::uint32_t c = 0; c < count; ++c) {
-    node_of_convex_.push_back(held[c] ? Spring::kWorld : nodes++);
-  }
+  return held;
 }
 
 void StressSystem::add_loose(std::vector<std::uint32_t> convexes) {
@@ -105,38 +116,67 @@ void StressSystem::add_loose(std::vector<std::uint32_t> convexes) {
   loose_.push_back(std::move(loose));
 }
 
-std::vector<Spring> StressSystem::make_joints(const Compound& compound,
-                                              std::span<const Material> materials) {
-  std::vector<Spring> springs;
+bool StressSystem::has_spring(std::uint32_t bond) const {
+  const Joint& joint = joints_[bond];
+  return joint.stiffness_Pa_m > 0 &&
+         (node_of_convex_[joint.a] != Spring::kWorld || node_of_convex_[joint.b] != Spring::kWorld);
+}
+
+Spring StressSystem::spring_of(std::uint32_t bond) const {
+  const Joint& joint = joints_[bond];
+  const BondGeometry& g = geometry_[bond];
+  const Mat3 moment = g.second_moment.trace() * Mat3::Identity() - g.second_moment;
+  return {node_of_convex_[joint.a], node_of_convex_[joint.b], g.centroid_R,
+          joint.stiffness_Pa_m * g.area_m2, joint.stiffness_Pa_m * moment};
+}
+
+StressSystem::Joint StressSystem::make_joint(const Compound& compound, std::uint32_t number,
+                                             std::span<const Material> materials) const {
+  const Bond& bond = compound.bonds[number];
+  const BondGeometry& g = geometry_[number];
   const auto stiffness = [&](std::uint32_t c) {
     return materials[compound.convexes[c]->material.value].youngs_Pa;
   };
+  Joint joint;
+  joint.plane = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].id.value >> 1;
+  if (!(g.area_m2 > 0)) return joint;
+  const double distance = std::max(g.normal_R.dot(centroids_[bond.b] - centroids_[bond.a]),
+                                   kLeastDistance * std::sqrt(g.area_m2));
+  const double e_a = stiffness(bond.a), e_b = stiffness(bond.b);
+  joint.stiffness_Pa_m = 2 * e_a * e_b / (e_a + e_b) / distance;
+  return joint;
+}
+
+void StressSystem::make_joints(const Compound& compound, std::span<const Material> materials,
+                               const Edited* edited) {
   const std::vector<double> cell_m = cell_sizes(compound);
-  for (std::size_t i = 0; i < compound.bonds.size(); ++i) {
+  std::vector<std::uint32_t> fresh,
+      new_of_old(edited ? edited->old.joints_.size() : 0, StressOrigin::kNew);
+  for (std::uint32_t i = 0; i < compound.bonds.size(); ++i) {
     const Bond& bond = compound.bonds[i];
-    const BondGeometry& g = geometry_[i];
-    const Convex& a = *compound.convexes[bond.a];
-    Joint joint;
+    const std::uint32_t was = edited ? edited->origin.bonds[i] : StressOrigin::kNew;
+    if (was == StressOrigin::kNew) {
+      joints_.push_back(make_joint(compound, i, materials));
+      fresh.push_back(i);
+    } else {
+      joints_.push_back(edited->old.joints_[was]);
+      new_of_old[was] = i;
+    }
+    Joint& joint = joints_.back();
     joint.a = bond.a;
     joint.b = bond.b;
-    joint.plane = a.polyhedron.faces[bond.face_a].id.value >> 1;
     joint.window_m = kWindowCells * std::max(cell_m[bond.a], cell_m[bond.b]);
-    if (g.area_m2 > 0) {
-      const double distance = std::max(g.normal_R.dot(centroids_[bond.b] - centroids_[bond.a]),
-                                       kLeastDistance * std::sqrt(g.area_m2));
-      const double e_a = stiffness(bond.a), e_b = stiffness(bond.b);
-      joint.stiffness_Pa_m = 2 * e_a * e_b / (e_a + e_b) / distance;
-      const Mat3 moment = g.second_moment.trace() * Mat3::Identity() - g.second_moment;
-      const std::uint32_t node_a = node_of_convex_[bond.a], node_b = node_of_convex_[bond.b];
-      if (node_a != Spring::kWorld || node_b != Spring::kWorld) {
-        springs.push_back({node_a, node_b, g.centroid_R, joint.stiffness_Pa_m * g.area_m2,
-                           joint.stiffness_Pa_m * moment});
-      }
-    }
-    joints_.push_back(joint);
   }
-  add_overlaps(compound, materials, springs);
-  return springs;
+  const auto by_plane = [&](std::uint32_t x, std::uint32_t y) {
+    return std::tie(joints_[x].plane, x) < std::tie(joints_[y].plane, y);
+  };
+  std::sort(fresh.begin(), fresh.end(), by_plane);
+  std::vector<std::uint32_t> kept;  // in order still, as numbers keep theirs
+  if (edited) kept = edited->old.by_plane_;
+  for (std::uint32_t& bond : kept) bond = new_of_old[bond];
+  std::erase(kept, StressOrigin::kNew);
+  std::merge(kept.begin(), kept.end(), fresh.begin(), fresh.end(), std::back_inserter(by_plane_),
+             by_plane);
 }
 
 /// Convexes that overlap are held together as if by a cube of what they have in common; such a

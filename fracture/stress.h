@@ -31,7 +31,13 @@ struct Displacement {
   Vec3 turn_R = Vec3::Zero();
 };
 
-/// The springs of one compound; made anew when its bonds change, kept while loads do.
+/// Where convexes and bonds were in another system: their numbers there, ascending, or kNew.
+struct StressOrigin {
+  static constexpr std::uint32_t kNew = 0xffffffff;
+  std::vector<std::uint32_t> convexes, bonds;
+};
+
+/// The springs of one compound; edited when its bonds change, kept while loads do.
 ///
 /// Anchored convexes do not move. An island without any is taken at rest in its own falling and
 /// turning frame: it feels only what does not accelerate all of it alike.
@@ -39,7 +45,12 @@ class StressSystem {
  public:
   /// `geometry` is that of the compound's bonds.
   StressSystem(const Compound& compound, std::vector<BondGeometry> geometry,
-               std::span<const Material> materials);
+               std::span<const Material> materials, std::size_t spare_nodes = 0);
+  /// The system of what `old` has become. Stresses are those of one made anew, but for rounding; it
+  /// costs less, unless there are ghosts or it needs more nodes than `old` has.
+  StressSystem(const StressSystem& old, const Compound& compound,
+               std::vector<BondGeometry> geometry, std::span<const Material> materials,
+               const StressOrigin& origin);
 
   const std::vector<BondGeometry>& geometry() const { return geometry_; }
   /// What an iteration costs, in visits of springs.
@@ -79,9 +90,23 @@ class StressSystem {
     double twist_Pa_m = 0;
   };
 
-  void number_nodes(const Compound& compound);
+  /// What a system is an edit of.
+  struct Edited {
+    const StressSystem& old;
+    const StressOrigin& origin;
+  };
+
+  void weigh(const Compound& compound, std::span<const Material> materials, const Edited* edited);
+  std::vector<std::uint8_t> find_held(const Compound& compound);
   void add_loose(std::vector<std::uint32_t> convexes);
-  std::vector<Spring> make_joints(const Compound& compound, std::span<const Material> materials);
+  bool number_nodes(const Edited& edited, const std::vector<std::uint8_t>& held, SpringEdit& edit);
+  void make_joints(const Compound& compound, std::span<const Material> materials,
+                   const Edited* edited);
+  Joint make_joint(const Compound& compound, std::uint32_t number,
+                   std::span<const Material> materials) const;
+  void mark_changes(const Edited& edited, SpringEdit& edit) const;
+  bool has_spring(std::uint32_t bond) const;
+  Spring spring_of(std::uint32_t bond) const;
   void add_overlaps(const Compound& compound, std::span<const Material> materials,
                     std::vector<Spring>& springs) const;
   void weigh_down(std::span<const Load> loads, const Vec3& gravity_R, std::vector<Vec3>& forces_N,
@@ -98,6 +123,8 @@ class StressSystem {
   std::vector<std::uint32_t> by_plane_;        ///< Bonds sorted by plane, then number.
   std::vector<Loose> loose_;
   std::uint64_t springs_ = 0;
+  std::size_t nodes_ = 0;                       ///< Some may stand for nothing.
+  bool overlaps_ = false;                       ///< There are ghosts.
   std::shared_ptr<const Multigrid> multigrid_;  ///< Null if nothing can move.
 };
 
