@@ -21,11 +21,11 @@ constexpr double kAlike = 0.97;
 constexpr int kRounds = 64;            // of cutting and solving again in one answer
 constexpr int kMostIterations = 2000;  // a solve that needs more is given up, and cuts nothing
 // Iterations that making a system costs, about, and editing one.
-constexpr std::uint64_t kSetUpWork = 10, kEditWork = 3;
+constexpr std::uint64_t kSetUpWork = 10, kEditWork = 4;
 // A system is edited if so much of it stays; else it is made anew.
 constexpr double kStays = 0.5;
 // However much making the system took: or breaks in every frame would keep it from being solved.
-constexpr std::uint64_t kLeastIterations = 4;
+constexpr std::uint64_t kLeastIterations = 2;
 // Stress at a bond's own corners is at most so many times that of its section: those well below
 // the limit need no closer look.
 constexpr double kWorthALook = 0.6;
