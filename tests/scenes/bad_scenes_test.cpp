@@ -27,6 +27,7 @@ constexpr const char* kGood = "[scene]\ndescription = \"x\"\n";
 
 constexpr Fault kFaults[] = {
     // Keys and tables
+    {"[[\n", "bad.toml:3: Error while parsing key: expected bare key starting character"},
     {"duratoin_s = 3",
      "bad.toml:3: unknown key 'duratoin_s' in [scene]; did you mean 'duration_s'?"
      "; allowed: description, duration_s, seed, gravity, planar"},

@@ -1,11 +1,13 @@
 // The program as its users see it: exit codes, messages and JSON.
 #include "tests/scenes/program.h"
 
+#include <cstdlib>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "engine/io/figures.h"
+#include "engine/io/take_reader.h"
 #include "scenes/load.h"
 
 namespace sunder::tests {
@@ -149,6 +151,29 @@ TEST(Program, BenchComparesOnlyRunsOfTheSameState) {
       sunder(bench + "--set scene.gravity=[0,-5,0] --compare " + folder / "old.json");
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_NE(other.err.find("the state differs"), std::string::npos) << other.err;
+}
+
+TEST(Program, ARunThatIsKilledLeavesATakeThatPlaysUpToThere) {
+  const Folder folder;
+  const std::string take = folder / "killed.take";
+  // Killed without warning once there are some frames in the file.
+  const std::string line =
+      "\"" SUNDER_PROGRAM "\" simulate brick_wall --quiet --take " + take +
+      " 2>/dev/null & run=$!; i=0; while [ $i -lt 600 ] && "
+      "[ \"$(stat -c %s " +
+      take +
+      " 2>/dev/null || echo 0)\" -lt 150000 ]; "
+      "do sleep 0.05; i=$((i+1)); done; kill -9 $run; wait $run; [ $? -eq 137 ]";
+  ASSERT_EQ(std::system(line.c_str()), 0) << "it ended before it was killed";
+  TakeReader reader(take);
+  EXPECT_FALSE(reader.is_complete());
+  std::uint64_t frames = 0;
+  while (const FramePtr frame = reader.next()) {
+    EXPECT_EQ(frame->index, frames++);
+    EXPECT_GE(frame->bodies.size(), 500u);
+  }
+  EXPECT_GT(frames, 1u);
+  EXPECT_EQ(frames, reader.frames());
 }
 
 TEST(Program, RenderWritesThePictureItWasAskedFor) {
