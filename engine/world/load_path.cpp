@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "engine/geometry/bvh.h"
 
@@ -25,9 +27,12 @@ struct Block {
   double height = 0;  ///< Of its centre, against gravity.
   double mass_kg = 0;
   double size_m = 0;
+  double tilt_1_m = 0;  ///< Its height over its narrower width squared: a wide brick tilts less.
 };
 
 std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
+  Eigen::Index upward = 0;
+  up.cwiseAbs().maxCoeff(&upward);
   std::vector<Block> blocks;
   for (const Solid& solid : scene.solids) {
     if (solid.compound.is_anchored()) continue;
@@ -46,7 +51,11 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
   }
   for (Block& block : blocks) {
     block.height = block.box.center().dot(up);
-    block.size_m = block.box.extent().minCoeff();
+    Vec3 width = block.box.extent();
+    block.size_m = width.minCoeff();
+    double& tall_m = width[upward];
+    const double height_m = std::exchange(tall_m, std::numeric_limits<double>::infinity());
+    block.tilt_1_m = height_m / (width.minCoeff() * width.minCoeff());
   }
   return blocks;
 }
@@ -72,8 +81,8 @@ std::vector<std::vector<std::uint32_t>> supports(const std::vector<Block>& block
 
 double buckling_sink_m(const LoadPath& path) {
   const double n = path.bodies;
-  const double limit = (path.load > 2 * n ? kBuckleLoaded : kBuckleSelf) / (n * n);
-  return std::min(kDeepest, limit) * path.size_m;
+  const double limit = (path.load > 2 * n ? kBuckleLoaded : kBuckleSelf) / (n * path.tilt_1_m);
+  return std::min(kDeepest * path.size_m, limit);
 }
 
 }  // namespace
@@ -95,6 +104,7 @@ LoadPaths load_paths(const Scene& scene) {
     LoadPath& path = paths[i];
     ++path.bodies;
     path.size_m = path.bodies > 1 ? std::min(path.size_m, blocks[i].size_m) : blocks[i].size_m;
+    path.tilt_1_m += blocks[i].tilt_1_m;
     carried_kg[i] += blocks[i].mass_kg;
     path.load = carried_kg[i] / blocks[i].mass_kg;
     if (path.load > most) most = path.load, found.deepest = path;
@@ -102,8 +112,7 @@ LoadPaths load_paths(const Scene& scene) {
     if (need > softest) softest = need, found.weakest = path;
     for (const std::uint32_t lower : below[i]) {
       carried_kg[lower] += carried_kg[i] / static_cast<double>(below[i].size());
-      if (path.bodies > paths[lower].bodies)
-        paths[lower].bodies = path.bodies, paths[lower].size_m = path.size_m;
+      if (path.bodies > paths[lower].bodies) paths[lower] = path;
     }
   }
   return found;

@@ -54,6 +54,19 @@ TEST(Accuracy, AStackCountsByItsHeightAndAHeavyTopByItsWeight) {
   EXPECT_NEAR(heavy.load, 109, 1e-9);
 }
 
+TEST(Accuracy, AWideWallNeedsFewerSubstepsThanATowerAndTheShippedOneHasThem) {
+  const auto tower = [](const char* size) {
+    const std::string text =
+        "[scene]\ndescription = \"x\"\nduration_s = 3\n[[solid]]\n"
+        "structure = \"stack\"\ncount = 20\nsize_m = " +
+        std::string(size);
+    return load_paths(scenes::parse_scene(text, "tower.toml", {"realtime", {}})).weakest;
+  };
+  EXPECT_NEAR(tower("[0.2, 0.2, 0.2]").tilt_1_m, 100, 1e-6);
+  EXPECT_NEAR(tower("[0.4, 0.2, 0.3]").tilt_1_m, 20 * 0.2 / 0.09, 1e-6);
+  EXPECT_EQ(warning_of(scenes::load_scene("brick_wall", {"realtime", {}})), "");
+}
+
 TEST(Accuracy, SubstepsFollowFromTheTargetAndItIsMet) {
   for (const int count : {5, 20}) {
     for (const double target : {2e-3, 2e-4}) {
