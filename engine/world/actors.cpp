@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
@@ -38,25 +39,6 @@ std::vector<MaterialIndex> materials_of(const Compound& compound) {
 
 // A crack through a solid of volume V is at least this part of V^(2/3).
 constexpr double kLeastCrack = 0.1;
-
-/// A convex that is to be drawn anew.
-struct NewMesh {
-  Actor* actor;
-  std::uint32_t slot;
-  std::shared_ptr<const Mesh> mesh = nullptr;
-};
-
-void draw(World& world, std::vector<NewMesh>& fresh) {
-  for_chunks(fresh.size(), 8, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& [actor, slot, mesh] = fresh[i];
-      fresh[i].mesh = make_mesh(*actor->structure.convex(slot), actor->hidden[slot]);
-    }
-  });
-  for (NewMesh& made : fresh) {
-    made.actor->meshes[made.slot] = made.mesh ? world.add_mesh(std::move(made.mesh)) : MeshIndex();
-  }
-}
 
 }  // namespace
 
@@ -137,37 +119,54 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
 }
 
 void add_meshes(World& world, std::span<Actor> actors, const DrawnBefore& old) {
-  std::vector<NewMesh> fresh;
   std::vector<std::uint32_t> all;
   for (Actor& actor : actors) {
     const std::uint32_t count = actor.structure.slot_count();
     all.resize(count);
     std::iota(all.begin(), all.end(), 0u);
     actor.hidden = hidden_faces(actor.structure, all);
-    actor.meshes.resize(count);
+    actor.meshes.assign(count, kUndrawn);
     for (std::uint32_t c = 0; c < count; ++c) {
       const auto known = old.find(actor.structure.convex(c).get());
       if (known != old.end() && known->second.hidden == actor.hidden[c]) {
         actor.meshes[c] = known->second.mesh;
-      } else {
-        fresh.push_back({&actor, c});
       }
+      if (actor.meshes[c] == kUndrawn) world.undrawn.push_back({actor.key, c});
     }
   }
-  draw(world, fresh);
 }
 
 void renew_meshes(World& world, Actor& actor, std::span<const std::uint32_t> slots) {
   std::vector<std::vector<std::uint8_t>> hidden = hidden_faces(actor.structure, slots);
   actor.hidden.resize(actor.structure.slot_count());
   actor.meshes.resize(actor.structure.slot_count());
-  std::vector<NewMesh> fresh;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     if (actor.hidden[slots[i]] == hidden[i]) continue;
     actor.hidden[slots[i]] = std::move(hidden[i]);
-    fresh.push_back({&actor, slots[i]});
+    actor.meshes[slots[i]] = kUndrawn;
+    world.undrawn.push_back({actor.key, slots[i]});
   }
-  draw(world, fresh);
+}
+
+void draw(World& world) {
+  std::vector<Undrawn> todo = std::exchange(world.undrawn, {});
+  std::ranges::sort(todo);
+  todo.erase(std::unique(todo.begin(), todo.end()), todo.end());
+  std::erase_if(todo, [&](const Undrawn& one) {
+    const Actor* actor = world.find(one.key);
+    return !actor || actor->meshes[one.slot] != kUndrawn;
+  });
+  std::vector<std::shared_ptr<const Mesh>> made(todo.size());
+  for_chunks(todo.size(), 8, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Actor& actor = *world.find(todo[i].key);
+      made[i] = make_mesh(*actor.structure.convex(todo[i].slot), actor.hidden[todo[i].slot]);
+    }
+  });
+  for (std::size_t i = 0; i < todo.size(); ++i) {
+    MeshIndex& mesh = world.find(todo[i].key)->meshes[todo[i].slot];
+    mesh = made[i] ? world.add_mesh(std::move(made[i])) : MeshIndex();
+  }
 }
 
 void add_compounds(World& world, std::span<const Solid> solids) {

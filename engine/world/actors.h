@@ -32,10 +32,13 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion);
 ShapeDesc shape_of(const World& world, const Actor& actor, std::uint32_t slot);
 /// The least energy and impulse that could break it.
 void set_least(const World& world, Actor& actor);
-/// Gives new actors their meshes; convexes that look as they did in `old` keep theirs.
+/// Gives new actors their meshes; convexes that look as they did in `old` keep theirs. What is new
+/// is drawn when somebody looks: by draw(), before a snapshot.
 void add_meshes(World& world, std::span<Actor> actors, const DrawnBefore& old);
 /// Draws convexes of an actor anew whose faces are hidden otherwise than before; slots may be new.
 void renew_meshes(World& world, Actor& actor, std::span<const std::uint32_t> slots);
+/// Makes the meshes that are still missing.
+void draw(World& world);
 
 void add_compounds(World& world, std::span<const Solid> solids);
 /// Notes what a break laid bare, for the particles, once it is carried out: `edit` was applied to

@@ -94,6 +94,7 @@ void add_particles(World& world, Frame& frame) {
 }  // namespace
 
 std::shared_ptr<Frame> snapshot(World& world) {
+  draw(world);
   auto frame = std::make_shared<Frame>();
   frame->index = world.frame;
   frame->time_s = world.time_s();

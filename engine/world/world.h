@@ -34,6 +34,17 @@ struct Bearing {
   LoadMemoryPtr memory;
 };
 
+/// Stands for a mesh that is not made yet: until the next snapshot, nobody looks.
+inline constexpr MeshIndex kUndrawn = MeshIndex(0xfffffffe);
+
+/// A convex of an actor that is to be drawn anew.
+struct Undrawn {
+  std::uint32_t key = 0;
+  std::uint32_t slot = 0;
+
+  auto operator<=>(const Undrawn&) const = default;
+};
+
 /// A solid in the world: a body, what it is made of, and what is drawn of it.
 struct Actor {
   std::uint32_t key = 0;       ///< Unique in a run, ascending with age; the tag of its body.
@@ -51,7 +62,7 @@ struct Actor {
   double least_J = std::numeric_limits<double>::infinity();
   double least_Ns = 0;  ///< No blow with less impulse can break it.
   Bearing bearing;
-  std::vector<MeshIndex> meshes;                  ///< Per slot; none() where nothing shows.
+  std::vector<MeshIndex> meshes;  ///< Per slot; none() where nothing shows, or kUndrawn.
   std::vector<std::vector<std::uint8_t>> hidden;  ///< Per slot, a flag for each face.
 };
 
@@ -128,6 +139,7 @@ struct World {
   std::vector<Actor> actors;  ///< Ascending by key.
   std::shared_ptr<MeshStore> meshes = std::make_shared<MeshStore>();
   bool meshes_published = false;  ///< A frame holds `meshes`: copy before the next change.
+  std::vector<Undrawn> undrawn;   ///< Since the last snapshot.
   std::uint32_t next_key = 0;
   std::uint64_t next_event = 1;
   std::uint64_t step = 0;
