@@ -9,8 +9,9 @@
 namespace sunder::solver {
 namespace {
 
-constexpr double kGyroscopicTurn = 0.02;  // rad in a step; slower, the term is left out
-constexpr double kLargestTurn = 0.1;      // rad in one midpoint step
+// Rad in a step; slower, the term is left out. What it does adds up over turns, not over steps.
+constexpr double kGyroscopicTurn = 1e-4;
+constexpr double kLargestTurn = 0.1;  // rad in one midpoint step
 constexpr int kMidpointRounds = 12;
 
 struct Spin {
