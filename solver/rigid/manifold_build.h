@@ -18,10 +18,12 @@ struct PairMotion {
 PairMotion pair_motion(const Pair& pair, const Bodies& bodies);
 
 /// Fills `m` from `points` (in A, at `pose` shifted by `shift_W` from now), keeping impulses of
-/// points that were there before.
+/// points that were there before. Beside a single point, as a pair of edges has, one or two that
+/// were there stay while they are within `reach_m`: a piece that rocks on two edges touches each in
+/// turn, and would tip onto the one that it just left.
 void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& motion,
                     const Vec3f& normal_A, std::span<const PatchPoint> points, const Vec3f& shift_W,
-                    Manifold& m);
+                    float reach_m, Manifold& m);
 /// Whether the pair has barely moved since the points were made.
 bool barely_moved(const Manifold& m, const Bodies& bodies, const PairMotion& motion);
 /// Points, normal and drift at today's poses.

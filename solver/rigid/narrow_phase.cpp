@@ -9,10 +9,12 @@ namespace {
 
 constexpr float kMargin = 0.05f;         // of the smaller inner radius: contact before touch
 constexpr float kAxisTolerance = 0.01f;  // of it: how much better another axis must be
+constexpr float kRocks = 0.25f;          // of it: what moves no farther in a step keeps old points
 constexpr float kLayer = 0.02f;          // of it: points so far above the lowest still count
 constexpr float kStill = 1e-6f;          // of it: a way that is not worth a look
 constexpr float kSliver = 1e-3f;         // of it: an overlap of faces that is no area
 constexpr float kRounding = 5e-7f;       // of a length in floats
+constexpr float kNoPoint = -1e30f;       // a reach within which nothing is
 constexpr int kImpactRounds = 24;
 
 using Kind = ShapeDesc::Kind;
@@ -105,7 +107,7 @@ void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const 
   } else {
     add(b.center - b.radius_m * normal_B, 0);
   }
-  build_manifold(pair, bodies, motion, a.normal, points, Vec3f::Zero(), m);
+  build_manifold(pair, bodies, motion, a.normal, points, Vec3f::Zero(), kNoPoint, m);
 }
 
 Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
@@ -145,7 +147,8 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   m.normal_on_b = axis.kind == SeparatingAxis::Kind::kFaceB;
   m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && time == 0;
   build_manifold(pair, bodies, motion, axis.normal_A, scratch.points,
-                 std::max(0.f, time) * motion.velocity_W, m);
+                 std::max(0.f, time) * motion.velocity_W,
+                 reach.spin_m + reach.way_m < kRocks * m.size_m ? limit : kNoPoint, m);
 }
 
 /// Whether the axis that parted the pair last still does, and by how much.

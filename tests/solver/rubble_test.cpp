@@ -1,5 +1,6 @@
 // Rubble: how deep its pieces press into each other, how still they lie, and how soon they sleep.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <gtest/gtest.h>
@@ -16,21 +17,24 @@ constexpr double kDt_s = 1.0 / 60;
 constexpr int kSubsteps = 8;
 constexpr std::size_t kWalls = 5;
 
-/// 300 hulls of 10 to 50 cm, some 500 times as heavy as others, above a pit.
-void add_rubble(RigidWorld& world) {
-  constexpr double kPitch_m = 0.45, kHalf_m = 1.4;
+/// Hulls of 10 to 50 cm, some 500 times as heavy as others, above a pit.
+void add_rubble(RigidWorld& world, int count = 300, std::uint64_t seed = 1) {
+  constexpr double kPitch_m = 0.45;
+  const int side = static_cast<int>(std::lround(std::cbrt(count / 2.0)));
+  const double half_m = 0.5 * side * kPitch_m + 0.3;
   world.add(W::ground());
   for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
     BodyDesc wall = W::ground(normal);
-    wall.X_WB.position = -kHalf_m * normal;
+    wall.X_WB.position = -half_m * normal;
     world.add(wall);
   }
-  Random random(1);
-  for (int i = 0; i < 300; ++i) {
+  Random random(seed);
+  for (int i = 0; i < count; ++i) {
     const double size = random.uniform(0.1, 0.5);
     std::vector<Vec3> points(8 + random.below(9));
     for (Vec3& point : points) point = 0.5 * size * random.direction();
-    const Vec3 cell(i % 5 - 2, i / 25, i / 5 % 5 - 2);
+    const Vec3 cell(i % side - 0.5 * side + 0.5, i / side / side,
+                    i / side % side - 0.5 * side + 0.5);
     const Vec3 jitter(random.uniform(-0.05, 0.05), 0.4, random.uniform(-0.05, 0.05));
     world.add(W::hull(make_hull(points), kPitch_m * cell + jitter, 2000));
   }

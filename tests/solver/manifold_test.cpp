@@ -1,0 +1,79 @@
+// Which points a manifold keeps when it is made anew.
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "solver/rigid/manifold_build.h"
+#include "tests/solver/rigid_world.h"
+
+namespace sunder::solver {
+namespace {
+
+using W = RigidWorld;
+
+constexpr float kSize_m = 0.5f, kReach_m = 0.03f;
+
+/// A block of a metre on another; where they meet, the narrow phase names one edge at a time.
+class TwoBlocks : public testing::Test {
+ protected:
+  TwoBlocks() {
+    pair_.body_a = bodies_.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+    pair_.body_b = bodies_.add(W::box(Vec3(1, 1, 1), Vec3(0, 1.5, 0)));
+    m_.size_m = kSize_m;
+    m_.reusable = true;
+    touch(-0.4f, 1, 0);
+    m_.points[0].impulse_Ns = 7;
+  }
+
+  /// Looks at the pair where it is; the edge at `x` touches with `separation_m` along the normal,
+  /// which leans by `slope`.
+  void touch(float x, std::uint32_t feature, float separation_m, float slope = 0) {
+    const Vec3f normal = Vec3f(slope, 1, 0).normalized(), on_a(x, 0.5f, 0);
+    const std::vector<PatchPoint> points = {
+        {on_a, on_a + separation_m * normal, separation_m, feature}};
+    build_manifold(pair_, bodies_, pair_motion(pair_, bodies_), normal, points, Vec3f::Zero(),
+                   kReach_m, m_);
+  }
+  void move_b(const Vec3& by) { bodies_.place(1, bodies_.position[1] + by, bodies_.rotation[1]); }
+
+  Bodies bodies_;
+  Pair pair_;
+  Manifold m_;
+};
+
+TEST_F(TwoBlocks, ThatRockFromOneEdgeToAnotherStandOnBoth) {
+  touch(0.4f, 2, 0.001f);
+  ASSERT_EQ(m_.count, 2);
+  EXPECT_EQ(m_.points[0].feature, 2u);
+  EXPECT_EQ(m_.points[1].feature, 1u);
+  EXPECT_EQ(m_.points[0].impulse_Ns, 0);
+  EXPECT_EQ(m_.points[1].impulse_Ns, 7);
+  EXPECT_NEAR(m_.friction_anchor_A.x(), 0, 1e-6);
+}
+
+TEST_F(TwoBlocks, ThatPartFromAnEdgeStandOnTheOtherAlone) {
+  move_b(Vec3(0, 2 * kReach_m, 0));
+  touch(0.4f, 2, 0.001f);
+  ASSERT_EQ(m_.count, 1);
+  EXPECT_EQ(m_.points[0].feature, 2u);
+}
+
+TEST_F(TwoBlocks, ThatSlideTakeNoPointAlong) {
+  move_b(Vec3(0, 0, 0.05));  // a tenth of their size
+  touch(0.4f, 2, 0.001f);
+  EXPECT_EQ(m_.count, 1);
+}
+
+TEST_F(TwoBlocks, ThatMeetInAnotherDirectionStartAnew) {
+  touch(0.4f, 2, 0.001f, 1);
+  EXPECT_EQ(m_.count, 1);
+}
+
+TEST_F(TwoBlocks, ThatTouchWhereTheyDidHaveOnePointThereWithItsLoad) {
+  touch(-0.39f, 2, 0.001f);
+  ASSERT_EQ(m_.count, 1);
+  EXPECT_EQ(m_.points[0].impulse_Ns, 7);
+}
+
+}  // namespace
+}  // namespace sunder::solver
