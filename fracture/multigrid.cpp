@@ -137,7 +137,7 @@ void Multigrid::factorize() {
     }
   }
   double most = matrix.diagonal().maxCoeff();
-  if (!(most > 0)) most = 1;  // nothing is left that could move
+  if (!(most > 0)) most = 1;                 // nothing is left that could move
   for (Eigen::Index i = 0; i < rows; ++i) {  // groups that an edit has emptied
     if (matrix(i, i) == 0) matrix(i, i) = most;
   }
