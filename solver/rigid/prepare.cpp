@@ -14,6 +14,7 @@ namespace {
 // it was compressed.
 constexpr float kMostGive = 0.01f;  // of the inner radius of the smaller shape
 constexpr float kLeastEase = 0.1f;  // beyond, sweeps do not keep up
+constexpr float kLeastProp = 0.5f;  // of what is not pinched: what stands on it bounces at 0.3
 constexpr float kEaseStep = 0.97f;  // a step
 
 template <class V>
@@ -131,17 +132,16 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c) {
 template <std::uint32_t lanes>
 float ease_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
                const Manifold& m) {
-  float least = 1;
-  const bool a_is_lighter = step.bodies.inverse_mass[m.body_a] > step.bodies.inverse_mass[m.body_b];
-  if (step.bears_on[a_is_lighter ? m.body_a : m.body_b] >= kPinched) {
-    const float yield_s = step.soft.press[c.points - 1].yield_s, most_m = kMostGive * m.size_m;
-    float give_m = 0;
-    for (std::uint32_t i = 0; i < c.points; ++i) {
-      const float mass = c.point[i].mass[lane], seated_m = std::abs(m.points[i].rest_m);
-      if (mass > 0) give_m = std::max(give_m, yield_s * c.point[i].impulse[lane] / mass - seated_m);
-    }
-    if (give_m > most_m) least = std::max(kLeastEase, most_m / give_m);
+  const float yield_s = step.soft.press[c.points - 1].yield_s, most_m = kMostGive * m.size_m;
+  float give_m = 0;
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    const float mass = c.point[i].mass[lane], seated_m = std::abs(m.points[i].rest_m);
+    if (mass > 0) give_m = std::max(give_m, yield_s * c.point[i].impulse[lane] / mass - seated_m);
   }
+  const bool a_is_lighter = step.bodies.inverse_mass[m.body_a] > step.bodies.inverse_mass[m.body_b];
+  const bool pinched = step.bears_on[a_is_lighter ? m.body_a : m.body_b] >= kPinched;
+  const float least =
+      give_m > most_m ? std::max(pinched ? kLeastEase : kLeastProp, most_m / give_m) : 1;
   return std::clamp(least, kEaseStep * m.ease, std::min(1.f, m.ease / kEaseStep));
 }
 

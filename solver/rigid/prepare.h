@@ -17,7 +17,7 @@ struct SplitSides {
 };
 
 /// From so many loaded manifolds on a piece is pinched; a pebble under a column, held by two, would
-/// bounce off contacts that get stiffer.
+/// bounce off contacts that get much stiffer.
 inline constexpr std::uint8_t kPinched = 3;
 
 /// What the blocks of a step are made from, and what they work on.

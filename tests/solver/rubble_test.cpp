@@ -1,6 +1,5 @@
 // Rubble: how deep its pieces press into each other, how still they lie, and how soon they sleep.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include <gtest/gtest.h>
@@ -17,24 +16,21 @@ constexpr double kDt_s = 1.0 / 60;
 constexpr int kSubsteps = 8;
 constexpr std::size_t kWalls = 5;
 
-/// Hulls of 10 to 50 cm, some 500 times as heavy as others, above a pit.
-void add_rubble(RigidWorld& world, int count = 300, std::uint64_t seed = 1) {
-  constexpr double kPitch_m = 0.45;
-  const int side = static_cast<int>(std::lround(std::cbrt(count / 2.0)));
-  const double half_m = 0.5 * side * kPitch_m + 0.3;
+/// 300 hulls of 10 to 50 cm, some 500 times as heavy as others, above a pit.
+void add_rubble(RigidWorld& world, std::uint64_t seed) {
+  constexpr double kPitch_m = 0.45, kHalf_m = 1.425;  // as solver_bench has it
   world.add(W::ground());
   for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
     BodyDesc wall = W::ground(normal);
-    wall.X_WB.position = -half_m * normal;
+    wall.X_WB.position = -kHalf_m * normal;
     world.add(wall);
   }
   Random random(seed);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < 300; ++i) {
     const double size = random.uniform(0.1, 0.5);
     std::vector<Vec3> points(8 + random.below(9));
     for (Vec3& point : points) point = 0.5 * size * random.direction();
-    const Vec3 cell(i % side - 0.5 * side + 0.5, i / side / side,
-                    i / side % side - 0.5 * side + 0.5);
+    const Vec3 cell(i % 5 - 2, i / 25, i / 5 % 5 - 2);
     const Vec3 jitter(random.uniform(-0.05, 0.05), 0.4, random.uniform(-0.05, 0.05));
     world.add(W::hull(make_hull(points), kPitch_m * cell + jitter, 2000));
   }
@@ -74,38 +70,67 @@ RigidOptions never_asleep() {
 }
 
 TEST(Rubble, AtRestPressesItsPiecesIntoEachOtherByAFewMillimetresAndLiesStill) {
-  RigidWorld world(never_asleep());
-  add_rubble(world);
-  world.run(10, kDt_s, kSubsteps);
-  const Depth depth = depth_of(world);
-  std::printf("300 hulls: %.3f mm deep, %.2f mm at most, rms speed %.1e m/s\n", 1e3 * depth.mean_m,
-              1e3 * depth.most_m, rms_speed(world));
-  EXPECT_LT(depth.mean_m, 0.2e-3);
-  EXPECT_LT(depth.most_m, 4e-3);
-  EXPECT_LT(rms_speed(world), 1e-4);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    RigidWorld world(never_asleep());
+    add_rubble(world, seed);
+    world.run(10, kDt_s, kSubsteps);
+    const Depth depth = depth_of(world);
+    std::printf("300 hulls: %.3f mm deep, %.2f mm at most, rms speed %.1e m/s\n",
+                1e3 * depth.mean_m, 1e3 * depth.most_m, rms_speed(world));
+    EXPECT_LT(depth.mean_m, 0.2e-3);
+    EXPECT_LT(depth.most_m, 4e-3);
+    EXPECT_LT(rms_speed(world), 1e-4);
+  }
 }
 
+// Chance decides which contact of a pile is the deepest, so several piles are compared.
 TEST(Rubble, SleepsWithinThreeSecondsOfItsRestAndNoDeeperThanAwake) {
-  RigidWorld awake(never_asleep()), world;
-  add_rubble(awake);
-  add_rubble(world);
-  double rest_s = 0;
-  for (; rest_s < 10 && (rest_s < 1 || rms_speed(awake) > 0.01); rest_s += kDt_s) {
-    awake.step(kDt_s, kSubsteps);
-    world.step(kDt_s, kSubsteps);
+  Depth allowed, depth;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    RigidWorld awake(never_asleep()), world;
+    add_rubble(awake, seed);
+    add_rubble(world, seed);
+    double rest_s = 0;
+    for (; rest_s < 10 && (rest_s < 1 || rms_speed(awake) > 0.01); rest_s += kDt_s) {
+      awake.step(kDt_s, kSubsteps);
+      world.step(kDt_s, kSubsteps);
+    }
+    awake.run(3, kDt_s, kSubsteps);
+    world.run(3, kDt_s, kSubsteps);
+    const Depth of_awake = depth_of(awake), of_asleep = depth_of(world);
+    std::printf(
+        "300 hulls at rest after %.1f s, 3 s later %.1f %% asleep; %.3f mm deep, %.2f mm at "
+        "most, awake %.3f and %.2f mm\n",
+        rest_s, 100 * share_asleep(world), 1e3 * of_asleep.mean_m, 1e3 * of_asleep.most_m,
+        1e3 * of_awake.mean_m, 1e3 * of_awake.most_m);
+    EXPECT_LT(rest_s, 10);
+    EXPECT_GT(share_asleep(world), 0.9);
+    EXPECT_LT(of_asleep.mean_m, 1.1 * of_awake.mean_m);
+    depth.most_m += of_asleep.most_m;
+    allowed.most_m += of_awake.most_m;
   }
-  awake.run(3, kDt_s, kSubsteps);
-  world.run(3, kDt_s, kSubsteps);
-  const Depth allowed = depth_of(awake), depth = depth_of(world);
-  std::printf(
-      "300 hulls at rest after %.1f s, 3 s later %.1f %% asleep; %.3f mm deep, %.2f mm at "
-      "most, awake %.3f and %.2f mm\n",
-      rest_s, 100 * share_asleep(world), 1e3 * depth.mean_m, 1e3 * depth.most_m,
-      1e3 * allowed.mean_m, 1e3 * allowed.most_m);
-  EXPECT_LT(rest_s, 10);
-  EXPECT_GT(share_asleep(world), 0.9);
-  EXPECT_LT(depth.mean_m, 1.1 * allowed.mean_m);
   EXPECT_LT(depth.most_m, 1.1 * allowed.most_m);
+}
+
+// Nothing else holds the slab: on contacts as stiff as others get it would be thrown for ever.
+TEST(Rubble, ASlabOnPebblesAloneLiesStill) {
+  constexpr double kPebble_m = 0.06, kDrop_m = 0.005;
+  RigidWorld world(never_asleep());
+  world.add(W::ground());
+  for (const Vec3& at : {Vec3(0, 0, 0.25), Vec3(-0.2, 0, -0.15), Vec3(0.2, 0, -0.15)})
+    world.add(W::box(kPebble_m * Vec3(1, 1, 1), at + 0.5 * kPebble_m * Vec3::UnitY(), 2000));
+  const BodyId slab =
+      world.add(W::box(Vec3(0.8, 0.1, 0.8), Vec3(0, kPebble_m + kDrop_m + 0.05, 0), 2000));
+  for (const int x : {-1, 1})
+    for (const int z : {-1, 1})
+      world.add(W::box(Vec3(0.35, 0.2, 0.35), Vec3(0.2 * x, kPebble_m + 2 * kDrop_m + 0.2, 0.2 * z),
+                       2000));
+  world.run(10, kDt_s, kSubsteps);
+  const Depth depth = depth_of(world);
+  std::printf("slab on pebbles: %.2f mm at most, speed %.1e m/s\n", 1e3 * depth.most_m,
+              world.state(slab).velocity_W.norm());
+  EXPECT_LT(world.state(slab).velocity_W.norm(), 1e-4);
+  EXPECT_LT(depth.most_m, 6e-3);  // 9.8 as soft as by their mass
 }
 
 // A stone on three corners: the fourth point is far above the ground but spans the most.
