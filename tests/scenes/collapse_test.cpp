@@ -15,8 +15,9 @@
 namespace sunder::tests {
 namespace {
 
-std::unique_ptr<Simulation> simulation_of(const std::string& scene, std::vector<std::string> set) {
-  Scene loaded = scenes::load_scene(scene, {"draft", std::move(set)});
+std::unique_ptr<Simulation> simulation_of(const std::string& scene, std::vector<std::string> set,
+                                          const char* preset = "draft") {
+  Scene loaded = scenes::load_scene(scene, {preset, std::move(set)});
   solver::RigidOptions options;
   options.gravity_W = loaded.gravity_W;
   return std::make_unique<Simulation>(std::move(loaded), solver::make_rigid_physics(options),
@@ -72,16 +73,8 @@ TEST(Collapse, ATempleFallsWithoutItsFrontRow) {
   EXPECT_LT(height_m(*frame), 0.75 * before);
 }
 
-std::unique_ptr<Simulation> wall_of(const std::string& seed) {
-  Scene wall = scenes::load_scene("brick_wall", {"realtime", {"scene.duration_s=9", seed}});
-  solver::RigidOptions options;
-  options.gravity_W = wall.gravity_W;
-  return std::make_unique<Simulation>(std::move(wall), solver::make_rigid_physics(options),
-                                      fracture::make_pattern_breaker());
-}
-
 TEST(Collapse, AWallThatWasShotThroughComesToRestForGood) {
-  const auto simulation = wall_of("scene.seed=1");
+  const auto simulation = simulation_of("brick_wall", {"scene.duration_s=9"}, "realtime");
   // Bricks that bear many times their weight pass every change of it on: a tenth of them went on
   // waking each other for ever.
   std::uint32_t awake = 0, bodies = 0;
@@ -94,7 +87,7 @@ TEST(Collapse, AWallThatWasShotThroughComesToRestForGood) {
 
 TEST(Collapse, AWallThatWasShotThroughHasAHoleAndIsNoRuin) {
   for (const std::string seed : {"1", "2", "3"}) {
-    const auto simulation = wall_of("scene.seed=" + seed);
+    const auto simulation = simulation_of("brick_wall", {"scene.seed=" + seed}, "realtime");
     std::uint32_t bodies = 0;
     while (const FramePtr frame = simulation->next()) bodies = frame->report.counts.bodies;
     EXPECT_GT(bodies, 600u) << "seed " << seed;
@@ -103,15 +96,18 @@ TEST(Collapse, AWallThatWasShotThroughHasAHoleAndIsNoRuin) {
 }
 
 TEST(Collapse, SlabsBreakByWhatStrikesThem) {
-  const auto simulation = simulation_of("dominoes", {});
-  std::set<std::uint64_t> broken;
-  FramePtr frame = simulation->next();
-  ASSERT_EQ(frame->bodies.size(), 10u);
-  const std::uint64_t last_slab = frame->bodies.back().key;
-  for (int i = 0; i < 330 && (frame = simulation->next()); ++i) {
-    for (const BreakEvent& event : frame->breaks) broken.insert(event.body_key);
+  for (const std::string seed : {"1", "2", "3"}) {
+    const auto simulation = simulation_of("dominoes", {"scene.seed=" + seed}, "realtime");
+    FramePtr frame = simulation->next();
+    std::set<std::uint64_t> slabs, broken;
+    for (const FrameBody& body : frame->bodies) slabs.insert(body.key);
+    ASSERT_EQ(slabs.size(), 10u);
+    for (int i = 0; i < 330 && (frame = simulation->next()); ++i) {
+      for (const BreakEvent& event : frame->breaks)
+        if (slabs.contains(event.body_key)) broken.insert(event.body_key);
+    }
+    EXPECT_GE(broken.size(), 9u) << "only the first was shot; seed " << seed;
   }
-  EXPECT_TRUE(broken.contains(last_slab)) << "nobody shot at it";
 }
 
 }  // namespace
