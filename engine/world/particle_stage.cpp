@@ -91,6 +91,7 @@ Surroundings surroundings(const World& world) {
       const Actor& actor = world.actors[i];
       const BodyState state = world.physics->state(actor.body);
       all.bodies[i] = {actor.key,
+                       actor.edits,
                        state.X_WB,
                        actor.weight.com_R,
                        state.velocity_W,

@@ -50,7 +50,8 @@ struct Chip {
 
 /// A body as particles see it.
 struct ObstacleBody {
-  std::uint32_t key = 0;  ///< Unique in a run: debris that rests on it wakes when it is gone.
+  std::uint32_t key = 0;    ///< Unique in a run: debris that rests on it wakes when it is gone,
+  std::uint32_t edits = 0;  ///< or when this changes, as its convexes have.
   Pose X_WB;
   Vec3 com_R = Vec3::Zero();  ///< Origin of B in the rest frame R.
   Vec3 velocity_W = Vec3::Zero();

@@ -168,6 +168,7 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
     left_kg += sign * convex.solid.volume_m3 * world.material(convex.material).density_kg_m3;
   });
   parent.structure.apply(edit);
+  ++parent.edits;
   const bool stays = parent.is_static && parent.structure.is_anchored();
 
   Pieces pieces;

@@ -51,7 +51,8 @@ struct Actor {
   std::uint32_t root_key = 0;  ///< Of what it came off in the end: a solid or ball of the scene.
   BodyId body;
   bool is_static = false;
-  Structure structure;  ///< Without convexes for a ball.
+  Structure structure;      ///< Without convexes for a ball.
+  std::uint32_t edits = 0;  ///< Of its structure, since it was made.
   /// Of what stands, the centre is where it was when its body was made: there B has its origin.
   Weight weight;
   double volume_m3 = 0;

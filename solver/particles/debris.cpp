@@ -114,7 +114,8 @@ void Debris::wake_unsupported(const Obstacles& obstacles) {
   for (const Support& support : supports_) {
     while (body != obstacles.bodies.end() && body->key < support.key) ++body;
     const bool gone = body == obstacles.bodies.end() || body->key != support.key;
-    if (gone || shifted(support.X_WB, body->X_WB)) lost.push_back(support.key);
+    if (gone || body->edits != support.edits || shifted(support.X_WB, body->X_WB))
+      lost.push_back(support.key);
   }
   if (lost.empty()) return;
   const auto is_lost = [&](std::uint32_t key) {
@@ -312,7 +313,8 @@ void Debris::put_to_sleep(double dt_s, const Obstacles& obstacles) {
 void Debris::add_support(const ObstacleBody& body) {
   const auto at = std::lower_bound(supports_.begin(), supports_.end(), body.key,
                                    [](const Support& s, std::uint32_t key) { return s.key < key; });
-  if (at == supports_.end() || at->key != body.key) supports_.insert(at, {body.key, body.X_WB});
+  if (at == supports_.end() || at->key != body.key)
+    supports_.insert(at, {body.key, body.edits, body.X_WB});
 }
 
 /// Makes room before the limit is reached: those go that have lain long and are small, a chip of

@@ -47,7 +47,8 @@ class Debris {
   /// A body that sleepers rest on.
   struct Support {
     std::uint32_t key = 0;
-    Pose X_WB;  ///< When the first of them fell asleep.
+    std::uint32_t edits = 0;  ///< When the first of them fell asleep,
+    Pose X_WB;                ///< and where it was.
   };
 
   void sort();
