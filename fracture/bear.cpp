@@ -192,7 +192,7 @@ class Bearing {
       }
     });
     memory_->system = std::make_shared<const StressSystem>(
-        compound_, std::move(geometry), load_.materials, compound_.convexes.size() / 8);
+        compound_, std::move(geometry), load_.materials, StressSystem::spare_nodes(compound_));
   }
 
   const BondGeometry* known_geometry(const Memory& old,

@@ -6,6 +6,7 @@
 #include "fracture/polygon.h"
 
 namespace sunder::fracture {
+
 bool ImpactSphere::is_endless() const {
   return radius_m == std::numeric_limits<double>::infinity();
 }

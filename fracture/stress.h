@@ -52,6 +52,9 @@ class StressSystem {
                std::vector<BondGeometry> geometry, std::span<const Material> materials,
                const StressOrigin& origin);
 
+  /// So many that a compound may be edited for a while.
+  static std::size_t spare_nodes(const Compound& compound) { return compound.convexes.size() / 8; }
+
   const std::vector<BondGeometry>& geometry() const { return geometry_; }
   /// What an iteration costs, in visits of springs.
   std::uint64_t work() const { return springs_; }

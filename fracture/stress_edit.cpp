@@ -13,7 +13,7 @@ StressSystem::StressSystem(const StressSystem& old, const Compound& compound,
   SpringEdit edit;
   if (overlaps_ || old.overlaps_ || !old.multigrid_ ||
       !number_nodes(edited, find_held(compound), edit)) {
-    *this = StressSystem(compound, std::move(geometry_), materials, compound.convexes.size() / 8);
+    *this = StressSystem(compound, std::move(geometry_), materials, spare_nodes(compound));
     return;
   }
   make_joints(compound, materials, &edited);

@@ -35,6 +35,7 @@ double energy(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::V
 /// The solution, or, if rounding keeps pivoting from an end, the least energy that it came to.
 Eigen::VectorXd pivot(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool& solved) {
   const auto n = static_cast<std::size_t>(b.size());
+  const double enough = kTolerance * b.maxCoeff();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), best = x;
   double best_energy = 0;
   std::vector<std::uint8_t> free(n, 0);
@@ -45,7 +46,7 @@ Eigen::VectorXd pivot(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool& 
     std::vector<std::size_t> wrong;
     for (std::size_t i = 0; i < n; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      if (free[i] ? x[row] < 0 : missing[row] > kTolerance * b.maxCoeff()) wrong.push_back(i);
+      if (free[i] ? x[row] < 0 : missing[row] > enough) wrong.push_back(i);
     }
     solved = wrong.empty();
     if (solved) break;

@@ -12,8 +12,8 @@ constexpr double kSpall_m_s = 0.25, kSpallOfParting = 0.04, kFewest = 0.07;
 // A crack that stays shut has room for little; one that opens at kOpen_m_s gives all there is.
 constexpr double kShut = 0.05, kOpen_m_s = 4;
 constexpr double kSpin_s = 15;
-constexpr double kDustFollows =
-    0.4;                          // of the motion of its solid: air holds it, or puffs fly alone
+// Of the motion of its solid: air holds dust back.
+constexpr double kDustFollows = 0.4;
 constexpr double kPuff_m = 0.09;  // least radius of dust; at most twice that
 
 double area(const Emission& face) {

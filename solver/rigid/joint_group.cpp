@@ -188,18 +188,17 @@ void turn_group(JointGroup& group, std::span<JointWork> works, const BodyRow* ro
 
 void ease_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
                 const float* share_of_row, BodyRow* rows) {
-  bool any = false;
+  const auto share_of = [&](const JointWork& work) {
+    return share_of_row[work.row_b != 0 ? work.row_b : work.row_a];
+  };
+  if (std::ranges::all_of(works, [&](const JointWork& work) { return share_of(work) == 1; }))
+    return;
   for (JointWork& work : works) {
-    const float share = share_of_row[work.row_b != 0 ? work.row_b : work.row_a];
-    if (share == 1) continue;
-    any = true;
+    const float share = share_of(work);
     work.total_W -= push_of(work);
     for (double& impulse : work.impulse) impulse *= double{share};
     work.owed = {share * work.owed.push, share * work.owed.turn_a, share * work.owed.turn_b};
-    work.total_W += push_of(work);
   }
-  if (!any) return;
-  for (JointWork& work : works) work.total_W -= push_of(work);
   solve_group(group, works, step, false, rows);
   for (JointWork& work : works) work.total_W += push_of(work);
 }

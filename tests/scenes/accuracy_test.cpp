@@ -149,32 +149,42 @@ Scene under_a_million(std::vector<std::string> set = {}) {
   return scenes::parse_scene(text, "million.toml", {"accurate", std::move(set)});
 }
 
+/// How far something wanders as its preset has it, and with what the warning names.
+struct Wandered {
+  std::vector<std::string> set;  ///< What the warning names.
+  double before = 0, then = 0;
+};
+
+/// `make` makes the scene with what is to be set.
+template <class Make>
+Wandered as_named(const char* what, double size_m, const Make& make) {
+  Wandered wander{named(make(std::vector<std::string>()))};
+  wander.before = wandered(make(std::vector<std::string>()), size_m);
+  wander.then = wandered(make(wander.set), size_m);
+  std::printf("%s: moves by %.2g sides, by %.2g before\n", what, wander.then, wander.before);
+  return wander;
+}
+
 TEST(Accuracy, WhatIsAMillionTimesAsHeavyStandsWithTheSubstepsThatTheWarningNames) {
-  const std::vector<std::string> set = named(under_a_million());
-  const double before = wandered(under_a_million(), 1);
-  const double then = wandered(under_a_million(set), 1);
-  std::printf("a top of 1e6 weights: moves by %.2g sides, by %.2g before\n", then, before);
-  EXPECT_GT(before, 0.1);
-  EXPECT_LT(then, 0.02);
-  EXPECT_EQ(warning_of(under_a_million(set)), "");
+  const auto make = [](auto set) { return under_a_million(std::move(set)); };
+  const Wandered top = as_named("a top of 1e6 weights", 1, make);
+  EXPECT_GT(top.before, 0.1);
+  EXPECT_LT(top.then, 0.02);
+  EXPECT_EQ(warning_of(under_a_million(top.set)), "");
 }
 
 TEST(Accuracy, WhatIsTooSmallForItsSubstepsStandsWithThoseThatTheWarningNames) {
-  const std::vector<std::string> set = named(tower(12, 0.001, "3", "draft"));
-  const double before = wandered(tower(12, 0.001, "3", "draft"), 0.001);
-  const double then = wandered(tower(12, 0.001, "3", "draft", set), 0.001);
-  std::printf("12 boxes of a millimetre: move by %.2g sides, by %.2g before\n", then, before);
-  EXPECT_GT(before, 0.1);
-  EXPECT_LT(then, 0.02);
+  const auto make = [](auto set) { return tower(12, 0.001, "3", "draft", std::move(set)); };
+  const Wandered boxes = as_named("12 boxes of a millimetre", 0.001, make);
+  EXPECT_GT(boxes.before, 0.1);
+  EXPECT_LT(boxes.then, 0.02);
 }
 
 TEST(Accuracy, ATowerFallsAwakeBelowTheSubstepsThatTheWarningNamesAndStandsWithThem) {
-  const std::vector<std::string> set = named(tower(40, 0.1, "30", "accurate"));
-  const double before = wandered(tower(40, 0.1, "30", "accurate"), 0.1);
-  const double then = wandered(tower(40, 0.1, "30", "accurate", set), 0.1);
-  std::printf("tower of 40: moves by %.2g sides, by %.2g before\n", then, before);
-  EXPECT_GT(before, 1);
-  EXPECT_LT(then, 0.02);
+  const auto make = [](auto set) { return tower(40, 0.1, "30", "accurate", std::move(set)); };
+  const Wandered boxes = as_named("tower of 40", 0.1, make);
+  EXPECT_GT(boxes.before, 1);
+  EXPECT_LT(boxes.then, 0.02);
 }
 
 }  // namespace
