@@ -13,10 +13,10 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
-#include "fracture/adjacency.h"
-#include "fracture/connectivity.h"
+#include "fracture/adjacency/adjacency.h"
+#include "fracture/adjacency/connectivity.h"
+#include "fracture/adjacency/islands.h"
 #include "fracture/fracture.h"
-#include "fracture/islands.h"
 #include "fracture/pattern_breaker.h"
 #include "fracture/solids.h"
 

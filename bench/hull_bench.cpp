@@ -8,7 +8,7 @@
 
 #include "engine/base/random.h"
 #include "engine/geometry/approximate_hull.h"
-#include "engine/io/mesh_reader.h"
+#include "engine/io/mesh/mesh_reader.h"
 
 namespace sunder {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "engine/base/random.h"
 #include "engine/geometry/convex_polyhedron.h"
-#include "engine/world/physics.h"
+#include "engine/model/physics.h"
 
 namespace sunder::bench {
 

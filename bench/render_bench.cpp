@@ -7,8 +7,8 @@
 
 #include "engine/base/random.h"
 #include "engine/geometry/convex_polyhedron.h"
-#include "engine/world/compound.h"
-#include "engine/world/piece_mesh.h"
+#include "engine/model/compound.h"
+#include "engine/model/piece_mesh.h"
 #include "render/renderer.h"
 
 namespace {

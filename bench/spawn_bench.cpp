@@ -6,7 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/piles.h"
-#include "solver/rigid/hull.h"
+#include "solver/rigid/body/hull.h"
 #include "solver/rigid/rigid_physics.h"
 
 namespace sunder::solver {

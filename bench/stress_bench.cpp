@@ -7,9 +7,9 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/base/parallel.h"
-#include "fracture/bear.h"
 #include "fracture/solids.h"
-#include "fracture/stress.h"
+#include "fracture/stress/bear.h"
+#include "fracture/stress/stress.h"
 
 namespace sunder::fracture {
 namespace {

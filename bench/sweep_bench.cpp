@@ -21,8 +21,8 @@
 #include "bench/piles.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
-#include "solver/rigid/constraint_block.h"
-#include "solver/rigid/contacts.h"
+#include "solver/rigid/collide/contacts.h"
+#include "solver/rigid/contact/constraint_block.h"
 #include "solver/rigid/rigid_physics.h"
 
 namespace sunder::solver {

@@ -7,8 +7,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "engine/io/mesh_reader.h"
-#include "fracture/vacd.h"
+#include "engine/io/mesh/mesh_reader.h"
+#include "fracture/vacd/vacd.h"
 
 namespace sunder::fracture {
 namespace {

@@ -12,12 +12,12 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/base/parallel.h"
-#include "engine/geometry/repair.h"
-#include "engine/io/mesh_reader.h"
-#include "engine/world/piece_mesh.h"
+#include "engine/geometry/repair/repair.h"
+#include "engine/io/mesh/mesh_reader.h"
+#include "engine/model/piece_mesh.h"
+#include "fracture/cut/impact_sphere.h"
 #include "fracture/fracture.h"
-#include "fracture/impact_sphere.h"
-#include "fracture/vacd.h"
+#include "fracture/vacd/vacd.h"
 
 namespace sunder::fracture {
 namespace {

@@ -38,8 +38,12 @@ if(SUNDER_ARCH)
   target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-march=${SUNDER_ARCH}>)
 endif()
 if(SUNDER_STRICT)
+  set(shadow -Wshadow)
+  if(SUNDER_UNITY)  # the sources of a batch see each other's file-local names
+    set(shadow -Wshadow=local -Wno-subobject-linkage)
+  endif()
   target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic
-    -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual
+    ${shadow} -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual
     -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough -Werror>)
   # GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651), and warns
   # that wide vectors are passed otherwise without AVX; they stay inside the solver.
@@ -70,6 +74,27 @@ function(sunder_precompile target first)
   endif()
 endfunction()
 
+# Several sources a compiler run, where SUNDER_UNITY asks for it: headers are parsed once for all.
+function(sunder_unity target)
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ${SUNDER_UNITY} UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
+# Files as strings: sunder_embed(OUT HEADER NAMESPACE FILES...) writes OUT, which defines what HEADER
+# declares in NAMESPACE; materials.toml becomes materials_toml.
+function(sunder_embed out header namespace)
+  set(code "#include \"${header}\"\nnamespace ${namespace} {\n")
+  foreach(file ${ARGN})
+    file(READ ${file} text)
+    cmake_path(GET file FILENAME symbol)
+    string(REPLACE "." "_" symbol ${symbol})
+    string(APPEND code "const char* const ${symbol} = R\"text(${text})text\";\n")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  endforeach()
+  string(APPEND code "}\n")
+  file(CONFIGURE OUTPUT ${out} CONTENT "@code@" @ONLY)
+endfunction()
+
 # One library a room: sunder_room(name SOURCES ... [LINK ...] [PRIVATE_LINK ...])
 function(sunder_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
@@ -81,6 +106,7 @@ function(sunder_room name)
   target_link_libraries(sunder_${name} PUBLIC sunder_options Eigen3::Eigen ${ROOM_LINK}
     PRIVATE ${ROOM_PRIVATE_LINK})
   sunder_precompile(sunder_${name} sunder_engine)
+  sunder_unity(sunder_${name})
   set_target_properties(sunder_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
   install(TARGETS sunder_${name} EXPORT sunderTargets)
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sunder

@@ -3,8 +3,8 @@
 #include <iterator>
 
 #include "engine/base/trace.h"
-#include "fracture/compound_builder.h"
-#include "fracture/fragments.h"
+#include "fracture/adjacency/compound_builder.h"
+#include "fracture/cut/fragments.h"
 #include "fracture/rubble.h"
 
 namespace sunder::fracture {

@@ -9,9 +9,9 @@
 // Read first: break_structure(). Its cost depends on what the sphere touches alone.
 #pragma once
 
-#include "engine/world/breaker.h"
-#include "fracture/align.h"
-#include "fracture/impact_sphere.h"
+#include "engine/model/breaker.h"
+#include "fracture/cut/impact_sphere.h"
+#include "fracture/pattern/align.h"
 
 namespace sunder::fracture {
 

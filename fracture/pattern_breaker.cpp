@@ -7,8 +7,8 @@
 
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
-#include "fracture/bear.h"
 #include "fracture/fracture.h"
+#include "fracture/stress/bear.h"
 
 namespace sunder::fracture {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "engine/world/breaker.h"
-#include "fracture/align.h"
-#include "fracture/failure_log.h"
-#include "fracture/impact_sphere.h"
-#include "fracture/pattern_library.h"
+#include "engine/model/breaker.h"
+#include "fracture/check/failure_log.h"
+#include "fracture/cut/impact_sphere.h"
+#include "fracture/pattern/align.h"
+#include "fracture/pattern/pattern_library.h"
 
 namespace sunder::fracture {
 

@@ -5,9 +5,9 @@
 #include <tuple>
 
 #include "engine/base/check.h"
-#include "fracture/connectivity.h"
-#include "fracture/islands.h"
-#include "fracture/overlap.h"
+#include "fracture/adjacency/connectivity.h"
+#include "fracture/adjacency/islands.h"
+#include "fracture/adjacency/overlap.h"
 
 namespace sunder::fracture {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/world/breaker.h"
-#include "fracture/adjacency.h"
-#include "fracture/fragments.h"
+#include "engine/model/breaker.h"
+#include "fracture/adjacency/adjacency.h"
+#include "fracture/cut/fragments.h"
 
 namespace sunder::fracture {
 

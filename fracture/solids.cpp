@@ -8,9 +8,9 @@
 #include "engine/base/check.h"
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
-#include "fracture/compound_builder.h"
-#include "fracture/pattern.h"
-#include "fracture/voronoi.h"
+#include "fracture/adjacency/compound_builder.h"
+#include "fracture/pattern/pattern.h"
+#include "fracture/pattern/voronoi.h"
 
 namespace sunder::fracture {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "engine/world/compound.h"
+#include "engine/model/compound.h"
 
 namespace sunder::fracture {
 

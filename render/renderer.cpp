@@ -5,18 +5,18 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
-#include "render/antialias.h"
-#include "render/chips.h"
 #include "render/gl/context.h"
 #include "render/gl/objects.h"
-#include "render/hud.h"
-#include "render/looks.h"
-#include "render/pieces.h"
-#include "render/puffs.h"
-#include "render/texts.h"
-#include "render/tiles.h"
-#include "render/units.h"
-#include "render/viewpoint.h"
+#include "render/image/antialias.h"
+#include "render/image/hud.h"
+#include "render/passes/chips.h"
+#include "render/passes/looks.h"
+#include "render/passes/pieces.h"
+#include "render/passes/puffs.h"
+#include "render/passes/tiles.h"
+#include "render/passes/units.h"
+#include "render/passes/viewpoint.h"
+#include "render/shaders/shader_sources.h"
 
 namespace sunder::render {
 namespace {
@@ -32,7 +32,7 @@ struct Target {
 };
 
 Programs make_programs(const GlTable& gl) {
-  using namespace texts;
+  using namespace shader_sources;
   Programs p;
   p.shadow = make_program(gl, "shadow",
                           {common_glsl, bodies_glsl, "#define LIGHT shadow_of_eye\n", shadow_vert},

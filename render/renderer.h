@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/world/frame.h"
-#include "render/image.h"
+#include "engine/model/frame.h"
+#include "render/image/image.h"
 
 namespace sunder::render {
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "engine/base/check.h"
-#include "render/encoder.h"
+#include "render/image/encoder.h"
 
 namespace sunder::render {
 namespace {

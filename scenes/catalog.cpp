@@ -1,10 +1,9 @@
 // Where scenes are found.
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "engine/base/check.h"
-#include "scenes/keys.h"
+#include "scenes/file/keys.h"
+#include "scenes/file/text_file.h"
 #include "scenes/load.h"
 
 namespace sunder::scenes {
@@ -54,16 +53,6 @@ fs::path scenes_folder() {
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
   const fs::path installed = program.parent_path().parent_path() / "share/sunder/scenes";
   return fs::is_directory(installed) ? installed : fs::path(SUNDER_SCENES_FOLDER);
-}
-
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  if (!fs::is_regular_file(file) || !in || !(text << in.rdbuf())) {
-    throw InputError(file.string() + ": cannot be read" +
-                     (fs::exists(file) ? " (or is empty)" : ": there is no such file"));
-  }
-  return text.str();
 }
 
 std::vector<CatalogEntry> catalog() {

@@ -7,13 +7,14 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
-#include "engine/world/load_path.h"
-#include "scenes/body.h"
-#include "scenes/joint.h"
-#include "scenes/patterns.h"
-#include "scenes/planar.h"
-#include "scenes/schema.h"
-#include "scenes/script.h"
+#include "engine/model/scene_accuracy.h"
+#include "scenes/file/body.h"
+#include "scenes/file/builtin_materials.h"
+#include "scenes/file/joint.h"
+#include "scenes/file/patterns.h"
+#include "scenes/file/planar.h"
+#include "scenes/file/schema.h"
+#include "scenes/file/script.h"
 #include "scenes/structures/structure.h"
 
 namespace sunder::scenes {
@@ -198,9 +199,9 @@ void add_foundation(std::vector<Piece>& pieces, MaterialIndex material) {
   }
 }
 
-const Structure& structure_named(const std::string& name, const Value& table) {
+const StructureType& structure_named(const std::string& name, const Value& table) {
   std::vector<std::string_view> names;
-  for (const Structure& structure : structures()) {
+  for (const StructureType& structure : structures()) {
     if (structure.name == name) return structure;
     names.push_back(structure.name);
   }
@@ -212,7 +213,7 @@ void Loader::add_solid(const Value& table) {
   const Keys<SolidHead>& keys = schema().solid;
   SolidHead head;
   read_keys(table, keys.table, keys.keys, {}, &head);
-  const Structure& structure = structure_named(head.structure, table);
+  const StructureType& structure = structure_named(head.structure, table);
   const std::string name = std::string(keys.table) + " " + head.structure;
   check_known(table, name, {keys.keys, structure.keys});
   const std::shared_ptr<void> parameters = structure.parameters();
@@ -286,10 +287,9 @@ void Loader::check_names() const {
 Scene parse_scene(const std::string& text, const std::string& file, const LoadOptions& options) {
   Value document = parse_toml(text, file);
   for (const std::string& assignment : options.set) set_value(document, assignment);
-  const std::filesystem::path library = scenes_folder() / "materials.toml";
-  const Value materials = parse_toml(read_text(library), library.string());
+  const Value materials = parse_toml(builtin::materials_toml, "materials.toml (built in)");
   Loader loader(document, std::filesystem::path(file).parent_path());
-  loader.add_materials(materials, library.parent_path());
+  loader.add_materials(materials, {});
   Scene scene = loader.load(options);
   scene.name = std::filesystem::path(file).stem().string();
   return scene;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/world/scene.h"
+#include "engine/model/scene.h"
 
 namespace sunder::scenes {
 
@@ -33,8 +33,6 @@ struct CatalogEntry {
 std::vector<CatalogEntry> catalog();
 /// The folder they lie in: beside the installed program, else in the source tree.
 std::filesystem::path scenes_folder();
-/// The whole file. Throws InputError if it cannot be read.
-std::string read_text(const std::filesystem::path& file);
 
 /// Every table and key of a scene file with unit, default and what is allowed, as Markdown.
 std::string key_reference();

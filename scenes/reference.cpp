@@ -1,8 +1,8 @@
 // The reference of scene files, written by the reader's own tables.
-#include "scenes/body.h"
-#include "scenes/joint.h"
+#include "scenes/file/body.h"
+#include "scenes/file/joint.h"
+#include "scenes/file/schema.h"
 #include "scenes/load.h"
-#include "scenes/schema.h"
 #include "scenes/structures/structure.h"
 
 namespace sunder::scenes {
@@ -109,7 +109,7 @@ std::string key_reference() {
                      section(s.material_head) + section(s.material) + section(s.pattern) +
                      section(s.stronger) + section(s.crumbling) + section(s.look) +
                      section(s.solid);
-  for (const Structure& structure : structures()) {
+  for (const StructureType& structure : structures()) {
     text += "#### structure = \"" + std::string(structure.name) + "\"\n\n" +
             std::string(structure.help) + "\n\n" +
             rows(structure.keys, structure.parameters().get());

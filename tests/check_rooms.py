@@ -5,11 +5,29 @@ Usage: check_rooms.py [ROOT]. Read first: the tables, then check_tree().
 """
 import re
 import sys
+from collections import Counter
 from pathlib import Path
 
 ROOMS = ("engine", "fracture", "solver", "render", "scenes", "bench", "tests")
-FLOORS = ("base", "geometry", "world", "io")
-LONGEST = 400
+LONGEST = 400  # lines of a file
+LARGEST = 20  # units (a .cpp with its header, or a header alone) of a folder
+
+# The rooms within a room, from the lowest floor up; "" is the room's own folder. A file includes its
+# own folder and those of lower floors: neither what is above, nor what is beside it.
+FLOORS = {
+    "engine": (("base",), ("geometry",), ("geometry/repair",), ("model",), ("world/actors",),
+               ("world/break", "world/load", "world/act", "world/particles"), ("world",), ("io",),
+               ("io/mesh", "io/take")),
+    "fracture": (("pattern",), ("adjacency",), ("cut",), ("stress", "vacd", "check"), ("",)),
+    "solver": (("base",), ("rigid/body",), ("rigid/collide",), ("rigid/joint",), ("rigid/contact",),
+               ("rigid", "planar", "particles")),
+    "render": (("gl", "shaders"), ("image",), ("passes",), ("",)),
+    "scenes": (("file",), ("structures",), ("",), ("app",)),
+}
+FLOOR_OF = {str(Path(room, folder)): floor for room, floors in FLOORS.items()
+            for floor, folders in enumerate(floors) for folder in folders}
+
+ROOM_LIBRARIES = tuple(FLOORS)
 
 # Room -> the rooms its sources may include. Of scenes, only the library: nothing includes the
 # program, which includes every room.
@@ -64,10 +82,10 @@ def check_own_include(root, path, target):
         return f'"{target}": nothing includes the program'
     if target.parts[0] not in MAY_INCLUDE[owner(path)]:
         return f'{path.parts[0]} may not include {target.parts[0]}: "{target}"'
-    if path.parts[0] == "engine":
-        mine, other = path.parts[1], target.parts[1]
-        if FLOORS.index(other) > FLOORS.index(mine):
-            return f'engine/{mine} may not include the higher floor {other}: "{target}"'
+    mine, other = str(path.parent), str(target.parent)
+    if path.parts[0] == target.parts[0] and mine != other and mine in FLOOR_OF:
+        if FLOOR_OF.get(other, 99) >= FLOOR_OF[mine]:
+            return f'{mine} may not include {other}, which is not below it: "{target}"'
     return None
 
 
@@ -81,6 +99,24 @@ def check_foreign_include(path, header):
     if SYSTEM.fullmatch(header):
         return None
     return f"<{header}> belongs to no room: use the C++ header, or name its room in check_rooms.py"
+
+
+def check_folders(paths):
+    """Folders that are on no floor or too full, and names that a room has twice."""
+    found = []
+    units = sorted({path.with_suffix("") for path in paths})
+    for folder, count in sorted(Counter(unit.parent for unit in units).items()):
+        if folder.parts[0] in FLOORS and str(folder) not in FLOOR_OF:
+            found.append(f"{folder}/: on no floor of FLOORS in check_rooms.py")
+        if folder.parts[0] in FLOORS and count > LARGEST:
+            found.append(f"{folder}/: {count} units, more than {LARGEST}: divide it")
+    first = {}
+    for unit in units:
+        room = owner(unit)
+        other = first.setdefault((room, unit.name), unit)
+        if room in ROOM_LIBRARIES and other != unit:
+            found.append(f"{unit}: {room} has a file of that name already: {other}")
+    return found
 
 
 def check_source(root, path):
@@ -121,6 +157,7 @@ def check_tree(root):
     root = Path(root).resolve()
     strays = [path for path in root.glob("*") if path.suffix in (".h", ".cpp")]
     messages = [f"{path.name}: no source lives outside a room" for path in strays]
+    messages += check_folders(sources(root))
     in_cmake = listed(root)
     for path in sources(root):
         messages += [f"{path}: {message}" for message in check_source(root, path)]

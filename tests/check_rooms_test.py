@@ -19,6 +19,9 @@ GOOD = {
     "engine/world/w.h": HEADER + '#include "engine/geometry/g.h"\n',
     "engine/io/file.cpp": '#include <zstd.h>\n#include "engine/world/w.h"\n',
     "fracture/f.h": HEADER + '#include "engine/world/w.h"\n',
+    "fracture/stress/s.h": HEADER + '#include "fracture/cut/c.h"\n',
+    "fracture/cut/c.h": HEADER + '#include "engine/model/m.h"\n',
+    "engine/model/m.h": HEADER,
     "solver/rigid/r.h": HEADER + '#include "engine/world/w.h"\n',
     "render/r.h": HEADER + '#include <GL/glcorearb.h>\n#include "engine/world/w.h"\n',
     "scenes/s.h": HEADER + '#include <toml++/toml.h>\n#include "fracture/f.h"\n',
@@ -30,13 +33,23 @@ GOOD = {
 # What is put into the good house, and what must be said about it.
 BAD = {
     "a floor includes a higher one":
-        ("engine/base/b.h", HEADER + '#include "engine/world/w.h"\n', "higher floor world"),
+        ("engine/base/b.h", HEADER + '#include "engine/world/w.h"\n', "may not include engine/world"),
+    "a room within a room includes one above it":
+        ("fracture/cut/b.h", HEADER + '#include "fracture/stress/s.h"\n', "not below it"),
+    "a room within a room includes one beside it":
+        ("fracture/vacd/b.h", HEADER + '#include "fracture/stress/s.h"\n', "not below it"),
+    "a folder includes the steps above it":
+        ("fracture/stress/b.h", HEADER + '#include "fracture/f.h"\n', "not below it"),
+    "a folder on no floor":
+        ("solver/cloth/b.h", HEADER, "on no floor"),
+    "two files of one name in a room":
+        ("solver/rigid/body/r.h", HEADER, "a file of that name already: solver/rigid/r"),
     "the engine includes fracture":
         ("engine/world/b.h", HEADER + '#include "fracture/f.h"\n', "engine may not include"),
     "fracture includes the solver":
         ("fracture/b.h", HEADER + '#include "solver/rigid/r.h"\n', "fracture may not include"),
     "the solver includes rendering":
-        ("solver/b.h", HEADER + '#include "render/r.h"\n', "solver may not include render"),
+        ("solver/base/b.h", HEADER + '#include "render/r.h"\n', "solver may not include render"),
     "rendering includes scenes":
         ("render/b.h", HEADER + '#include "scenes/s.h"\n', "render may not include scenes"),
     "scenes include a benchmark":
@@ -95,8 +108,13 @@ class CheckRooms(unittest.TestCase):
             with self.subTest(what):
                 messages = messages_of(GOOD | {path: text})
                 self.assertEqual(len(messages), 1, messages)
-                self.assertIn(path, messages[0])
+                self.assertIn(str(Path(path).parent), messages[0])
                 self.assertIn(expected, messages[0])
+
+    def test_a_folder_that_is_too_full_is_named(self):
+        many = {f"render/passes/p{i}.h": HEADER for i in range(21)}
+        self.assertEqual(messages_of(GOOD | many),
+                         ["render/passes/: 21 units, more than 20: divide it"])
 
     def test_a_long_file_with_a_reason_passes(self):
         text = "// Long because one table is read as a whole.\n#pragma once\n" + "\n" * 500

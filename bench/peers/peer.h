@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "engine/world/physics.h"
+#include "engine/model/physics.h"
 
 namespace sunder::bench {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/world/physics.h"
+#include "engine/model/physics.h"
 
 namespace sunder::bench {
 

@@ -15,7 +15,7 @@
 namespace sunder {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kUnset = std::numeric_limits<std::uint32_t>::max();
 
 class MeshCut {
  public:
@@ -65,8 +65,8 @@ void MeshCut::make(PlaneId id) {
   result_.contours.reserve(mesh_.contours.size());
   result_.corners.reserve(mesh_.corners.size());
   result_.corner_normals.reserve(mesh_.corners.size());
-  scratch_.new_of_old.assign(mesh_.vertices.size(), kNone);
-  scratch_.first_crossing.assign(mesh_.vertices.size(), kNone);
+  scratch_.new_of_old.assign(mesh_.vertices.size(), kUnset);
+  scratch_.first_crossing.assign(mesh_.vertices.size(), kUnset);
   scratch_.crossings.clear();
   scratch_.cap_next.clear();
   for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
@@ -182,7 +182,7 @@ void MeshCut::find_runs(std::uint32_t contour, std::uint32_t start) {
   const auto at = [&](std::uint32_t i) { return corners[i % n]; };
   while (scratch_.outside[at(start)]) ++start;
   for (std::uint32_t i = start; i < start + n;) {
-    Run run{contour, i % n, 0, crossing(at(i), at(i + n - 1)), kNone, kNone};
+    Run run{contour, i % n, 0, crossing(at(i), at(i + n - 1)), kUnset, kUnset};
     while (!scratch_.outside[at(i)]) ++i, ++run.count;
     run.exit = crossing(at(i - 1), at(i));
     scratch_.runs.push_back(run);
@@ -255,7 +255,7 @@ void MeshCut::add_crossing_corner(const PolygonMesh::Face& face, std::uint32_t c
 
 std::uint32_t MeshCut::crossing(std::uint32_t inside, std::uint32_t outside) {
   std::uint32_t& head = scratch_.first_crossing[inside];
-  for (std::uint32_t c = head; c != kNone; c = scratch_.crossings[c].next) {
+  for (std::uint32_t c = head; c != kUnset; c = scratch_.crossings[c].next) {
     if (scratch_.crossings[c].outside == outside) return c;
   }
   const bool inside_first = lexicographically_less(mesh_.vertices[inside], mesh_.vertices[outside]);
@@ -270,7 +270,7 @@ std::uint32_t MeshCut::crossing(std::uint32_t inside, std::uint32_t outside) {
   result_.vertices.push_back(t == 1 ? end : Vec3(start + t * (end - start)));
   const auto index = static_cast<std::uint32_t>(scratch_.crossings.size());
   scratch_.crossings.push_back({outside, vertex, head, t, inside_first});
-  scratch_.cap_next.push_back(kNone);
+  scratch_.cap_next.push_back(kUnset);
   head = index;
   return index;
 }
@@ -281,9 +281,9 @@ void MeshCut::add_cap(PlaneId id) {
   const Vec3f normal = plane_.normal.cast<float>();
   for (std::uint32_t start = 0; start < scratch_.crossings.size(); ++start) {
     const auto first = static_cast<std::uint32_t>(result_.corners.size());
-    for (std::uint32_t c = start, next; (next = scratch_.cap_next[c]) != kNone; c = next) {
+    for (std::uint32_t c = start, next; (next = scratch_.cap_next[c]) != kUnset; c = next) {
       result_.corners.push_back(scratch_.crossings[c].vertex);
-      scratch_.cap_next[c] = kNone;
+      scratch_.cap_next[c] = kUnset;
     }
     if (result_.corners.size() - first > 2) {
       end_contour(first);

@@ -1,5 +1,5 @@
 // A mesh as a file gives it: polygons that may be open, doubled, flipped or degenerate. What can
-// be broken is a PolygonMesh; engine/geometry/repair.h makes one of the other.
+// be broken is a PolygonMesh; engine/geometry/repair/repair.h makes one of the other.
 #pragma once
 
 #include <cstdint>

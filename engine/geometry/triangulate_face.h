@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/geometry/polygon_mesh.h"
-#include "engine/geometry/repair/triangulate.h"
+#include "engine/geometry/triangulate.h"
 
 namespace sunder {
 

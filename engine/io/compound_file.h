@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/io/bytes.h"
-#include "engine/world/compound.h"
+#include "engine/model/compound.h"
 
 namespace sunder {
 

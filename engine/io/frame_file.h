@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "engine/world/frame.h"
+#include "engine/model/frame.h"
 
 namespace sunder {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/io/bytes.h"
-#include "engine/world/frame.h"
+#include "engine/model/frame.h"
 
 namespace sunder {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/world/frame.h"
+#include "engine/model/frame.h"
 
 namespace sunder {
 

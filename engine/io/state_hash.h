@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/world/frame.h"
+#include "engine/model/frame.h"
 
 namespace sunder {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/world/frame.h"
-#include "engine/world/scene.h"
+#include "engine/model/frame.h"
+#include "engine/model/scene.h"
 
 namespace sunder {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/base/trace.h"
-#include "engine/world/actors.h"
-#include "engine/world/ties.h"
+#include "engine/world/actors/actors.h"
+#include "engine/world/actors/joints.h"
 
 namespace sunder {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <memory>
 
-#include "engine/world/breaker.h"
-#include "engine/world/frame.h"
-#include "engine/world/particles.h"
-#include "engine/world/physics.h"
-#include "engine/world/scene.h"
+#include "engine/model/breaker.h"
+#include "engine/model/frame.h"
+#include "engine/model/particles.h"
+#include "engine/model/physics.h"
+#include "engine/model/scene.h"
 
 namespace sunder {
 

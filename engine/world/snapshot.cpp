@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "engine/world/actors.h"
+#include "engine/world/actors/actors.h"
 
 namespace sunder {
 namespace {

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kAround = 16;  // points of a slice's outline
 constexpr std::size_t kSlices = 9;   // along each direction at first
 constexpr std::size_t kNearSlices = 8;
-constexpr int kRounds = 3;
+constexpr int kTilts = 3;
 constexpr double kFirstTilt = 0.25;
 /// Of two cuts about as tight the more even one, by this share of the larger hull.
 constexpr double kEvenness = 2e-3;
@@ -301,7 +301,7 @@ std::vector<Candidate> found_anywhere(const PolygonMesh& mesh, const Wires& wire
 Candidate tilted_and_shifted(const Box& box, const Wires& wires, const Outline& outline,
                              Candidate best) {
   double tilt = kFirstTilt, reach_m = box.extent().maxCoeff() / kSlices;
-  for (int round = 0; round < kRounds; ++round, tilt *= 0.5, reach_m *= 0.5) {
+  for (int round = 0; round < kTilts; ++round, tilt *= 0.5, reach_m *= 0.5) {
     const Frame frame(best.direction);
     std::vector<Vec3> directions = {best.direction};
     for (const Vec3& aside : {frame.right, frame.front}) {

@@ -11,7 +11,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
 #include "engine/geometry/approximate_hull.h"
-#include "fracture/vacd.h"
+#include "fracture/vacd/vacd.h"
 
 namespace sunder::fracture {
 namespace {

@@ -7,7 +7,7 @@
 #include "engine/base/parallel.h"
 #include "engine/geometry/mesh_islands.h"
 #include "engine/geometry/split_mesh.h"
-#include "fracture/voronoi.h"
+#include "fracture/pattern/voronoi.h"
 
 namespace sunder::fracture {
 namespace {

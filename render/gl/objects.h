@@ -1,6 +1,7 @@
 // The few kinds of GL object, made complete in one call each. They die with their context.
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 #include <string>
 
@@ -18,6 +19,9 @@ GLuint make_program(const GlTable& gl, const char* name,
 void set_sampler(const GlTable& gl, GLuint program, const char* sampler, int unit);
 
 enum class Filter { kNearest, kLinear };
+
+/// A place in the bound buffer, as GL wants it.
+inline const void* buffer_offset(std::size_t byte) { return reinterpret_cast<const void*>(byte); }
 
 /// An empty texture, clamped to its edge.
 GLuint make_texture(const GlTable& gl, GLenum format, int width, int height, Filter filter);

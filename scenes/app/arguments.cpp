@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/check.h"
-#include "scenes/keys.h"
+#include "scenes/file/keys.h"
 
 namespace sunder::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/base/types.h"
-#include "engine/world/material.h"
+#include "engine/model/material.h"
 
 namespace sunder::app {
 

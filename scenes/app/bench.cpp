@@ -6,6 +6,7 @@
 #include "engine/io/figures.h"
 #include "engine/io/state_hash.h"
 #include "scenes/app/run.h"
+#include "scenes/file/text_file.h"
 
 namespace sunder::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "render/renderer.h"
+#include "scenes/file/mesh_solid.h"
 #include "scenes/load.h"
-#include "scenes/mesh_solid.h"
 
 namespace sunder::app {
 

@@ -14,14 +14,15 @@
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
 #include "engine/io/figures.h"
-#include "fracture/audit.h"
-#include "fracture/case_file.h"
-#include "fracture/compound_builder.h"
+#include "fracture/adjacency/compound_builder.h"
+#include "fracture/check/audit.h"
+#include "fracture/check/case_file.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/mesh_progress.h"
 #include "scenes/app/mesh_report.h"
+#include "scenes/file/text_file.h"
 
 namespace sunder::app {
 namespace {

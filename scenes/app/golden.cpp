@@ -6,7 +6,7 @@
 
 #include "engine/base/check.h"
 #include "engine/io/frame_file.h"
-#include "render/golden_report.h"
+#include "render/image/golden_report.h"
 #include "render/renderer.h"
 #include "scenes/app/golden_file.h"
 #include "scenes/app/run.h"

@@ -8,6 +8,7 @@
 #include "engine/base/hash.h"
 #include "engine/io/figures.h"
 #include "scenes/app/commands.h"
+#include "scenes/file/text_file.h"
 
 namespace sunder::app {
 namespace {

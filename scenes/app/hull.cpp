@@ -4,7 +4,7 @@
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
 #include "engine/geometry/approximate_hull.h"
-#include "engine/io/mesh_reader.h"
+#include "engine/io/mesh/mesh_reader.h"
 #include "fracture/solids.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/mesh_report.h"

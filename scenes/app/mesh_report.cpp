@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "engine/base/check.h"
-#include "engine/io/glb_writer.h"
-#include "engine/io/obj_writer.h"
+#include "engine/io/mesh/glb_writer.h"
+#include "engine/io/mesh/obj_writer.h"
 #include "scenes/app/picture.h"
 
 namespace sunder::app {

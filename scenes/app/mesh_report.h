@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/io/figures.h"
-#include "fracture/audit.h"
-#include "scenes/mesh_solid.h"
+#include "fracture/check/audit.h"
+#include "scenes/file/mesh_solid.h"
 
 namespace sunder::app {
 

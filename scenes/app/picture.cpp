@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "engine/world/frame.h"
-#include "engine/world/piece_mesh.h"
+#include "engine/model/frame.h"
+#include "engine/model/piece_mesh.h"
 #include "render/sinks.h"
 
 namespace sunder::app {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "engine/world/compound.h"
+#include "engine/model/compound.h"
 
 namespace sunder::app {
 

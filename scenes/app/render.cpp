@@ -6,7 +6,7 @@
 #include "engine/io/figures.h"
 #include "engine/io/frame_file.h"
 #include "engine/io/state_hash.h"
-#include "engine/io/take_reader.h"
+#include "engine/io/take/take_reader.h"
 #include "render/sinks.h"
 #include "scenes/app/run.h"
 

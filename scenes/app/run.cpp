@@ -7,10 +7,10 @@
 #include <cstdio>
 
 #include "engine/base/parallel.h"
-#include "engine/world/load_path.h"
+#include "engine/model/scene_accuracy.h"
 #include "fracture/pattern_breaker.h"
-#include "scenes/planar.h"
-#include "scenes/schema.h"
+#include "scenes/file/planar.h"
+#include "scenes/file/schema.h"
 #include "solver/particles/debris_and_dust.h"
 #include "solver/planar/planar_physics.h"
 #include "solver/rigid/rigid_physics.h"

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "engine/io/state_hash.h"
-#include "engine/io/take_verifier.h"
-#include "engine/io/take_writer.h"
+#include "engine/io/take/take_verifier.h"
+#include "engine/io/take/take_writer.h"
 #include "scenes/app/run.h"
 
 namespace sunder::app {

@@ -40,7 +40,7 @@ std::vector<Piece> build_brick_wall(const BrickWall& wall) {
 
 }  // namespace
 
-Structure brick_wall_structure() {
+StructureType brick_wall_structure() {
   return make_structure<BrickWall, build_brick_wall>(
       "brick_wall", "A dry wall along x in running bond; every brick is a body.",
       {key<&BrickWall::brick_m>("brick_m", "m", Range{0.01, 10}, "Edge lengths of a brick."),

@@ -1,6 +1,6 @@
 // A stone bridge of round arches between two abutments: one compound.
 //
-// Read first: Builder::build(). An arch is a ring of voussoirs; over each stands a block that
+// Read first: BridgeBuilder::build(). An arch is a ring of voussoirs; over each stands a block that
 // reaches up to the deck, so that all meet face to face.
 #include <algorithm>
 #include <cmath>
@@ -29,9 +29,9 @@ struct Bridge {
 
 constexpr double kCover = 0.15;  // m, of stone between the crown and the deck
 
-class Builder {
+class BridgeBuilder {
  public:
-  explicit Builder(const Bridge& bridge)
+  explicit BridgeBuilder(const Bridge& bridge)
       : bridge_(bridge),
         outer_m_(bridge.span_m / 2 + bridge.ring_m),
         top_m_(bridge.pier_m + outer_m_ + kCover),
@@ -99,12 +99,12 @@ std::vector<Piece> build_bridge(const Bridge& bridge) {
   if (bridge.ring_m > bridge.span_m / 2) {
     throw InputError("bridge: ring_m must not exceed half of span_m");
   }
-  return {{Builder(bridge).build(), Vec3::Zero()}};
+  return {{BridgeBuilder(bridge).build(), Vec3::Zero()}};
 }
 
 }  // namespace
 
-Structure bridge_structure() {
+StructureType bridge_structure() {
   const Range length{0.2, 100};
   return make_structure<Bridge, build_bridge>(
       "bridge", "A stone bridge of round arches along x, on piers between two abutments.",

@@ -1,7 +1,7 @@
 // A house of brick walls between concrete columns, floors and roof: one compound.
 //
-// Read first: Builder::build(). Walls are cut into boxes around their openings; boxes that touch
-// share a plane and are bonded.
+// Read first: HouseBuilder::build(). Walls are cut into boxes around their openings; boxes that
+// touch share a plane and are bonded.
 #include <algorithm>
 #include <string>
 
@@ -46,9 +46,9 @@ struct Wall {
   double y0, y1;
 };
 
-class Builder {
+class HouseBuilder {
  public:
-  explicit Builder(const House& house) : house_(house) {}
+  explicit HouseBuilder(const House& house) : house_(house) {}
 
   std::vector<fracture::Part> build() {
     double y = 0;
@@ -153,12 +153,12 @@ void check_sizes(const House& house) {
 
 std::vector<Piece> build_house(const House& house) {
   check_sizes(house);
-  return {{Builder(house).build(), Vec3::Zero()}};
+  return {{HouseBuilder(house).build(), Vec3::Zero()}};
 }
 
 }  // namespace
 
-Structure house_structure() {
+StructureType house_structure() {
   const Range thickness{0.05, 5};
   return make_structure<House, build_house>(
       "house",

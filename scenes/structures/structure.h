@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fracture/compound_builder.h"
-#include "scenes/keys.h"
+#include "fracture/adjacency/compound_builder.h"
+#include "scenes/file/keys.h"
 
 namespace sunder::scenes {
 
@@ -21,7 +21,7 @@ struct Piece {
 };
 
 /// A kind of structure: its keys in the scene file and how it is built.
-struct Structure {
+struct StructureType {
   std::string_view name;
   std::string_view help;
   std::vector<Key> keys;
@@ -31,23 +31,23 @@ struct Structure {
 
 /// A structure whose parameters are a `P`.
 template <class P, std::vector<Piece> (*build)(const P&)>
-Structure make_structure(std::string_view name, std::string_view help, std::vector<Key> keys) {
+StructureType make_structure(std::string_view name, std::string_view help, std::vector<Key> keys) {
   return {name, help, std::move(keys),
           []() -> std::shared_ptr<void> { return std::make_shared<P>(); },
           [](const void* parameters) { return build(*static_cast<const P*>(parameters)); }};
 }
 
 /// All there are, by name.
-std::span<const Structure> structures();
+std::span<const StructureType> structures();
 
-Structure box_structure();
-Structure brick_wall_structure();
-Structure bridge_structure();
-Structure column_structure();
-Structure house_structure();
-Structure pane_structure();
-Structure stack_structure();
-Structure temple_structure();
+StructureType box_structure();
+StructureType brick_wall_structure();
+StructureType bridge_structure();
+StructureType column_structure();
+StructureType house_structure();
+StructureType pane_structure();
+StructureType stack_structure();
+StructureType temple_structure();
 
 /// The box [min, max] cut into equal blocks no longer than `longest_m`, appended to `parts`.
 void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max,

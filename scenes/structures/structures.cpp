@@ -109,7 +109,7 @@ void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3&
   }
 }
 
-Structure box_structure() {
+StructureType box_structure() {
   return make_structure<BoxShape, build_box>(
       "box", "One box.",
       {key<&BoxShape::size_m>("size_m", "m", kLength, "Edge lengths."),
@@ -118,7 +118,7 @@ Structure box_structure() {
        key<&BoxShape::material>("material", "What it is made of.")});
 }
 
-Structure stack_structure() {
+StructureType stack_structure() {
   return make_structure<Stack, build_stack>(
       "stack", "Boxes on top of each other, each a body.",
       {key<&Stack::size_m>("size_m", "m", kLength, "Edge lengths of one box."),
@@ -126,7 +126,7 @@ Structure stack_structure() {
        key<&Stack::material>("material", "What they are made of.")});
 }
 
-Structure column_structure() {
+StructureType column_structure() {
   return make_structure<Column, build_column>(
       "column", "An upright prism, shaded round.",
       {key<&Column::radius_m>("radius_m", "m", kLength, "Radius."),
@@ -135,7 +135,7 @@ Structure column_structure() {
        key<&Column::material>("material", "What it is made of.")});
 }
 
-Structure pane_structure() {
+StructureType pane_structure() {
   return make_structure<Pane, build_pane>(
       "pane", "An upright pane facing z, in a frame that is held by the world.",
       {key<&Pane::width_m>("width_m", "m", kLength, "Width of the glass."),
@@ -146,8 +146,8 @@ Structure pane_structure() {
        key<&Pane::frame>("frame", "What the frame is made of.")});
 }
 
-std::span<const Structure> structures() {
-  static const std::vector<Structure> all = {
+std::span<const StructureType> structures() {
+  static const std::vector<StructureType> all = {
       box_structure(),   brick_wall_structure(), bridge_structure(), column_structure(),
       house_structure(), pane_structure(),       stack_structure(),  temple_structure()};
   return all;

@@ -1,7 +1,7 @@
 // A temple: steps, columns of drums all round, beams on them, a ceiling and a gabled roof; one
 // compound.
 //
-// Read first: Builder::build(), from the ground up.
+// Read first: TempleBuilder::build(), from the ground up.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,9 +32,9 @@ constexpr double kCeiling = 0.25;  // m, thickness
 constexpr double kEaves = 0.3;     // m, that the roof stands out
 constexpr int kSides = 16;
 
-class Builder {
+class TempleBuilder {
  public:
-  explicit Builder(const Temple& temple)
+  explicit TempleBuilder(const Temple& temple)
       : temple_(temple),
         x_((temple.columns_x - 1) * temple.spacing_m / 2),
         z_((temple.columns_z - 1) * temple.spacing_m / 2),
@@ -131,12 +131,12 @@ class Builder {
 };
 
 std::vector<Piece> build_temple(const Temple& temple) {
-  return {{Builder(temple).build(), Vec3::Zero()}};
+  return {{TempleBuilder(temple).build(), Vec3::Zero()}};
 }
 
 }  // namespace
 
-Structure temple_structure() {
+StructureType temple_structure() {
   return make_structure<Temple, build_temple>(
       "temple", "A temple with columns of drums all round under a gabled roof, its front at +z.",
       {key<&Temple::columns_x>("columns_x", "", Range{2, 40}, "Columns in front and back."),

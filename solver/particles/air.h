@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/world/particles.h"
+#include "engine/model/particles.h"
 #include "solver/particles/lattice.h"
 #include "solver/particles/pressure.h"
 #include "solver/particles/solids.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/base/random.h"
-#include "engine/world/particles.h"
+#include "engine/model/particles.h"
 #include "solver/particles/debris.h"
 #include "solver/particles/dust.h"
 

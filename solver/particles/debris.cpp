@@ -7,15 +7,15 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
-#include "solver/place_order.h"
-#include "solver/rigid/wide.h"
+#include "solver/base/place_order.h"
+#include "solver/base/wide.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::uint32_t kGround = 0xffffffff;  // as a support
 constexpr std::size_t kBatch = 16;             // chips that look for obstacles together
-constexpr std::size_t kChunk = 32 * kBatch;
+constexpr std::size_t kChips = 32 * kBatch;
 constexpr std::uint32_t kSortEvery = 16;  // moves
 constexpr float kFriction = 0.6f;
 constexpr float kRestitution = 0.3f;
@@ -27,9 +27,9 @@ constexpr float kFlyingDamping_s = 0.5f;
 constexpr float kStill_m_s = 0.1f;
 constexpr float kStill_s = 0.25f;
 constexpr float kFade_s = 0.75f;
-constexpr double kShifted = 1e-3;    // m or rad by which a support has moved
-constexpr std::uint32_t kRoom = 16;  // one part in so many is kept free for new chips
-constexpr int kBounces = 2;          // within one step
+constexpr double kShifted = 1e-3;        // m or rad by which a support has moved
+constexpr std::uint32_t kChipRoom = 16;  // one part in so many is kept free for new chips
+constexpr int kBounces = 2;              // within one step
 
 /// Contact of a sphere with a surface: restitution, Coulomb friction, rolling.
 void bounce(Vec3f& velocity, Vec3f& angular_velocity, float radius_m, const Vec3f& normal,
@@ -132,10 +132,10 @@ void Debris::wake_touched(double dt_s, const Obstacles& obstacles) {
   movers_.build(obstacles, dt_s, asleep_box_, ObstacleGrid::Which::kMoving);
   if (movers_.empty()) return;
   std::vector<std::uint8_t> touched(asleep_.size());
-  for_chunks(asleep_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+  for_chunks(asleep_.size(), kChips, [&](std::size_t begin, std::size_t end, std::size_t) {
     ObstacleGrid::Near near;
     std::array<ObstacleGrid::Way, kLanes> ways;
-    std::array<std::optional<Touch>, kLanes> touches;
+    std::array<std::optional<ObstacleTouch>, kLanes> touches;
     for (std::size_t i = begin; i < end; i += kLanes) {
       const std::size_t count = std::min<std::size_t>(kLanes, end - i);
       for (std::size_t w = 0; w < count; ++w) {
@@ -155,10 +155,10 @@ void Debris::wake_touched(double dt_s, const Obstacles& obstacles) {
 
 /// What those awake may come to in the next dt_s.
 Box Debris::reach_of_awake(double dt_s) {
-  reaches_.assign((awake_.size() + kChunk - 1) / kChunk, Box());
+  reaches_.assign((awake_.size() + kChips - 1) / kChips, Box());
   const Vec3f fall = (dt_s * gravity_W_).cast<float>();
   const auto step_s = static_cast<float>(dt_s);
-  for_chunks(awake_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+  for_chunks(awake_.size(), kChips, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
     Vec3f low = Vec3f::Constant(1e30f), high = -low;
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t chip = awake_[i];
@@ -177,7 +177,7 @@ Box Debris::reach_of_awake(double dt_s) {
 void Debris::move_awake(double dt_s, const Obstacles& obstacles) {
   grid_.build(obstacles, dt_s, reach_of_awake(dt_s), ObstacleGrid::Which::kAll);
   moved_.resize(awake_.size());
-  for_chunks(awake_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+  for_chunks(awake_.size(), kChips, [&](std::size_t begin, std::size_t end, std::size_t) {
     ObstacleGrid::Near near;
     for (std::size_t i = begin; i < end; i += kBatch) {
       const std::size_t count = std::min(kBatch, end - i);
@@ -200,7 +200,7 @@ void Debris::move(std::span<const std::uint32_t> chips, std::span<Moved> moved, 
                   double ground_m, ObstacleGrid::Near& near) {
   std::array<ObstacleGrid::Way, kBatch> ways;  // of those that still fly
   std::array<std::size_t, kBatch> flying;      // which of `chips` they are
-  std::array<std::optional<Touch>, kBatch> touches;
+  std::array<std::optional<ObstacleTouch>, kBatch> touches;
   const Vec3f fall = (dt_s * gravity_W_).cast<float>();
   for (std::size_t i = 0; i < chips.size(); ++i) {
     velocity_W_[chips[i]] += fall;
@@ -234,14 +234,14 @@ void Debris::move(std::span<const std::uint32_t> chips, std::span<Moved> moved, 
 }
 
 /// Takes a chip to the end of its way, or to what it touches first: then it may go on from there.
-bool Debris::goes_on(std::uint32_t chip, ObstacleGrid::Way& way, std::optional<Touch> touch,
+bool Debris::goes_on(std::uint32_t chip, ObstacleGrid::Way& way, std::optional<ObstacleTouch> touch,
                      double dt_s, double ground_m, Moved& moved) {
   const double lowest = ground_m + way.radius_m;
   const double fall = way.from.y() - way.to.y();
   if (way.to.y() < lowest) {
     const double time = way.from.y() > lowest && fall > 0 ? (way.from.y() - lowest) / fall : 0;
     if (!touch || time < touch->time) {
-      touch = Touch{time, lowest - way.to.y(), Vec3::UnitY(), Vec3::Zero(), kGround};
+      touch = ObstacleTouch{time, lowest - way.to.y(), Vec3::UnitY(), Vec3::Zero(), kGround};
     }
   }
   if (!touch) {
@@ -320,10 +320,10 @@ void Debris::add_support(const ObstacleBody& body) {
 /// Makes room before the limit is reached: those go that have lain long and are small, a chip of
 /// twice the radius when it has lain four times as long. They shrink until they are gone.
 void Debris::fade(float dt_s) {
-  const std::size_t kept = limit_ - limit_ / kRoom;
+  const std::size_t kept = limit_ - limit_ / kChipRoom;
   const std::size_t staying = awake_.size() + asleep_.size();
   if (staying > kept && !asleep_.empty()) {
-    const std::size_t count = std::min(staying - kept + limit_ / kRoom, asleep_.size());
+    const std::size_t count = std::min(staying - kept + limit_ / kChipRoom, asleep_.size());
     const auto end = asleep_.begin() + static_cast<std::ptrdiff_t>(count);
     const auto stays = [&](std::uint32_t chip) {
       const auto lain = static_cast<double>(next_rest_ - rest_[chip]);

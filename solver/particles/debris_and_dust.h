@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "engine/world/particles.h"
+#include "engine/model/particles.h"
 
 namespace sunder::solver {
 

@@ -6,13 +6,13 @@
 #include <numeric>
 
 #include "engine/base/parallel.h"
+#include "solver/base/place_order.h"
 #include "solver/particles/turn.h"
-#include "solver/place_order.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr std::size_t kChunk = 256;
+constexpr std::size_t kPuffs = 256;
 constexpr float kThrown_s = 0.15f;         // in which thrown dust comes to move with the air
 constexpr float kThrownTurbulence = 0.2f;  // of its speed relative to the air
 constexpr float kSpread_m2_s = 0.004f;     // growth of a puff's squared radius in still air
@@ -26,7 +26,7 @@ constexpr std::size_t kCellsAPuff = 8;  // of air: finer is not worth its cost
 constexpr std::size_t kStrays = 32;     // one puff in so many, on each side, may fly out of the air
 constexpr std::size_t kAhead = 8;       // puffs, that memory is asked for
 constexpr std::size_t kSpeakers = 4096;
-constexpr std::uint32_t kRoom = 16;  // one part in so many is kept free for new dust
+constexpr std::uint32_t kPuffRoom = 16;  // one part in so many is kept free for new dust
 
 Vec3f axis_of(const Quatf& rotation) { return rotation * Vec3f::UnitZ(); }
 
@@ -68,7 +68,7 @@ void Dust::advance(double dt_s, const Obstacles& obstacles) {
   sort_into_cells();
   load_air();
   flow_->air.advance(dt_s, gravity_W_, obstacles);
-  for_chunks(position_W_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+  for_chunks(position_W_.size(), kPuffs, [&](std::size_t begin, std::size_t end, std::size_t) {
     Around around;
     for (std::size_t i = begin; i < end; ++i) {
       if (i + kAhead < end) fetch(order_[i + kAhead]);
@@ -150,7 +150,7 @@ void Dust::place_air(double ground_m) {
 void Dust::sort_into_cells() {
   const Air& air = flow_->air;
   cell_.resize(position_W_.size());
-  for_chunks(cell_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+  for_chunks(cell_.size(), kPuffs, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t puff = begin; puff < end; ++puff) {
       cell_[puff] = kOutside;
       if (!air.holds(position_W_[puff])) continue;
@@ -239,7 +239,7 @@ void Dust::settle(std::size_t puff, float dt_s, float solid, float ground_m) {
   Vec3f& position = position_W_[puff];
   const bool lies = position.y() <= ground_m || solid > kSolid;
   position.y() = std::max(position.y(), ground_m);
-  const std::size_t kept = limit_ - limit_ / kRoom;
+  const std::size_t kept = limit_ - limit_ / kPuffRoom;
   const bool crowded = position_W_.size() > kept && puff < position_W_.size() - kept;
   float& settled = settled_s_[puff];
   if (lies || crowded) settled += dt_s * (crowded ? kCrowded : 1);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/world/particles.h"
+#include "engine/model/particles.h"
 #include "solver/particles/air.h"
 #include "solver/particles/swirl.h"
 

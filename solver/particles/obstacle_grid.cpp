@@ -19,7 +19,7 @@ constexpr float kAround_m = 0.005f;                     // of ways, that a bounc
 constexpr float kTogether_m = 2;                        // so large a place is looked up at once
 constexpr int kLevels = 31;
 constexpr float kFar_m = 8 * kFinest_m;  // on so long a way all shapes are looked at
-constexpr std::size_t kChunk = 512;
+constexpr std::size_t kObstacles = 512;
 
 /// Cells of a level, along an axis, in a metre.
 float cells_per_m(int level) { return 1 / (kFinest_m * static_cast<float>(1 << level)); }
@@ -154,13 +154,14 @@ void ObstacleGrid::build(const Obstacles& obstacles, double dt_s, const Box& reg
   const auto moves = [](const ObstacleBody& body) { return body.moves; };
   if (which == Which::kMoving && std::ranges::none_of(obstacles.bodies, moves)) return;
   rotations_WB_.resize(obstacles.bodies.size());
-  for_chunks(obstacles.bodies.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t b = begin; b < end; ++b) {
-      rotations_WB_[b] = obstacles.bodies[b].X_WB.rotation.toRotationMatrix();
-    }
-  });
+  for_chunks(obstacles.bodies.size(), kObstacles,
+             [&](std::size_t begin, std::size_t end, std::size_t) {
+               for (std::size_t b = begin; b < end; ++b) {
+                 rotations_WB_[b] = obstacles.bodies[b].X_WB.rotation.toRotationMatrix();
+               }
+             });
   boxes_.resize(obstacles.shapes.size());
-  for_chunks(boxes_.size(), kChunk,
+  for_chunks(boxes_.size(), kObstacles,
              [&](std::size_t begin, std::size_t end, std::size_t) { place(begin, end, which); });
   for (std::uint32_t s = 0; s < boxes_.size(); ++s) {
     if (!boxes_[s].overlaps(region)) continue;

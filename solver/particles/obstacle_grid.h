@@ -8,12 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "engine/world/particles.h"
+#include "engine/model/particles.h"
 
 namespace sunder::solver {
 
 /// Where a sphere meets an obstacle.
-struct Touch {
+struct ObstacleTouch {
   double time = 1;     ///< Part of the way; 0 if it started inside.
   double depth_m = 0;  ///< At the end of the way, along the normal; > 0 if it started inside.
   Vec3 normal_W = Vec3::UnitY();   ///< Unit, out of the obstacle.
@@ -49,7 +49,7 @@ class ObstacleGrid {
   void find(std::span<const Way> ways, Near& near) const;
   /// The first touch of each of up to eight ways with what is near; obstacles move meanwhile, too.
   void sweep(std::span<const Way> ways, const Near& near,
-             std::span<std::optional<Touch>> touches) const;
+             std::span<std::optional<ObstacleTouch>> touches) const;
 
  private:
   /// A shape as far as most ways need it: all in one place, as memory is what takes time.
@@ -80,7 +80,7 @@ class ObstacleGrid {
   void sort_into_cells();
   void fetch(const Placed& placed) const;
   void meet(const Placed& placed, const WideWays& wide, const SeenWays& seen,
-            std::span<const Way> ways, std::span<std::optional<Touch>> touches) const;
+            std::span<const Way> ways, std::span<std::optional<ObstacleTouch>> touches) const;
 
   Obstacles obstacles_;
   double dt_s_ = 0;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "solver/base/wide.h"
 #include "solver/particles/obstacle_grid.h"
-#include "solver/rigid/wide.h"
 
 namespace sunder::solver {
 namespace {
@@ -108,7 +108,8 @@ ObstacleGrid::SeenWays::SeenWays(const WideWays& ways, const Placed& shape) {
 
 /// Where those ways that come past a shape's box touch the shape, if they do so first.
 void ObstacleGrid::meet(const Placed& placed, const WideWays& wide, const SeenWays& seen,
-                        std::span<const Way> ways, std::span<std::optional<Touch>> touches) const {
+                        std::span<const Way> ways,
+                        std::span<std::optional<ObstacleTouch>> touches) const {
   const ObstacleShape& shape = obstacles_.shapes[placed.shape];
   Clip clip;
   std::uint32_t left = seen.meet;
@@ -132,13 +133,13 @@ void ObstacleGrid::meet(const Placed& placed, const WideWays& wide, const SeenWa
   }
   for (; left != 0; left &= left - 1) {
     const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-    Touch touch;
+    ObstacleTouch touch;
     touch.time = std::max(double{clip.enter[i]}, 0.0);
     if (clip.enter[i] < 0) {
       touch.depth_m = -double{clip.shallowest_m[i]};
       if (touch.depth_m <= 0) continue;  // it leaves by itself
     }
-    std::optional<Touch>& first = touches[i];
+    std::optional<ObstacleTouch>& first = touches[i];
     if (first && first->time <= touch.time) continue;
     const ObstacleBody& body = obstacles_.bodies[shape.body];
     if (!placed.faces.empty()) {
@@ -159,8 +160,8 @@ void ObstacleGrid::meet(const Placed& placed, const WideWays& wide, const SeenWa
 /// What a shape is made of is asked for when its box is met, and looked at when the next one's is:
 /// by then it has come from memory.
 void ObstacleGrid::sweep(std::span<const Way> ways, const Near& near,
-                         std::span<std::optional<Touch>> touches) const {
-  for (std::optional<Touch>& touch : touches) touch.reset();
+                         std::span<std::optional<ObstacleTouch>> touches) const {
+  for (std::optional<ObstacleTouch>& touch : touches) touch.reset();
   if (near.shapes.empty()) return;
   const WideWays wide(ways);
   const Placed* asked = nullptr;

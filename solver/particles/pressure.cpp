@@ -14,7 +14,7 @@ namespace {
 constexpr int kMostIterations = 16;
 constexpr int kSweeps = 2;  // before and after a coarser level
 constexpr int kCoarsestSweeps = 8;
-constexpr int kLanes = 8;
+constexpr int kSums = 8;
 
 /// Calls work(j, k) for every row of cells of each layer, layers in parallel.
 template <class Work>
@@ -63,9 +63,9 @@ double sum_rows(const Lattice& lattice, std::vector<double>& partial, const Work
 
 /// Of two rows, lane by lane.
 double dot_row(const float* x, const float* y, int count) {
-  float lanes[kLanes] = {};
-  for (int i = 0; i < count; i += kLanes) {
-    for (int l = 0; l < kLanes; ++l) lanes[l] += x[i + l] * y[i + l];
+  float lanes[kSums] = {};
+  for (int i = 0; i < count; i += kSums) {
+    for (int l = 0; l < kSums; ++l) lanes[l] += x[i + l] * y[i + l];
   }
   double sum = 0;
   for (const float lane : lanes) sum += double{lane};
@@ -76,7 +76,7 @@ double dot_row(const float* x, const float* y, int count) {
 
 PressureSolver::PressureSolver(const Vec3i& counts) {
   for (Vec3i size = counts; size.minCoeff() >= 4; size /= 2) {
-    SUNDER_CHECK(size.x() % kLanes == 0 && size.x() <= kLongestRow);
+    SUNDER_CHECK(size.x() % kSums == 0 && size.x() <= kLongestRow);
     Level& level = levels_.emplace_back();
     level.lattice = {size};
     const std::size_t cells = level.lattice.size();
@@ -84,7 +84,7 @@ PressureSolver::PressureSolver(const Vec3i& counts) {
     for (Field* field : {&level.inverse_diagonal, &level.rest, &level.correction}) {
       field->assign(cells, 0);
     }
-    if (size.x() % (2 * kLanes) != 0 || size.y() % 2 != 0 || size.z() % 2 != 0) break;
+    if (size.x() % (2 * kSums) != 0 || size.y() % 2 != 0 || size.z() % 2 != 0) break;
   }
   SUNDER_CHECK(!levels_.empty());
   for (Field* field : {&pressure_, &direction_, &image_}) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/world/particles.h"
+#include "engine/model/particles.h"
 #include "solver/particles/lattice.h"
 
 namespace sunder::solver {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "engine/base/types.h"
+#include "solver/base/wide.h"
 #include "solver/particles/lattice.h"
-#include "solver/rigid/wide.h"
 
 namespace sunder::solver {
 

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "engine/base/check.h"
-#include "engine/base/fall_scale.h"
+#include "engine/base/froude.h"
 #include "engine/base/trace.h"
 #include "engine/base/trigonometry.h"
-#include "solver/check_bodies.h"
-#include "solver/planar/books.h"
-#include "solver/planar/nearby.h"
+#include "solver/base/check_bodies.h"
+#include "solver/planar/planar_ledger.h"
+#include "solver/planar/planar_touches.h"
 
 namespace sunder::solver {
 namespace {

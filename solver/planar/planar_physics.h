@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "engine/world/physics.h"
+#include "engine/model/physics.h"
 
 namespace sunder::solver {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/rigid/approach.h"
+#include "solver/rigid/collide/approach.h"
 
 namespace sunder::solver {
 namespace {

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/fall_scale.h"
-#include "solver/rigid/bodies.h"
-#include "solver/rigid/contacts.h"
-#include "solver/rigid/joint.h"
+#include "engine/base/froude.h"
+#include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/contacts.h"
+#include "solver/rigid/joint/joint.h"
 
 namespace sunder::solver {
 

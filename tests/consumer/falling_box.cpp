@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "engine/world/simulation.h"
-#include "fracture/compound_builder.h"
+#include "fracture/adjacency/compound_builder.h"
 #include "fracture/pattern_breaker.h"
 #include "solver/rigid/rigid_physics.h"
 

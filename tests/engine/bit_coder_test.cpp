@@ -1,5 +1,5 @@
 // What the range coder promises: numbers come back, what repeats costs little, no bytes harm it.
-#include "engine/io/bit_coder.h"
+#include "engine/io/take/bit_coder.h"
 
 #include <gtest/gtest.h>
 

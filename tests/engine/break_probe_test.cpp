@@ -1,6 +1,6 @@
 // The break probe against what can be worked out by hand: hits that are passed on, shared, or come
 // one after the other.
-#include "engine/world/break_probe.h"
+#include "engine/world/break/break_probe.h"
 
 #include <gtest/gtest.h>
 

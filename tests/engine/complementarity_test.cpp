@@ -1,5 +1,5 @@
 // The exact solve of a break probe: what contacts do to each other, however unlike the masses.
-#include "engine/world/complementarity.h"
+#include "engine/world/break/complementarity.h"
 
 #include <cmath>
 #include <vector>

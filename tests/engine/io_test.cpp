@@ -10,7 +10,7 @@
 #include "engine/io/particle_codes.h"
 #include "engine/io/state_hash.h"
 #include "engine/io/statistics.h"
-#include "engine/world/piece_mesh.h"
+#include "engine/model/piece_mesh.h"
 
 namespace sunder {
 namespace {

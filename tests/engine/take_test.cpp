@@ -9,10 +9,10 @@
 #include "engine/base/random.h"
 #include "engine/io/bytes.h"
 #include "engine/io/state_hash.h"
-#include "engine/io/take_reader.h"
-#include "engine/io/take_verifier.h"
-#include "engine/io/take_writer.h"
-#include "engine/world/piece_mesh.h"
+#include "engine/io/take/take_reader.h"
+#include "engine/io/take/take_verifier.h"
+#include "engine/io/take/take_writer.h"
+#include "engine/model/piece_mesh.h"
 
 namespace sunder {
 namespace {

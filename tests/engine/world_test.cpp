@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
-#include "engine/world/piece_mesh.h"
+#include "engine/model/piece_mesh.h"
 #include "tests/engine/scripted.h"
 
 namespace sunder {

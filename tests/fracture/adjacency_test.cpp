@@ -1,11 +1,11 @@
 // Which convexes touch, and what holds together.
-#include "fracture/adjacency.h"
+#include "fracture/adjacency/adjacency.h"
 
 #include <gtest/gtest.h>
 
 #include "engine/base/trigonometry.h"
-#include "fracture/islands.h"
-#include "fracture/polygon.h"
+#include "fracture/adjacency/islands.h"
+#include "fracture/adjacency/polygon.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"
 

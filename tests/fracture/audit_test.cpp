@@ -1,5 +1,5 @@
 // The audit finds what is wrong with pieces, and measures overlaps exactly.
-#include "fracture/audit.h"
+#include "fracture/check/audit.h"
 
 #include <gtest/gtest.h>
 

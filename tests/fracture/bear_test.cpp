@@ -1,5 +1,5 @@
 // What a steady load breaks, and what it leaves alone.
-#include "fracture/bear.h"
+#include "fracture/stress/bear.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // A break can be carried out again from its case file.
-#include "fracture/case_file.h"
+#include "fracture/check/case_file.h"
 
 #include <cstdio>
 #include <fstream>

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
-#include "fracture/adjacency.h"
+#include "fracture/adjacency/adjacency.h"
 #include "fracture/fracture.h"
 #include "fracture/pattern_breaker.h"
 #include "tests/fracture/solids.h"

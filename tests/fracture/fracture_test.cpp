@@ -10,8 +10,8 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
-#include "fracture/adjacency.h"
-#include "fracture/islands.h"
+#include "fracture/adjacency/adjacency.h"
+#include "fracture/adjacency/islands.h"
 #include "fracture/pattern_breaker.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"

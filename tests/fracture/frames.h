@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "engine/base/trigonometry.h"
-#include "fracture/bear.h"
-#include "fracture/compound_builder.h"
-#include "fracture/stress.h"
+#include "fracture/adjacency/compound_builder.h"
+#include "fracture/stress/bear.h"
+#include "fracture/stress/stress.h"
 
 namespace sunder::fracture {
 

@@ -7,8 +7,8 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
-#include "fracture/islands.h"
-#include "fracture/overlap.h"
+#include "fracture/adjacency/islands.h"
+#include "fracture/adjacency/overlap.h"
 #include "fracture/pattern_breaker.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"

@@ -1,5 +1,5 @@
 // Patterns tile their box.
-#include "fracture/pattern.h"
+#include "fracture/pattern/pattern.h"
 
 #include <cmath>
 #include <set>

@@ -11,10 +11,10 @@
 #include "engine/base/hash.h"
 #include "engine/base/random.h"
 #include "engine/geometry/polygon_mesh.h"
-#include "engine/world/breaker.h"
-#include "fracture/adjacency.h"
-#include "fracture/compound_builder.h"
-#include "fracture/overlap.h"
+#include "engine/model/breaker.h"
+#include "fracture/adjacency/adjacency.h"
+#include "fracture/adjacency/compound_builder.h"
+#include "fracture/adjacency/overlap.h"
 #include "fracture/solids.h"
 
 namespace sunder::fracture {

@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "fracture/adjacency.h"
-#include "fracture/compound_builder.h"
+#include "fracture/adjacency/adjacency.h"
+#include "fracture/adjacency/compound_builder.h"
+#include "fracture/adjacency/islands.h"
+#include "fracture/cut/fragments.h"
+#include "fracture/cut/intersect.h"
+#include "fracture/cut/weld.h"
 #include "fracture/fracture.h"
-#include "fracture/fragments.h"
-#include "fracture/intersect.h"
-#include "fracture/islands.h"
-#include "fracture/weld.h"
 #include "tests/fracture/solids.h"
 
 namespace sunder::fracture {

@@ -6,7 +6,7 @@
 
 #include "engine/base/random.h"
 #include "fracture/fracture.h"
-#include "fracture/pattern.h"
+#include "fracture/pattern/pattern.h"
 #include "fracture/solids.h"
 #include "tests/fracture/frames.h"
 

@@ -1,11 +1,11 @@
 // Stress on bonds against the theory of beams, frames and arches.
-#include "fracture/stress.h"
+#include "fracture/stress/stress.h"
 
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
 #include "fracture/fracture.h"
-#include "fracture/pattern.h"
+#include "fracture/pattern/pattern.h"
 #include "tests/fracture/frames.h"
 
 namespace sunder::fracture {

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/random.h"
-#include "fracture/adjacency.h"
+#include "fracture/adjacency/adjacency.h"
+#include "fracture/adjacency/islands.h"
 #include "fracture/fracture.h"
-#include "fracture/islands.h"
-#include "fracture/pattern.h"
+#include "fracture/pattern/pattern.h"
 #include "tests/fracture/solids.h"
 
 namespace sunder::fracture {

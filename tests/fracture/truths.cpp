@@ -6,8 +6,8 @@
 #include <sstream>
 #include <tuple>
 
-#include "fracture/adjacency.h"
-#include "fracture/islands.h"
+#include "fracture/adjacency/adjacency.h"
+#include "fracture/adjacency/islands.h"
 #include "tests/fracture/solids.h"
 
 namespace sunder::fracture {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/world/breaker.h"
+#include "engine/model/breaker.h"
 
 namespace sunder::fracture {
 

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
-#include "engine/geometry/repair.h"
-#include "engine/io/mesh_reader.h"
-#include "fracture/impact_sphere.h"
+#include "engine/geometry/repair/repair.h"
+#include "engine/io/mesh/mesh_reader.h"
+#include "fracture/cut/impact_sphere.h"
 #include "fracture/pattern_breaker.h"
-#include "fracture/vacd.h"
+#include "fracture/vacd/vacd.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/visual_truths.h"
 #include "tests/mesh/meshes.h"

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/trigonometry.h"
-#include "engine/world/piece_mesh.h"
-#include "fracture/adjacency.h"
-#include "fracture/bond_geometry.h"
+#include "engine/model/piece_mesh.h"
+#include "fracture/adjacency/adjacency.h"
+#include "fracture/cut/surface.h"
 #include "fracture/pattern_breaker.h"
-#include "fracture/surface.h"
-#include "fracture/vacd.h"
+#include "fracture/stress/bond_geometry.h"
+#include "fracture/vacd/vacd.h"
 #include "tests/engine/geometry_mesh_fixtures.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/visual_truths.h"

@@ -6,7 +6,7 @@
 
 #include "engine/base/random.h"
 #include "engine/geometry/approximate_hull.h"
-#include "fracture/compound_builder.h"
+#include "fracture/adjacency/compound_builder.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"
 

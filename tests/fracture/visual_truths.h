@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/geometry/polygon_mesh.h"
-#include "engine/world/breaker.h"
+#include "engine/model/breaker.h"
 
 namespace sunder::fracture {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "engine/base/check.h"
-#include "engine/io/mesh_reader.h"
+#include "engine/io/mesh/mesh_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // Small limits keep the fuzzer fast; they are input like any other.

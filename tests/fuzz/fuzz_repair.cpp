@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "engine/base/check.h"
-#include "engine/geometry/repair.h"
 #include "engine/geometry/repair/clean.h"
+#include "engine/geometry/repair/repair.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > 400) return 0;

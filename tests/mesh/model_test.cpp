@@ -1,18 +1,17 @@
 // What is exported: triangles of faces with holes, and files that other programs can read.
-#include "engine/io/model.h"
-
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/geometry/repair.h"
+#include "engine/geometry/repair/repair.h"
 #include "engine/geometry/triangulate_face.h"
 #include "engine/io/bytes.h"
-#include "engine/io/glb_writer.h"
-#include "engine/io/mesh_reader.h"
-#include "engine/io/obj_writer.h"
+#include "engine/io/mesh/export_model.h"
+#include "engine/io/mesh/glb_writer.h"
+#include "engine/io/mesh/mesh_reader.h"
+#include "engine/io/mesh/obj_writer.h"
 
 namespace sunder {
 namespace {

@@ -7,7 +7,7 @@
 #include "engine/base/check.h"
 #include "engine/base/random.h"
 #include "engine/io/bytes.h"
-#include "engine/io/mesh_reader.h"
+#include "engine/io/mesh/mesh_reader.h"
 #include "tests/mesh/meshes.h"
 
 namespace sunder {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
-#include "engine/geometry/repair.h"
-#include "engine/io/mesh_reader.h"
+#include "engine/geometry/repair/repair.h"
+#include "engine/io/mesh/mesh_reader.h"
 
 namespace sunder {
 namespace {

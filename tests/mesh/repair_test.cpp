@@ -1,5 +1,5 @@
 // Repair: what is broken is mended and named, what is sound is left alone, and everything ends.
-#include "engine/geometry/repair.h"
+#include "engine/geometry/repair/repair.h"
 
 #include <cmath>
 #include <set>
@@ -10,9 +10,9 @@
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/repair/clean.h"
-#include "engine/geometry/repair/triangulate.h"
 #include "engine/geometry/repair/winding.h"
-#include "engine/io/mesh_reader.h"
+#include "engine/geometry/triangulate.h"
+#include "engine/io/mesh/mesh_reader.h"
 #include "tests/cpu_time.h"
 #include "tests/mesh/meshes.h"
 

@@ -7,8 +7,8 @@
 #include "engine/base/check.h"
 #include "engine/base/random.h"
 #include "engine/geometry/clip_mesh.h"
-#include "engine/geometry/repair.h"
-#include "engine/io/mesh_reader.h"
+#include "engine/geometry/repair/repair.h"
+#include "engine/io/mesh/mesh_reader.h"
 #include "tests/mesh/meshes.h"
 
 namespace sunder {

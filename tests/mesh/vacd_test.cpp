@@ -1,6 +1,6 @@
 // Decompositions of real and made-up meshes: pieces are watertight and make up the whole, hulls
 // hold them, regions share planes.
-#include "fracture/vacd.h"
+#include "fracture/vacd/vacd.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
 #include "engine/geometry/repair/winding.h"
-#include "engine/io/mesh_reader.h"
+#include "engine/io/mesh/mesh_reader.h"
 #include "tests/mesh/meshes.h"
 
 namespace sunder::fracture {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/world/physics.h"
+#include "engine/model/physics.h"
 
 namespace sunder::tests {
 

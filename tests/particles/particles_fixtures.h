@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "engine/world/particles.h"
+#include "engine/model/particles.h"
 
 namespace sunder {
 

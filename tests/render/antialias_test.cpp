@@ -1,5 +1,5 @@
 // Edges become smooth, everything else stays.
-#include "render/antialias.h"
+#include "render/image/antialias.h"
 
 #include <cstdlib>
 #include <vector>

@@ -1,5 +1,5 @@
 // What passes as the same picture and what does not: the faults that calibrated the thresholds.
-#include "render/compare.h"
+#include "render/image/compare.h"
 
 #include <algorithm>
 

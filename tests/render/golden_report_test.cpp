@@ -1,5 +1,5 @@
 // The page says what failed, first, and how to accept it.
-#include "render/golden_report.h"
+#include "render/image/golden_report.h"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 // PNG files.
-#include "render/image.h"
+#include "render/image/image.h"
 
 #include <fstream>
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
-#include "render/compare.h"
+#include "render/image/compare.h"
 #include "tests/render/synthetic_frame.h"
 
 namespace sunder::render {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/geometry/convex_polyhedron.h"
-#include "engine/world/compound.h"
-#include "engine/world/piece_mesh.h"
+#include "engine/model/compound.h"
+#include "engine/model/piece_mesh.h"
 
 namespace sunder::render {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/base/random.h"
-#include "engine/world/frame.h"
+#include "engine/model/frame.h"
 
 namespace sunder::render {
 

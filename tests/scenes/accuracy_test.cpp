@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/world/load_path.h"
+#include "engine/model/scene_accuracy.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
+#include "scenes/file/schema.h"
 #include "scenes/load.h"
-#include "scenes/schema.h"
 #include "solver/rigid/rigid_physics.h"
 
 namespace sunder::tests {

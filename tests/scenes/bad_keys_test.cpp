@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
-#include "scenes/body.h"
-#include "scenes/joint.h"
+#include "scenes/file/body.h"
+#include "scenes/file/joint.h"
+#include "scenes/file/schema.h"
 #include "scenes/load.h"
-#include "scenes/schema.h"
 
 namespace sunder::scenes {
 namespace {

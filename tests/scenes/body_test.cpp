@@ -7,9 +7,9 @@
 #include "engine/base/check.h"
 #include "engine/io/bytes.h"
 #include "engine/io/compound_file.h"
-#include "scenes/keys.h"
+#include "scenes/file/keys.h"
+#include "scenes/file/mesh_cache.h"
 #include "scenes/load.h"
-#include "scenes/mesh_cache.h"
 
 namespace sunder::scenes {
 namespace {

@@ -1,7 +1,7 @@
 // Golden images: what the stored frames give today, and whether the comparison can tell at all.
 #include <gtest/gtest.h>
 
-#include "render/compare.h"
+#include "render/image/compare.h"
 #include "tests/scenes/program.h"
 
 namespace sunder::tests {

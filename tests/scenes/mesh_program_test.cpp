@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/figures.h"
-#include "engine/io/mesh_reader.h"
-#include "fracture/case_file.h"
+#include "engine/io/mesh/mesh_reader.h"
+#include "fracture/check/case_file.h"
 #include "fracture/solids.h"
 #include "tests/cpu_time.h"
 #include "tests/mesh/meshes.h"

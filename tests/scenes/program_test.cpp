@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/figures.h"
-#include "engine/io/take_reader.h"
+#include "engine/io/take/take_reader.h"
 #include "scenes/load.h"
 
 namespace sunder::tests {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/rigid/manifold_build.h"
+#include "solver/rigid/collide/manifold_build.h"
 #include "tests/solver/rigid_world.h"
 
 namespace sunder::solver {

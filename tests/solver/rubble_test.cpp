@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/rigid/patch.h"
+#include "solver/rigid/collide/patch.h"
 #include "tests/solver/rigid_world.h"
 
 namespace sunder::solver {

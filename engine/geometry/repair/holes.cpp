@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/geometry/repair/clean.h"
-#include "engine/geometry/repair/triangulate.h"
+#include "engine/geometry/triangulate.h"
 
 namespace sunder {
 namespace {

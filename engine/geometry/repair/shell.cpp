@@ -10,8 +10,8 @@
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/geometry/repair/clean.h"
-#include "engine/geometry/repair/triangulate.h"
 #include "engine/geometry/repair/winding.h"
+#include "engine/geometry/triangulate.h"
 
 namespace sunder {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "engine/geometry/repair/clean.h"
 #include "engine/geometry/repair/normals.h"
-#include "engine/geometry/repair/triangulate.h"
 #include "engine/geometry/repair/winding.h"
+#include "engine/geometry/triangulate.h"
 
 namespace sunder {
 namespace {

@@ -1,0 +1,19 @@
+#include "engine/base/rotation.h"
+
+#include "engine/base/trigonometry.h"
+
+namespace sunder {
+
+Quat turn_by(const Vec3& angle_W) {
+  const double angle = angle_W.norm();
+  if (angle < 1e-3) {  // sin(x/2)/x to 1e-15
+    const double square = angle * angle;
+    const Vec3 v = (0.5 - square / 48) * angle_W;
+    return Quat(1 - square / 8, v.x(), v.y(), v.z()).normalized();
+  }
+  const SinCos half = sin_cos(0.5 * angle);
+  const Vec3 v = (half.sin / angle) * angle_W;
+  return Quat(half.cos, v.x(), v.y(), v.z());
+}
+
+}  // namespace sunder

@@ -1,0 +1,71 @@
+#include "engine/io/mesh/export_model.h"
+
+#include <array>
+#include <map>
+
+#include "engine/geometry/triangulate_face.h"
+
+namespace sunder {
+namespace {
+
+/// Names with the number's digits filled up, so that they sort.
+std::string part_name(std::size_t index, std::size_t count) {
+  const std::string digits = std::to_string(index), most = std::to_string(count - 1);
+  return "piece_" + std::string(most.size() - digits.size(), '0') + digits;
+}
+
+}  // namespace
+
+Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
+                 double explode) {
+  Model model;
+  for (const Material& material : materials) {
+    model.materials.push_back({material.name, material.surface.color});
+    model.materials.push_back({material.name + " inside", material.interior.color});
+  }
+  Box all;
+  for (const Compound& piece : pieces) all.extend(bounds(piece));
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    Model::Part part;
+    part.name = part_name(p, pieces.size());
+    part.center = bounds(pieces[p]).center();
+    part.offset = explode * (part.center - all.center());
+    for (const ConvexPtr& convex : pieces[p].convexes) {
+      auto mesh = convex->visual
+                      ? convex->visual
+                      : std::make_shared<const PolygonMesh>(polygon_mesh(convex->polyhedron));
+      part.shells.push_back(
+          {std::move(mesh), 2 * convex->material.value, 2 * convex->material.value + 1});
+    }
+    model.parts.push_back(std::move(part));
+  }
+  return model;
+}
+
+ShellTriangles triangles_of(const PolygonMesh& mesh) {
+  using Key = std::array<float, 5>;
+  ShellTriangles result;
+  std::map<std::pair<std::uint32_t, Key>, std::uint32_t> known;
+  const auto vertex = [&](const PolygonMesh::Face& face, std::uint32_t corner) {
+    const std::uint32_t point = mesh.corners[corner];
+    Vec3f normal = mesh.corner_normals[corner];
+    if (!(std::abs(normal.squaredNorm() - 1) < 1e-3f)) normal = face.plane.normal.cast<float>();
+    const Vec2f uv = mesh.corner_uvs.empty() ? planar_uv(mesh.vertices[point], face.plane.normal)
+                                             : mesh.corner_uvs[corner];
+    const Key key{normal.x(), normal.y(), normal.z(), uv.x(), uv.y()};
+    const auto next = static_cast<std::uint32_t>(result.vertices.size());
+    const auto [it, is_new] = known.emplace(std::pair{point, key}, next);
+    if (is_new) result.vertices.push_back({point, normal, uv});
+    return it->second;
+  };
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const PolygonMesh::Face& face = mesh.faces[f];
+    auto& indices = face.kind == FaceKind::kInterior ? result.interior : result.surface;
+    for (const Triangle& corners : triangulate(mesh, f)) {
+      for (const std::uint32_t corner : corners) indices.push_back(vertex(face, corner));
+    }
+  }
+  return result;
+}
+
+}  // namespace sunder

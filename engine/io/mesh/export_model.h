@@ -1,0 +1,55 @@
+// Solids on their way to other programs: closed surfaces with materials, part by part.
+//
+// Read first: make_model(); engine/io/mesh/glb_writer.h and engine/io/mesh/obj_writer.h write it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/geometry/polygon_mesh.h"
+#include "engine/model/compound.h"
+
+namespace sunder {
+
+struct Model {
+  struct Material {
+    std::string name;
+    Vec3f color = Vec3f::Ones();  ///< Linear RGB.
+  };
+  /// A watertight surface, and what it is made of outside and where it broke.
+  struct Shell {
+    std::shared_ptr<const PolygonMesh> mesh;
+    std::uint32_t surface = 0, interior = 0;  ///< Materials.
+  };
+  /// What moves as one.
+  struct Part {
+    std::string name;
+    Vec3 center = Vec3::Zero();  ///< Of its bounding box, where its shells are.
+    Vec3 offset = Vec3::Zero();  ///< How far it is moved from there.
+    std::vector<Shell> shells;
+  };
+  std::vector<Material> materials;
+  std::vector<Part> parts;
+};
+
+/// A part a compound, a shell a convex: its visual mesh, or itself if it has none. Parts are moved
+/// away from the middle of all by `explode` times their distance from it.
+Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
+                 double explode);
+
+/// A shell as triangles to draw.
+struct ShellTriangles {
+  struct Vertex {
+    std::uint32_t point = 0;  ///< Of the mesh's vertices.
+    Vec3f normal = Vec3f::Zero();
+    Vec2f uv = Vec2f::Zero();  ///< In metres of the rest frame where the mesh has none.
+  };
+  std::vector<Vertex> vertices;  ///< Each once.
+  std::vector<std::uint32_t> surface, interior;
+};
+ShellTriangles triangles_of(const PolygonMesh& mesh);
+
+}  // namespace sunder

@@ -1,0 +1,111 @@
+// Wavefront OBJ: polygons of any size, groups, negative indices; what is not a surface is passed
+// over, as every reader of this format does.
+#include <algorithm>
+#include <array>
+
+#include "engine/io/mesh/mesh_text.h"
+
+namespace sunder {
+namespace {
+
+/// One of the three lists a corner points into.
+struct ObjList {
+  const char* name;
+  std::size_t count = 0;
+  std::size_t most_wanted = 0;  ///< The highest index used so far, from 1, and its line.
+  std::size_t wanted_line = 0;
+};
+
+class ObjReader {
+ public:
+  explicit ObjReader(const MeshSource& source) : source_(source), text_(source) {}
+
+  RawMesh read() {
+    while (text_.next_line()) statement(text_.word());
+    for (const ObjList& list : lists_) {
+      if (list.most_wanted <= list.count) continue;
+      text_.fail_at(list.wanted_line, "there is no " + std::string(list.name) + " " +
+                                          std::to_string(list.most_wanted) + ", the file has " +
+                                          std::to_string(list.count) + ": export the mesh again");
+    }
+    spread();
+    return std::move(mesh_);
+  }
+
+ private:
+  void statement(std::string_view keyword) {
+    if (keyword == "v") {
+      mesh_.vertices.push_back(text_.point());
+      ++lists_[0].count;
+    } else if (keyword == "vt") {
+      const double u = text_.number_or_nan();
+      const std::string_view v = text_.word();
+      uvs_.push_back(Vec2(u, v.empty() ? 0 : text_.to_number_or_nan(v)).cast<float>());
+      ++lists_[1].count;
+    } else if (keyword == "vn") {
+      normals_.push_back(text_.point_or_nan().cast<float>());
+      ++lists_[2].count;
+    } else if (keyword == "f" || keyword == "fo") {
+      face();
+    } else if (keyword == "g" || keyword == "o") {
+      const std::string_view name = text_.word();
+      if (mesh_.groups.empty() && !mesh_.polygons.empty()) mesh_.groups.emplace_back("default");
+      mesh_.groups.emplace_back(name.empty() ? "default" : name);
+    }
+  }
+
+  void face() {
+    polygon_.clear();
+    for (std::string_view word = text_.word(); !word.empty(); word = text_.word()) {
+      std::array<std::uint32_t, 3> corner{};  // vertex, uv, normal; from 1, 0 where there is none
+      for (std::size_t k = 0; k < 3 && !word.empty(); ++k) {
+        const std::size_t slash = std::min(word.find('/'), word.size());
+        if (slash > 0) corner[k] = resolve(lists_[k], text_.to_integer(word.substr(0, slash)));
+        word.remove_prefix(std::min(slash + 1, word.size()));
+      }
+      if (corner[0] == 0) text_.fail("a corner names no vertex: export the mesh again");
+      polygon_.push_back(corner[0] - 1);
+      corner_uvs_.push_back(corner[1]);
+      corner_normals_.push_back(corner[2]);
+    }
+    add_polygon(mesh_, polygon_);
+    if (mesh_.polygons.size() % 4096 == 0) source_.check_size(mesh_);
+  }
+
+  /// An index from 1; negative ones count from the end of the list so far.
+  std::uint32_t resolve(ObjList& list, std::int64_t index) {
+    const auto count = static_cast<std::int64_t>(list.count);
+    if (index == 0 || index < -count || index > std::int64_t{0x7fffffff}) {
+      text_.fail("there is no " + std::string(list.name) + " " + std::to_string(index) + " among " +
+                 std::to_string(count) + ": export the mesh again");
+    }
+    const auto from_one = static_cast<std::size_t>(index > 0 ? index : count + index + 1);
+    if (from_one > list.most_wanted) {
+      list.most_wanted = from_one;
+      list.wanted_line = text_.line();
+    }
+    return static_cast<std::uint32_t>(from_one);
+  }
+
+  void spread() {
+    for (std::size_t c = 0; c < mesh_.corners.size(); ++c) {
+      const std::uint32_t uv = corner_uvs_[c], normal = corner_normals_[c];
+      mesh_.corner_uvs.push_back(uv > 0 ? uvs_[uv - 1] : Vec2f(Vec2f::Zero()));
+      mesh_.corner_normals.push_back(normal > 0 ? normals_[normal - 1] : Vec3f(Vec3f::Zero()));
+    }
+  }
+
+  const MeshSource& source_;
+  MeshText text_;
+  RawMesh mesh_;
+  std::vector<Vec2f> uvs_;
+  std::vector<Vec3f> normals_;
+  std::vector<std::uint32_t> polygon_, corner_uvs_, corner_normals_;
+  std::array<ObjList, 3> lists_{{{"vertex"}, {"texture coordinate"}, {"normal"}}};
+};
+
+}  // namespace
+
+RawMesh read_obj(const MeshSource& source) { return ObjReader(source).read(); }
+
+}  // namespace sunder

@@ -1,0 +1,81 @@
+// STL, in text or binary: triangles that share no vertices. Its facet normals say nothing that the
+// vertices do not, and are passed over.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "engine/io/mesh/mesh_text.h"
+
+namespace sunder {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 80, kTriangleBytes = 50;
+
+/// Of a binary file; one whose writer did not know the count when it began says 0.
+std::size_t triangle_count(std::string_view bytes) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof count);
+  return count > 0 ? count : (bytes.size() - kHeaderBytes - 4) / kTriangleBytes;
+}
+
+/// The text "solid" opens many a binary file too; but only in those, the count has a byte that no
+/// text has.
+bool is_binary(std::string_view bytes) {
+  return bytes.size() >= kHeaderBytes + 4 &&
+         (bytes.size() - kHeaderBytes - 4) / kTriangleBytes >= triangle_count(bytes) &&
+         (!bytes.starts_with("solid") ||
+          bytes.substr(kHeaderBytes, 4).find('\0') != std::string_view::npos);
+}
+
+bool is_word(std::string_view text, std::string_view lower) {
+  return std::equal(text.begin(), text.end(), lower.begin(), lower.end(),
+                    [](char a, char b) { return a == b || (a | 0x20) == b; });
+}
+
+RawMesh read_binary(std::string_view bytes) {
+  static_assert(std::endian::native == std::endian::little);
+  RawMesh mesh;
+  const char* triangle = bytes.data() + kHeaderBytes + 4;
+  for (std::size_t t = 0, n = triangle_count(bytes); t < n; ++t, triangle += kTriangleBytes) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    float coordinates[9];
+    std::memcpy(coordinates, triangle + 3 * sizeof(float), sizeof coordinates);
+    for (int v = 0; v < 3; ++v) {
+      mesh.vertices.push_back(Eigen::Map<const Vec3f>(coordinates + 3 * v).cast<double>());
+    }
+    add_polygon(mesh, std::array{first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+RawMesh read_text(const MeshSource& source) {
+  RawMesh mesh;
+  MeshText text(source);
+  std::vector<std::uint32_t> polygon;
+  bool any_keyword = false;
+  while (text.next_line()) {
+    const std::string_view keyword = text.word();
+    if (is_word(keyword, "solid")) {
+      mesh.groups.emplace_back(text.word());
+      any_keyword = true;
+    } else if (is_word(keyword, "vertex")) {
+      polygon.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back(text.point());
+    } else if (is_word(keyword, "endloop")) {
+      add_polygon(mesh, polygon);
+      polygon.clear();
+    }
+  }
+  if (!any_keyword) source.fail("not an STL file, or cut short: export the mesh again");
+  if (!polygon.empty()) text.fail("the file ends within a facet: it is cut short");
+  return mesh;
+}
+
+}  // namespace
+
+RawMesh read_stl(const MeshSource& source) {
+  return is_binary(source.bytes) ? read_binary(source.bytes) : read_text(source);
+}
+
+}  // namespace sunder

@@ -1,0 +1,126 @@
+#include "engine/io/mesh/obj_writer.h"
+
+#include <charconv>
+#include <string_view>
+#include <type_traits>
+
+#include "engine/io/bytes.h"
+
+namespace sunder {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMaterials = "materials.mtl";
+
+/// Text under way; numbers are as short as they can be without being rounded.
+class Text {
+ public:
+  Text& operator<<(std::string_view words) {
+    for (const char c : words) out_.put(c);
+    return *this;
+  }
+  template <class Number>
+  requires std::is_arithmetic_v<Number> Text& operator<<(Number number) {
+    char digits[40];
+    const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+    return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
+  }
+  template <class Derived>
+  Text& operator<<(const Eigen::MatrixBase<Derived>& vector) {
+    for (Eigen::Index i = 0; i < vector.size(); ++i) *this << (i > 0 ? " " : "") << vector(i);
+    return *this;
+  }
+  void write(const fs::path& file) const { write_file(file, out_.bytes); }
+
+ private:
+  ByteWriter out_;
+};
+
+/// Material names are words in these formats.
+std::string as_word(std::string name) {
+  for (char& c : name) {
+    if (c == ' ' || c == '\t') c = '_';
+  }
+  return name;
+}
+
+void write_materials(const fs::path& file, const Model& model) {
+  Text out;
+  for (const Model::Material& material : model.materials) {
+    out << "newmtl " << as_word(material.name) << "\nKd " << material.color << "\n";
+  }
+  out.write(file);
+}
+
+void write_triangles(Text& out, const std::string& material,
+                     const std::vector<std::uint32_t>& indices, const ShellTriangles& triangles,
+                     std::size_t first_point, std::size_t first_vertex) {
+  if (indices.empty()) return;
+  out << "usemtl " << as_word(material) << "\n";
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const std::size_t point = first_point + triangles.vertices[indices[i]].point;
+    const std::size_t vertex = first_vertex + indices[i];
+    out << (i % 3 == 0 ? "f " : " ") << point << "/" << vertex << "/" << vertex;
+    if (i % 3 == 2) out << "\n";
+  }
+}
+
+void write_part(const fs::path& file, const Model::Part& part, const Model& model) {
+  Text out;
+  out << "mtllib " << kMaterials << "\no " << part.name << "\n";
+  std::size_t first_point = 1, first_vertex = 1;
+  for (const Model::Shell& shell : part.shells) {
+    const ShellTriangles triangles = triangles_of(*shell.mesh);
+    for (const Vec3& vertex : shell.mesh->vertices) {
+      out << "v " << Vec3(vertex + part.offset) << "\n";
+    }
+    for (const ShellTriangles::Vertex& vertex : triangles.vertices) {
+      out << "vt " << vertex.uv << "\nvn " << vertex.normal << "\n";
+    }
+    write_triangles(out, model.materials[shell.surface].name, triangles.surface, triangles,
+                    first_point, first_vertex);
+    write_triangles(out, model.materials[shell.interior].name, triangles.interior, triangles,
+                    first_point, first_vertex);
+    first_point += shell.mesh->vertices.size();
+    first_vertex += triangles.vertices.size();
+  }
+  out.write(file);
+}
+
+/// Whether a folder may be replaced: all that lies in it was written here.
+void check_replaceable(const fs::path& folder) {
+  if (!fs::exists(folder)) return;
+  bool ours = fs::is_directory(folder);
+  if (ours) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      ours &= name == kMaterials || (name.starts_with("piece_") && name.ends_with(".obj"));
+    }
+  }
+  if (!ours) {
+    throw InputError(folder.string() +
+                     ": holds other files than an earlier export; name another folder");
+  }
+}
+
+}  // namespace
+
+void write_obj_folder(const fs::path& folder, const Model& model) {
+  const fs::path place = folder.has_filename() ? folder : folder.parent_path();
+  check_replaceable(place);
+  const fs::path partial = place.string() + ".part";
+  std::error_code error;
+  fs::remove_all(partial, error);
+  write_materials(partial / kMaterials, model);
+  for (const Model::Part& part : model.parts) {
+    write_part(partial / (part.name + ".obj"), part, model);
+  }
+  fs::remove_all(place, error);
+  fs::rename(partial, place, error);
+  if (error) {
+    throw InputError(place.string() + ": cannot be written; check the folder and its permissions");
+  }
+}
+
+}  // namespace sunder

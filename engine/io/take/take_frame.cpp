@@ -1,0 +1,322 @@
+// Read first: FrameCoder::write() and read(), which mirror each other.
+#include "engine/io/take/take_frame.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "engine/io/frame_parts.h"
+#include "engine/io/particle_codes.h"
+#include "engine/io/state_hash.h"
+
+namespace sunder {
+namespace {
+
+constexpr std::size_t kMostInstances = 1 << 24;
+constexpr double kPlaceSteps_m = 8192;
+constexpr double kTurnSteps = 4096;
+constexpr double kSpeedSteps_m_s = 2;  // no picture shows a speed
+
+// Columns of a body: position and rotation (gliding), velocities, flags, hash, key, centre of mass.
+constexpr std::size_t kBodyColumns = 23;
+constexpr std::size_t kBodyGlides = 7;
+// Of particles only positions: their rotations are too coarse to tell a pace from rounding.
+constexpr std::size_t kParticleGlides = 3;
+
+std::int32_t code(double value, double steps) {
+  const double scaled = value * steps;
+  if (!std::isfinite(scaled)) return 0;
+  return static_cast<std::int32_t>(std::rint(std::clamp(scaled, -2147483647.0, 2147483647.0)));
+}
+
+void put_code(std::int32_t*& to, const Vec3& v, double steps) {
+  for (int i = 0; i < 3; ++i) *to++ = code(v[i], steps);
+}
+
+void encode(const FrameBody& body, std::int32_t* to) {
+  put_code(to, body.X_WB.position, kPlaceSteps_m);
+  for (int i = 0; i < 4; ++i) *to++ = code(body.X_WB.rotation.coeffs()[i], kTurnSteps);
+  put_code(to, body.velocity_W, kSpeedSteps_m_s);
+  put_code(to, body.angular_velocity_W, kSpeedSteps_m_s);
+  *to++ = (body.is_static ? 1 : 0) | (body.asleep ? 2 : 0);
+  *to++ = short_hash(body);
+  const auto put_bits = [&](std::uint64_t bits) {
+    *to++ = static_cast<std::int32_t>(bits);
+    *to++ = static_cast<std::int32_t>(bits >> 32);
+  };
+  put_bits(body.key);
+  for (int i = 0; i < 3; ++i) put_bits(std::bit_cast<std::uint64_t>(body.com_R[i]));
+}
+
+Vec3 vector_of(const std::int32_t*& from, double steps) {
+  Vec3 v;
+  for (int i = 0; i < 3; ++i) v[i] = static_cast<double>(*from++) / steps;
+  return v;
+}
+
+FrameBody decode_body(const std::int32_t* from, std::int32_t& hash) {
+  FrameBody body;
+  body.X_WB.position = vector_of(from, kPlaceSteps_m);
+  for (int i = 0; i < 4; ++i) {
+    body.X_WB.rotation.coeffs()[i] = static_cast<double>(*from++) / kTurnSteps;
+  }
+  const double norm = body.X_WB.rotation.norm();
+  body.X_WB.rotation.coeffs() = norm > 0.5 ? Eigen::Vector4d(body.X_WB.rotation.coeffs() / norm)
+                                           : Eigen::Vector4d(0, 0, 0, 1);
+  body.velocity_W = vector_of(from, kSpeedSteps_m_s);
+  body.angular_velocity_W = vector_of(from, kSpeedSteps_m_s);
+  body.is_static = (*from & 1) != 0;
+  body.asleep = (*from++ & 2) != 0;
+  hash = *from++;
+  const auto take_bits = [&] {
+    const auto low = static_cast<std::uint32_t>(*from++);
+    return low | static_cast<std::uint64_t>(static_cast<std::uint32_t>(*from++)) << 32;
+  };
+  body.key = take_bits();
+  for (int i = 0; i < 3; ++i) body.com_R[i] = std::bit_cast<double>(take_bits());
+  if (!body.com_R.allFinite()) body.com_R.setZero();
+  return body;
+}
+
+/// Both lists ascend by key.
+std::vector<std::uint32_t> match_keys(const std::vector<FrameBody>& bodies,
+                                      const std::vector<std::uint64_t>& before) {
+  std::vector<std::uint32_t> rows(bodies.size(), kNewRow);
+  std::size_t b = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    while (b < before.size() && before[b] < bodies[i].key) ++b;
+    if (b < before.size() && before[b] == bodies[i].key) rows[i] = static_cast<std::uint32_t>(b);
+  }
+  return rows;
+}
+
+/// Whether a row may be what another was a frame ago.
+bool is_near(std::span<const std::int32_t> now, std::span<const std::int32_t> then) {
+  constexpr std::int32_t kFar = 512;  // steps of position
+  constexpr std::int32_t kTurned = 8;
+  if (now[8] != then[8]) return false;
+  for (std::size_t c = 0; c < 7; ++c) {
+    if (std::abs(std::int64_t{now[c]} - then[c]) > (c < 3 ? kFar : kTurned)) return false;
+  }
+  return true;
+}
+
+/// Debris keeps its place; where a piece went, another from the end may have taken it.
+std::vector<std::uint32_t> match_debris(const NumberTable& table, const NumberTable& before) {
+  std::vector<std::uint32_t> rows(table.rows(), kNewRow);
+  for (std::size_t r = 0; r < std::min(rows.size(), before.rows()); ++r) {
+    if (is_near(table.row(r), before.row(r))) rows[r] = static_cast<std::uint32_t>(r);
+  }
+  return rows;
+}
+
+/// Dust keeps its order but for gaps: of the next few, the one that is most like it.
+std::vector<std::uint32_t> match_dust(const NumberTable& table, const NumberTable& before) {
+  constexpr std::size_t kWindow = 24;
+  constexpr std::int64_t kSame = 8;  // so little apart it need not be another
+  std::vector<std::uint32_t> rows(table.rows(), kNewRow);
+  std::size_t expected = 0;
+  for (std::size_t r = 0; r < rows.size() && expected < before.rows(); ++r) {
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    const std::size_t end = std::min(expected + kWindow, before.rows());
+    for (std::size_t b = expected; b < end && least > kSame; ++b) {
+      const auto now = table.row(r), then = before.row(b);
+      if (!is_near(now, then)) continue;
+      std::int64_t apart = 0;
+      for (std::size_t c = 0; c < kParticleNumbers; ++c) {
+        apart += std::abs(std::int64_t{now[c]} - then[c]);
+      }
+      if (apart >= least) continue;
+      least = apart;
+      rows[r] = static_cast<std::uint32_t>(b);
+    }
+    if (rows[r] != kNewRow) expected = rows[r] + 1;
+  }
+  return rows;
+}
+
+template <class Particle>
+void write_particles(ByteWriter& out, const std::vector<Particle>& particles, TableCoder& coder,
+                     std::vector<std::uint32_t> (*match)(const NumberTable&, const NumberTable&)) {
+  NumberTable table{kParticleNumbers, {}};
+  table.numbers.reserve(particles.size() * kParticleNumbers);
+  for (const Particle& particle : particles) {
+    const ParticleCode codes = encode(particle);
+    table.numbers.insert(table.numbers.end(), codes.begin(), codes.end());
+  }
+  const std::vector<std::uint32_t> rows = match(table, coder.last());
+  coder.write(out, std::move(table), rows);
+}
+
+template <class Particle>
+std::vector<Particle> read_particles(ByteReader& in, const std::string& file, TableCoder& coder,
+                                     Particle (*decode)(const ParticleCode&)) {
+  std::vector<std::uint32_t> before;
+  const NumberTable table = coder.read(in, file, before);
+  std::vector<Particle> particles(table.rows());
+  for (std::size_t r = 0; r < particles.size(); ++r) {
+    ParticleCode codes;
+    std::ranges::copy(table.row(r), codes.begin());
+    particles[r] = decode(codes);
+  }
+  return particles;
+}
+
+/// Counted, not timed, so that the same run gives the same bytes.
+void write_report(ByteWriter& out, const Frame& frame) {
+  const FrameReport& report = frame.report;
+  out.put(report.counts);
+  for (const double value :
+       {report.mass_kg, report.kinetic_J, report.potential_J, report.momentum_residual}) {
+    out.put(value);
+  }
+  for (const std::uint32_t value :
+       {report.carried_over, report.limits_hit, report.aged, report.frozen, report.joints_lost}) {
+    out.put(value);
+  }
+  out.put(static_cast<std::uint32_t>(frame.breaks.size()));
+  for (const BreakEvent& event : frame.breaks) {
+    out.put(event.time_s);
+    out.put(event.body_key);
+    put(out, event.point_W);
+    out.put(event.energy_J);
+    out.put(event.new_area_m2);
+    out.put(event.pieces);
+  }
+}
+
+void read_report(ByteReader& in, Frame& frame) {
+  FrameReport& report = frame.report;
+  report.counts = in.take<Counts>();
+  for (double* value :
+       {&report.mass_kg, &report.kinetic_J, &report.potential_J, &report.momentum_residual}) {
+    *value = in.take<double>();
+  }
+  for (std::uint32_t* value : {&report.carried_over, &report.limits_hit, &report.aged,
+                               &report.frozen, &report.joints_lost}) {
+    *value = in.take<std::uint32_t>();
+  }
+  frame.breaks.resize(in.take_count(60));
+  for (BreakEvent& event : frame.breaks) {
+    event.time_s = in.take<double>();
+    event.body_key = in.take<std::uint64_t>();
+    event.point_W = take_vec3(in);
+    event.energy_J = in.take<double>();
+    event.new_area_m2 = in.take<double>();
+    event.pieces = in.take<std::uint32_t>();
+  }
+}
+
+}  // namespace
+
+std::int32_t short_hash(const FrameBody& body) {
+  return static_cast<std::int32_t>(hash_body(body) & 0xff);
+}
+
+FrameCoder::FrameCoder()
+    : bodies_(kBodyColumns, kBodyGlides),
+      debris_(kParticleNumbers, kParticleGlides),
+      dust_(kParticleNumbers, kParticleGlides) {}
+
+void FrameCoder::reset() {
+  bodies_.reset();
+  debris_.reset();
+  dust_.reset();
+  keys_.clear();
+  meshes_.clear();
+}
+
+void FrameCoder::write(ByteWriter& out, const Frame& frame) {
+  out.put(frame.index);
+  out.put(frame.time_s);
+  out.put(hash_state(frame));
+  out.put(static_cast<std::uint32_t>(frame.meshes->size()));
+  put(out, frame.view);
+  write_report(out, frame);
+  const std::vector<std::uint32_t> before = match_keys(frame.bodies, keys_);
+  NumberTable table{kBodyColumns, std::vector<std::int32_t>(frame.bodies.size() * kBodyColumns)};
+  for (std::size_t b = 0; b < frame.bodies.size(); ++b) {
+    encode(frame.bodies[b], table.numbers.data() + b * kBodyColumns);
+  }
+  bodies_.write(out, std::move(table), before);
+  write_instances(out, frame, before);
+  write_particles(out, frame.debris, debris_, match_debris);
+  write_particles(out, frame.dust, dust_, match_dust);
+}
+
+/// Only of bodies that are new or drawn otherwise than before: which, and their meshes.
+void FrameCoder::write_instances(ByteWriter& out, const Frame& frame,
+                                 const std::vector<std::uint32_t>& before) {
+  std::vector<std::vector<std::uint32_t>> meshes(frame.bodies.size());
+  for (const Instance& instance : frame.instances) {
+    meshes[instance.body].push_back(instance.mesh.value);
+  }
+  const std::vector<std::uint32_t> none;
+  std::vector<std::uint32_t> changed;
+  for (std::uint32_t b = 0; b < meshes.size(); ++b) {
+    if (meshes[b] != (before[b] == kNewRow ? none : meshes_[before[b]])) changed.push_back(b);
+  }
+  out.put(static_cast<std::uint32_t>(changed.size()));
+  for (const std::uint32_t b : changed) {
+    out.put(b);
+    out.put(static_cast<std::uint32_t>(meshes[b].size()));
+    for (const std::uint32_t mesh : meshes[b]) out.put(mesh);
+  }
+  meshes_ = std::move(meshes);
+  keys_.clear();
+  for (const FrameBody& body : frame.bodies) keys_.push_back(body.key);
+}
+
+TakeFrame FrameCoder::read(const std::vector<std::byte>& bytes, const std::string& file) {
+  ByteReader in(bytes, file);
+  TakeFrame take;
+  Frame& frame = take.frame;
+  frame.index = in.take<std::uint64_t>();
+  frame.time_s = in.take<double>();
+  frame.recorded_hash = in.take<std::uint64_t>();
+  take.meshes = in.take<std::uint32_t>();
+  frame.view = take_view(in);
+  read_report(in, frame);
+  std::vector<std::uint32_t> before;
+  const NumberTable table = bodies_.read(in, file, before);
+  frame.bodies.resize(table.rows());
+  take.body_hashes.resize(table.rows());
+  for (std::size_t b = 0; b < table.rows(); ++b) {
+    frame.bodies[b] = decode_body(table.row(b).data(), take.body_hashes[b]);
+  }
+  read_instances(in, file, before, take);
+  frame.debris = read_particles(in, file, debris_, decode_debris);
+  frame.dust = read_particles(in, file, dust_, decode_dust);
+  if (!in.at_end()) throw InputError(file + ": corrupt: bytes are left over");
+  return take;
+}
+
+void FrameCoder::read_instances(ByteReader& in, const std::string& file,
+                                const std::vector<std::uint32_t>& before, TakeFrame& take) {
+  std::vector<std::vector<std::uint32_t>> meshes(before.size());
+  for (std::size_t b = 0; b < before.size(); ++b) {
+    if (before[b] != kNewRow) meshes[b] = meshes_[before[b]];
+  }
+  const std::uint32_t changed = in.take_count(8);
+  for (std::uint32_t i = 0; i < changed; ++i) {
+    const auto b = in.take<std::uint32_t>();
+    if (b >= meshes.size()) throw InputError(file + ": corrupt: meshes of no body");
+    meshes[b].resize(in.take_count(4));
+    for (std::uint32_t& mesh : meshes[b]) {
+      mesh = in.take<std::uint32_t>();
+      if (mesh >= take.meshes) throw InputError(file + ": corrupt: a body shows no mesh");
+    }
+  }
+  for (std::size_t b = 0; b < meshes.size(); ++b) {
+    if (take.frame.instances.size() + meshes[b].size() > kMostInstances) {
+      throw InputError(file + ": corrupt: more to draw than a frame can hold");
+    }
+    for (const std::uint32_t mesh : meshes[b]) {
+      take.frame.instances.push_back({MeshIndex(mesh), static_cast<std::uint32_t>(b)});
+    }
+  }
+  meshes_ = std::move(meshes);
+}
+
+}  // namespace sunder

@@ -1,0 +1,200 @@
+// Read first: the constructor (where the blocks are), then next().
+#include "engine/io/take/take_reader.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/io/frame_parts.h"
+
+namespace sunder {
+
+TakeReader::TakeReader(const std::filesystem::path& path) : file_(path.string()) {
+  in_.open(path, std::ios::binary | std::ios::ate);
+  if (!in_ || !std::filesystem::is_regular_file(path)) {
+    throw InputError(file_ + ": cannot be read; check the name and permissions");
+  }
+  size_ = static_cast<std::uint64_t>(in_.tellg());
+  char magic[sizeof kTakeMagic] = {};
+  in_.seekg(0);
+  in_.read(magic, sizeof magic);
+  if (!in_ || std::memcmp(magic, kTakeMagic, sizeof magic) != 0) {
+    const bool other = in_ && std::memcmp(magic, kTakeMagic, kTakeName) == 0;
+    throw InputError(file_ + (other
+                                  ? ": a take of another version of sunder (" +
+                                        std::string(1, magic[kTakeName]) + ", this one reads " +
+                                        kTakeMagic[kTakeName] + "); record it again"
+                                  : std::string(": not a take; sunder simulate --take makes one")));
+  }
+  if (!read_index()) scan();
+  if (!materials_block_ || frame_blocks_.empty()) {
+    throw InputError(file_ + ": " + (damage_.empty() ? "the take is cut short" : damage_) +
+                     "; no frame can be read");
+  }
+  const auto content = content_at(*materials_block_, other_unpacker_);
+  ByteReader in(content, file_);
+  materials_ = std::make_shared<const std::vector<Material>>(take_materials(in));
+}
+
+/// Blocks follow each other in the order of the run, each with its frame or mesh number.
+void TakeReader::note(const BlockPlace& place) {
+  const auto wrong = [&] { throw InputError(file_ + ": corrupt: its blocks are out of order"); };
+  switch (place.kind) {
+    case BlockKind::kMaterials:
+      if (materials_block_) wrong();
+      materials_block_ = place;
+      break;
+    case BlockKind::kMeshes:
+      mesh_blocks_.push_back(place);
+      break;
+    case BlockKind::kKeyFrame:
+    case BlockKind::kFrame:
+      if (place.first != frame_blocks_.size()) wrong();
+      if (frame_blocks_.empty() && place.kind != BlockKind::kKeyFrame) wrong();
+      frame_blocks_.push_back(place);
+      break;
+    case BlockKind::kIndex:
+      complete_ = true;
+      break;
+  }
+}
+
+/// False if there is no index, or none that is right: scan() does without.
+bool TakeReader::read_index() {
+  constexpr std::uint64_t kEnd = 8 + sizeof kIndexMagic;
+  std::vector<std::byte> end(kEnd);
+  if (size_ < sizeof kTakeMagic + kEnd) return false;
+  in_.clear();
+  in_.seekg(static_cast<std::streamoff>(size_ - kEnd));
+  in_.read(reinterpret_cast<char*>(end.data()), static_cast<std::streamsize>(kEnd));
+  if (!in_ || std::memcmp(end.data() + 8, kIndexMagic, sizeof kIndexMagic) != 0) return false;
+  ByteReader at(end, file_);
+  const std::optional<Block> block = block_at(at.take<std::uint64_t>());
+  if (!block || block->header.kind != BlockKind::kIndex) return false;
+  try {
+    other_unpacker_.restart();
+    const auto content = other_unpacker_.unpack(block->packed, block->header.content_bytes, file_);
+    ByteReader in(content, file_);
+    while (!in.at_end()) {
+      BlockPlace place;
+      place.offset = in.take<std::uint64_t>();
+      place.kind = in.take<BlockKind>();
+      place.first = in.take<std::uint32_t>();
+      note(place);
+    }
+  } catch (const InputError&) {
+    materials_block_.reset();
+    mesh_blocks_.clear();
+    frame_blocks_.clear();
+    return false;
+  }
+  complete_ = true;
+  return true;
+}
+
+/// Goes from block to block until the file ends or makes no sense.
+void TakeReader::scan() {
+  complete_ = false;
+  for (std::uint64_t at = sizeof kTakeMagic; at < size_ && !complete_;) {
+    const std::optional<Block> block = block_at(at);
+    if (!block) {
+      damage_ = "the take is cut short or corrupt behind frame " +
+                std::to_string(static_cast<std::int64_t>(frame_blocks_.size()) - 1) + " (byte " +
+                std::to_string(at) + ")";
+      return;
+    }
+    note({at, block->header.kind, block->header.first});
+    at += sizeof(BlockHeader) + block->header.bytes;
+  }
+}
+
+/// Nothing unless a whole block, unharmed, is there.
+std::optional<TakeReader::Block> TakeReader::block_at(std::uint64_t offset) {
+  if (offset > size_ || size_ - offset < sizeof(BlockHeader)) return {};
+  Block block;
+  in_.clear();
+  in_.seekg(static_cast<std::streamoff>(offset));
+  in_.read(reinterpret_cast<char*>(&block.header), sizeof(BlockHeader));
+  if (!in_ || !is_sound(block.header)) return {};
+  if (block.header.bytes > size_ - offset - sizeof(BlockHeader)) return {};
+  block.packed.resize(block.header.bytes);
+  in_.read(reinterpret_cast<char*>(block.packed.data()),
+           static_cast<std::streamsize>(block.packed.size()));
+  if (!in_ || !matches(block.header, block.packed)) return {};
+  return block;
+}
+
+std::vector<std::byte> TakeReader::content_at(const BlockPlace& place, Unpacker& unpacker) {
+  const std::optional<Block> block = block_at(place.offset);
+  if (!block || block->header.kind != place.kind || block->header.first != place.first) {
+    throw InputError(file_ + ": corrupt at byte " + std::to_string(place.offset));
+  }
+  if (place.kind != BlockKind::kFrame) unpacker.restart();
+  return unpacker.unpack(block->packed, block->header.content_bytes, file_);
+}
+
+void TakeReader::seek(std::uint32_t frame) { next_ = std::min(frame, frames() - 1); }
+
+FramePtr TakeReader::next() {
+  if (next_ >= frames()) return nullptr;
+  // On from where the coder stands, or from the key frame before.
+  std::uint32_t at = next_;
+  if (decoded_ && *decoded_ < next_ && next_ - *decoded_ <= kFramesAChunk) {
+    at = *decoded_ + 1;
+  } else {
+    while (frame_blocks_[at].kind != BlockKind::kKeyFrame) --at;
+  }
+  try {
+    for (; at < next_; ++at) decode(at);
+    FramePtr frame = decode(at);
+    ++next_;
+    return frame;
+  } catch (const InputError& error) {
+    damage_ = std::string(error.what()) + "; it can be played up to frame " +
+              std::to_string(std::int64_t{at} - 1);
+    frame_blocks_.resize(at);
+    return nullptr;
+  }
+}
+
+FramePtr TakeReader::decode(std::uint32_t frame) {
+  decoded_.reset();
+  const BlockPlace& place = frame_blocks_[frame];
+  const std::vector<std::byte> content = content_at(place, frame_unpacker_);
+  if (place.kind == BlockKind::kKeyFrame) coder_.reset();
+  TakeFrame take = coder_.read(content, file_);
+  read_meshes(take.meshes);
+  const auto fits = [&](MaterialIndex material) { return material.value < materials_->size(); };
+  const auto all_fit = [&](const auto& particles) {
+    return std::ranges::all_of(particles, [&](const auto& p) { return fits(p.material); });
+  };
+  if (!all_fit(take.frame.debris) || !all_fit(take.frame.dust)) {
+    throw InputError(file_ + ": corrupt: a particle has no material");
+  }
+  auto result = std::make_shared<Frame>(std::move(take.frame));
+  result->materials = materials_;
+  result->meshes = meshes_;
+  body_hashes_ = std::move(take.body_hashes);
+  decoded_ = frame;
+  return result;
+}
+
+/// The store grows as the run's did; frames given out keep the store they have.
+void TakeReader::read_meshes(std::uint32_t until) {
+  if (meshes_->size() >= until) return;
+  meshes_ = std::make_shared<MeshStore>(*meshes_);
+  while (meshes_->size() < until) {
+    if (mesh_blocks_read_ == mesh_blocks_.size() ||
+        mesh_blocks_[mesh_blocks_read_].first != meshes_->size()) {
+      throw InputError(file_ + ": corrupt: meshes are missing");
+    }
+    const auto content = content_at(mesh_blocks_[mesh_blocks_read_], other_unpacker_);
+    ByteReader in(content, file_);
+    const std::uint32_t count = in.take_count(kLeastMeshBytes);
+    for (std::uint32_t m = 0; m < count; ++m) {
+      meshes_->push_back(std::make_shared<const Mesh>(take_mesh(in, file_, materials_->size())));
+    }
+    ++mesh_blocks_read_;
+  }
+}
+
+}  // namespace sunder

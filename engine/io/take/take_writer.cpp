@@ -1,0 +1,132 @@
+// Read first: write(), what a frame becomes.
+#include "engine/io/take/take_writer.h"
+
+#include "engine/io/frame_parts.h"
+
+namespace sunder {
+namespace {
+
+constexpr std::size_t kMostWaiting = 16;  // frames; a run that is faster waits
+
+}  // namespace
+
+TakeWriter::TakeWriter(const std::filesystem::path& path) : path_(path) {
+  std::error_code error;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+  out_.open(path, std::ios::binary);
+  out_.write(kTakeMagic, sizeof kTakeMagic);
+  out_.flush();
+  if (!out_) {
+    throw InputError(path.string() + ": cannot be written; check the folder and its permissions");
+  }
+  offset_ = sizeof kTakeMagic;
+  thread_ = std::thread([this] { work(); });
+}
+
+TakeWriter::~TakeWriter() { stop(); }
+
+void TakeWriter::take(const FramePtr& frame) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return failure_ || queue_.size() < kMostWaiting; });
+  if (failure_) std::rethrow_exception(failure_);
+  queue_.push_back(frame);
+  changed_.notify_all();
+}
+
+void TakeWriter::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void TakeWriter::finish() {
+  stop();
+  if (failure_) std::rethrow_exception(failure_);
+  ByteWriter index;
+  for (const BlockPlace& place : places_) {
+    index.put(place.offset);
+    index.put(place.kind);
+    index.put(place.first);
+  }
+  const std::uint64_t at = offset_;
+  other_packer_.restart();
+  append(BlockKind::kIndex, 0, index.bytes.size(), other_packer_.pack(index.bytes));
+  ByteWriter end;
+  end.put(at);
+  for (const char c : kIndexMagic) end.put(c);
+  out_.write(reinterpret_cast<const char*>(end.bytes.data()),
+             static_cast<std::streamsize>(end.bytes.size()));
+  offset_ += end.bytes.size();
+  out_.close();
+  if (!out_) throw InputError(path_.string() + ": cannot be written; is the disk full?");
+}
+
+void TakeWriter::work() {
+  for (;;) {
+    FramePtr frame;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return closed_ || !queue_.empty(); });
+      if (queue_.empty()) return;
+      frame = std::move(queue_.front());
+      queue_.pop_front();
+      changed_.notify_all();
+    }
+    try {
+      write(*frame);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      failure_ = std::current_exception();
+      changed_.notify_all();
+      return;
+    }
+  }
+}
+
+void TakeWriter::write(const Frame& frame) {
+  if (!materials_) {
+    materials_ = frame.materials;
+    ByteWriter content;
+    put(content, *materials_);
+    append(BlockKind::kMaterials, 0, content.bytes.size(), other_packer_.pack(content.bytes));
+  }
+  SUNDER_CHECK(frame.materials == materials_);  // a take is of one run
+  write_new_meshes(frame);
+  const bool is_key = frames_ % kFramesAChunk == 0;
+  if (is_key) {
+    coder_.reset();
+    frame_packer_.restart();
+  }
+  ByteWriter content;
+  coder_.write(content, frame);
+  append(is_key ? BlockKind::kKeyFrame : BlockKind::kFrame, frames_++, content.bytes.size(),
+         frame_packer_.pack(content.bytes));
+  out_.flush();
+  if (!out_) throw InputError(path_.string() + ": cannot be written; is the disk full?");
+}
+
+void TakeWriter::write_new_meshes(const Frame& frame) {
+  SUNDER_CHECK(frame.meshes->size() >= meshes_);
+  if (frame.meshes->size() == meshes_) return;
+  ByteWriter content;
+  content.put(static_cast<std::uint32_t>(frame.meshes->size() - meshes_));
+  for (std::size_t m = meshes_; m < frame.meshes->size(); ++m) put(content, *(*frame.meshes)[m]);
+  other_packer_.restart();
+  append(BlockKind::kMeshes, static_cast<std::uint32_t>(meshes_), content.bytes.size(),
+         other_packer_.pack(content.bytes));
+  meshes_ = frame.meshes->size();
+}
+
+void TakeWriter::append(BlockKind kind, std::uint32_t first, std::uint64_t content_bytes,
+                        const std::vector<std::byte>& packed) {
+  const std::vector<std::byte> block = make_block(kind, first, content_bytes, packed);
+  places_.push_back({offset_, kind, first});
+  out_.write(reinterpret_cast<const char*>(block.data()),
+             static_cast<std::streamsize>(block.size()));
+  offset_ += block.size();
+}
+
+}  // namespace sunder

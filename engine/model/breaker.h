@@ -1,0 +1,127 @@
+// The seam between the world, which decides whether a solid breaks, and fracture, which decides
+// into what.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/model/structure.h"
+
+namespace sunder {
+
+/// A blow on a compound, in its rest frame R.
+struct Hit {
+  Vec3 point_R = Vec3::Zero();
+  Vec3 direction_R = Vec3::UnitY();  ///< Unit, the way the blow pushes (into the solid).
+  std::uint32_t convex = 0;          ///< Slot of the one that was hit.
+  double energy_J = 0;
+};
+
+/// Everything a break depends on besides the compound: the same command gives the same pieces.
+struct BreakCommand {
+  std::uint64_t event = 1;  ///< Unique in a run, >= 1; names the planes the break makes.
+  std::uint64_t seed = 0;
+  PatternSpec pattern;
+  Mat3 stretch_P = Mat3::Identity();  ///< Deforms the pattern first; of positive determinant.
+  Pose X_RP;                          ///< Pose of the pattern; its origin is the impact.
+  double radius_m = 1;                ///< Of the impact sphere; infinity breaks the whole compound.
+  Fit fit;                            ///< How new convexes are fitted to their visual meshes.
+};
+
+/// A face that a break laid bare, in the rest frame R.
+struct ExposedFace {
+  std::uint32_t piece = 0;
+  std::uint32_t convex = 0;  ///< Index in that piece's compound.
+  std::uint32_t face = 0;
+  double area_m2 = 0;
+};
+
+/// What a compound becomes. Pieces are islands (connected); volumes sum to the parent's.
+struct BreakPlan {
+  std::vector<Compound> pieces;
+  double new_area_m2 = 0;  ///< Crack surface, both sides counted once.
+  std::vector<ExposedFace> exposed;
+  double debris_volume_m3 = 0;  ///< Under the volume floor: mass that became debris.
+  std::uint32_t untouched = 0;  ///< Convexes handed on as they were.
+  std::uint32_t welded = 0;     ///< Cells that became one convex.
+  std::uint32_t failed = 0;     ///< Convexes left whole because their parts did not add up.
+  double clip_ms = 0;           ///< Wall time of cutting and welding,
+  double islands_ms = 0;        ///< and of grouping and finding islands; no part of the result.
+
+  bool broke() const { return pieces.size() > 1; }
+};
+
+/// What a break does to a structure, and what comes off it.
+struct BreakEdit {
+  std::vector<std::uint32_t> removed;  ///< Slots whose convexes were cut or came off; ascending.
+  /// Convexes that take new slots, in this order from the structure's slot_count() on.
+  std::vector<ConvexPtr> added;
+  std::vector<std::uint8_t> added_anchors;
+  std::vector<Bond> bonds;    ///< Contacts of added convexes: a and b are slots.
+  std::vector<Ghost> ghosts;  ///< Of added convexes, and of them with others, by slots.
+  /// The pieces that came off, and the figures of the whole break. Exposed faces name piece p as
+  /// p + 1; 0 is the structure, and their convex a slot of it.
+  BreakPlan loose;
+  bool changed = false;   ///< Something came off; otherwise nothing above is set.
+  std::vector<Bond> cut;  ///< Contacts that hold no longer, by slots; also where nothing came off.
+
+  /// The convex of a face of `loose.exposed`; of `structure` as it was before the edit.
+  const Convex& exposed_convex(const Structure& structure, const ExposedFace& face) const {
+    if (face.piece > 0) return *loose.pieces[face.piece - 1].convexes[face.convex];
+    const std::uint32_t slots = structure.slot_count();
+    return face.convex < slots ? *structure.convex(face.convex) : *added[face.convex - slots];
+  }
+};
+
+/// A force on a convex of a structure, in its rest frame R.
+struct Load {
+  std::uint32_t convex = 0;  ///< Slot.
+  Vec3 force_N = Vec3::Zero();
+  Vec3 point_R = Vec3::Zero();
+  Vec3 torque_Nm = Vec3::Zero();  ///< Besides that of the force.
+};
+
+/// What a breaker knows of a compound under load and wants back when it is asked again; only it
+/// knows what is inside. Never changed once made.
+class LoadMemory {
+ public:
+  virtual ~LoadMemory() = default;
+};
+using LoadMemoryPtr = std::shared_ptr<const LoadMemory>;
+
+/// What a compound bears, besides itself.
+struct LoadCase {
+  std::span<const Material> materials;
+  std::span<const Load> loads;
+  Vec3 gravity_R = Vec3::Zero();
+  /// To spend on the answer, in visits of bonds, about: a few iterations are made in any case.
+  std::uint64_t most_work = 0;
+  LoadMemoryPtr memory;  ///< Of this compound, or of what it was a piece of; null at first.
+};
+
+/// What becomes of it.
+struct LoadAnswer {
+  BreakEdit edit;          ///< Bonds that were too weak are cut; what they held comes off.
+  double worst = 0;        ///< Highest stress in what is left, in parts of the limit; <= 1.
+  bool settled = false;    ///< Nothing is left to do until the load, or the compound, changes.
+  std::uint64_t work = 0;  ///< Spent.
+  LoadMemoryPtr memory;    ///< For the next time, of any of the pieces.
+};
+
+/// Pure and const: any thread may ask about any structure.
+class Breaker {
+ public:
+  virtual ~Breaker() = default;
+  /// The command that a blow amounts to; `material` is that of the convex hit.
+  virtual BreakCommand command(const Convex& convex, const Material& material, const Hit& hit,
+                               std::uint64_t event, std::uint64_t seed) const = 0;
+  /// Carries a command out, at a cost that depends on what it reaches; the structure stays as it
+  /// is. A pattern that misses changes nothing.
+  virtual BreakEdit plan(const Structure& structure, const BreakCommand& command) const = 0;
+  /// Which bonds of a structure a steady load breaks, judged by the stress that balances it.
+  virtual LoadAnswer bear(const Structure& structure, const LoadCase& load) const = 0;
+};
+
+}  // namespace sunder

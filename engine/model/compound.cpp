@@ -1,0 +1,100 @@
+#include "engine/model/compound.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "engine/base/check.h"
+#include "engine/geometry/polygon_mesh.h"
+
+namespace sunder {
+namespace {
+
+/// Calls `visit` with every convex, and every ghost that weighs, and its sign.
+template <class Visit>
+void for_each_solid(const Compound& compound, const Visit& visit) {
+  for (const ConvexPtr& convex : compound.convexes) visit(*convex, 1.0);
+  for (const Ghost& ghost : compound.ghosts) {
+    if (ghost.sign != 0) visit(*ghost.convex, static_cast<double>(ghost.sign));
+  }
+}
+
+}  // namespace
+
+ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
+                      std::shared_ptr<const PolygonMesh> visual) {
+  auto convex = std::make_shared<Convex>();
+  convex->solid = visual ? mass_properties(*visual) : mass_properties(polyhedron);
+  convex->visual = std::move(visual);
+  convex->box = bounds(polyhedron);
+  convex->material = material;
+  convex->polyhedron = std::move(polyhedron);
+  return convex;
+}
+
+bool Compound::is_anchored() const {
+  return std::any_of(anchored.begin(), anchored.end(), [](std::uint8_t flag) { return flag != 0; });
+}
+
+std::uint8_t inherited_anchors(std::uint8_t anchored, const Box& parent, const Box& part) {
+  if (anchored == 0) return 0;
+  std::uint8_t kept = 0;
+  const Vec3 near = 1e-9 * parent.extent();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto low = anchor_side(axis, false), high = anchor_side(axis, true);
+    if (part.min[axis] <= parent.min[axis] + near[axis]) kept |= low;
+    if (part.max[axis] >= parent.max[axis] - near[axis]) kept |= high;
+  }
+  return kept & anchored;
+}
+
+Weight weigh(const Compound& compound, std::span<const Material> materials) {
+  Weight weight;
+  Vec3 moment = Vec3::Zero();
+  for_each_solid(compound, [&](const Convex& convex, double sign) {
+    SUNDER_CHECK(convex.material.value < materials.size());
+    const double density = sign * materials[convex.material.value].density_kg_m3;
+    weight.mass_kg += density * convex.solid.volume_m3;
+    moment += density * convex.solid.volume_m3 * convex.solid.centroid;
+  });
+  if (weight.mass_kg <= 0) return weight;
+  weight.com_R = moment / weight.mass_kg;
+  for_each_solid(compound, [&](const Convex& convex, double sign) {
+    const double density = sign * materials[convex.material.value].density_kg_m3;
+    const double mass = density * convex.solid.volume_m3;
+    const Vec3 arm = convex.solid.centroid - weight.com_R;
+    weight.inertia_R += density * convex.solid.inertia() +
+                        mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  });
+  return weight;
+}
+
+double volume(const Compound& compound) {
+  double sum = 0;
+  for_each_solid(compound,
+                 [&](const Convex& convex, double sign) { sum += sign * convex.solid.volume_m3; });
+  return sum;
+}
+
+Box bounds(const Compound& compound) {
+  Box box;
+  for (const ConvexPtr& convex : compound.convexes) box.extend(convex->box);
+  return box;
+}
+
+double distance_outside(const Convex& convex, const Vec3& point_R) {
+  double farthest = 0;
+  for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces)
+    farthest = std::max(farthest, face.plane.distance(point_R));
+  return farthest;
+}
+
+void sort_ghosts(std::vector<Ghost>& ghosts) {
+  const auto key = [](const Ghost& ghost) {
+    const Vec3& at = ghost.convex->solid.centroid;
+    return std::tie(ghost.of, ghost.sign, at.x(), at.y(), at.z());
+  };
+  std::stable_sort(ghosts.begin(), ghosts.end(),
+                   [&](const Ghost& a, const Ghost& b) { return key(a) < key(b); });
+}
+
+}  // namespace sunder

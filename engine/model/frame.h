@@ -1,0 +1,144 @@
+// A frame: everything there is to see and to count at one instant, and the seams that pass frames
+// on (paper: none; see docs/architecture.md, "Follow one frame").
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/base/types.h"
+#include "engine/model/material.h"
+#include "engine/model/mesh.h"
+
+namespace sunder {
+
+/// Camera, light and ground of a scene.
+struct View {
+  Vec3 eye_W = Vec3(6, 4, 10);
+  Vec3 target_W = Vec3(0, 1, 0);
+  double fov_rad = 0.8;                             ///< Vertical.
+  Vec3 to_sun_W = Vec3(0.5, 0.7, 0.4);              ///< Towards the sun, any length.
+  Vec3f ground_color = Vec3f(0.42f, 0.38f, 0.32f);  ///< Linear RGB.
+  double ground_m = 0;                              ///< Height of the ground plane.
+};
+
+/// A body at one instant. `key` is unique for a run and never reused.
+struct FrameBody {
+  std::uint64_t key = 0;
+  Pose X_WB;
+  Vec3 com_R = Vec3::Zero();  ///< Origin of B in the rest frame R.
+  Vec3 velocity_W = Vec3::Zero();
+  Vec3 angular_velocity_W = Vec3::Zero();
+  bool is_static = false;
+  bool asleep = false;
+};
+
+/// A mesh drawn on a body: world = X_WB * (origin_R − com_R + position).
+struct Instance {
+  MeshIndex mesh;
+  std::uint32_t body = 0;  ///< Index in Frame::bodies.
+};
+
+/// A piece of debris: one of kDebrisVariants chips, inscribed in a sphere.
+struct FrameDebris {
+  Vec3f position_W = Vec3f::Zero();
+  Quatf rotation_WD = Quatf::Identity();
+  float radius_m = 0;
+  MaterialIndex material;
+  std::uint8_t variant = 0;
+};
+
+/// A puff of dust.
+struct FrameDust {
+  Vec3f position_W = Vec3f::Zero();
+  Quatf rotation_WD = Quatf::Identity();
+  float radius_m = 0;
+  float opacity = 0;  ///< 0 to 1.
+  MaterialIndex material;
+};
+
+struct BreakEvent {
+  double time_s = 0;
+  std::uint64_t body_key = 0;  ///< Of the body that broke.
+  Vec3 point_W = Vec3::Zero();
+  double energy_J = 0;  ///< Taken from the impact.
+  double new_area_m2 = 0;
+  double plan_ms = 0;  ///< Wall time of the fracture.
+  std::uint32_t pieces = 0;
+};
+
+/// The stages of a step, in order.
+enum class Stage { kAct, kCollide, kBreak, kSolve, kLoad, kParticles, kSnapshot };
+inline constexpr int kStages = 7;
+inline constexpr const char* kStageNames[kStages] = {"act",  "collide",   "break",   "solve",
+                                                     "load", "particles", "snapshot"};
+
+/// Counted, not timed: the same on every machine.
+struct Counts {
+  std::uint32_t bodies = 0;  ///< Dynamic.
+  std::uint32_t awake = 0;
+  std::uint32_t convexes = 0;
+  std::uint32_t compounds = 0;
+  std::uint32_t contacts = 0;
+  std::uint32_t debris = 0;
+  std::uint32_t dust = 0;
+};
+
+/// The books of a frame.
+struct FrameReport {
+  double stage_ms[kStages] = {};  ///< Summed over the frame's steps.
+  Counts counts;
+  double mass_kg = 0;  ///< Everything: debris, what the script took and shots yet to come included.
+  double kinetic_J = 0;
+  double potential_J = 0;
+  /// |change of momentum − external impulses| of the frame over the momentum that changed hands.
+  double momentum_residual = 0;
+  std::uint32_t carried_over = 0;  ///< Blows and loads waiting for a later step's budget.
+  std::uint32_t failed = 0;        ///< Convexes that a break left whole, as they would not add up.
+  std::uint32_t limits_hit = 0;
+  std::uint32_t aged = 0;  ///< Fragments that became debris to make room.
+  std::uint32_t frozen = 0;
+  std::uint32_t joints_lost = 0;  ///< Broken by their load, or without a piece to hold on to.
+  std::vector<float> penetrations_m;
+};
+
+/// One instant, immutable once made; frames share what did not change.
+struct Frame {
+  std::uint64_t index = 0;
+  double time_s = 0;
+  View view;
+  std::shared_ptr<const std::vector<Material>> materials;
+  std::shared_ptr<const MeshStore> meshes;
+  std::vector<FrameBody> bodies;  ///< Ascending by key.
+  std::vector<Instance> instances;
+  std::vector<FrameDebris> debris;
+  std::vector<FrameDust> dust;
+  std::vector<BreakEvent> breaks;  ///< Since the previous frame.
+  FrameReport report;
+  /// Of a frame from a take: the hash of the state as it was, which is stored less exactly; else 0.
+  std::uint64_t recorded_hash = 0;
+};
+using FramePtr = std::shared_ptr<const Frame>;
+
+/// Where frames come from: a simulation, a take.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  /// The next frame; null at the end.
+  virtual FramePtr next() = 0;
+};
+
+/// Where frames go: video, images, statistics, state hash.
+class FrameSink {
+ public:
+  virtual ~FrameSink() = default;
+  virtual void take(const FramePtr& frame) = 0;
+  /// Called once after the last frame; writes what is only known then.
+  virtual void finish() {}
+};
+
+/// The main loop: every frame of the source, to every sink, in order.
+void pump(FrameSource& source, std::span<FrameSink* const> sinks);
+
+}  // namespace sunder

@@ -1,0 +1,101 @@
+// What solids are made of: how heavy, how strong, how they break and what they look like.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/base/index.h"
+#include "engine/base/types.h"
+#include "engine/geometry/approximate_hull.h"
+
+namespace sunder {
+
+/// The procedural texture of a face, evaluated in the rest frame of the solid.
+enum class Texture : std::uint8_t { kPlain, kBrick, kConcrete, kPlaster, kWood, kGlass, kMetal };
+
+struct Look {
+  Texture texture = Texture::kPlain;
+  Vec3f color = Vec3f(0.6f, 0.6f, 0.6f);  ///< Linear RGB albedo.
+};
+
+/// What comes off a square metre of new crack surface, for the eye (paper section 5). None by
+/// default. 0 < debris_smallest_m <= debris_largest_m.
+struct Crumbling {
+  double particles_per_m2 = 0;      ///< Debris and dust together.
+  double debris_ratio = 0.2;        ///< Part of them that is debris; the rest is dust.
+  double debris_smallest_m = 0.01;  ///< Radii follow a power law, N(> r) ~ r^-2, between these.
+  double debris_largest_m = 0.06;   ///< The size below which pieces are no rigid bodies.
+  double dust_kg_m2 = 0.02;         ///< Weighs on the air that carries it.
+  double dust_settling_m_s = 0.05;  ///< Speed of fall in still air.
+};
+
+/// How a material's cells are laid out; see fracture/pattern/pattern.h for what each does.
+struct PatternSpec {
+  enum class Kind : std::uint8_t { kNone, kVoronoi, kWeb, kRadial, kBrick, kSlabs, kGrid, kFile };
+  Kind kind = Kind::kNone;
+  int cells = 50;       ///< Voronoi: sites; radial: sectors; slabs: how many; grid: a side.
+  double falloff = 2;   ///< Voronoi: 1 = uniform; larger packs sites towards the impact.
+  int rings = 6;        ///< Web.
+  int spokes = 12;      ///< Web.
+  double jitter = 0.3;  ///< Web, radial, slabs: 0 = regular.
+  Vec3 brick_m = Vec3(0.24, 0.08, 0.12);  ///< Brick: its length, height and depth.
+  std::string file;                       ///< File: an .obj of convex cells, one a group.
+  int colors = 0;  ///< Cells are joined into this many pieces, 0: each its own.
+
+  /// How many cells a pattern of this kind has, about: the unit that fracture budgets count.
+  int cell_count() const {
+    if (kind == Kind::kWeb) return rings * spokes;
+    return kind == Kind::kGrid ? cells * cells * cells : cells;
+  }
+};
+
+/// How a harder blow breaks a material.
+struct StrongerBlow {
+  double energy_J = 0;  ///< From this on.
+  PatternSpec pattern;
+  double impact_radius_m = 1;
+};
+
+struct MaterialTag;
+using MaterialIndex = Index<MaterialTag>;
+
+struct Material {
+  std::string name;
+  double density_kg_m3 = 2000;
+  double friction = 0.6;
+  double restitution = 0;
+  /// Torque that resists rolling, over load and radius: a ball holds on slopes up to this.
+  double rolling = 0;
+  /// Least impulse of a contact that can break it.
+  double strength_Ns = 0;
+  /// Energy taken by each square metre of new crack (both sides counted once).
+  double toughness_J_m2 = 0;
+  /// kNone never breaks.
+  PatternSpec pattern;
+  /// Radius of the impact sphere (paper 3.2); infinity breaks the whole solid.
+  double impact_radius_m = 1;
+  /// In place of `pattern` and `impact_radius_m` for harder blows, ascending by energy.
+  std::vector<StrongerBlow> stronger;
+  /// Stress that breaks the bonds between its convexes, own weight and slow load included; 0:
+  /// never. Where two materials meet, the weaker decides.
+  double tensile_Pa = 0;
+  double shear_Pa = 0;
+  double compressive_Pa = 0;
+  /// Stiffness: how convexes share a load between them.
+  double youngs_Pa = 3e10;
+  /// How the convexes of a break are fitted to the visual meshes in them (paper 3.3).
+  Fit fit;
+  /// Pieces below this volume no longer break.
+  double smallest_break_m3 = 1e-3;
+  /// Pieces below this volume are debris, no bodies: they would unsettle the solver (paper 5).
+  double smallest_piece_m3 = 1e-6;
+  Look surface;
+  Look interior;
+  Crumbling crumbling;
+
+  bool breakable() const { return pattern.kind != PatternSpec::Kind::kNone; }
+  bool breaks_by_load() const { return tensile_Pa > 0 || shear_Pa > 0 || compressive_Pa > 0; }
+};
+
+}  // namespace sunder

@@ -1,0 +1,202 @@
+#include "engine/model/piece_mesh.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "engine/base/trigonometry.h"
+#include "engine/geometry/triangulate_face.h"
+
+namespace sunder {
+namespace {
+
+// A face counts as covered when less than this part of it shows: bond areas carry rounding.
+constexpr double kCovered = 1 - 1e-6;
+
+/// What overlaps what, directly or over others, found out where somebody asks.
+class Heaps {
+ public:
+  explicit Heaps(const Structure& structure) : structure_(structure) {}
+
+  static constexpr std::uint32_t kAlone = 0xffffffff;
+
+  /// The lowest slot that a convex overlaps; kAlone if it overlaps none. Faces beyond which two of
+  /// a heap lie are covered by the larger: nobody knows how far both cover it.
+  std::uint32_t of(std::uint32_t slot) {
+    if (structure_.ghosts_of(slot).empty()) return kAlone;
+    if (const auto known = lowest_.find(slot); known != lowest_.end()) return known->second;
+    std::vector<std::uint32_t> heap = {slot};
+    std::uint32_t least = slot;
+    lowest_[slot] = slot;
+    for (std::size_t i = 0; i < heap.size(); ++i) {
+      least = std::min(least, heap[i]);
+      for (const std::uint32_t number : structure_.ghosts_of(heap[i])) {
+        for (const std::uint32_t other : structure_.ghost(number).of) {
+          if (lowest_.emplace(other, other).second) heap.push_back(other);
+        }
+      }
+    }
+    for (const std::uint32_t member : heap) lowest_[member] = least;
+    return least;
+  }
+
+ private:
+  const Structure& structure_;
+  std::unordered_map<std::uint32_t, std::uint32_t> lowest_;
+};
+
+std::vector<std::uint8_t> covered_faces(const ConvexPolyhedron& polyhedron,
+                                        const std::vector<double>& covered_m2) {
+  std::vector<std::uint8_t> covered(covered_m2.size(), 0);
+  for (std::size_t f = 0; f < covered.size(); ++f) {
+    covered[f] = covered_m2[f] > 0 && covered_m2[f] >= kCovered * face_area(polyhedron, f);
+  }
+  return covered;
+}
+
+/// Marks the faces whose caps are covered: of a surface convex, caps are what touches.
+std::vector<std::uint8_t> covered_caps(const Convex& convex,
+                                       const std::vector<double>& covered_m2) {
+  const auto& faces = convex.polyhedron.faces;
+  std::vector<std::uint8_t> covered(covered_m2.size(), 0);
+  for (std::size_t cap = first_cap(*convex.visual); cap < convex.visual->faces.size(); ++cap) {
+    double sum_m2 = 0;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (faces[f].id == convex.visual->faces[cap].id) sum_m2 += covered_m2[f];
+    }
+    if (sum_m2 <= 0 || sum_m2 < kCovered * face_area(*convex.visual, cap)) continue;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (faces[f].id == convex.visual->faces[cap].id) covered[f] = 1;
+    }
+  }
+  return covered;
+}
+
+void add_polyhedron(const ConvexPolyhedron& polyhedron, const std::vector<std::uint8_t>& hidden,
+                    Mesh& mesh) {
+  for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
+    if (hidden[f]) continue;
+    const ConvexPolyhedron::Face& face = polyhedron.faces[f];
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) {
+      const std::uint32_t corner = face.first_corner + k;
+      const Vec3 position = polyhedron.vertices[polyhedron.corners[corner]] - mesh.origin_R;
+      mesh.vertices.push_back({position.cast<float>(), polyhedron.corner_normals[corner],
+                               face.kind == FaceKind::kInterior ? 1u : 0u});
+      if (k >= 2) {
+        mesh.indices.insert(mesh.indices.end(), {first, first + k - 1, first + k});
+      }
+    }
+  }
+}
+
+bool is_hidden(const Convex& convex, const std::vector<std::uint8_t>& hidden, PlaneId id) {
+  for (std::size_t f = 0; f < hidden.size(); ++f) {
+    if (convex.polyhedron.faces[f].id == id) return hidden[f] != 0;
+  }
+  return false;
+}
+
+/// The triangles of a visual mesh; corners that look alike share a vertex.
+void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, Mesh& mesh) {
+  constexpr std::uint32_t kNone = 0xffffffff;
+  const PolygonMesh& visual = *convex.visual;
+  std::vector<std::uint32_t> latest(visual.vertices.size(), kNone);  // of each of its vertices
+  for (std::size_t f = 0; f < visual.faces.size(); ++f) {
+    const PolygonMesh::Face& face = visual.faces[f];
+    if (!face.id.none() && is_hidden(convex, hidden, face.id)) continue;
+    const std::uint32_t interior = face.kind == FaceKind::kInterior ? 1 : 0;
+    for (const Triangle& triangle : triangulate(visual, f)) {
+      for (const std::uint32_t corner : triangle) {
+        const std::uint32_t vertex = visual.corners[corner];
+        const Vec3f& normal = visual.corner_normals[corner];
+        std::uint32_t& drawn = latest[vertex];
+        if (drawn == kNone || mesh.vertices[drawn].interior != interior ||
+            mesh.vertices[drawn].normal != normal) {
+          drawn = static_cast<std::uint32_t>(mesh.vertices.size());
+          const Vec3 position = visual.vertices[vertex] - mesh.origin_R;
+          mesh.vertices.push_back({position.cast<float>(), normal, interior});
+        }
+        mesh.indices.push_back(drawn);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint8_t>> hidden_faces(const Structure& structure,
+                                                    std::span<const std::uint32_t> slots) {
+  Heaps heaps(structure);
+  std::vector<std::vector<std::uint8_t>> hidden;
+  hidden.reserve(slots.size());
+  std::vector<double> covered_m2;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> most_m2;  // by face and heap beyond
+  for (const std::uint32_t slot : slots) {
+    const Convex& convex = *structure.convex(slot);
+    covered_m2.assign(convex.polyhedron.faces.size(), 0.0);
+    most_m2.clear();
+    for (const Link& link : structure.links(slot)) {
+      const std::uint32_t heap = heaps.of(link.other);
+      if (heap == Heaps::kAlone) {
+        covered_m2[link.face] += link.area_m2;
+      } else {
+        double& most = most_m2[{link.face, heap}];
+        most = std::max(most, link.area_m2);
+      }
+    }
+    for (const auto& [at, area] : most_m2) covered_m2[at.first] += area;
+    hidden.push_back(convex.is_internal() ? covered_faces(convex.polyhedron, covered_m2)
+                                          : covered_caps(convex, covered_m2));
+  }
+  return hidden;
+}
+
+std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound) {
+  std::vector<std::uint32_t> all(compound.convexes.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return hidden_faces(Structure(compound), all);
+}
+
+std::shared_ptr<const Mesh> make_mesh(const Convex& convex,
+                                      const std::vector<std::uint8_t>& hidden) {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->origin_R = convex.box.center();
+  mesh->material = convex.material;
+  if (convex.is_internal()) {
+    add_polyhedron(convex.polyhedron, hidden, *mesh);
+  } else {
+    add_visual(convex, hidden, *mesh);
+  }
+  return mesh->indices.empty() ? nullptr : mesh;
+}
+
+std::shared_ptr<const Mesh> make_ball_mesh(double radius_m, MaterialIndex material) {
+  constexpr std::uint32_t kRings = 24, kSectors = 48;
+  auto mesh = std::make_shared<Mesh>();
+  mesh->material = material;
+  for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
+    const SinCos polar = sin_cos(std::numbers::pi * ring / kRings);
+    for (std::uint32_t sector = 0; sector <= kSectors; ++sector) {
+      const SinCos around = sin_cos(2 * std::numbers::pi * (sector % kSectors) / kSectors);
+      const Vec3 normal(polar.sin * around.sin, polar.cos, polar.sin * around.cos);
+      mesh->vertices.push_back({(radius_m * normal).cast<float>(), normal.cast<float>(), 0});
+    }
+  }
+  constexpr std::uint32_t kRow = kSectors + 1;
+  for (std::uint32_t ring = 0; ring < kRings; ++ring) {
+    for (std::uint32_t sector = 0; sector < kSectors; ++sector) {
+      const std::uint32_t top = ring * kRow + sector, bottom = top + kRow;
+      if (ring > 0) mesh->indices.insert(mesh->indices.end(), {top, bottom, top + 1});
+      if (ring + 1 < kRings) {
+        mesh->indices.insert(mesh->indices.end(), {top + 1, bottom, bottom + 1});
+      }
+    }
+  }
+  return mesh;
+}
+
+}  // namespace sunder

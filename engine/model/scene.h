@@ -1,0 +1,137 @@
+// A scene: everything a run starts from. Made by scenes/ from a file, or by hand in code.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/model/compound.h"
+#include "engine/model/frame.h"
+#include "engine/model/material.h"
+#include "engine/model/physics.h"
+
+namespace sunder {
+
+/// A compound placed in the world; held in place if any of its convexes is anchored.
+struct Solid {
+  std::string name;
+  Compound compound;
+  Pose X_WR;
+  Vec3 velocity_W = Vec3::Zero();
+  Vec3 angular_velocity_W = Vec3::Zero();
+};
+
+struct Ball {
+  std::string name;
+  double radius_m = 0.5;
+  MaterialIndex material;
+  Vec3 center_W = Vec3::Zero();
+  Vec3 velocity_W = Vec3::Zero();
+};
+
+/// A ball that appears at a time. A wrecking ball hangs on a chain that reaches from where it hangs
+/// to its surface, or, without links, on a rope without weight to its centre.
+struct Shot {
+  double time_s = 0;
+  Ball ball;
+  std::optional<Vec3> hangs_from_W = std::nullopt;
+  std::vector<Solid> links = {};  ///< From the top down, in one line and equally long.
+};
+
+/// What holds two things of the scene together, or one and the world, as they stand at the start.
+struct Tie {
+  JointDesc::Kind kind = JointDesc::Kind::kBall;
+  /// Indices of solids, then of balls; none: the world.
+  std::optional<std::uint32_t> a = std::nullopt, b = std::nullopt;
+  Vec3 at_W = Vec3::Zero();  ///< On a; but for kDistance and kRope, on both.
+  Vec3 to_W = Vec3::Zero();  ///< kDistance, kRope: on b.
+  Vec3 axis_W = Vec3::UnitZ();
+  double breaking_N = std::numeric_limits<double>::infinity();
+  double breaking_Nm = std::numeric_limits<double>::infinity();
+  bool collide = false;
+};
+
+/// An impulse on every face that sees the centre: per square metre, falling with the square of the
+/// distance left to `radius_m`, and with slant. It breaks what its energy can.
+struct Blast {
+  double time_s = 0;
+  Vec3 center_W = Vec3::Zero();
+  double radius_m = 4;
+  double impulse_Ns_m2 = 1000;  ///< At the centre.
+};
+
+/// Supports go: solids with all that came off them, or else the anchors in a box.
+struct Removal {
+  double time_s = 0;
+  std::vector<std::uint32_t> roots;  ///< Indices of solids, then of balls, ascending.
+  Box anchors_W;
+};
+
+/// What holds a body's velocity, as far as the force goes.
+struct Drive {
+  double time_s = 0, until_s = 0;
+  std::vector<std::uint32_t> roots;  ///< As in Removal; driven until they break.
+  Vec3 velocity_W = Vec3::Zero();
+  double force_N = 1e6;
+};
+
+/// The horizontal plane y = height_m, without end.
+struct Ground {
+  double height_m = 0;
+  double friction = 0.8;
+  double restitution = 0;
+};
+
+/// Speed against accuracy.
+struct Accuracy {
+  double dt_s = 1.0 / 120;
+  int substeps = 4;
+  double error_target_m = 0;  ///< What `substeps` were worked out for; 0: they were given.
+};
+
+/// How contacts are solved; what each means is in solver/rigid/rigid_physics.h.
+struct SolverDials {
+  int max_colors = 64;
+  int sweeps = 1;
+  int lanes = 0;
+};
+
+struct Limits {
+  std::uint32_t bodies = 20000;
+  /// From so many bodies on, the smallest fragments at rest become debris; 0: when room is short.
+  std::uint32_t ageing = 0;
+  /// Parts to cut, about: cells of a pattern, and eight for each convex in its reach; breaks beyond
+  /// it wait a frame.
+  std::uint32_t parts_a_frame = 700;
+  /// Visits of bonds to find out what load breaks; what is beyond it waits a frame.
+  std::uint32_t load_work_a_frame = 400000;
+  std::uint32_t debris = 20000;  ///< Pieces of debris alive at once.
+  std::uint32_t dust = 4000;     ///< Puffs of dust alive at once.
+};
+
+struct Scene {
+  std::string name;
+  std::string description;
+  double duration_s = 6;
+  Vec3 gravity_W = Vec3(0, -9.81, 0);
+  std::uint64_t seed = 1;
+  bool planar = false;  ///< Moves in the plane z = 0 alone: the third dimension is not simulated.
+  Accuracy accuracy;
+  SolverDials solver;
+  Limits limits;
+  Ground ground;
+  View view;
+  std::vector<Material> materials;
+  std::vector<Solid> solids;
+  std::vector<Ball> balls;
+  std::vector<Tie> ties;
+  // The script, each in order of time.
+  std::vector<Shot> shots;
+  std::vector<Blast> blasts;
+  std::vector<Removal> removals;
+  std::vector<Drive> drives;
+};
+
+}  // namespace sunder

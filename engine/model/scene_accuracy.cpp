@@ -1,0 +1,172 @@
+#include "engine/model/scene_accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "engine/geometry/bvh.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kSink = 1.55;   // measured: sink over load·g·h²
+constexpr double kReach = 0.02;  // of a body's size: what is so near touches
+constexpr double kAbove = 0.25;  // of the smaller height: centres so far apart are above each other
+// A chain of blocks on springs of rotation buckles so (docs/decisions/027); near that
+// it takes a minute to.
+constexpr double kBuckleSelf = 1.96, kBuckleLoaded = 0.62;
+constexpr double kDeepest = 0.02;  // of a body's size
+
+/// A body that can move, as far as it matters here.
+struct Block {
+  Box box;
+  double height = 0;  ///< Of its centre, against gravity.
+  double mass_kg = 0;
+  double size_m = 0;
+  double tilt_1_m = 0;  ///< Its height over its narrower width squared: a wide brick tilts less.
+};
+
+std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
+  Eigen::Index upward = 0;
+  up.cwiseAbs().maxCoeff(&upward);
+  std::vector<Block> blocks;
+  for (const Solid& solid : scene.solids) {
+    if (solid.compound.is_anchored()) continue;
+    Block block;
+    for (const ConvexPtr& convex : solid.compound.convexes)
+      for (const Vec3& corner : convex->polyhedron.vertices) block.box.extend(solid.X_WR * corner);
+    block.mass_kg = weigh(solid.compound, scene.materials).mass_kg;
+    blocks.push_back(block);
+  }
+  for (const Ball& ball : scene.balls) {
+    const Vec3 reach = Vec3::Constant(ball.radius_m);
+    Block block{{ball.center_W - reach, ball.center_W + reach}};
+    block.mass_kg = scene.materials[ball.material.value].density_kg_m3 * 4 / 3 * std::numbers::pi *
+                    ball.radius_m * ball.radius_m * ball.radius_m;
+    blocks.push_back(block);
+  }
+  for (Block& block : blocks) {
+    block.height = block.box.center().dot(up);
+    Vec3 width = block.box.extent();
+    block.size_m = width.minCoeff();
+    double& tall_m = width[upward];
+    const double height_m = std::exchange(tall_m, std::numeric_limits<double>::infinity());
+    block.tilt_1_m = height_m / (width.minCoeff() * width.minCoeff());
+  }
+  return blocks;
+}
+
+/// What each block stands on.
+std::vector<std::vector<std::uint32_t>> supports(const std::vector<Block>& blocks) {
+  std::vector<Box> boxes;
+  for (const Block& block : blocks) boxes.push_back(block.box);
+  const Bvh tree(boxes);
+  std::vector<std::vector<std::uint32_t>> below(blocks.size());
+  std::vector<std::uint32_t> hits;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Vec3 reach = Vec3::Constant(kReach * blocks[i].size_m);
+    hits.clear();
+    tree.overlaps({blocks[i].box.min - reach, blocks[i].box.max + reach}, hits);
+    for (const std::uint32_t other : hits) {
+      const double least = kAbove * std::min(blocks[i].size_m, blocks[other].size_m);
+      if (blocks[i].height > blocks[other].height + least) below[i].push_back(other);
+    }
+  }
+  return below;
+}
+
+double buckling_sink_m(const LoadPath& path) {
+  const double n = path.bodies;
+  const double limit = (path.load > 2 * n ? kBuckleLoaded : kBuckleSelf) / (n * path.tilt_1_m);
+  return std::min(kDeepest * path.size_m, limit);
+}
+
+}  // namespace
+
+LoadPaths load_paths(const Scene& scene) {
+  LoadPaths found;
+  if (scene.gravity_W.isZero()) return found;
+  const std::vector<Block> blocks = blocks_of(scene, -scene.gravity_W.normalized());
+  if (blocks.empty()) return found;
+  const auto below = supports(blocks);
+  std::vector<std::uint32_t> order(blocks.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(
+      order, [&](std::uint32_t a, std::uint32_t b) { return blocks[a].height > blocks[b].height; });
+  std::vector<LoadPath> paths(blocks.size());
+  std::vector<double> carried_kg(blocks.size());
+  double most = 0, softest = 0;
+  for (const std::uint32_t i : order) {
+    LoadPath& path = paths[i];
+    ++path.bodies;
+    path.size_m = path.bodies > 1 ? std::min(path.size_m, blocks[i].size_m) : blocks[i].size_m;
+    path.tilt_1_m += blocks[i].tilt_1_m;
+    carried_kg[i] += blocks[i].mass_kg;
+    path.load = carried_kg[i] / blocks[i].mass_kg;
+    if (path.load > most) most = path.load, found.deepest = path;
+    const double need = path.load / buckling_sink_m(path);
+    if (need > softest) softest = need, found.weakest = path;
+    for (const std::uint32_t lower : below[i]) {
+      carried_kg[lower] += carried_kg[i] / static_cast<double>(below[i].size());
+      if (path.bodies > paths[lower].bodies) paths[lower] = path;
+    }
+  }
+  return found;
+}
+
+double expected_sink_m(const LoadPath& path, double gravity_m_s2, double h_s) {
+  return kSink * path.load * gravity_m_s2 * h_s * h_s;
+}
+
+int substeps_for_sink(const LoadPath& path, double gravity_m_s2, double dt_s, double target_m) {
+  const double sink_m = expected_sink_m(path, gravity_m_s2, dt_s);
+  return std::max(1, static_cast<int>(std::ceil(std::min(1e6, std::sqrt(sink_m / target_m)))));
+}
+
+int substeps_to_stand(const LoadPath& path, double gravity_m_s2, double dt_s) {
+  if (path.bodies == 0) return 1;
+  return substeps_for_sink(path, gravity_m_s2, dt_s, buckling_sink_m(path));
+}
+
+Accuracy accuracy_to_stand(const Scene& scene, int most_substeps) {
+  Accuracy accuracy = scene.accuracy;
+  const int all =
+      substeps_to_stand(load_paths(scene).weakest, scene.gravity_W.norm(), accuracy.dt_s);
+  const int steps = (all + most_substeps - 1) / most_substeps;
+  accuracy.dt_s /= steps;
+  accuracy.substeps = (all + steps - 1) / steps;
+  return accuracy;
+}
+
+std::string accuracy_warning(const Scene& scene, int most_substeps) {
+  const Accuracy& accuracy = scene.accuracy;
+  const LoadPaths paths = load_paths(scene);
+  const double g = scene.gravity_W.norm();
+  char text[400];
+  if (substeps_to_stand(paths.weakest, g, accuracy.dt_s) > accuracy.substeps) {
+    const Accuracy stand = accuracy_to_stand(scene, most_substeps);
+    std::snprintf(text, sizeof text,
+                  "%u bodies on top of each other, the lowest under %.4g times its own weight, may "
+                  "sink in and buckle: %d substeps of dt 1/%.4g s would hold them, there are %d "
+                  "of 1/%.4g s; set accuracy.substeps%s, or a finer preset",
+                  paths.weakest.bodies, paths.weakest.load, stand.substeps, 1 / stand.dt_s,
+                  accuracy.substeps, 1 / accuracy.dt_s,
+                  stand.dt_s < accuracy.dt_s ? " and accuracy.dt_s" : "");
+    return text;
+  }
+  const double sink_m = expected_sink_m(paths.deepest, g, accuracy.dt_s / accuracy.substeps);
+  if (accuracy.error_target_m > 0 && sink_m > accuracy.error_target_m) {
+    std::snprintf(text, sizeof text,
+                  "error_target_m = %g is out of reach with dt 1/%.4g s and %d substeps, the most "
+                  "there may be: about %.2g m are to be expected; lessen accuracy.dt_s",
+                  accuracy.error_target_m, 1 / accuracy.dt_s, accuracy.substeps, sink_m);
+    return text;
+  }
+  return {};
+}
+
+}  // namespace sunder

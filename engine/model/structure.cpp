@@ -1,0 +1,183 @@
+#include "engine/model/structure.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "engine/model/breaker.h"
+
+namespace sunder {
+namespace {
+
+template <class T>
+std::size_t bytes(const std::vector<T>& vector) {
+  return vector.capacity() * sizeof(T);
+}
+
+}  // namespace
+
+Structure::Structure(const Compound& compound) {
+  slots_.resize(compound.convexes.size());
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    slots_[i] = {compound.convexes[i], compound.anchored[i], {}, {}};
+    anchored_ += compound.anchored[i] != 0 ? 1 : 0;
+  }
+  size_ = slot_count();
+  for (const Bond& bond : compound.bonds) link(bond);
+  for (const Ghost& ghost : compound.ghosts) add_ghost(ghost);
+  std::vector<std::uint32_t> all(slots_.size());
+  std::iota(all.begin(), all.end(), 0u);
+  add_level(std::move(all));
+}
+
+void Structure::link(const Bond& bond) {
+  slots_[bond.a].links.push_back({bond.b, bond.face_a, bond.face_b, bond.area_m2});
+  slots_[bond.b].links.push_back({bond.a, bond.face_b, bond.face_a, bond.area_m2});
+  ++bonds_;
+}
+
+void Structure::unlink(const Bond& bond) {
+  const auto is_it = [&](std::uint32_t other, std::uint32_t face, std::uint32_t other_face) {
+    return [=](const Link& link) {
+      return std::tie(link.other, link.face, link.other_face) == std::tie(other, face, other_face);
+    };
+  };
+  bonds_ -= std::erase_if(slots_[bond.a].links, is_it(bond.b, bond.face_a, bond.face_b));
+  std::erase_if(slots_[bond.b].links, is_it(bond.a, bond.face_b, bond.face_a));
+}
+
+void Structure::add_ghost(Ghost ghost) {
+  for (const std::uint32_t slot : ghost.of) {
+    slots_[slot].ghosts.push_back(static_cast<std::uint32_t>(ghosts_.size()));
+  }
+  ghosts_.push_back(std::move(ghost));
+}
+
+void Structure::remove_ghost(std::uint32_t number) {
+  for (const std::uint32_t slot : ghosts_[number].of) std::erase(slots_[slot].ghosts, number);
+  ghosts_[number] = {};
+}
+
+void Structure::add_level(std::vector<std::uint32_t> slots) {
+  while (!levels_.empty() && levels_.back().slots.size() < 2 * slots.size()) {
+    slots.insert(slots.end(), levels_.back().slots.begin(), levels_.back().slots.end());
+    levels_.pop_back();
+  }
+  std::erase_if(slots, [&](std::uint32_t slot) { return !slots_[slot].convex; });
+  if (slots.empty()) return;
+  std::sort(slots.begin(), slots.end());
+  std::vector<Box> boxes;
+  boxes.reserve(slots.size());
+  for (const std::uint32_t slot : slots) boxes.push_back(slots_[slot].convex->box);
+  levels_.push_back({Bvh(boxes), std::move(slots)});
+}
+
+std::vector<std::uint32_t> Structure::within(const Vec3& center_R, double radius_m) const {
+  std::vector<std::uint32_t> found, hits;
+  const bool is_all = radius_m == std::numeric_limits<double>::infinity();
+  for (const Level& level : levels_) {
+    hits.clear();
+    if (is_all) {
+      hits.resize(level.slots.size());
+      std::iota(hits.begin(), hits.end(), 0u);
+    } else {
+      level.tree.within(center_R, radius_m, hits);
+    }
+    for (const std::uint32_t hit : hits) {
+      if (slots_[level.slots[hit]].convex) found.push_back(level.slots[hit]);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void Structure::remove_slot(std::uint32_t slot) {
+  Slot& gone = slots_[slot];
+  for (const Link& link : gone.links) {
+    std::erase_if(slots_[link.other].links, [&](const Link& back) { return back.other == slot; });
+  }
+  bonds_ -= gone.links.size();
+  while (!gone.ghosts.empty()) remove_ghost(gone.ghosts.back());
+  anchored_ -= gone.anchored != 0 ? 1 : 0;
+  gone = {};
+  --size_;
+}
+
+void Structure::apply(const BreakEdit& edit) {
+  for (const Bond& bond : edit.cut) unlink(bond);
+  if (!edit.changed) return;
+  for (const std::uint32_t slot : edit.removed) remove_slot(slot);
+  std::vector<std::uint32_t> fresh;
+  for (std::size_t i = 0; i < edit.added.size(); ++i) {
+    fresh.push_back(slot_count());
+    slots_.push_back({edit.added[i], edit.added_anchors[i], {}, {}});
+    anchored_ += edit.added_anchors[i] != 0 ? 1 : 0;
+  }
+  size_ += static_cast<std::uint32_t>(edit.added.size());
+  for (const Bond& bond : edit.bonds) link(bond);
+  for (const Ghost& ghost : edit.ghosts) add_ghost(ghost);
+  add_level(std::move(fresh));
+}
+
+void Structure::loosen(std::uint32_t slot) {
+  anchored_ -= slots_[slot].anchored != 0 ? 1 : 0;
+  slots_[slot].anchored = 0;
+}
+
+Compound Structure::compound() const {
+  Compound compound;
+  std::vector<std::uint32_t> index(slots_.size());
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (!slots_[i].convex) continue;
+    index[i] = static_cast<std::uint32_t>(compound.convexes.size());
+    compound.convexes.push_back(slots_[i].convex);
+    compound.anchored.push_back(slots_[i].anchored);
+  }
+  std::vector<Bond> of_slot;
+  for (std::uint32_t i = 0; i < slot_count(); ++i) {
+    of_slot.clear();
+    for (const Link& link : slots_[i].links) {
+      if (i > link.other) continue;
+      of_slot.push_back({index[i], index[link.other], link.face, link.other_face, link.area_m2});
+    }
+    std::sort(of_slot.begin(), of_slot.end(), [](const Bond& x, const Bond& y) {
+      return std::tie(x.b, x.face_a, x.face_b) < std::tie(y.b, y.face_a, y.face_b);
+    });
+    compound.bonds.insert(compound.bonds.end(), of_slot.begin(), of_slot.end());
+  }
+  for (Ghost ghost : ghosts_) {
+    if (!ghost.convex) continue;
+    for (std::uint32_t& slot : ghost.of) slot = index[slot];
+    compound.ghosts.push_back(std::move(ghost));
+  }
+  sort_ghosts(compound.ghosts);
+  return compound;
+}
+
+double Structure::bytes_per_convex() const {
+  std::size_t sum = bytes(slots_);
+  for (const Slot& slot : slots_) {
+    if (!slot.convex) continue;
+    const ConvexPolyhedron& p = slot.convex->polyhedron;
+    sum += bytes(slot.links) + bytes(slot.ghosts) + sizeof(Convex) + bytes(p.vertices) +
+           bytes(p.faces) + bytes(p.corners) + bytes(p.corner_normals);
+  }
+  return static_cast<double>(sum) / std::max(1u, size_);
+}
+
+Box bounds(const Structure& structure) {
+  Box box;
+  structure.for_each([&](std::uint32_t, const Convex& convex) { box.extend(convex.box); });
+  return box;
+}
+
+double distance_outside(const Structure& structure, const Vec3& point_R) {
+  double least = std::numeric_limits<double>::infinity();
+  structure.for_each([&](std::uint32_t, const Convex& convex) {
+    least = std::min(least, distance_outside(convex, point_R));
+  });
+  return least;
+}
+
+}  // namespace sunder

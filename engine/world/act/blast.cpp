@@ -1,0 +1,173 @@
+// Blasts: an impulse on every face that sees the centre, less with distance and slant.
+//
+// Read first: push_on(). What a blast can break is decided by the break stage, from the energy
+// that its impulse would give the convexes it meets if they were free: for a few steps one place of
+// each solid, the hardest pressed first. Then all that is loose is pushed. Nothing stands in the
+// way of a blast: walls give no cover.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/world/actors/actors.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kBreaking_s = 0.05;  // for so long a blast breaks before it pushes
+constexpr double kTriedPart = 0.6;    // of the impact radius around a tried place is tried, too
+
+/// What a blast does to a part of an actor.
+struct Push {
+  Vec3 impulse_W = Vec3::Zero();
+  Vec3 weighted_point_W = Vec3::Zero();  ///< Times the impulses' sizes.
+  double weight_Ns = 0;
+
+  void add(const Vec3& impulse, const Vec3& point_W) {
+    const double size = impulse.norm();
+    impulse_W += impulse;
+    weighted_point_W += size * point_W;
+    weight_Ns += size;
+  }
+  Vec3 point_W() const { return weighted_point_W / weight_Ns; }
+};
+
+/// Impulse a square metre that faces the centre from somewhere.
+Vec3 impulse_Ns_m2(const Blast& blast, const Vec3& point_W) {
+  const Vec3 away = point_W - blast.center_W;
+  const double distance = away.norm();
+  if (distance >= blast.radius_m || distance <= 0) return Vec3::Zero();
+  const double left = 1 - distance / blast.radius_m;
+  return blast.impulse_Ns_m2 * left * left / distance * away;
+}
+
+/// On the faces of a convex that nothing covers.
+Push push_on(const Blast& blast, const Actor& actor, std::uint32_t slot, const Pose& X_WR) {
+  Push push;
+  const ConvexPolyhedron& hull = actor.structure.convex(slot)->polyhedron;
+  for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+    if (actor.hidden[slot][f] != 0) continue;
+    Vec3 middle_R = Vec3::Zero();
+    const auto corners = hull.face_corners(f);
+    for (const std::uint32_t corner : corners) middle_R += hull.vertices[corner];
+    const Vec3 middle_W = X_WR * Vec3(middle_R / static_cast<double>(corners.size()));
+    const Vec3 impulse = impulse_Ns_m2(blast, middle_W);
+    const double size = impulse.norm();
+    if (size <= 0) continue;
+    const double facing = -impulse.dot(X_WR.rotation * hull.faces[f].plane.normal) / size;
+    if (facing > 0) push.add(facing * face_area(hull, f) * impulse, middle_W);
+  }
+  return push;
+}
+
+Pose rest_pose(const World& world, const Actor& actor) {
+  const Pose X_WB = world.physics->state(actor.body).X_WB;
+  return {X_WB * Vec3(-actor.weight.com_R), X_WB.rotation};
+}
+
+bool reaches(const Blast& blast, const Actor& actor, const Pose& X_WR) {
+  if (actor.structure.empty()) return true;
+  const Box box_R = bounds(actor.structure);
+  const Vec3 center_R = X_WR.inverse() * blast.center_W;
+  const Vec3 nearest_R = center_R.cwiseMax(box_R.min).cwiseMin(box_R.max);
+  return (nearest_R - center_R).norm() < blast.radius_m;
+}
+
+bool was_tried(const World& world, const Burst& burst, const Convex& convex, const Push& push) {
+  if (push.weight_Ns <= 0) return false;
+  const double radius = kTriedPart * world.material(convex.material).impact_radius_m;
+  return std::ranges::any_of(burst.tried_W, [&](const Vec3& tried_W) {
+    return (tried_W - push.point_W()).norm() < radius;
+  });
+}
+
+/// The blow that a blast amounts to, where it presses hardest; of no energy if it cannot break it.
+Blow blow_of(const World& world, const Burst& burst, const Actor& actor) {
+  const Blast& blast = burst.blast;
+  Blow blow;
+  const Pose X_WR = rest_pose(world, actor);
+  if (!reaches(blast, actor, X_WR)) return blow;
+  const Structure& structure = actor.structure;
+  std::vector<Push> pushes(structure.slot_count());
+  std::uint32_t hardest = 0;
+  structure.for_each([&](std::uint32_t slot, const Convex& convex) {
+    pushes[slot] = push_on(blast, actor, slot, X_WR);
+    if (was_tried(world, burst, convex, pushes[slot])) pushes[slot] = {};
+    if (pushes[slot].weight_Ns > pushes[hardest].weight_Ns) hardest = slot;
+  });
+  if (pushes.empty() || pushes[hardest].weight_Ns <= 0) return blow;
+  const Material& material = world.material(structure.convex(hardest)->material);
+  if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) return blow;
+  blow.key = actor.key;
+  blow.other_key = kNobodyKey;
+  blow.convex = hardest;
+  blow.point_W = pushes[hardest].point_W();
+  Vec3 impulse_W = Vec3::Zero();
+  double energy_J = 0;
+  structure.for_each([&](std::uint32_t slot, const Convex& convex) {
+    const bool near = pushes[slot].weight_Ns > 0 &&
+                      (pushes[slot].point_W() - blow.point_W).norm() <= material.impact_radius_m;
+    if (!near) return;
+    const double mass_kg = world.material(convex.material).density_kg_m3 * convex.solid.volume_m3;
+    impulse_W += pushes[slot].impulse_W;
+    energy_J += 0.5 * pushes[slot].impulse_W.squaredNorm() / mass_kg;
+  });
+  if (impulse_W.norm() < material.strength_Ns || impulse_W.norm() <= 0) return blow;
+  blow.direction_W = impulse_W.normalized();
+  blow.energy_J = energy_J;
+  return blow;
+}
+
+void push_away(World& world, const Blast& blast, const Actor& actor) {
+  const Pose X_WR = rest_pose(world, actor);
+  if (!reaches(blast, actor, X_WR)) return;
+  Push push;
+  actor.structure.for_each([&](std::uint32_t slot, const Convex&) {
+    const Push part = push_on(blast, actor, slot, X_WR);
+    push.impulse_W += part.impulse_W;
+    push.weighted_point_W += part.weighted_point_W;
+    push.weight_Ns += part.weight_Ns;
+  });
+  if (actor.structure.empty()) {
+    const double radius = std::cbrt(actor.volume_m3 * 3 / (4 * std::numbers::pi));
+    push.add(std::numbers::pi * radius * radius * impulse_Ns_m2(blast, X_WR.position),
+             X_WR.position);
+  }
+  if (push.weight_Ns <= 0) return;
+  world.physics->apply_impulse(actor.body, push.impulse_W, push.point_W());
+}
+
+}  // namespace
+
+void light_blasts(World& world) {
+  const double now_s = world.time_s();
+  const double until_s = now_s + 0.5 * world.scene.accuracy.dt_s;
+  for (; world.next_blast < world.scene.blasts.size() &&
+         world.scene.blasts[world.next_blast].time_s <= until_s;
+       ++world.next_blast) {
+    world.bursts.push_back({world.scene.blasts[world.next_blast], now_s + kBreaking_s, {}});
+  }
+  for (Burst& burst : world.bursts) {
+    std::vector<Vec3> tried_W;
+    for (const Actor& actor : world.actors) {
+      const Blow blow = blow_of(world, burst, actor);
+      if (blow.energy_J <= 0) continue;
+      tried_W.push_back(blow.point_W);
+      const auto same = [&](const Blow& known) { return known.key == blow.key; };
+      if (std::ranges::none_of(world.waiting, same)) world.waiting.push_back(blow);
+    }
+    burst.tried_W.insert(burst.tried_W.end(), tried_W.begin(), tried_W.end());
+  }
+}
+
+void push_blasts(World& world) {
+  const double until_s = world.time_s() + 0.5 * world.scene.accuracy.dt_s;
+  for (const Burst& burst : world.bursts) {
+    if (burst.pushes_at_s > until_s) continue;
+    for (const Actor& actor : world.actors) {
+      if (!actor.is_static) push_away(world, burst.blast, actor);
+    }
+  }
+  std::erase_if(world.bursts, [&](const Burst& burst) { return burst.pushes_at_s <= until_s; });
+}
+
+}  // namespace sunder

@@ -1,0 +1,211 @@
+#include "engine/world/actors/replace.h"
+
+#include <algorithm>
+#include <iterator>
+#include <unordered_set>
+#include <utility>
+
+#include "engine/world/actors/actors.h"
+#include "engine/world/actors/joints.h"
+
+namespace sunder {
+namespace {
+
+Vec3 momentum_of(const World& world, std::span<const Actor> actors) {
+  Vec3 sum = Vec3::Zero();
+  for (const Actor& actor : actors) {
+    if (!actor.is_static) sum += actor.weight.mass_kg * world.physics->state(actor.body).velocity_W;
+  }
+  return sum;
+}
+
+/// Whether a piece is a body: held in place, or large enough.
+bool is_body(const World& world, const Compound& piece) {
+  if (piece.is_anchored()) return true;
+  return volume(piece) >= world.material(piece.convexes[0]->material).smallest_piece_m3;
+}
+
+/// Momentum of what the pieces leave of the parent: debris flies on with the parent's motion.
+Vec3 debris_momentum(const Actor& parent, std::span<const Actor> pieces, const Motion& motion) {
+  double mass = parent.weight.mass_kg;
+  Vec3 moment_R = Vec3::Zero();
+  for (const Actor& piece : pieces) {
+    mass -= piece.weight.mass_kg;
+    moment_R -= piece.weight.mass_kg * (piece.weight.com_R - parent.weight.com_R);
+  }
+  return mass * motion.velocity_W +
+         motion.angular_velocity_W.cross(motion.X_WR.rotation * moment_R);
+}
+
+/// What leaves a structure (sign 1), and what comes to it (−1), convexes and ghosts.
+template <class Visit>
+void for_each_change(const Structure& structure, const BreakEdit& edit, const Visit& visit) {
+  std::vector<std::uint32_t> ghosts;
+  for (const std::uint32_t slot : edit.removed) {
+    visit(*structure.convex(slot), 1.0);
+    const auto of_slot = structure.ghosts_of(slot);
+    ghosts.insert(ghosts.end(), of_slot.begin(), of_slot.end());
+  }
+  std::ranges::sort(ghosts);
+  ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+  for (const std::uint32_t number : ghosts) {
+    const Ghost& ghost = structure.ghost(number);
+    visit(*ghost.convex, static_cast<double>(ghost.sign));
+  }
+  for (const ConvexPtr& convex : edit.added) visit(*convex, -1.0);
+  for (const Ghost& ghost : edit.ghosts) visit(*ghost.convex, -static_cast<double>(ghost.sign));
+}
+
+/// Slots that may look otherwise after the edit: beside what goes, or beside what overlaps that;
+/// and the new ones.
+std::vector<std::uint32_t> changed_looks(const Structure& structure, const BreakEdit& edit) {
+  std::vector<std::uint32_t> slots, heap;
+  const auto add_neighbours = [&](std::uint32_t slot) {
+    for (const Link& link : structure.links(slot)) slots.push_back(link.other);
+  };
+  const auto add_overlapped = [&](std::uint32_t slot) {
+    for (const std::uint32_t number : structure.ghosts_of(slot)) {
+      for (const std::uint32_t other : structure.ghost(number).of) heap.push_back(other);
+    }
+  };
+  for (const std::uint32_t slot : edit.removed) {
+    add_neighbours(slot);
+    add_overlapped(slot);
+  }
+  for (const Bond& bond : edit.cut) slots.insert(slots.end(), {bond.a, bond.b});
+  std::unordered_set<std::uint32_t> known;
+  for (std::size_t i = 0; i < heap.size(); ++i) {
+    if (!known.insert(heap[i]).second) continue;
+    slots.push_back(heap[i]);
+    add_neighbours(heap[i]);
+    add_overlapped(heap[i]);
+  }
+  std::ranges::sort(slots);
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  std::erase_if(slots, [&](auto slot) { return std::ranges::binary_search(edit.removed, slot); });
+  for (std::uint32_t i = 0; i < edit.added.size(); ++i) slots.push_back(structure.slot_count() + i);
+  return slots;
+}
+
+/// Pieces on their way into the world.
+struct Pieces {
+  std::vector<Actor> actors;
+  std::vector<BodyDesc> bodies;
+
+  /// A body, or debris if it is too small. Returns its key.
+  std::uint32_t add(World& world, const Compound& compound, const Actor& parent,
+                    const Motion& motion) {
+    if (!is_body(world, compound)) {
+      add_chip(world, compound, motion);
+      return kNobodyKey;
+    }
+    Actor& piece = actors.emplace_back(make_actor(world, compound));
+    piece.born_step = world.step + 1;
+    piece.root_key = parent.root_key;
+    if (piece.bearing.bears) piece.bearing.memory = parent.bearing.memory;
+    world.debris_mass_kg -= piece.weight.mass_kg;
+    bodies.push_back(describe(world, piece, motion));
+    return piece.key;
+  }
+};
+
+DrawnBefore looks_of(const Actor& actor, std::span<const std::uint32_t> slots) {
+  DrawnBefore looks;
+  for (const std::uint32_t slot : slots) {
+    looks[actor.structure.convex(slot).get()] = {actor.meshes[slot], actor.hidden[slot]};
+  }
+  return looks;
+}
+
+/// Takes the convexes that went out of the body of what stands, and of the books on it.
+void stay(World& world, Actor& actor, const BreakEdit& edit,
+          std::span<const std::uint32_t> changed) {
+  std::vector<ShapeDesc> shapes;
+  for (std::uint32_t slot =
+           actor.structure.slot_count() - static_cast<std::uint32_t>(edit.added.size());
+       slot < actor.structure.slot_count(); ++slot) {
+    shapes.push_back(shape_of(world, actor, slot));
+  }
+  if (edit.changed) world.physics->edit({actor.body, edit.removed, shapes});
+  for (const std::uint32_t slot : edit.removed) {
+    actor.meshes[slot] = {};
+    actor.hidden[slot] = {};
+  }
+  renew_meshes(world, actor, changed);
+  set_least(world, actor);
+  const auto is_gone = [&](const Press& press) { return !actor.structure.has(press.convex); };
+  std::erase_if(actor.bearing.pressing, is_gone);
+  std::erase_if(actor.bearing.judged, is_gone);
+  actor.bearing.settled = false;
+  actor.bearing.since_step = world.step;
+}
+
+}  // namespace
+
+std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit) {
+  const bool stays = structure.size() + edit.added.size() > edit.removed.size();
+  return static_cast<std::uint32_t>(edit.loose.pieces.size()) + (stays ? 1 : 0);
+}
+
+bool has_room(World& world, const BreakEdit& edit) {
+  if (world.actors.size() + edit.loose.pieces.size() <= world.scene.limits.bodies) return true;
+  ++world.report.limits_hit;
+  return false;
+}
+
+void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
+  const std::size_t at = static_cast<std::size_t>(world.find(key) - world.actors.data());
+  Actor& parent = world.actors[at];
+  const BodyState state = world.physics->state(parent.body);
+  const Pose X_WR{state.X_WB * Vec3(-parent.weight.com_R), state.X_WB.rotation};
+  const Motion motion{X_WR, state.X_WB.position, state.velocity_W, state.angular_velocity_W};
+  std::vector<std::uint32_t> changed;
+  if (parent.is_static) changed = changed_looks(parent.structure, edit);
+  DrawnBefore looks = looks_of(parent, edit.removed);
+  double left_kg = 0, left_m3 = 0;
+  for_each_change(parent.structure, edit, [&](const Convex& convex, double sign) {
+    left_m3 += sign * convex.solid.volume_m3;
+    left_kg += sign * convex.solid.volume_m3 * world.material(convex.material).density_kg_m3;
+  });
+  parent.structure.apply(edit);
+  ++parent.edits;
+  const bool stays = parent.is_static && parent.structure.is_anchored();
+
+  Pieces pieces;
+  std::vector<std::uint32_t> keys{stays ? parent.key : kNobodyKey};  // as exposed faces name them
+  world.debris_mass_kg += stays ? left_kg : parent.weight.mass_kg;
+  if (!stays && !parent.structure.empty()) {
+    const Compound rest = parent.structure.compound();
+    parent.structure.for_each([&](std::uint32_t slot, const Convex& convex) {
+      if (slot >= parent.meshes.size()) return;  // new
+      looks[&convex] = {parent.meshes[slot], parent.hidden[slot]};
+    });
+    keys[0] = pieces.add(world, rest, parent, motion);
+  }
+  for (const Compound& piece : edit.loose.pieces) {
+    keys.push_back(pieces.add(world, piece, parent, motion));
+  }
+  crumble(world, parent.structure, edit, motion, keys);
+  add_meshes(world, pieces.actors, looks);
+  const Vec3 before = momentum_of(world, std::span(&parent, 1));
+  std::vector<BodyId> ids;
+  if (stays) {
+    parent.weight.mass_kg -= left_kg;
+    parent.volume_m3 -= left_m3;
+    stay(world, parent, edit, changed);
+    ids = world.physics->replace({}, pieces.bodies);
+  } else {
+    ids = world.physics->replace(std::span(&parent.body, 1), pieces.bodies);
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i) pieces.actors[i].body = ids[i];
+  move_ties(world, parent, stays, pieces.actors);
+  if (!parent.is_static) {
+    const Vec3 after =
+        momentum_of(world, pieces.actors) + debris_momentum(parent, pieces.actors, motion);
+    world.momentum_error_Ns += (after - before).norm();
+  }
+  if (!stays) world.actors.erase(world.actors.begin() + static_cast<std::ptrdiff_t>(at));
+  std::move(pieces.actors.begin(), pieces.actors.end(), std::back_inserter(world.actors));
+}
+
+}  // namespace sunder

@@ -1,0 +1,269 @@
+#include "engine/world/break/break_probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace sunder {
+namespace {
+
+constexpr int kMostEvents = 24;
+// After so many events each is the hardest yet to come, and takes what closes before it along, so
+// that a ball behind much debris is not forgotten.
+constexpr int kSingleEvents = 12;
+constexpr double kFaster = 2;  // than before, no contact closes once others have been solved
+// A contact alone that closes with less than this part of the least work is no event of its own.
+constexpr double kLeastEvent = 0.1;
+// Contacts give a little, against the heaviest body, so that supports share what they bear.
+constexpr double kGive = 1e-5;
+
+}  // namespace
+
+BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts,
+                       double dt_s, double still_m_s)
+    : bodies_(std::move(bodies)),
+      contacts_(std::move(contacts)),
+      dt_s_(dt_s),
+      still_m_s_(still_m_s),
+      velocities_(bodies_.size()),
+      way_(bodies_.size()),
+      undecided_(bodies_.size(), 0) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    velocities_[i] = {bodies_[i].velocity_W, bodies_[i].angular_velocity_W};
+  }
+  for (const ProbeBody& body : bodies_) {
+    if (body.breakable) least_J_ = std::min(least_J_, body.least_J);
+  }
+  for (const ProbeContact& c : contacts_) rows_.push_back(make_row(c));
+  double least = std::numeric_limits<double>::infinity();
+  for (const ProbeBody& body : bodies_) {
+    if (body.inverse_mass > 0) least = std::min(least, body.inverse_mass);
+  }
+  give_ = kGive * least;
+}
+
+RelaxRow BreakProbe::make_row(const ProbeContact& c) const {
+  const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
+  RelaxRow row;
+  row.a = c.a, row.b = c.b;
+  row.moves_a = a.inverse_mass > 0, row.moves_b = b.inverse_mass > 0;
+  row.normal = c.normal_W;
+  row.lever_a = c.arm_a_W.cross(c.normal_W);
+  row.lever_b = c.arm_b_W.cross(c.normal_W);
+  row.push_a = a.inverse_mass * c.normal_W;
+  row.push_b = b.inverse_mass * c.normal_W;
+  row.turn_a = a.inverse_inertia_W * row.lever_a;
+  row.turn_b = b.inverse_inertia_W * row.lever_b;
+  row.inverse_mass =
+      a.inverse_mass + b.inverse_mass + row.lever_a.dot(row.turn_a) + row.lever_b.dot(row.turn_b);
+  return row;
+}
+
+/// How long until contacts close that may matter; infinite if none does within the step.
+double BreakProbe::wait_s() const {
+  double wait = std::numeric_limits<double>::infinity(), hardest = 0;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const double inverse = rows_[i].inverse_mass;
+    if (inverse <= 0) continue;
+    const double speed = rows_[i].speed(velocities_), gap = gap_m(i);
+    if (speed < still_m_s_ || speed * speed < 2 * kLeastEvent * least_J_ * inverse) continue;
+    if (gap <= still_m_s_ * dt_s_) {
+      if (events_ == 1) return 0;
+    } else if (events_ <= kSingleEvents) {
+      wait = std::min(wait, gap / speed);
+    } else if (speed * speed > hardest * inverse && time_s_ + gap / speed <= dt_s_) {
+      hardest = speed * speed / inverse;
+      wait = gap / speed;
+    }
+  }
+  return wait;
+}
+
+/// Moves on to when the next contact closes; false if none does within the step.
+bool BreakProbe::advance_to_event() {
+  if (++events_ > kMostEvents) return false;
+  const double wait = wait_s();
+  if (time_s_ + wait > dt_s_) return false;
+  time_s_ += wait;
+  for (std::size_t i = 0; i < way_.size(); ++i) {
+    way_[i].linear += wait * velocities_[i].linear;
+    way_[i].angular += wait * velocities_[i].angular;
+  }
+  closed_.clear();
+  fastest_m_s_ = 0;
+  for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
+    if (rows_[i].inverse_mass <= 0 || gap_m(i) > still_m_s_ * dt_s_) continue;
+    closed_.push_back(i);
+    fastest_m_s_ = std::max(fastest_m_s_, rows_[i].speed(velocities_));
+  }
+  return true;
+}
+
+/// No less than what goes into the closed contacts.
+double BreakProbe::closing_energy_J() const {
+  double energy = 0;
+  for (const std::uint32_t i : closed_) {
+    const double speed = std::max(0.0, rows_[i].speed(velocities_));
+    energy += 0.5 * speed * speed / rows_[i].inverse_mass;
+  }
+  return energy;
+}
+
+/// The closed contacts solved, those of `removed` bodies left out.
+Relaxed BreakProbe::relax(const std::vector<std::uint8_t>& removed) const {
+  std::vector<std::uint32_t> in_way;  // of closed_
+  for (std::uint32_t i = 0; i < closed_.size(); ++i) {
+    if (!rows_[closed_[i]].touches(removed)) in_way.push_back(i);
+  }
+  return relax_contacts(rows_, closed_, in_way, give_, fastest_m_s_, velocities_);
+}
+
+/// The undecided body that a contact's work counts for: the weaker, if both are.
+std::uint32_t BreakProbe::charged(const ProbeContact& c) const {
+  if (!undecided_[c.a]) return c.b;
+  if (!undecided_[c.b]) return c.a;
+  const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
+  return std::pair(a.least_J, a.key) < std::pair(b.least_J, b.key) ? c.a : c.b;
+}
+
+std::vector<ProbeLoad> BreakProbe::loads(const Relaxed& without) const {
+  std::vector<ProbeLoad> all(bodies_.size());
+  std::vector<double> most(bodies_.size(), 0);
+  for (std::uint32_t b = 0; b < all.size(); ++b) all[b].body = b;
+  for (ProbeLoad& load : all) load.direction_W.setZero();
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    const ProbeContact& c = contacts_[closed_[i]];
+    const double impulse = with_->impulses_Ns[i];
+    const RelaxRow& row = rows_[closed_[i]];
+    if (impulse <= 0 || !row.touches(undecided_)) continue;
+    const std::uint32_t body = charged(c);
+    ProbeLoad& load = all[body];
+    load.work_J += 0.5 * impulse * (row.speed(without.velocities) + row.speed(with_->velocities));
+    load.impulse_Ns += impulse;
+    load.arm_W += impulse * (body == c.b ? c.arm_b_W : c.arm_a_W);
+    load.direction_W += (body == c.b ? impulse : -impulse) * c.normal_W;
+    if (impulse <= most[body]) continue;
+    most[body] = impulse;
+    load.shape = body == c.b ? c.shape_b : c.shape_a;
+  }
+  std::erase_if(all, [&](const ProbeLoad& load) {
+    const ProbeBody& body = bodies_[load.body];
+    return load.impulse_Ns <= body.least_Ns || load.work_J <= body.least_J ||
+           load.direction_W.squaredNorm() <= 0;
+  });
+  for (ProbeLoad& load : all) {
+    load.arm_W /= load.impulse_Ns;
+    load.direction_W.normalize();
+  }
+  return all;
+}
+
+/// Whether the impulses are enough to load an undecided body beyond its least.
+bool BreakProbe::may_load() const {
+  std::vector<double> impulses_Ns(bodies_.size(), 0);
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    impulses_Ns[rows_[closed_[i]].a] += with_->impulses_Ns[i];
+    impulses_Ns[rows_[closed_[i]].b] += with_->impulses_Ns[i];
+  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!undecided_[b] || impulses_Ns[b] <= bodies_[b].least_Ns) continue;
+    if (kFaster * fastest_m_s_ * impulses_Ns[b] > bodies_[b].least_J) return true;
+  }
+  return false;
+}
+
+std::vector<ProbeLoad> BreakProbe::next() {
+  for (;;) {
+    if (!with_) {  // the last event is over
+      if (!advance_to_event()) return {};
+      if (closing_energy_J() < least_J_) continue;
+      for (std::size_t b = 0; b < bodies_.size(); ++b) undecided_[b] = bodies_[b].breakable;
+      with_ = relax(std::vector<std::uint8_t>(bodies_.size(), 0));
+    }
+    if (may_load()) {
+      loads_ = loads(relax(undecided_));
+      if (!loads_.empty()) return loads_;
+    }
+    velocities_ = with_->velocities;
+    with_.reset();
+  }
+}
+
+void BreakProbe::hold() {
+  for (const ProbeLoad& load : loads_) undecided_[load.body] = 0;
+}
+
+/// The kinetic energy of v₁ + s·(v₀ − v₁), v₁ with and v₀ without something in the way, is that of
+/// v₁ and as² + bs more. (Were v₁ exact, b would be 0.)
+BreakProbe::Release BreakProbe::released(const Relaxed& without) const {
+  Release release;
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    const RelaxRow& row = rows_[closed_[i]];
+    const double impulse = with_->impulses_Ns[i] - without.impulses_Ns[i];
+    const double u0 = row.speed(without.velocities), u1 = row.speed(with_->velocities);
+    release.a_J += 0.5 * impulse * (u0 - u1);
+    release.b_J += impulse * u1;
+  }
+  return release;
+}
+
+/// The s at which all but `energy_J` is released.
+double BreakProbe::Release::share(double energy_J) const {
+  const double left = a_J + b_J - energy_J;
+  return 2 * left / (b_J + std::sqrt(b_J * b_J + 4 * a_J * left));
+}
+
+std::vector<std::uint32_t> BreakProbe::release(std::span<const ProbeBreak> wanted) {
+  std::vector<ProbeBreak> kept(wanted.begin(), wanted.end());
+  // Those that can least be paid for hold first; then the others may bear less, too.
+  while (!kept.empty()) {
+    std::vector<std::uint8_t> removed(bodies_.size(), 0);
+    double energy = 0;
+    for (const ProbeBreak& wish : kept) {
+      removed[loads_[wish.load].body] = 1;
+      energy += wish.energy_J;
+    }
+    const Relaxed without = relax(removed);
+    const Release release = released(without);
+    if (release.a_J > 0 && release.a_J + release.b_J > energy) {
+      finish(without, release.share(energy));
+      std::vector<std::uint32_t> broken;
+      for (const ProbeBreak& wish : kept) broken.push_back(wish.load);
+      return broken;
+    }
+    const auto worst =
+        std::max_element(kept.begin(), kept.end(), [&](const ProbeBreak& a, const ProbeBreak& b) {
+          return a.energy_J * loads_[b.load].work_J < b.energy_J * loads_[a.load].work_J;
+        });
+    kept.erase(worst);
+  }
+  return {};
+}
+
+void BreakProbe::finish(const Relaxed& without, double share) {
+  motions_.resize(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const BodyVelocity &with = with_->velocities[b], &v0 = without.velocities[b];
+    ProbeMotion& motion = motions_[b];
+    motion.velocity_W = with.linear + share * (v0.linear - with.linear);
+    motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular);
+    motion.changed =
+        bodies_[b].inverse_mass > 0 && (motion.velocity_W != bodies_[b].velocity_W ||
+                                        motion.angular_velocity_W != bodies_[b].angular_velocity_W);
+    if (!motion.changed) continue;
+    motion.shift_W = way_[b].linear - time_s_ * motion.velocity_W;
+    motion.turn_W = way_[b].angular - time_s_ * motion.angular_velocity_W;
+  }
+}
+
+void BreakProbe::pause() {
+  motions_.resize(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const ProbeBody& body = bodies_[b];
+    motions_[b] = {body.velocity_W, body.angular_velocity_W, way_[b].linear, way_[b].angular,
+                   body.inverse_mass > 0};
+  }
+}
+
+}  // namespace sunder

@@ -1,0 +1,132 @@
+// The break probe: what a cluster of bodies that touch, or will within the step, would do with and
+// without a breakable solid in the way. The difference is the work that the solid has to bear.
+//
+// Read first: BreakProbe, in the order next(), then hold() or release(). It follows the contacts as
+// they close, in order of time, on velocities and displacements of its own: the world is left as it
+// is until it takes the result over. Frictionless, without rebound.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/base/types.h"
+#include "engine/world/break/relax.h"
+
+namespace sunder {
+
+/// A body of the cluster, as it moves at the start of the step.
+struct ProbeBody {
+  std::uint32_t key = 0;
+  double inverse_mass = 0;                ///< 0: held by the world.
+  Mat3 inverse_inertia_W = Mat3::Zero();  ///< About the centre of mass.
+  Vec3 velocity_W = Vec3::Zero();
+  Vec3 angular_velocity_W = Vec3::Zero();
+  bool breakable = false;
+  double least_J = 0;   ///< Work below this breaks it in no case,
+  double least_Ns = 0;  ///< nor does an impulse below this.
+};
+
+/// A point where two bodies touch, or would touch within the step.
+struct ProbeContact {
+  std::uint32_t a = 0, b = 0;                           ///< Bodies, by index.
+  std::uint32_t shape_a = 0, shape_b = 0;               ///< Opaque.
+  Vec3 arm_a_W = Vec3::Zero(), arm_b_W = Vec3::Zero();  ///< From the centres of mass.
+  Vec3 normal_W = Vec3::UnitY();                        ///< From a to b.
+  double separation_m = 0;
+};
+
+/// What a breakable body would have to bear.
+struct ProbeLoad {
+  std::uint32_t body = 0;            ///< By index.
+  std::uint32_t shape = 0;           ///< Where it bears the most.
+  Vec3 arm_W = Vec3::Zero();         ///< From the body's centre of mass.
+  Vec3 direction_W = Vec3::UnitY();  ///< Into the body.
+  double work_J = 0;
+  double impulse_Ns = 0;
+};
+
+/// How a body moves if something breaks: as if it had since the start of the step, except for
+/// where it is at the time of the break.
+struct ProbeMotion {
+  Vec3 velocity_W = Vec3::Zero();
+  Vec3 angular_velocity_W = Vec3::Zero();
+  Vec3 shift_W = Vec3::Zero();  ///< To add to the position at the start of the step,
+  Vec3 turn_W = Vec3::Zero();   ///< and to its rotation.
+  bool changed = false;
+};
+
+/// A break that an event can pay for.
+struct ProbeBreak {
+  std::uint32_t load = 0;  ///< Index in what next() answered.
+  double energy_J = 0;     ///< That it takes.
+};
+
+class BreakProbe {
+ public:
+  /// What closes more slowly than `still_m_s` rests; what is as near as that closes in the step
+  /// touches.
+  BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts, double dt_s,
+             double still_m_s);
+
+  /// Runs on to what next loads breakable bodies with more than their least; empty at the end of
+  /// the step. Ordered by body.
+  std::vector<ProbeLoad> next();
+  /// The loaded bodies hold: what is behind them may be loaded through them, at the same time.
+  void hold();
+  /// Breaks those of `wanted` that the event can pay for, all told, and ends the probe. Takes
+  /// exactly their energy: v = v₁ + s·(v₀ − v₁), with v₁ and v₀ the motion with and without them in
+  /// the way. The answer is the indices of those that broke; none leaves the probe as it was.
+  std::vector<std::uint32_t> release(std::span<const ProbeBreak> wanted);
+
+  /// The event has to wait: all stays as it is but for where bodies are by then. Ends the probe.
+  void pause();
+
+  /// After release() or pause(): per body.
+  const std::vector<ProbeMotion>& motions() const { return motions_; }
+  const std::vector<ProbeBody>& bodies() const { return bodies_; }
+  const std::vector<ProbeContact>& contacts() const { return contacts_; }
+
+ private:
+  /// The energy between two motions.
+  struct Release {
+    double a_J = 0, b_J = 0;
+    double share(double energy_J) const;
+  };
+
+  RelaxRow make_row(const ProbeContact& c) const;
+  double gap_m(std::size_t contact) const {
+    return contacts_[contact].separation_m - rows_[contact].speed(way_);
+  }
+  double wait_s() const;
+  bool advance_to_event();
+  double closing_energy_J() const;
+  bool may_load() const;
+  Relaxed relax(const std::vector<std::uint8_t>& removed) const;
+  std::uint32_t charged(const ProbeContact& c) const;
+  std::vector<ProbeLoad> loads(const Relaxed& without) const;
+  Release released(const Relaxed& without) const;
+  void finish(const Relaxed& without, double share);
+
+  std::vector<ProbeBody> bodies_;
+  std::vector<ProbeContact> contacts_;
+  double dt_s_;
+  double still_m_s_;
+  double least_J_ = std::numeric_limits<double>::infinity();  ///< Of the breakable bodies.
+  double give_ = 0;                                           ///< Speed per impulse.
+  double time_s_ = 0;
+  int events_ = 0;
+  std::vector<BodyVelocity> velocities_;  ///< Now.
+  std::vector<BodyVelocity> way_;         ///< Displacement and turn since the start of the step.
+  std::vector<std::uint32_t> closed_;     ///< Contacts, ascending.
+  std::vector<RelaxRow> rows_;            ///< Per contact.
+  double fastest_m_s_ = 0;                ///< Of the contacts that closed at this event.
+  std::vector<std::uint8_t> undecided_;   ///< Per body, of this event.
+  std::vector<ProbeLoad> loads_;          ///< Of this event.
+  std::optional<Relaxed> with_;           ///< Nothing removed; empty between events.
+  std::vector<ProbeMotion> motions_;
+};
+
+}  // namespace sunder

@@ -1,0 +1,250 @@
+#include "engine/world/break/clusters.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/froude.h"
+#include "engine/world/actors/joints.h"
+
+namespace sunder {
+namespace {
+
+// Of a cluster, those nearest to the approach; fewer where what approaches cannot break itself, and
+// a blow can only be passed on.
+constexpr std::size_t kMostBodies = 32, kMostPassingOn = 12;
+
+/// The approaches between two bodies as one.
+struct Seed {
+  std::uint32_t a = 0, b = 0;
+  double energy_J = 0;
+  std::uint64_t since_step = 0;  ///< It waits since then.
+};
+
+std::uint64_t waits_since(const World& world, std::uint32_t key) {
+  const auto it = std::ranges::lower_bound(world.waiters, key, {}, &Waiter::key);
+  return it != world.waiters.end() && it->key == key ? it->since_step : world.step;
+}
+
+/// Pieces that came off in this step do not break again in it; what stands may be hit by others.
+bool may_break(const World& world, const Actor* actor, double energy_J) {
+  if (!actor || energy_J <= actor->least_J) return false;
+  return actor->is_static || actor->born_step != world.step + 1;
+}
+
+/// What closes at a contact; things that joints fix to the world give no more than it does.
+double closing_energy_J(World& world, const Approach& approach,
+                        const std::vector<std::uint32_t>& fixed) {
+  const double all_J = 0.5 * approach.effective_mass_kg * approach.speed_m_s * approach.speed_m_s;
+  if (fixed.empty()) return all_J;
+  double left = 1;  // of what gives
+  for (const std::uint32_t key : {approach.body_tag_a, approach.body_tag_b}) {
+    if (!std::ranges::binary_search(fixed, key)) continue;
+    const Actor& actor = *world.find(key);
+    if (actor.is_static) continue;
+    const Pose X_WB = world.physics->state(actor.body).X_WB;
+    const Vec3 normal = X_WB.rotation.conjugate() * approach.normal_W;
+    const Vec3 lever = (X_WB.inverse() * approach.point_W).cross(normal);
+    left -= approach.effective_mass_kg *
+            (1 / actor.weight.mass_kg + lever.dot(actor.weight.inertia_R.inverse() * lever));
+  }
+  return left > 1e-6 ? all_J / left : 0;
+}
+
+/// Approaches with energy enough to break something in the world, in the order of find_clusters().
+std::vector<Seed> find_seeds(World& world, const std::vector<std::uint32_t>& fixed) {
+  double least_J = std::numeric_limits<double>::infinity();
+  for (const Actor& actor : world.actors) least_J = std::min(least_J, actor.least_J);
+  if (least_J == std::numeric_limits<double>::infinity()) return {};
+  std::vector<Seed> pairs;
+  for (const Approach& approach : world.physics->approaches()) {
+    pairs.push_back(
+        {approach.body_tag_a, approach.body_tag_b, closing_energy_J(world, approach, fixed)});
+  }
+  std::ranges::stable_sort(pairs, {}, [](const Seed& seed) { return std::pair(seed.a, seed.b); });
+  std::vector<Seed> seeds;
+  for (std::size_t i = 0, end = 0; i < pairs.size(); i = end) {
+    Seed seed = pairs[i];
+    for (end = i + 1; end < pairs.size() && pairs[end].a == seed.a && pairs[end].b == seed.b; ++end)
+      seed.energy_J += pairs[end].energy_J;
+    if (seed.energy_J <= least_J) continue;
+    seed.since_step = std::min(waits_since(world, seed.a), waits_since(world, seed.b));
+    seeds.push_back(seed);
+  }
+  std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& x, const Seed& y) {
+    return std::pair(x.since_step, -x.energy_J) < std::pair(y.since_step, -y.energy_J);
+  });
+  return seeds;
+}
+
+/// Which actors are in clusters. Actors are known by their place in the world; the ground comes
+/// behind them all.
+class Members {
+ public:
+  explicit Members(const World& world)
+      : world_(world), place_of_key_(world.next_key, ground()), all_(world.actors.size() + 1) {
+    for (std::uint32_t place = 0; place < ground(); ++place) {
+      place_of_key_[world.actors[place].key] = place;
+    }
+  }
+
+  std::uint32_t place(std::uint32_t key) const {
+    return key < place_of_key_.size() ? place_of_key_[key] : ground();
+  }
+  /// Null for the ground.
+  const Actor* actor(std::uint32_t place) const {
+    return place < ground() ? &world_.actors[place] : nullptr;
+  }
+  void begin_cluster() { ++clusters_; }
+  /// False if it was in this cluster already.
+  bool add(std::uint32_t place) {
+    return std::exchange(all_[place].cluster, clusters_) != clusters_;
+  }
+  bool holds(std::uint32_t place) const { return all_[place].cluster == clusters_; }
+  /// Moving bodies are in one cluster at most.
+  void take(std::uint32_t place) { all_[place].taken = true; }
+  bool taken(std::uint32_t place) const { return all_[place].taken; }
+  /// In the cluster under way.
+  void number(std::uint32_t place, std::uint32_t index) { all_[place].index = index; }
+  std::uint32_t index(std::uint32_t place) const { return all_[place].index; }
+
+ private:
+  struct Member {
+    std::uint32_t cluster = 0;  ///< The last that saw it.
+    std::uint32_t index = 0;    ///< In that.
+    bool taken = false;
+  };
+
+  std::uint32_t ground() const { return static_cast<std::uint32_t>(world_.actors.size()); }
+
+  const World& world_;
+  std::vector<std::uint32_t> place_of_key_;
+  std::vector<Member> all_;
+  std::uint32_t clusters_ = 0;  ///< The number of the last.
+};
+
+/// Bodies reached from a seed, contact by contact.
+class Reach {
+ public:
+  Reach(World& world, const std::vector<std::uint32_t>& fixed, Members& members)
+      : world_(world), fixed_(fixed), members_(members) {
+    members_.begin_cluster();
+  }
+
+  /// False if one of the seed's bodies is in a cluster already.
+  bool start(const Seed& seed) {
+    const std::uint32_t ends[] = {members_.place(seed.a), members_.place(seed.b)};
+    bool direct = false;
+    for (const std::uint32_t place : ends) {
+      const Actor* actor = members_.actor(place);
+      if (actor && !actor->is_static && members_.taken(place)) return false;
+      direct |= may_break(world_, actor, seed.energy_J);
+    }
+    most_ = direct ? kMostBodies : kMostPassingOn;
+    for (const std::uint32_t place : ends) add(place);
+    return true;
+  }
+
+  void grow() {
+    std::vector<BodyId> layer;
+    for (std::size_t done = 0; done < moving_.size() && moving_.size() < most_;) {
+      layer.clear();
+      for (; done < moving_.size(); ++done) layer.push_back(members_.actor(moving_[done])->body);
+      std::pair last(kNobodyKey, kNobodyKey);
+      for (const Touch& touch : world_.physics->touches(layer)) {
+        const std::pair pair(touch.body_tag_a, touch.body_tag_b);
+        if (std::exchange(last, pair) == pair) continue;  // another point of the same contact
+        add(members_.place(pair.first));
+        add(members_.place(pair.second));
+      }
+    }
+  }
+
+  /// Bodies by key, and the contacts among them.
+  BreakProbe probe() {
+    std::ranges::sort(places_);
+    std::vector<ProbeBody> bodies;
+    bodies.reserve(places_.size());
+    for (const std::uint32_t place : places_) {
+      members_.number(place, static_cast<std::uint32_t>(bodies.size()));
+      bodies.push_back(describe(place));
+    }
+    std::vector<BodyId> moving;
+    for (const std::uint32_t place : moving_) moving.push_back(members_.actor(place)->body);
+    const std::vector<Touch> touches = world_.physics->touches(moving);
+    std::vector<ProbeContact> contacts;
+    contacts.reserve(touches.size());
+    for (const Touch& touch : touches) {
+      const std::uint32_t a = members_.place(touch.body_tag_a),
+                          b = members_.place(touch.body_tag_b);
+      if (!members_.holds(a) || !members_.holds(b)) continue;
+      contacts.push_back({members_.index(a), members_.index(b), touch.shape_tag_a,
+                          touch.shape_tag_b, touch.arm_a_W, touch.arm_b_W, touch.normal_W,
+                          touch.separation_m});
+    }
+    return BreakProbe(std::move(bodies), std::move(contacts), world_.horizon_s(),
+                      FallScale(world_.scene.gravity_W).still_m_s(world_.scene.accuracy.dt_s));
+  }
+
+  bool could_break(double energy_J) const {
+    return std::ranges::any_of(places_, [&](std::uint32_t place) {
+      return may_break(world_, members_.actor(place), energy_J);
+    });
+  }
+
+ private:
+  void add(std::uint32_t place) {
+    const Actor* actor = members_.actor(place);
+    const bool moves = actor && !actor->is_static;
+    if (moves && (moving_.size() >= most_ || members_.taken(place))) return;
+    if (!members_.add(place)) return;
+    places_.push_back(place);
+    if (!moves) return;
+    moving_.push_back(place);
+    members_.take(place);
+  }
+
+  ProbeBody describe(std::uint32_t place) const {
+    ProbeBody body;
+    const Actor* actor = members_.actor(place);
+    body.key = actor ? actor->key : kGroundKey;
+    if (!actor) return body;
+    body.least_J = actor->least_J;
+    body.least_Ns = actor->least_Ns;
+    body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
+    if (actor->is_static || std::ranges::binary_search(fixed_, actor->key)) return body;
+    const BodyState state = world_.physics->state(actor->body);
+    const Mat3 rotation = state.X_WB.rotation.toRotationMatrix();
+    body.inverse_mass = 1 / actor->weight.mass_kg;
+    body.inverse_inertia_W = rotation * actor->weight.inertia_R.inverse() * rotation.transpose();
+    body.velocity_W = state.velocity_W;
+    body.angular_velocity_W = state.angular_velocity_W;
+    return body;
+  }
+
+  World& world_;
+  const std::vector<std::uint32_t>& fixed_;  ///< Keys: to the world, by joints.
+  Members& members_;
+  std::vector<std::uint32_t> places_;  ///< Of this cluster's bodies, held ones too.
+  std::vector<std::uint32_t> moving_;  ///< Nearest first.
+  std::size_t most_ = kMostBodies;
+};
+
+}  // namespace
+
+std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out) {
+  const std::vector<std::uint32_t> fixed = fixed_to_world(world);
+  const std::vector<Seed> seeds = find_seeds(world, fixed);
+  std::vector<BreakProbe> clusters;
+  if (seeds.empty()) return clusters;
+  Members members(world);
+  for (const Waiter& waiter : left_out) members.take(members.place(waiter.key));
+  for (const Seed& seed : seeds) {
+    Reach reach(world, fixed, members);
+    if (!reach.start(seed)) continue;
+    reach.grow();
+    if (reach.could_break(seed.energy_J)) clusters.push_back(reach.probe());
+  }
+  return clusters;
+}
+
+}  // namespace sunder

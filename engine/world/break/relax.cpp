@@ -1,0 +1,145 @@
+#include "engine/world/break/relax.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/disjoint_sets.h"
+#include "engine/world/break/complementarity.h"
+
+namespace sunder {
+namespace {
+
+constexpr std::size_t kMostExact = 48;  // contacts that are solved exactly; more, by sweeps
+constexpr int kMostRounds = 20;
+constexpr double kConverged = 1e-3;  // of the greatest closing speed
+
+/// Contacts that hang together.
+class Group {
+ public:
+  Group(std::vector<const RelaxRow*> rows, double give) : rows_(std::move(rows)), give_(give) {}
+
+  /// Impulses per row, which are added to the velocities.
+  std::vector<double> solve(double fastest_m_s, std::vector<BodyVelocity>& v) const {
+    const auto closes = [&](const RelaxRow* row) {
+      return row->speed(v) > kConverged * fastest_m_s;
+    };
+    if (std::ranges::none_of(rows_, closes)) return std::vector<double>(rows_.size(), 0);
+    return rows_.size() <= kMostExact ? solve_exactly(v) : solve_by_sweeps(fastest_m_s, v);
+  }
+
+ private:
+  std::vector<double> solve_exactly(std::vector<BodyVelocity>& v) const;
+  std::vector<double> solve_by_sweeps(double fastest_m_s, std::vector<BodyVelocity>& v) const;
+  void sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns,
+             std::vector<double>& change) const;
+
+  std::vector<const RelaxRow*> rows_;
+  double give_;
+};
+
+std::vector<double> Group::solve_exactly(std::vector<BodyVelocity>& v) const {
+  const auto n = static_cast<Eigen::Index>(rows_.size());
+  Eigen::MatrixXd A(n, n);
+  Eigen::VectorXd closing(n);
+  const auto row = [&](Eigen::Index i) -> const RelaxRow& {
+    return *rows_[static_cast<std::size_t>(i)];
+  };
+  for (Eigen::Index i = 0; i < n; ++i) {
+    closing[i] = row(i).speed(v);
+    for (Eigen::Index j = 0; j < i; ++j) A(i, j) = A(j, i) = row(i).coupling(row(j));
+    A(i, i) = row(i).inverse_mass + give_;
+  }
+  const Eigen::VectorXd impulses = solve_complementarity(A, closing);
+  for (Eigen::Index i = 0; i < n; ++i) row(i).push(v, impulses[i]);
+  return {impulses.begin(), impulses.end()};
+}
+
+/// One sweep of projected Gauss-Seidel, there and back; `change` is what it did to the impulses.
+void Group::sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns,
+                  std::vector<double>& change) const {
+  const std::size_t n = rows_.size();
+  std::fill(change.begin(), change.end(), 0.0);
+  for (std::size_t k = 0; k < 2 * n; ++k) {
+    const std::size_t i = k < n ? k : 2 * n - 1 - k;
+    const RelaxRow& row = *rows_[i];
+    double& sum = impulses_Ns[i];
+    const double wanted = (row.speed(v) - give_ * sum) / (row.inverse_mass + give_);
+    const double impulse = std::max(sum + wanted, 0.0) - sum;
+    if (impulse == 0) continue;
+    sum += impulse;
+    change[i] += impulse;
+    row.push(v, impulse);
+  }
+}
+
+/// Nonlinear conjugate gradients over sweeps (Silcowitz-Hansen, Niebe and Erleben 2010).
+std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyVelocity>& v) const {
+  const std::size_t n = rows_.size();
+  std::vector<double> impulses_Ns(n, 0), change(n, 0), direction(n, 0);
+  double last = 0;
+  for (int round = 0; round < kMostRounds; ++round) {
+    sweep(v, impulses_Ns, change);
+    double size = 0, worst = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double scaled = change[i] * change[i] * rows_[i]->inverse_mass;
+      size += scaled;
+      worst = std::max(worst, scaled * rows_[i]->inverse_mass);
+    }
+    if (worst <= kConverged * kConverged * fastest_m_s * fastest_m_s) return impulses_Ns;
+    const double beta = last > 0 && size <= last ? size / last : 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      direction[i] *= beta;
+      if (direction[i] != 0) {
+        impulses_Ns[i] += direction[i];
+        rows_[i]->push(v, direction[i]);
+      }
+      direction[i] += change[i];
+    }
+    last = size;
+  }
+  sweep(v, impulses_Ns, change);
+  return impulses_Ns;
+}
+
+}  // namespace
+
+double RelaxRow::coupling(const RelaxRow& other) const {
+  double sum = 0;
+  if (other.a == a) sum += normal.dot(other.push_a) + lever_a.dot(other.turn_a);
+  if (other.a == b) sum -= normal.dot(other.push_a) + lever_b.dot(other.turn_a);
+  if (other.b == a) sum -= normal.dot(other.push_b) + lever_a.dot(other.turn_b);
+  if (other.b == b) sum += normal.dot(other.push_b) + lever_b.dot(other.turn_b);
+  return sum;
+}
+
+Relaxed relax_contacts(const std::vector<RelaxRow>& rows, std::span<const std::uint32_t> closed,
+                       std::span<const std::uint32_t> in_way, double give, double fastest_m_s,
+                       const std::vector<BodyVelocity>& velocities) {
+  DisjointSets bodies(velocities.size());
+  for (const std::uint32_t i : in_way) {
+    const RelaxRow& row = rows[closed[i]];
+    if (row.moves_a && row.moves_b) bodies.join(row.a, row.b);
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> grouped;  // by group
+  grouped.reserve(in_way.size());
+  for (const std::uint32_t i : in_way) {
+    const RelaxRow& row = rows[closed[i]];
+    grouped.emplace_back(bodies.root(row.moves_a ? row.a : row.b), i);
+  }
+  std::ranges::sort(grouped);
+  Relaxed relaxed{velocities, std::vector<double>(closed.size(), 0)};
+  for (std::size_t begin = 0, end = 0; begin < grouped.size(); begin = end) {
+    std::vector<const RelaxRow*> group;
+    for (; end < grouped.size() && grouped[end].first == grouped[begin].first; ++end) {
+      group.push_back(&rows[closed[grouped[end].second]]);
+    }
+    const std::vector<double> impulses_Ns =
+        Group(std::move(group), give).solve(fastest_m_s, relaxed.velocities);
+    for (std::size_t i = begin; i < end; ++i) {
+      relaxed.impulses_Ns[grouped[i].second] = impulses_Ns[i - begin];
+    }
+  }
+  return relaxed;
+}
+
+}  // namespace sunder

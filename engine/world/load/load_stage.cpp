@@ -1,0 +1,218 @@
+// Stage `load`: own weight, and what presses on a compound, break what they overload.
+//
+// Read first: load_stage(). What presses is averaged over a tenth of a second, so that a push
+// counts alike at every length of a step; blows are the business of stage `break`. An actor is
+// judged when its load has changed since it was judged last, or its bonds have. The breaker judges
+// by the stress in balance with the load: nothing is worn out by time.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "engine/base/parallel.h"
+#include "engine/base/trace.h"
+#include "engine/world/actors/replace.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kAverage_s = 0.1;  // over which what presses is averaged
+// Load on a convex has changed if by this share of what it bears, its own weight counted, ...
+constexpr double kChange = 0.1;
+// ... unless that is less than this share of the whole actor's weight.
+constexpr double kTrifle = 1e-5;
+// Work to reserve for an actor, in visits of each of its bonds; what is left over goes to others.
+constexpr std::uint64_t kReserve = 300;
+constexpr std::size_t kLarge = 1000;  // convexes of an actor that takes all threads for itself
+
+double weight_N(const World& world, double mass_kg) {
+  return mass_kg * world.scene.gravity_W.norm();
+}
+
+/// The mean of what presses on the actor, moved on by one step in which `now` pressed.
+std::vector<Press> averaged(const World& world, const Actor& actor, const std::vector<Press>& now) {
+  const double dt = world.scene.accuracy.dt_s, share = dt / (kAverage_s + dt);
+  const double trifle = kTrifle * weight_N(world, actor.weight.mass_kg);
+  std::vector<Press> mean;
+  auto old = actor.bearing.pressing.begin();
+  const auto end = actor.bearing.pressing.end();
+  for (auto it = now.begin(); it != now.end() || old != end;) {
+    Press press;
+    press.convex =
+        std::min(it != now.end() ? it->convex : kNoConvex, old != end ? old->convex : kNoConvex);
+    if (old != end && old->convex == press.convex) {
+      press.force_R += (1 - share) * old->force_R;
+      press.torque_R += (1 - share) * old->torque_R;
+      ++old;
+    }
+    for (; it != now.end() && it->convex == press.convex; ++it) {
+      press.force_R += share * it->force_R;
+      press.torque_R += share * it->torque_R;
+    }
+    if (press.force_R.norm() > 0.1 * trifle) mean.push_back(press);
+  }
+  return mean;
+}
+
+/// Whether what presses differs from what the actor was judged by.
+bool changed(const World& world, const Actor& actor) {
+  const double trifle = kTrifle * weight_N(world, actor.weight.mass_kg);
+  const std::vector<Press>&x = actor.bearing.judged, &y = actor.bearing.pressing;
+  for (std::size_t i = 0, j = 0; i < x.size() || j < y.size();) {
+    const std::uint32_t convex =
+        std::min(i < x.size() ? x[i].convex : kNoConvex, j < y.size() ? y[j].convex : kNoConvex);
+    Press before, after;
+    if (i < x.size() && x[i].convex == convex) before = x[i++];
+    if (j < y.size() && y[j].convex == convex) after = y[j++];
+    const Convex& body = *actor.structure.convex(convex);
+    const double density = world.material(body.material).density_kg_m3;
+    const double own = weight_N(world, density * body.solid.volume_m3);
+    const double allowed = std::max(trifle, kChange * (own + before.force_R.norm()));
+    if ((after.force_R - before.force_R).norm() > allowed) return true;
+    const double arm = body.box.extent().maxCoeff();
+    if ((after.torque_R - before.torque_R).norm() > allowed * arm) return true;
+  }
+  return false;
+}
+
+/// What presses on each actor in this step, in the order of World::actors; forces are in the
+/// rest frame, torques about the convex's centroid.
+std::vector<std::vector<Press>> presses(World& world) {
+  std::vector<std::vector<Press>> all(world.actors.size());
+  const double dt = world.scene.accuracy.dt_s;
+  for (const ContactLoad& contact : world.physics->contact_loads()) {
+    const Actor* actor = world.find(contact.body_tag);
+    if (!actor || !actor->structure.has(contact.shape_tag)) continue;
+    const Pose X_WB = world.physics->state(actor->body).X_WB;
+    Press press;
+    press.convex = contact.shape_tag;
+    press.force_R = X_WB.rotation.conjugate() * contact.impulse_W / dt;
+    const Vec3 point_R = X_WB.inverse() * contact.point_W + actor->weight.com_R;
+    const Vec3 centroid = actor->structure.convex(press.convex)->solid.centroid;
+    press.torque_R = (point_R - centroid).cross(press.force_R);
+    all[static_cast<std::size_t>(actor - world.actors.data())].push_back(press);
+  }
+  for (std::vector<Press>& of_actor : all) {
+    std::stable_sort(of_actor.begin(), of_actor.end(),
+                     [](const Press& x, const Press& y) { return x.convex < y.convex; });
+  }
+  return all;
+}
+
+/// Takes note of what presses; the keys of those to be judged, the longest waiting first.
+std::vector<std::uint32_t> due(World& world) {
+  const std::vector<std::vector<Press>> now = presses(world);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> waiting;
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    Actor& actor = world.actors[i];
+    Bearing& bearing = actor.bearing;
+    if (!bearing.bears) continue;
+    bearing.pressing = averaged(world, actor, now[i]);
+    // What falls freely feels nothing.
+    if (!actor.is_static && bearing.pressing.empty()) continue;
+    if (bearing.settled && changed(world, actor)) {
+      bearing.settled = false;
+      bearing.since_step = world.step;
+    }
+    if (!bearing.settled) waiting.emplace_back(bearing.since_step, actor.key);
+  }
+  std::sort(waiting.begin(), waiting.end());
+  std::vector<std::uint32_t> keys;
+  for (const auto& [since, key] : waiting) keys.push_back(key);
+  return keys;
+}
+
+LoadAnswer judge(const World& world, const Actor& actor, std::uint64_t most_work) {
+  std::vector<Load> loads;
+  for (const Press& press : actor.bearing.pressing) {
+    const Vec3& centroid = actor.structure.convex(press.convex)->solid.centroid;
+    loads.push_back({press.convex, press.force_R, centroid, press.torque_R});
+  }
+  LoadCase load;
+  load.materials = *world.materials;
+  load.loads = loads;
+  load.gravity_R =
+      world.physics->state(actor.body).X_WB.rotation.conjugate() * world.scene.gravity_W;
+  load.most_work = most_work;
+  load.memory = actor.bearing.memory;
+  return world.breaker->bear(actor.structure, load);
+}
+
+struct Judged {
+  std::uint32_t key = 0;
+  std::uint64_t most_work = 0;
+  LoadAnswer answer;
+  double ms = 0;
+};
+
+/// Judges all, each within the work that is reserved for it.
+void judge_all(World& world, std::vector<Judged>& batch) {
+  const auto one = [&](Judged& judged) {
+    const Stopwatch watch;
+    judged.answer = judge(world, *world.find(judged.key), judged.most_work);
+    judged.ms = watch.ms();
+  };
+  const auto large = [&](const Judged& judged) {
+    return world.find(judged.key)->structure.size() >= kLarge;
+  };
+  for_chunks(batch.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+    if (!large(batch[i])) one(batch[i]);
+  });
+  for (Judged& judged : batch) {
+    if (large(judged)) one(judged);
+  }
+}
+
+/// Does to the actor what the answer says.
+void apply(World& world, Judged& judged) {
+  Actor& actor = *world.find(judged.key);
+  LoadAnswer& answer = judged.answer;
+  actor.bearing.judged = actor.bearing.pressing;
+  actor.bearing.memory = answer.memory;
+  actor.bearing.settled = answer.settled;
+  actor.bearing.since_step = world.step;
+  BreakEdit& edit = answer.edit;
+  if (!edit.changed) {
+    actor.structure.apply(edit);
+    return;
+  }
+  if (!has_room(world, edit)) {
+    actor.bearing.settled = true;
+    return;
+  }
+  const Pose X_WB = world.physics->state(actor.body).X_WB;
+  Vec3 middle_R = actor.weight.com_R;
+  if (!edit.loose.exposed.empty()) {
+    middle_R = edit.exposed_convex(actor.structure, edit.loose.exposed[0]).solid.centroid;
+  }
+  world.breaks.push_back({world.time_s(), actor.key, X_WB * Vec3(middle_R - actor.weight.com_R), 0,
+                          edit.loose.new_area_m2, judged.ms, pieces_after(actor.structure, edit)});
+  carry_out(world, judged.key, edit);
+}
+
+}  // namespace
+
+void load_stage(World& world) {
+  const bool any = std::any_of(world.actors.begin(), world.actors.end(),
+                               [](const Actor& actor) { return actor.bearing.bears; });
+  if (!any) return;
+  const std::vector<std::uint32_t> keys = due(world);
+  std::size_t next = 0;
+  while (next < keys.size() && world.load_work_left > 0) {
+    std::vector<Judged> batch;
+    auto left = static_cast<std::uint64_t>(world.load_work_left);
+    for (; next < keys.size() && left > 0; ++next) {
+      const std::uint64_t bonds = world.find(keys[next])->structure.bond_count();
+      const std::uint64_t reserved = std::min(left, kReserve * (bonds + 1));
+      batch.push_back({keys[next], reserved, {}, 0});
+      left -= reserved;
+    }
+    judge_all(world, batch);
+    for (Judged& judged : batch) {
+      world.load_work_left -= static_cast<std::int64_t>(judged.answer.work);
+      apply(world, judged);
+    }
+  }
+  world.loads_waiting = static_cast<std::uint32_t>(keys.size() - next);
+}
+
+}  // namespace sunder

@@ -1,0 +1,177 @@
+#include "fracture/adjacency/compound_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/geometry/polygon_mesh.h"
+#include "engine/model/piece_mesh.h"
+#include "fracture/adjacency/adjacency.h"
+#include "fracture/adjacency/islands.h"
+#include "fracture/adjacency/overlap.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr double kParallel = 1e-6;  // of unit normals: how far their sum may be from zero
+
+/// Faces joined into planes: union-find where every face also knows on which side of its plane it
+/// is, relative to its parent.
+class Planes {
+ public:
+  explicit Planes(std::size_t faces) : parent_(faces), flipped_(faces, 0) {
+    for (std::size_t i = 0; i < faces; ++i) parent_[i] = static_cast<std::uint32_t>(i);
+  }
+
+  /// Puts two faces into one plane, on opposite sides.
+  void join(std::uint32_t a, std::uint32_t b) {
+    const auto [root_a, side_a] = find(a);
+    const auto [root_b, side_b] = find(b);
+    if (root_a == root_b) return;
+    const std::uint32_t low = std::min(root_a, root_b), high = std::max(root_a, root_b);
+    parent_[high] = low;
+    flipped_[high] = side_a ^ side_b ^ 1;
+  }
+
+  std::pair<std::uint32_t, std::uint8_t> find(std::uint32_t face) const {
+    std::uint8_t side = 0;
+    for (; parent_[face] != face; face = parent_[face]) side ^= flipped_[face];
+    return {face, side};
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint8_t> flipped_;
+};
+
+/// Whether face `f` of `a` and face `g` of `b` lie in one plane, back to back.
+bool back_to_back(const ConvexPolyhedron& a, std::size_t f, const ConvexPolyhedron& b,
+                  std::size_t g, double tolerance) {
+  const Plane& plane = a.faces[f].plane;
+  if ((plane.normal + b.faces[g].plane.normal).squaredNorm() > kParallel * kParallel) return false;
+  for (const std::uint32_t corner : b.face_corners(g)) {
+    if (std::abs(plane.distance(b.vertices[corner])) > tolerance) return false;
+  }
+  return true;
+}
+
+/// Joins the faces by which two convexes may touch.
+void join_faces(const ConvexPolyhedron& a, std::uint32_t first_a, const ConvexPolyhedron& b,
+                std::uint32_t first_b, double tolerance, Planes& planes) {
+  for (std::uint32_t f = 0; f < a.faces.size(); ++f) {
+    // Unless all of b is beyond face f, they do not touch there.
+    if (a.faces[f].plane.distance(b.vertices[0]) < -tolerance) continue;
+    for (std::uint32_t g = 0; g < b.faces.size(); ++g) {
+      if (back_to_back(a, f, b, g, tolerance)) planes.join(first_a + f, first_b + g);
+    }
+  }
+}
+
+/// Gives the caps of a visual mesh the new names of the faces that they lie in; those that lie in
+/// none get `spare` names.
+std::shared_ptr<const PolygonMesh> renamed_caps(const PolygonMesh& visual,
+                                                std::span<const PlaneId> old_names,
+                                                const ConvexPolyhedron& renamed,
+                                                std::uint64_t& spare) {
+  auto mesh = std::make_shared<PolygonMesh>(visual);
+  for (std::size_t cap = first_cap(*mesh); cap < mesh->faces.size(); ++cap) {
+    PlaneId& id = mesh->faces[cap].id;
+    const auto old = std::find(old_names.begin(), old_names.end(), id);
+    id = old == old_names.end()
+             ? PlaneId{2 * ++spare}
+             : renamed.faces[static_cast<std::size_t>(old - old_names.begin())].id;
+  }
+  return mesh;
+}
+
+/// Names the planes of all faces; those back to back share one.
+void name_planes(std::vector<Part>& parts, const PartPairs& pairs, double tolerance) {
+  std::vector<std::uint32_t> first_face;
+  std::uint32_t faces = 0;
+  for (const Part& part : parts) {
+    first_face.push_back(faces);
+    faces += static_cast<std::uint32_t>(part.polyhedron.faces.size());
+  }
+  Planes planes(faces);
+  for (const auto& [i, j] : pairs) {
+    join_faces(parts[i].polyhedron, first_face[i], parts[j].polyhedron, first_face[j], tolerance,
+               planes);
+  }
+  std::uint64_t spare = faces;
+  std::vector<PlaneId> old_names;
+  for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    old_names.clear();
+    for (std::uint32_t f = 0; f < parts[i].polyhedron.faces.size(); ++f) {
+      PlaneId& id = parts[i].polyhedron.faces[f].id;
+      old_names.push_back(id);
+      const auto [root, side] = planes.find(first_face[i] + f);
+      id = {2 * (std::uint64_t{root} + 1) + side};
+    }
+    if (!parts[i].visual || first_cap(*parts[i].visual) == parts[i].visual->faces.size()) continue;
+    parts[i].visual = renamed_caps(*parts[i].visual, old_names, parts[i].polyhedron, spare);
+  }
+}
+
+/// Faces that a neighbour covers were never part of the surface: laid bare, they look broken.
+void mark_inner_faces(Compound& compound) {
+  const auto hidden = hidden_faces(compound);
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+    ConvexPolyhedron polyhedron = compound.convexes[c]->polyhedron;
+    for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
+      if (hidden[c][f]) polyhedron.faces[f].kind = FaceKind::kInterior;
+    }
+    const Convex& convex = *compound.convexes[c];
+    compound.convexes[c] = make_convex(std::move(polyhedron), convex.material, convex.visual);
+  }
+}
+
+}  // namespace
+
+Compound make_compound(std::vector<Part> parts, double tolerance_m) {
+  PartPairs pairs = find_pairs(parts, tolerance_m);
+  PartPairs overlaps = find_overlaps(parts, pairs, tolerance_m);
+  if (part_deep_overlaps(parts, overlaps, tolerance_m)) {
+    pairs = find_pairs(parts, tolerance_m);
+    overlaps = find_overlaps(parts, pairs, tolerance_m);
+  }
+  name_planes(parts, pairs, tolerance_m);
+  Compound compound;
+  for (Part& part : parts) {
+    compound.convexes.push_back(
+        make_convex(std::move(part.polyhedron), part.material, std::move(part.visual)));
+    compound.anchored.push_back(part.anchored);
+  }
+  compound.bonds = find_contacts(compound.convexes);
+  compound.ghosts = find_ghosts(compound.convexes, overlaps, tolerance_m);
+  mark_inner_faces(compound);
+  return compound;
+}
+
+std::vector<Compound> split_islands(const Compound& compound) {
+  const std::vector<std::uint32_t> island = find_islands(compound);
+  const std::size_t count = compound.convexes.size();
+  if (count == 0 || *std::max_element(island.begin(), island.end()) == 0) return {compound};
+  std::vector<Compound> islands;
+  std::vector<std::uint32_t> index(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    if (island[c] == islands.size()) islands.emplace_back();
+    Compound& part = islands[island[c]];
+    index[c] = static_cast<std::uint32_t>(part.convexes.size());
+    part.convexes.push_back(compound.convexes[c]);
+    part.anchored.push_back(compound.anchored[c]);
+  }
+  for (Bond bond : compound.bonds) {
+    std::vector<Bond>& bonds = islands[island[bond.a]].bonds;
+    bond.a = index[bond.a];
+    bond.b = index[bond.b];
+    bonds.push_back(bond);
+  }
+  for (Ghost ghost : compound.ghosts) {
+    std::vector<Ghost>& ghosts = islands[island[ghost.of[0]]].ghosts;
+    for (std::uint32_t& c : ghost.of) c = index[c];
+    ghosts.push_back(std::move(ghost));
+  }
+  return islands;
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,184 @@
+// Read first: sweep_planes(). A plane's faces are sorted along one axis, and those that overlap
+// along it are compared.
+#include "fracture/adjacency/plane_sweep.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/base/hash.h"
+#include "engine/geometry/polygon_mesh.h"
+#include "fracture/adjacency/bucket_sort.h"
+
+namespace sunder::fracture {
+namespace {
+
+// Corners of caps this near are one, over the size of the smaller convex: from either side, the
+// cuts that made them came in another order.
+constexpr double kSameMeshCorner = 1e-10;
+
+/// Finds the contacts within planes.
+class PlaneSweep {
+ public:
+  PlaneSweep(std::span<const ConvexPtr> convexes, std::vector<FlatFace>& faces)
+      : convexes_(convexes), faces_(faces) {}
+
+  /// `plane` numbers the faces of one plane, either side.
+  void run(std::span<const std::uint32_t> plane, std::vector<Bond>& bonds) {
+    if (plane.size() < 2) return;
+    for (const std::uint32_t i : plane) turn(faces_[i], faces_[plane[0]].dropped);
+    if (plane.size() == 2) return match(faces_[plane[0]], faces_[plane[1]], bonds);
+    spread_.clear();
+    for (const std::uint32_t i : plane) {
+      Spread spread{i, Vec2::Constant(1e300), Vec2::Constant(-1e300)};
+      for (const Vec2& point : faces_[i].polygon()) {
+        spread.min = spread.min.cwiseMin(point);
+        spread.max = spread.max.cwiseMax(point);
+      }
+      spread_.push_back(spread);
+    }
+    std::sort(spread_.begin(), spread_.end(),
+              [](const Spread& a, const Spread& b) { return a.min.x() < b.min.x(); });
+    active_.clear();
+    for (std::uint32_t i = 0; i < spread_.size(); ++i) {
+      std::size_t kept = 0;
+      for (const std::uint32_t other : active_) {
+        if (spread_[other].max.x() <= spread_[i].min.x()) continue;
+        active_[kept++] = other;
+        const bool apart = spread_[other].max.y() <= spread_[i].min.y() ||
+                           spread_[i].max.y() <= spread_[other].min.y();
+        if (!apart) match(faces_[spread_[other].face], faces_[spread_[i].face], bonds);
+      }
+      active_.resize(kept);
+      active_.push_back(i);
+    }
+  }
+
+ private:
+  struct Spread {
+    std::uint32_t face;
+    Vec2 min, max;
+  };
+
+  /// Lays a face flat the other way: rounding may tell the sides of one plane apart.
+  void turn(FlatFace& face, std::uint8_t dropped) {
+    if (face.dropped == dropped) return;
+    const ConvexPolyhedron& polyhedron = convexes_[face.convex]->polyhedron;
+    turned_.emplace_back();
+    lay_flat(*convexes_[face.convex], face.face, face.cap, dropped, turned_.back());
+    face.points = turned_.back().data();
+    face.dropped = dropped;
+    face.scale = 1 / std::abs(polyhedron.faces[face.face].plane.normal[dropped]);
+  }
+
+  void match(const FlatFace& a, const FlatFace& b, std::vector<Bond>& bonds) {
+    if (a.id == b.id || (a.known && b.known) || a.convex == b.convex) return;
+    // The even side first: the same bits whichever convex was given first.
+    const FlatFace& even = a.id < b.id ? a : b;
+    const FlatFace& odd = a.id < b.id ? b : a;
+    const double size = std::min(a.size, b.size);
+    const double area = even.scale * flat_overlap(even, odd, size);
+    if (area <= kLeastOverlap * size * size) return;
+    const FlatFace& low = a.convex < b.convex ? a : b;
+    const FlatFace& high = a.convex < b.convex ? b : a;
+    bonds.push_back({low.convex, high.convex, low.face, high.face, area});
+  }
+
+  double flat_overlap(const FlatFace& even, const FlatFace& odd, double size) {
+    if (even.cap != FaceEntry::kNoCap || odd.cap != FaceEntry::kNoCap) {
+      contours_of(even, contours_even_);
+      contours_of(odd, contours_odd_);
+      return overlap_area(contours_even_, contours_odd_, kSameMeshCorner * size);
+    }
+    return are_twins(even.polygon(), odd.polygon(), size)
+               ? polygon_area(even.polygon())
+               : overlap_area(even.polygon(), odd.polygon(), scratch_);
+  }
+
+  void contours_of(const FlatFace& face, std::vector<std::span<const Vec2>>& contours) const {
+    contours.clear();
+    if (face.cap == FaceEntry::kNoCap) return contours.push_back(face.polygon());
+    const PolygonMesh& visual = *convexes_[face.convex]->visual;
+    const PolygonMesh::Face& cap = visual.faces[face.cap];
+    std::size_t first = 0;
+    for (std::uint32_t k = cap.first_contour; k < cap.first_contour + cap.contour_count; ++k) {
+      contours.push_back(face.polygon().subspan(first, visual.contours[k].corner_count));
+      first += visual.contours[k].corner_count;
+    }
+  }
+
+  /// The common case of two faces that are one polygon seen from either side.
+  static bool are_twins(std::span<const Vec2> a, std::span<const Vec2> b, double size) {
+    if (a.size() != b.size()) return false;
+    const double near = 1e-26 * size * size;
+    const auto same = [&](const Vec2& p, const Vec2& q) { return (p - q).squaredNorm() <= near; };
+    std::size_t start = 0;
+    while (start < b.size() && !same(a[0], b[start])) ++start;
+    if (start == b.size()) return false;
+    for (std::size_t i = 1; i < a.size(); ++i) {
+      if (++start == b.size()) start = 0;
+      if (!same(a[i], b[start])) return false;
+    }
+    return true;
+  }
+
+  std::span<const ConvexPtr> convexes_;
+  std::vector<FlatFace>& faces_;
+  std::vector<Spread> spread_;
+  std::vector<std::uint32_t> active_;
+  std::vector<std::vector<Vec2>> turned_;
+  std::vector<std::span<const Vec2>> contours_even_, contours_odd_;
+  OverlapScratch scratch_;
+};
+
+}  // namespace
+
+void lay_flat(const Convex& convex, std::size_t face, std::uint32_t cap, int dropped,
+              std::vector<Vec2>& points) {
+  const bool mirrored = convex.polyhedron.faces[face].plane.normal[dropped] < 0;
+  const int u = (dropped + 1) % 3, v = (dropped + 2) % 3;
+  const auto add = [&](const std::vector<Vec3>& vertices, std::span<const std::uint32_t> corners) {
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3& point = vertices[corners[mirrored ? corners.size() - 1 - k : k]];
+      points.emplace_back(point[u], point[v]);
+    }
+  };
+  if (cap == FaceEntry::kNoCap) {
+    return add(convex.polyhedron.vertices, convex.polyhedron.face_corners(face));
+  }
+  const PolygonMesh::Face& of = convex.visual->faces[cap];
+  for (std::uint32_t k = of.first_contour; k < of.first_contour + of.contour_count; ++k) {
+    add(convex.visual->vertices, convex.visual->contour_corners(k));
+  }
+}
+
+void sweep_planes(std::span<const ConvexPtr> convexes, std::vector<FlatFace>& faces,
+                  std::vector<Bond>& bonds) {
+  struct Key {
+    std::uint64_t plane;
+    std::uint32_t face;
+  };
+  std::vector<Key> keys;
+  keys.reserve(faces.size());
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+    keys.push_back({faces[i].id.value >> 1, i});
+  }
+  const std::size_t buckets = std::bit_ceil(keys.size() + 1);
+  // Bins took the low bits of the hash.
+  bucket_sort(
+      keys, buckets, [&](const Key& key) { return (mix(key.plane) >> 32) & (buckets - 1); },
+      [](const Key& a, const Key& b) {
+        return a.plane != b.plane ? a.plane < b.plane : a.face < b.face;
+      });
+  PlaneSweep sweep(convexes, faces);
+  std::vector<std::uint32_t> order;
+  for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
+    order.clear();
+    for (; end < keys.size() && keys[end].plane == keys[i].plane; ++end) {
+      order.push_back(keys[end].face);
+    }
+    sweep.run(order, bonds);
+  }
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,283 @@
+#include "fracture/cut/cutter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/check.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr double kVolumeError = 1e-12;  // relative; more than this is a failure
+
+double farthest_coordinate(const Convex& convex) {
+  return std::max(convex.box.min.cwiseAbs().maxCoeff(), convex.box.max.cwiseAbs().maxCoeff());
+}
+
+/// Distances that rounding cannot tell from zero.
+double tolerance_of(const Convex& convex) { return 4e-15 * farthest_coordinate(convex); }
+
+/// Volume that rounding of vertices may add or take, besides the relative error.
+double volume_noise(const Convex& convex) {
+  const Vec3 extent = convex.box.extent();
+  const double area = extent.x() * extent.y() + extent.y() * extent.z() + extent.z() * extent.x();
+  return 4e-16 * farthest_coordinate(convex) * area;
+}
+
+double area_in(const ConvexPolyhedron& shape, PlaneId name) {
+  double area = 0;
+  for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+    if (shape.faces[f].id == name) area += face_area(shape, f);
+  }
+  return area;
+}
+
+/// Whether some plane keeps two regions apart.
+bool are_apart(const std::vector<PlaneId>& a, const std::vector<PlaneId>& b) {
+  return std::any_of(a.begin(), a.end(), [&](PlaneId id) {
+    return std::find(b.begin(), b.end(), id.opposite()) != b.end();
+  });
+}
+
+}  // namespace
+
+Cutter::Cutter(const AlignedPattern& pattern, const ConvexPtr& solid)
+    : pattern_(pattern),
+      parent_(solid),
+      tolerance_(tolerance_of(*solid)),
+      noise_(volume_noise(*solid)) {}
+
+bool Cutter::cut(double floor_m3) {
+  cut_far();
+  std::vector<std::uint32_t> cells;
+  pattern_.overlapping(parent_->box, cells);
+  for (const std::uint32_t cell : cells) cut_cell(cell);
+  settle_slivers(floor_m3);
+  if (!adds_up()) cut_in_turn(cells, floor_m3);
+  return adds_up();
+}
+
+void Cutter::add_draft(std::uint32_t cell, std::vector<PlaneId> region, ConvexPtr convex) {
+  const double volume = convex->solid.volume_m3;
+  drafts_.push_back({cell, std::move(region), std::move(convex), {}, {}, volume, false});
+}
+
+/// What lies outside the pattern's box, one slab a plane of the box.
+void Cutter::cut_far() {
+  std::vector<PlaneId> region;
+  for (std::uint32_t i = 0; i < Pattern::kBoxPlanes; ++i) {
+    region.push_back(pattern_plane(i, true));
+    if (ConvexPtr convex = clip_by(region)) {
+      add_draft(CellPart::kFarCell, region, std::move(convex));
+    }
+    region.back() = pattern_plane(i, false);
+  }
+}
+
+void Cutter::cut_cell(std::uint32_t index) {
+  const AlignedPattern::Cell& cell = pattern_.cells[index];
+  const ConvexPolyhedron& shape = pattern_.pattern->cells[cell.index].polyhedron;
+  region_.clear();
+  for (const ConvexPolyhedron::Face& face : shape.faces) region_.push_back(face.id);
+  ConvexPtr convex =
+      contains(cell) ? make_convex(pattern_.polyhedron(cell), parent_->material) : clip_by(region_);
+  if (convex) add_draft(index, region_, std::move(convex));
+}
+
+/// Whether the cell lies strictly inside the parent.
+bool Cutter::contains(const AlignedPattern::Cell& cell) const {
+  if ((cell.box.min.array() <= parent_->box.min.array()).any()) return false;
+  if ((cell.box.max.array() >= parent_->box.max.array()).any()) return false;
+  for (const ConvexPolyhedron::Face& face : parent_->polyhedron.faces) {
+    for (const Vec3& vertex : pattern_.cell_vertices(cell)) {
+      if (face.plane.distance(vertex) >= -tolerance_) return false;
+    }
+  }
+  return true;
+}
+
+/// Finds the planes of a region that cut the parent, deepest first; false if it lies outside one.
+bool Cutter::find_cuts(const std::vector<PlaneId>& region, std::vector<Cut>& cuts) const {
+  cuts.clear();
+  for (const PlaneId id : region) {
+    const Plane plane = pattern_.plane(id);
+    double least = 1e300, most = -1e300;
+    for (const Vec3& vertex : parent_->polyhedron.vertices) {
+      const double distance = plane.distance(vertex);
+      least = std::min(least, distance);
+      most = std::max(most, distance);
+    }
+    if (least >= -tolerance_) return false;
+    if (most > tolerance_) cuts.push_back({plane.distance(parent_->solid.centroid), id});
+  }
+  std::sort(cuts.begin(), cuts.end());
+  return true;
+}
+
+/// The parent within a region: null if there is nothing, the parent itself if all of it.
+ConvexPtr Cutter::clip_by(const std::vector<PlaneId>& region) {
+  if (!find_cuts(region, cuts_)) return nullptr;
+  const ConvexPolyhedron* from = &parent_->polyhedron;
+  for (const Cut& cut : cuts_) {
+    const PlaneSide side =
+        clip(*from, pattern_.plane(cut.id), pattern_.name(cut.id), tolerance_, next_, scratch_);
+    if (side == PlaneSide::kOutside) return nullptr;
+    if (side == PlaneSide::kInside) continue;
+    std::swap(current_, next_);
+    from = &current_;
+  }
+  return from == &current_ ? make_convex(current_, parent_->material) : parent_;
+}
+
+std::uint32_t Cutter::largest_cell() const {
+  std::uint32_t cell = CellPart::kFarCell;
+  double largest = 0;
+  for (const Draft& draft : drafts_) {
+    if (draft.volume_m3 <= largest) continue;
+    largest = draft.volume_m3;
+    cell = draft.cell;
+  }
+  return cell;
+}
+
+std::vector<NamedPlane> Cutter::cutting_planes(const std::vector<PlaneId>& region) {
+  std::vector<NamedPlane> planes;
+  if (!find_cuts(region, cuts_)) return planes;
+  for (const Cut& cut : cuts_) planes.push_back({pattern_.plane(cut.id), pattern_.name(cut.id)});
+  return planes;
+}
+
+double Cutter::least_m3(double whole_m3) const {
+  const double unit = pattern_.placement.linear.determinant();
+  return kVolumeFloor * std::min(whole_m3, unit);
+}
+
+double Cutter::allowed_error_m3(double whole_m3) const { return kVolumeError * whole_m3 + noise_; }
+
+void Cutter::settle_slivers(double floor_m3) {
+  for (std::size_t i = 0; i < drafts_.size();) {
+    if (drafts_[i].volume_m3 >= floor_m3 || drafts_.size() == 1) {
+      ++i;
+      continue;
+    }
+    if (!hand_over(i)) debris_ += std::max(0.0, drafts_[i].volume_m3);
+    drafts_.erase(drafts_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+/// Gives a sliver to its neighbours by not making the cuts towards it: to the one behind its
+/// largest cut if that takes all of it, otherwise shared among all.
+bool Cutter::hand_over(std::size_t sliver) {
+  const Draft& giver = drafts_[sliver];
+  std::vector<std::pair<double, std::size_t>> neighbours;  // −area of the cut, draft
+  std::vector<PlaneId> cuts(drafts_.size());
+  for (const PlaneId id : giver.region) {
+    const double area = area_in(giver.convex->polyhedron, pattern_.name(id));
+    if (area <= 0) continue;
+    for (std::size_t other = 0; other < drafts_.size(); ++other) {
+      const std::vector<PlaneId>& region = drafts_[other].region;
+      if (other == sliver || !cuts[other].none()) continue;
+      if (std::find(region.begin(), region.end(), id.opposite()) == region.end()) continue;
+      cuts[other] = id.opposite();
+      neighbours.emplace_back(-area, other);
+    }
+  }
+  std::sort(neighbours.begin(), neighbours.end());
+  for (const auto& neighbour : neighbours) {
+    if (take_over(std::span(&neighbour, 1), cuts, giver)) return true;
+  }
+  return neighbours.size() > 1 && take_over(neighbours, cuts, giver);
+}
+
+/// Lets drafts grow beyond their cuts towards a sliver, if what they gain is all of it, no more,
+/// and none of it twice.
+bool Cutter::take_over(std::span<const std::pair<double, std::size_t>> takers,
+                       const std::vector<PlaneId>& cuts, const Draft& sliver) {
+  std::vector<Draft> grown;
+  double missing = sliver.convex->solid.volume_m3;
+  for (const auto& [area, taker] : takers) {
+    Draft draft = drafts_[taker];
+    std::replace(draft.region.begin(), draft.region.end(), cuts[taker], cuts[taker].opposite());
+    const ConvexPtr gain = clip_by(draft.region);
+    if (gain && !lies_within(*gain, sliver.region)) return false;
+    for (const Draft& other : grown) {
+      if (!are_apart(draft.region, other.region)) return false;
+    }
+    missing -= gain ? gain->solid.volume_m3 : 0;
+    std::erase(draft.region, cuts[taker].opposite());
+    draft.convex = clip_by(draft.region);
+    draft.volume_m3 += draft.convex->solid.volume_m3 - drafts_[taker].convex->solid.volume_m3;
+    draft.has_grown = true;
+    grown.push_back(std::move(draft));
+  }
+  if (std::abs(missing) > 0.1 * allowed_error_m3(parent_->solid.volume_m3)) return false;
+  for (std::size_t i = 0; i < takers.size(); ++i) drafts_[takers[i].second] = std::move(grown[i]);
+  return true;
+}
+
+bool Cutter::lies_within(const Convex& convex, const std::vector<PlaneId>& region) const {
+  for (const PlaneId id : region) {
+    const Plane plane = pattern_.plane(id);
+    for (const Vec3& vertex : convex.polyhedron.vertices) {
+      if (plane.distance(vertex) > 4 * tolerance_) return false;
+    }
+  }
+  return true;
+}
+
+bool Cutter::adds_up() const {
+  double sum = debris_;
+  for (const Draft& draft : drafts_) sum += draft.convex->solid.volume_m3;
+  const double whole = parent_->solid.volume_m3;
+  return !drafts_.empty() && std::abs(sum - whole) <= allowed_error_m3(whole);
+}
+
+/// For cells that do not quite tile (rounded files): each takes its part of what those before it
+/// left, so that every cut has two sides and nothing is lost. Cuts go right through what is left,
+/// which makes more parts than there are cells.
+void Cutter::cut_in_turn(const std::vector<std::uint32_t>& cells, double floor_m3) {
+  drafts_.clear();
+  debris_ = 0;
+  std::vector<Remnant> left{{parent_->polyhedron, {}}}, beyond;
+  const auto take = [&](std::uint32_t cell, Remnant& part) {
+    add_draft(cell, std::move(part.region), make_convex(std::move(part.solid), parent_->material));
+  };
+  for (const std::uint32_t index : cells) {
+    const ConvexPolyhedron& cell = pattern_.pattern->cells[pattern_.cells[index].index].polyhedron;
+    beyond.clear();
+    for (Remnant& remnant : left) {
+      if (take_part(remnant, cell, beyond)) take(index, remnant);
+    }
+    std::swap(left, beyond);
+  }
+  for (Remnant& remnant : left) take(CellPart::kFarCell, remnant);
+  settle_slivers(floor_m3);
+}
+
+/// Cuts a remnant down to what lies in a cell; the rest goes `beyond`. False if nothing does.
+bool Cutter::take_part(Remnant& remnant, const ConvexPolyhedron& cell,
+                       std::vector<Remnant>& beyond) {
+  const std::size_t before = beyond.size();
+  current_ = remnant.solid;
+  region_ = remnant.region;
+  for (const ConvexPolyhedron::Face& face : cell.faces) {
+    const Plane plane = pattern_.plane(face.id);
+    const PlaneId name = pattern_.name(face.id);
+    const PlaneSide side = clip(current_, plane, name, tolerance_, next_, scratch_);
+    if (side == PlaneSide::kInside) continue;
+    if (side == PlaneSide::kOutside) {
+      beyond.resize(before);
+      beyond.push_back(std::move(remnant));
+      return false;
+    }
+    Remnant& outside = beyond.emplace_back(Remnant{{}, region_});
+    clip(current_, plane.flipped(), name.opposite(), tolerance_, outside.solid, scratch_);
+    outside.region.push_back(face.id.opposite());
+    region_.push_back(face.id);
+    std::swap(current_, next_);
+  }
+  remnant = {current_, region_};
+  return true;
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,163 @@
+#include "fracture/cut/fragments.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+#include "engine/base/parallel.h"
+#include "engine/geometry/polygon_mesh.h"
+#include "fracture/cut/ghosts.h"
+#include "fracture/cut/intersect.h"
+#include "fracture/cut/weld.h"
+
+namespace sunder::fracture {
+namespace {
+
+/// The box of what a convex holds, to which its polyhedron may be fitted loosely.
+Box solid_box(const Convex& convex) {
+  return convex.is_internal() ? convex.box : bounds(*convex.visual);
+}
+
+/// The group of a part: its cell's colour where the impact reaches it.
+std::uint32_t group_of(const CellPart& part, const AlignedPattern& pattern,
+                       const ImpactSphere& sphere) {
+  if (part.cell == CellPart::kFarCell) return Fragment::kRest;
+  const Cell& cell = pattern.pattern->cells[pattern.cells[part.cell].index];
+  if (sphere.is_endless()) return cell.color;
+  return !cell.outer && sphere.touches(*part.convex) ? cell.color : Fragment::kRest;
+}
+
+/// Welds the fragments of each cell that they fill.
+class Welder {
+ public:
+  Welder(const AlignedPattern& pattern, std::uint32_t slot_count, Fragments& fragments)
+      : pattern_(pattern), slot_count_(slot_count), fragments_(fragments) {
+    into_.resize(fragments.all.size());
+    std::iota(into_.begin(), into_.end(), 0u);
+    for (std::uint32_t g = 0; g < fragments.ghosts.size(); ++g) {
+      const Ghost& ghost = fragments.ghosts[g];
+      const auto is_here = [&](std::uint32_t node) {
+        return node >= slot_count && cell(node - slot_count) == cell_of(ghost);
+      };
+      if (ghost.of.size() < 2 || !std::all_of(ghost.of.begin(), ghost.of.end(), is_here)) continue;
+      ghosts_of_cells_.emplace_back(cell_of(ghost), g);
+    }
+    std::sort(ghosts_of_cells_.begin(), ghosts_of_cells_.end());
+  }
+
+  void run() {
+    std::vector<std::uint32_t> order = into_;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return cell(a) < cell(b); });
+    for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
+      while (end < order.size() && cell(order[end]) == cell(order[i])) ++end;
+      if (end - i > 1 && cell(order[i]) != CellPart::kFarCell) {
+        weld_cell(std::span(order).subspan(i, end - i));
+      }
+    }
+    if (fragments_.welded > 0) tidy();
+  }
+
+ private:
+  std::uint32_t cell(std::uint32_t fragment) const { return fragments_.all[fragment].cell; }
+  std::uint32_t cell_of(const Ghost& ghost) const {
+    return ghost.of.back() < slot_count_ ? CellPart::kFarCell : cell(ghost.of.back() - slot_count_);
+  }
+
+  void weld_cell(std::span<const std::uint32_t> members) {
+    Fragment& first = fragments_.all[members[0]];
+    std::vector<ConvexPtr> parts;
+    std::uint8_t anchored = 0;
+    for (const std::uint32_t i : members) {
+      const Fragment& fragment = fragments_.all[i];
+      if (fragment.group != first.group) return;
+      parts.push_back(fragment.convex);
+      anchored |= fragment.anchored;
+    }
+    std::vector<Ghost> ghosts;
+    auto at = std::lower_bound(ghosts_of_cells_.begin(), ghosts_of_cells_.end(),
+                               std::pair(first.cell, 0u));
+    const auto begin = at;
+    for (; at != ghosts_of_cells_.end() && at->first == first.cell; ++at) {
+      ghosts.push_back(fragments_.ghosts[at->second]);
+    }
+    const ConvexPtr whole = weld(pattern_, pattern_.cells[first.cell], parts, ghosts);
+    if (!whole) return;
+    for (auto used = begin; used != at; ++used) fragments_.ghosts[used->second].convex = nullptr;
+    for (const std::uint32_t i : members) into_[i] = members[0];
+    first.convex = whole;
+    first.anchored = anchored;
+    ++fragments_.welded;
+  }
+
+  /// Takes out what was welded into others, and numbers what is left anew.
+  void tidy() {
+    std::vector<std::uint32_t> new_of_old(into_.size());
+    std::uint32_t kept = 0;
+    for (std::uint32_t i = 0; i < into_.size(); ++i) {
+      new_of_old[i] = into_[i] == i ? kept : new_of_old[into_[i]];
+      if (into_[i] == i) fragments_.all[kept++] = std::move(fragments_.all[i]);
+    }
+    fragments_.all.resize(kept);
+    std::erase_if(fragments_.ghosts, [](const Ghost& ghost) { return !ghost.convex; });
+    for (Ghost& ghost : fragments_.ghosts) {
+      for (std::uint32_t& node : ghost.of) {
+        if (node >= slot_count_) node = slot_count_ + new_of_old[node - slot_count_];
+      }
+      std::sort(ghost.of.begin(), ghost.of.end());
+      ghost.of.erase(std::unique(ghost.of.begin(), ghost.of.end()), ghost.of.end());
+    }
+  }
+
+  const AlignedPattern& pattern_;
+  std::uint32_t slot_count_;
+  Fragments& fragments_;
+  std::vector<std::uint32_t> into_;  ///< Per fragment: the one it is part of now.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ghosts_of_cells_;  ///< Cell, ghost.
+};
+
+}  // namespace
+
+Fragments make_fragments(const Structure& structure, std::vector<std::uint32_t>& touched,
+                         const AlignedPattern& pattern, const ImpactSphere& sphere,
+                         const Fit& fit) {
+  std::vector<Intersection> cut(touched.size());
+  for_chunks(touched.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      cut[i] = intersect(pattern, structure.convex(touched[i]), fit);
+    }
+  });
+  Fragments fragments;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cut.size(); ++i) {
+    const std::uint32_t source = touched[i];
+    const Convex& parent = *structure.convex(source);
+    fragments.failed += cut[i].failed ? 1 : 0;
+    const CellPart& first = cut[i].parts[0];
+    if (first.convex.get() == &parent && group_of(first, pattern, sphere) == Fragment::kRest) {
+      continue;
+    }
+    touched[kept++] = source;
+    fragments.debris_volume_m3 += cut[i].debris_volume_m3;
+    const std::uint8_t anchored = structure.anchored(source);
+    for (const CellPart& part : cut[i].parts) {
+      fragments.all.push_back({part.convex, source, part.cell, group_of(part, pattern, sphere), 0});
+      if (anchored == 0) continue;  // boxes of meshes take time
+      fragments.all.back().anchored =
+          inherited_anchors(anchored, solid_box(parent), solid_box(*part.convex));
+    }
+  }
+  touched.resize(kept);
+  std::stable_sort(fragments.all.begin(), fragments.all.end(),
+                   [](const Fragment& a, const Fragment& b) {
+                     return std::tie(a.source, a.cell) < std::tie(b.source, b.cell);
+                   });
+  fragments.ghosts =
+      cut_ghosts(structure, touched, pattern, fragments.all, fragments.debris_volume_m3);
+  hold_overlaps(fragments.ghosts, structure.slot_count(), fragments.all);
+  Welder(pattern, structure.slot_count(), fragments).run();
+  return fragments;
+}
+
+}  // namespace sunder::fracture

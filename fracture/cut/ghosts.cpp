@@ -1,0 +1,194 @@
+#include "fracture/cut/ghosts.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "engine/base/disjoint_sets.h"
+#include "engine/base/parallel.h"
+#include "fracture/adjacency/overlap.h"
+#include "fracture/cut/intersect.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr double kThin = 1e-9;  // of a convex's size: overlaps of surface convexes below are none
+
+/// How far a point lies outside a convex; negative inside.
+double outside(const Convex& convex, const Vec3& point) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces) {
+    most = std::max(most, face.plane.distance(point));
+  }
+  return most;
+}
+
+/// Cuts ghosts and finds their convexes' parts.
+class GhostCutter {
+ public:
+  GhostCutter(const Structure& structure, const std::vector<std::uint32_t>& touched,
+              const AlignedPattern& pattern, const std::vector<Fragment>& fragments)
+      : structure_(structure), touched_(touched), pattern_(pattern), fragments_(fragments) {}
+
+  /// The parts of one ghost; any thread may ask.
+  std::vector<Ghost> cut(const Ghost& ghost, double& debris) const {
+    std::vector<Ghost> parts;
+    if (ghost.sign == 0) {
+      meet(ghost, parts);
+      return parts;
+    }
+    const Intersection intersection = intersect(pattern_, ghost.convex);
+    debris += ghost.sign * intersection.debris_volume_m3;
+    for (const CellPart& part : intersection.parts) {
+      const Vec3& center = part.convex->solid.centroid;
+      std::vector<std::uint32_t> of;
+      for (const std::uint32_t slot : ghost.of) {
+        of.push_back(part_of(slot, part.cell, center));
+        if (of.back() != kNone) continue;
+        // A sliver went to another cell, and takes its overlaps with it: it is counted there.
+        of = {nearest(slot, center)};
+        break;
+      }
+      std::sort(of.begin(), of.end());
+      of.erase(std::unique(of.begin(), of.end()), of.end());
+      parts.push_back({part.convex, std::move(of), ghost.sign});
+    }
+    return parts;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  bool is_cut(std::uint32_t slot) const {
+    return std::binary_search(touched_.begin(), touched_.end(), slot);
+  }
+
+  std::span<const Fragment> parts_of(std::uint32_t slot) const {
+    const auto less = [](const Fragment& part, std::uint32_t s) { return part.source < s; };
+    const auto first = std::lower_bound(fragments_.begin(), fragments_.end(), slot, less);
+    const auto last = std::lower_bound(first, fragments_.end(), slot + 1, less);
+    return {first, last};
+  }
+
+  std::uint32_t node_of(const Fragment& fragment) const {
+    return structure_.slot_count() + static_cast<std::uint32_t>(&fragment - fragments_.data());
+  }
+
+  /// The part of a convex in a cell, where there is a point in it; kNone if the cell has none.
+  std::uint32_t part_of(std::uint32_t slot, std::uint32_t cell, const Vec3& point) const {
+    if (!is_cut(slot)) return slot;
+    const std::span<const Fragment> parts = parts_of(slot);
+    if (parts.size() == 1) return node_of(parts[0]);  // it may have been left whole
+    std::uint32_t best = kNone;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Fragment& part : parts) {
+      if (part.cell != cell) continue;
+      const double distance = outside(*part.convex, point);
+      if (distance < least) best = node_of(part);
+      least = std::min(least, distance);
+    }
+    return best;
+  }
+
+  /// Of the parts of a convex, the one that a point is deepest in.
+  std::uint32_t nearest(std::uint32_t slot, const Vec3& point) const {
+    std::uint32_t best = kNone;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Fragment& part : parts_of(slot)) {
+      const double distance = outside(*part.convex, point);
+      if (distance < least) best = node_of(part);
+      least = std::min(least, distance);
+    }
+    return best;
+  }
+
+  /// A convex after the cuts.
+  struct Node {
+    const ConvexPtr& convex;
+    std::uint32_t number;
+    const Fragment* fragment;  ///< Null: a convex that was not cut.
+  };
+  std::vector<Node> nodes_of(std::uint32_t slot) const {
+    std::vector<Node> nodes;
+    if (!is_cut(slot)) nodes.push_back({structure_.convex(slot), slot, nullptr});
+    for (const Fragment& part : parts_of(slot))
+      nodes.push_back({part.convex, node_of(part), &part});
+    return nodes;
+  }
+
+  /// Surface convexes are fitted to their visual meshes anew: where their parts still overlap.
+  void meet(const Ghost& ghost, std::vector<Ghost>& parts) const {
+    for (const Node& a : nodes_of(ghost.of.front())) {
+      for (const Node& b : nodes_of(ghost.of.back())) {
+        if (a.fragment && b.fragment && a.fragment->cell != b.fragment->cell) continue;
+        const Vec3 size = a.convex->box.extent().cwiseMin(b.convex->box.extent());
+        ConvexPolyhedron common =
+            overlap(a.convex->polyhedron, b.convex->polyhedron, kThin * size.maxCoeff());
+        if (common.empty()) continue;
+        parts.push_back({make_convex(std::move(common), a.convex->material),
+                         {std::min(a.number, b.number), std::max(a.number, b.number)},
+                         0});
+      }
+    }
+  }
+
+  const Structure& structure_;
+  const std::vector<std::uint32_t>& touched_;
+  const AlignedPattern& pattern_;
+  const std::vector<Fragment>& fragments_;
+};
+
+}  // namespace
+
+std::vector<Ghost> cut_ghosts(const Structure& structure, const std::vector<std::uint32_t>& touched,
+                              const AlignedPattern& pattern, const std::vector<Fragment>& fragments,
+                              double& debris_volume_m3) {
+  std::vector<std::uint32_t> old;
+  for (const std::uint32_t slot : touched) {
+    const std::span<const std::uint32_t> of_slot = structure.ghosts_of(slot);
+    old.insert(old.end(), of_slot.begin(), of_slot.end());
+  }
+  std::sort(old.begin(), old.end());
+  old.erase(std::unique(old.begin(), old.end()), old.end());
+  const GhostCutter cutter(structure, touched, pattern, fragments);
+  std::vector<std::vector<Ghost>> parts(old.size());
+  std::vector<double> debris(old.size(), 0.0);
+  for_chunks(old.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      parts[i] = cutter.cut(structure.ghost(old[i]), debris[i]);
+    }
+  });
+  std::vector<Ghost> ghosts;
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    std::move(parts[i].begin(), parts[i].end(), std::back_inserter(ghosts));
+    debris_volume_m3 += debris[i];
+  }
+  return ghosts;
+}
+
+void hold_overlaps(const std::vector<Ghost>& ghosts, std::uint32_t slot_count,
+                   std::vector<Fragment>& fragments) {
+  if (ghosts.empty()) return;
+  DisjointSets sets(fragments.size());
+  std::vector<std::uint32_t> held;  // by a convex that is not cut
+  for (const Ghost& ghost : ghosts) {
+    const std::uint32_t last = ghost.of.back();
+    if (last < slot_count) continue;
+    for (const std::uint32_t node : ghost.of) {
+      if (node < slot_count) {
+        held.push_back(last - slot_count);
+      } else {
+        sets.join(node - slot_count, last - slot_count);
+      }
+    }
+  }
+  std::vector<std::uint32_t> group(fragments.size(), Fragment::kRest);
+  for (std::uint32_t i = 0; i < fragments.size(); ++i) {
+    std::uint32_t& of_root = group[sets.root(i)];
+    of_root = std::min(of_root, fragments[i].group);
+  }
+  for (const std::uint32_t i : held) group[sets.root(i)] = Fragment::kRest;
+  for (std::uint32_t i = 0; i < fragments.size(); ++i) fragments[i].group = group[sets.root(i)];
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,26 @@
+#include "fracture/cut/impact_sphere.h"
+
+#include <limits>
+
+#include "engine/geometry/box_distance.h"
+#include "fracture/adjacency/polygon.h"
+
+namespace sunder::fracture {
+
+bool ImpactSphere::is_endless() const {
+  return radius_m == std::numeric_limits<double>::infinity();
+}
+
+bool ImpactSphere::touches(const Convex& convex) const {
+  if (is_endless()) return true;
+  return squared_distance(convex.box, center_R) <= radius_m * radius_m &&
+         distance(center_R, convex.polyhedron) <= radius_m;
+}
+
+std::vector<std::uint32_t> ImpactSphere::touched(const Structure& structure) const {
+  std::vector<std::uint32_t> slots = structure.within(center_R, radius_m);
+  std::erase_if(slots, [&](std::uint32_t slot) { return !touches(*structure.convex(slot)); });
+  return slots;
+}
+
+}  // namespace sunder::fracture

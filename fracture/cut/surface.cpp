@@ -1,0 +1,185 @@
+#include "fracture/cut/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/geometry/mesh_islands.h"
+#include "fracture/cut/cutter.h"
+
+namespace sunder::fracture {
+namespace {
+
+/// A fit cuts no less than this part of what it encloses: a thinner slice is not worth its faces.
+constexpr double kWorthCutting = 1e-3;
+
+/// The convex that a part is which lies wholly inside the mesh: nothing of the old surface shows.
+ConvexPtr internal_convex(const Convex& part) {
+  ConvexPolyhedron polyhedron = part.polyhedron;
+  for (ConvexPolyhedron::Face& face : polyhedron.faces) {
+    face.kind = FaceKind::kInterior;
+    std::fill_n(polyhedron.corner_normals.begin() + face.first_corner, face.corner_count,
+                Vec3f(face.plane.normal.cast<float>()));
+  }
+  return make_convex(std::move(polyhedron), part.material);
+}
+
+class SurfaceCutter {
+ public:
+  SurfaceCutter(const AlignedPattern& pattern, const ConvexPtr& parent, const Fit& fit)
+      : parent_(parent),
+        fit_(fit),
+        hull_(make_convex(parent->polyhedron, parent->material)),
+        cutter_(pattern, hull_),
+        whole_m3_(parent->solid.volume_m3),
+        floor_m3_(cutter_.least_m3(whole_m3_)) {}
+
+  Intersection run() {
+    if (!cutter_.cut(0)) return whole(true);
+    cut_visual([](const Draft&) { return true; });
+    settle_slivers();
+    if (cutter_.drafts().size() < 2) return whole(false);
+    return finish();
+  }
+
+ private:
+  /// What becomes of one draft.
+  struct Parts {
+    std::vector<ConvexPtr> convexes;
+    double debris_m3 = 0;
+  };
+
+  Intersection whole(bool failed) const {
+    Intersection result;
+    result.parts.push_back({cutter_.largest_cell(), parent_});
+    result.failed = failed;
+    return result;
+  }
+
+  /// Cuts the visual mesh to the regions of the drafts that `is_due`.
+  template <class IsDue>
+  void cut_visual(const IsDue& is_due) {
+    std::vector<Draft*> due;
+    std::vector<std::vector<NamedPlane>> planes;
+    for (Draft& draft : cutter_.drafts()) {
+      if (!is_due(draft)) continue;
+      due.push_back(&draft);
+      planes.push_back(cutter_.cutting_planes(draft.region));
+    }
+    std::vector<MeshRegion> regions;
+    for (std::size_t i = 0; i < due.size(); ++i) {
+      regions.push_back({due[i]->convex->box, planes[i]});
+    }
+    std::vector<PolygonMesh> parts = split(*parent_->visual, regions, cutter_.tolerance_m());
+    for_chunks(due.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+      due[i]->visual = std::move(parts[i]);
+      due[i]->visual_solid = mass_properties(due[i]->visual);
+      due[i]->volume_m3 = due[i]->visual_solid.volume_m3;
+      due[i]->has_grown = false;
+    });
+  }
+
+  /// What the cells get little of stays with their neighbours, as in Cutter.
+  void settle_slivers() {
+    std::erase_if(cutter_.drafts(), [](const Draft& draft) { return draft.visual.empty(); });
+    cutter_.settle_slivers(floor_m3_);
+    const auto has_grown = [](const Draft& draft) { return draft.has_grown; };
+    if (std::any_of(cutter_.drafts().begin(), cutter_.drafts().end(), has_grown)) {
+      cut_visual(has_grown);
+    }
+  }
+
+  Intersection finish() {
+    std::vector<Draft>& drafts = cutter_.drafts();
+    std::vector<Parts> parts(drafts.size());
+    for_chunks(drafts.size(), 1,
+               [&](std::size_t i, std::size_t, std::size_t) { parts[i] = parts_of(drafts[i]); });
+    Intersection result;
+    result.debris_volume_m3 = cutter_.debris_m3();
+    double sum = result.debris_volume_m3;
+    for (std::size_t i = 0; i < drafts.size(); ++i) {
+      for (ConvexPtr& convex : parts[i].convexes) {
+        sum += convex->solid.volume_m3;
+        result.parts.push_back({drafts[i].cell, std::move(convex)});
+      }
+      sum += parts[i].debris_m3;
+      result.debris_volume_m3 += parts[i].debris_m3;
+    }
+    const bool adds_up = std::abs(sum - whole_m3_) <= cutter_.allowed_error_m3(whole_m3_);
+    return adds_up && !result.parts.empty() ? result : whole(true);
+  }
+
+  Parts parts_of(Draft& draft) const {
+    Parts parts;
+    if (is_inside(draft)) {
+      parts.convexes.push_back(internal_convex(*draft.convex));
+      return parts;
+    }
+    std::vector<PolygonMesh> meshes = islands(std::move(draft.visual));
+    for (PolygonMesh& mesh : meshes) {
+      const bool alone = meshes.size() == 1;
+      const MassProperties solid = alone ? draft.visual_solid : mass_properties(mesh);
+      if (!alone && solid.volume_m3 < floor_m3_) {
+        parts.debris_m3 += solid.volume_m3;
+        continue;
+      }
+      parts.convexes.push_back(surface_convex(draft, std::move(mesh), solid));
+    }
+    return parts;
+  }
+
+  /// An island's convex; make_convex() would weigh the island again.
+  ConvexPtr surface_convex(const Draft& draft, PolygonMesh mesh,
+                           const MassProperties& solid) const {
+    auto convex = std::make_shared<Convex>();
+    convex->polyhedron = refitted(draft.convex->polyhedron, mesh.vertices, fit_);
+    convex->visual = std::make_shared<PolygonMesh>(std::move(mesh));
+    convex->material = parent_->material;
+    convex->solid = solid;
+    convex->box = bounds(convex->polyhedron);
+    return convex;
+  }
+
+  /// Whether the draft is all solid: its part of the mesh has no face but caps.
+  bool is_inside(const Draft& draft) const {
+    if (first_cap(draft.visual) > 0) return false;
+    const double missing = draft.convex->solid.volume_m3 - draft.volume_m3;
+    return std::abs(missing) <= 0.1 * cutter_.allowed_error_m3(whole_m3_);
+  }
+
+  const ConvexPtr& parent_;
+  const Fit& fit_;
+  const ConvexPtr hull_;  ///< The parent's polyhedron as an internal convex.
+  Cutter cutter_;
+  const double whole_m3_;
+  const double floor_m3_;
+};
+
+}  // namespace
+
+Intersection intersect_surface(const AlignedPattern& pattern, const ConvexPtr& convex,
+                               const Fit& fit) {
+  return SurfaceCutter(pattern, convex, fit).run();
+}
+
+ConvexPolyhedron refitted(const ConvexPolyhedron& region, std::span<const Vec3> points,
+                          const Fit& fit) {
+  Box box;
+  for (const Vec3& p : points) box.extend(p);
+  const double size = box.extent().maxCoeff();
+  const double reach = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
+  const double tolerance = 1e-13 * size + 4e-15 * reach;
+  ConvexPolyhedron kept = region, next;
+  ClipScratch scratch;
+  for (const Plane& plane : touching_planes(points, fit_directions(points, fit))) {
+    double most = 0;
+    for (const Vec3& vertex : kept.vertices) most = std::max(most, plane.distance(vertex));
+    if (most <= kWorthCutting * size) continue;
+    if (clip(kept, plane, {}, tolerance, next, scratch) == PlaneSide::kCut) std::swap(kept, next);
+  }
+  return kept;
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,15 @@
+// What a steady load breaks: bonds whose stress exceeds what their materials stand.
+//
+// Stress is solved for; the worst bonds of every overloaded region are cut, and it is solved for
+// again, until nothing is overloaded. Only a converged stress cuts, and nothing is kept of one
+// besides a start for the next: a load that is borne once is borne for ever.
+#pragma once
+
+#include "engine/model/breaker.h"
+
+namespace sunder::fracture {
+
+/// See Breaker::bear().
+LoadAnswer bear_load(const Structure& structure, const LoadCase& load);
+
+}  // namespace sunder::fracture

@@ -1,0 +1,230 @@
+#include "fracture/stress/multigrid.h"
+
+#include <cmath>
+
+#include "engine/base/check.h"
+#include "engine/base/parallel.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr std::size_t kGroup = 8;  // nodes that move as one on the next coarser level
+// Groups that move rigidly are too stiff: their correction is lengthened by this much.
+constexpr float kOvercorrection = 1.4f;
+constexpr std::size_t kDenseNodes = 48;  // few enough for a dense factorization
+constexpr float kDamping = 2.0f / 3;     // of block Jacobi; the blocks bound the spectrum by 2
+constexpr std::size_t kChunk = 1024;
+
+/// Sum over nodes in an order that threads do not change.
+template <class Term>
+double ordered_sum(std::size_t nodes, const Term& term) {
+  std::vector<double> partial((nodes + kChunk - 1) / kChunk);
+  for_chunks(nodes, kChunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum += term(i);
+    partial[chunk] = sum;
+  });
+  double sum = 0;
+  for (const double part : partial) sum += part;
+  return sum;
+}
+
+double dot(const Nodal<double>& x, const Nodal<double>& y) {
+  return ordered_sum(x.size(), [&](std::size_t i) { return dot(x[i], y[i]); });
+}
+
+/// x += factor · y
+template <class Real>
+void add(Real factor, const Nodal<Real>& y, Nodal<Real>& x) {
+  for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      x[i].linear += splat<Real>(factor) * y[i].linear;
+      x[i].angular += splat<Real>(factor) * y[i].angular;
+    }
+  });
+}
+
+/// x = y + factor · x
+void lengthen(double factor, const Nodal<double>& y, Nodal<double>& x) {
+  for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      x[i].linear = y[i].linear + splat<double>(factor) * x[i].linear;
+      x[i].angular = y[i].angular + splat<double>(factor) * x[i].angular;
+    }
+  });
+}
+
+/// y = x / unit as floats; what is rounding beside the unit becomes zero (see SpringLevel).
+void to_float(const Nodal<double>& x, double unit, Nodal<float>& y) {
+  constexpr double kLeast = 1e-15;
+  const auto one = [&](Quad<double> part) {
+    part *= splat<double>(1 / unit);
+    const auto keep = (part > splat<double>(kLeast)) | (part < splat<double>(-kLeast));
+    return __builtin_convertvector(keep ? part : Quad<double>{}, Quad<float>);
+  };
+  for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) y[i] = {one(x[i].linear), one(x[i].angular)};
+  });
+}
+
+/// y = unit · x
+void to_double(const Nodal<float>& x, double unit, Nodal<double>& y) {
+  const auto one = [&](Quad<float> part) {
+    return splat<double>(unit) * __builtin_convertvector(part, Quad<double>);
+  };
+  for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) y[i] = {one(x[i].linear), one(x[i].angular)};
+  });
+}
+
+}  // namespace
+
+Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
+    : springs_(nodes, springs), unit_N_m_(0) {
+  for (const Spring& spring : springs) unit_N_m_ += spring.stretch_N_m;
+  unit_N_m_ /= static_cast<double>(springs.size());
+  to_units(springs);
+  levels_.emplace_back(nodes, std::move(springs));
+  while (levels_.back().size() > kDenseNodes) {
+    SpringLevel<float> coarse = levels_.back().coarsen(kGroup);
+    if (coarse.size() == levels_.back().size()) break;  // no two hang together
+    levels_.push_back(std::move(coarse));
+  }
+  factorize();
+}
+
+Multigrid::Multigrid(const Multigrid& old, SpringEdit edit)
+    : springs_(old.springs_, edit), unit_N_m_(old.unit_N_m_) {
+  to_units(edit.springs);
+  levels_.emplace_back(old.levels_[0], edit);
+  for (std::size_t level = 1; level < old.levels_.size(); ++level) {
+    SpringLevel<float>& fine = levels_.back();
+    edit = fine.edit_of_groups(edit, old.levels_[level].size());
+    SpringLevel<float> coarse(old.levels_[level], edit);
+    fine.place_in(coarse);
+    levels_.push_back(std::move(coarse));
+  }
+  factorize();
+}
+
+void Multigrid::to_units(std::vector<Spring>& springs) const {
+  for (Spring& spring : springs) {
+    spring.stretch_N_m /= unit_N_m_;
+    spring.turn /= unit_N_m_;
+  }
+}
+
+/// The coarsest level, made ready to be solved.
+void Multigrid::factorize() {
+  std::vector<Spring> springs;
+  levels_.back().for_each_spring([&](const Spring& spring) { springs.push_back(spring); });
+  // In double precision: how softly all of it hangs on the world is lost beside its stiffness.
+  const SpringLevel<double> last(levels_.back().size(), std::move(springs));
+  const auto rows = static_cast<Eigen::Index>(6 * last.size());
+  Eigen::MatrixXd matrix(rows, rows);
+  Nodal<double> unit = last.zero(), column = unit;
+  for (std::size_t j = 0; j < last.size(); ++j) {
+    for (int k = 0; k < 6; ++k) {
+      Quad<double>& part = k < 3 ? unit[j].linear : unit[j].angular;
+      part[k % 3] = 1;
+      last.multiply(unit, column);
+      part[k % 3] = 0;
+      for (std::size_t i = 0; i < last.size(); ++i) {
+        const auto at = static_cast<Eigen::Index>(6 * i), across = static_cast<Eigen::Index>(6 * j);
+        matrix.block<3, 1>(at, across + k) = vec3(column[i].linear);
+        matrix.block<3, 1>(at + 3, across + k) = vec3(column[i].angular);
+      }
+    }
+  }
+  double most = matrix.diagonal().maxCoeff();
+  if (!(most > 0)) most = 1;                 // nothing is left that could move
+  for (Eigen::Index i = 0; i < rows; ++i) {  // groups that an edit has emptied
+    if (matrix(i, i) == 0) matrix(i, i) = most;
+  }
+  // What hangs by next to nothing gets a little ground of its own, as much as it takes.
+  for (double ground = 1e-13; ground < 1; ground *= 100) {
+    coarsest_.compute(matrix);
+    if (coarsest_.info() == Eigen::Success) return;
+    matrix.diagonal().array() += ground * most;
+  }
+  SUNDER_CHECK(false);
+}
+
+void Multigrid::solve_coarsest(const Nodal<float>& r, Nodal<float>& z) const {
+  const std::size_t nodes = levels_.back().size();
+  Eigen::VectorXd flat(static_cast<Eigen::Index>(6 * nodes));
+  for (std::size_t i = 0; i < nodes; ++i) {
+    flat.segment<3>(static_cast<Eigen::Index>(6 * i)) = vec3(r[i].linear);
+    flat.segment<3>(static_cast<Eigen::Index>(6 * i + 3)) = vec3(r[i].angular);
+  }
+  coarsest_.solveInPlace(flat);
+  z.resize(nodes + 1);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    z[i].linear = quad<float>(flat.segment<3>(static_cast<Eigen::Index>(6 * i)));
+    z[i].angular = quad<float>(flat.segment<3>(static_cast<Eigen::Index>(6 * i + 3)));
+  }
+}
+
+void Multigrid::cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,
+                      std::span<Scratch> scratch) const {
+  if (level + 1 == levels_.size()) return solve_coarsest(r, z);
+  const SpringLevel<float>& here = levels_[level];
+  Scratch& s = scratch[level];
+  here.relax(kDamping, r, z, false);
+  here.residual(r, z, s.rest);
+  here.restrict_to(s.rest, s.coarse_r);
+  cycle(level + 1, s.coarse_r, s.coarse_z, scratch);
+  if (level + 2 < levels_.size()) {  // once more, for what is left
+    levels_[level + 1].residual(s.coarse_r, s.coarse_z, s.coarse_rest);
+    cycle(level + 1, s.coarse_rest, s.correction, scratch);
+    add(1.0f, s.correction, s.coarse_z);
+  }
+  here.prolong(kOvercorrection, s.coarse_z, z);
+  here.residual(r, z, s.rest);
+  here.relax(kDamping, s.rest, z, true);
+}
+
+std::vector<Multigrid::Scratch> Multigrid::scratch() const {
+  std::vector<Scratch> scratch(levels_.size());
+  for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
+    const Nodal<float> coarse = levels_[level + 1].zero();
+    scratch[level] = {levels_[level].zero(), coarse, coarse, coarse, coarse};
+  }
+  return scratch;
+}
+
+SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double nothing_N,
+                             int most_iterations, Nodal<double>& x) const {
+  std::vector<Scratch> memory = scratch();
+  Nodal<double> r = springs_.zero(), z = r, p = r, product = r;
+  Nodal<float> r_f = levels_.front().zero(), z_f = r_f;
+  springs_.residual(f, x, r);
+  SolveResult result;
+  const double force = std::sqrt(dot(f, f));
+  double rz = 0;
+  for (;; ++result.iterations) {
+    const double left = std::sqrt(dot(r, r));
+    result.residual = force > 0 ? left / force : 0;
+    if (left <= nothing_N) {
+      result.converged = true;
+      break;
+    }
+    to_float(r, left, r_f);
+    cycle(0, r_f, z_f, memory);
+    to_double(z_f, left / unit_N_m_, z);
+    const double rz_new = dot(r, z), energy = dot(x, f);
+    result.error = energy > 0 ? std::sqrt(std::max(0.0, rz_new) / energy) : 1;
+    result.converged = result.residual <= tolerance && result.error <= tolerance;
+    if (result.converged || result.iterations >= most_iterations) break;
+    lengthen(result.iterations > 0 ? rz_new / rz : 0, z, p);
+    rz = rz_new;
+    springs_.multiply(p, product);
+    const double curvature = dot(p, product);
+    if (!(curvature > 0)) break;  // nothing but rounding is left
+    add(rz / curvature, p, x);
+    add(-rz / curvature, product, r);
+  }
+  return result;
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,58 @@
+// Solves K x = f for the springs of a compound: conjugate gradients, preconditioned by a W-cycle
+// over coarser and coarser levels of springs. The cycle is in single precision: it decides how fast
+// the answer comes, not what it is.
+//
+// Read first: Multigrid::solve(), then cycle().
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "fracture/stress/spring_level.h"
+
+namespace sunder::fracture {
+
+struct SolveResult {
+  int iterations = 0;
+  double residual = 0;  ///< Of forces and torques, relative to f.
+  double error = 0;     ///< Estimate in the norm of energy, relative to x: that of the stresses.
+  bool converged = false;
+};
+
+class Multigrid {
+ public:
+  /// Every node hangs on the world, by springs over other nodes perhaps.
+  Multigrid(std::size_t nodes, std::vector<Spring> springs);
+  /// Another after an edit of its springs: on all levels, groups that an edit does not reach stay
+  /// as they are, and what is new joins the groups beside it.
+  Multigrid(const Multigrid& old, SpringEdit edit);
+
+  const SpringLevel<double>& springs() const { return springs_; }
+  /// Improves x until residual and error are at most `tolerance`, what is left is rounding
+  /// (`nothing_N`), or so many iterations are done.
+  SolveResult solve(const Nodal<double>& f, double tolerance, double nothing_N, int most_iterations,
+                    Nodal<double>& x) const;
+
+ private:
+  /// Memory of one level of a cycle.
+  struct Scratch {
+    Nodal<float> rest, coarse_r, coarse_z, coarse_rest, correction;
+  };
+
+  void to_units(std::vector<Spring>& springs) const;
+  void factorize();
+  std::vector<Scratch> scratch() const;
+  /// z = (about) K⁻¹ r, on one level and those below it; symmetric.
+  void cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,
+             std::span<Scratch> scratch) const;
+  void solve_coarsest(const Nodal<float>& r, Nodal<float>& z) const;
+
+  SpringLevel<double> springs_;
+  double unit_N_m_;  ///< The levels' unit of stiffness: their numbers are about one.
+  std::vector<SpringLevel<float>> levels_;  ///< The same springs, then coarser ones.
+  Eigen::LLT<Eigen::MatrixXd> coarsest_;
+};
+
+}  // namespace sunder::fracture

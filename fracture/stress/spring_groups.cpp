@@ -1,0 +1,261 @@
+// Groups of nodes as the nodes of a coarser level.
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "fracture/stress/spring_level.h"
+#include "fracture/stress/spring_math.h"
+
+namespace sunder::fracture {
+namespace {
+
+/// Neighbours of every node and how strongly they hold it, as begin offsets and flat lists.
+struct Couplings {
+  std::vector<std::uint32_t> first, other;
+  std::vector<double> strength;
+  std::vector<double> strongest;  ///< Per node.
+
+  template <class Real>
+  explicit Couplings(const SpringLevel<Real>& level)
+      : first(level.size() + 2, 0), strongest(level.size(), 0) {
+    const auto each = [&](auto&& visit) {
+      level.for_each_spring([&](const Spring& s) {
+        if (s.a == Spring::kWorld || s.b == Spring::kWorld) return;
+        visit(s.a, s.b, s.stretch_N_m);
+        visit(s.b, s.a, s.stretch_N_m);
+      });
+    };
+    each([&](std::uint32_t node, std::uint32_t, double) { ++first[node + 2]; });
+    for (std::size_t i = 2; i < first.size(); ++i) first[i] += first[i - 1];
+    other.resize(first.back());
+    strength.resize(first.back());
+    each([&](std::uint32_t node, std::uint32_t neighbour, double stretch) {
+      other[first[node + 1]] = neighbour;
+      strength[first[node + 1]++] = stretch;
+      strongest[node] = std::max(strongest[node], stretch);
+    });
+  }
+};
+
+/// Groups of neighbouring nodes, each numbered by when it began.
+class Groups {
+ public:
+  Groups(const Couplings& couplings, std::size_t nodes)
+      : couplings_(couplings), group_(nodes, kFree), pull_(nodes, 0) {}
+
+  /// Every group grows by what its members hold strongest, to `size` nodes if it can.
+  template <class IsThere>
+  std::uint32_t grow(std::size_t size, const IsThere& is_there) {
+    std::uint32_t groups = 0;
+    for (std::uint32_t seed = 0; seed < group_.size(); ++seed) {
+      if (!is_there(seed)) group_[seed] = 0;
+      if (group_[seed] != kFree) continue;
+      rim_.clear();
+      add(seed, groups);
+      std::size_t members = 1;
+      for (; members < size; ++members) {
+        const auto best = strongest_of_rim();
+        if (best == kFree) break;
+        add(best, groups);
+      }
+      for (const std::uint32_t node : rim_) pull_[node] = 0;
+      if (members > 1 || !join_neighbour(seed)) ++groups;
+    }
+    return groups;
+  }
+
+  std::vector<std::uint32_t> take() { return std::move(group_); }
+
+ private:
+  static constexpr std::uint32_t kFree = 0xffffffff;
+  // A node is held weakly by what holds it less than this share of what holds it most.
+  static constexpr double kWeak = 0.25;
+
+  void add(std::uint32_t node, std::uint32_t group) {
+    group_[node] = group;
+    for (std::uint32_t k = couplings_.first[node]; k < couplings_.first[node + 1]; ++k) {
+      const std::uint32_t other = couplings_.other[k];
+      if (group_[other] != kFree || couplings_.strength[k] < kWeak * couplings_.strongest[other]) {
+        continue;
+      }
+      if (pull_[other] == 0) rim_.push_back(other);
+      pull_[other] += 1;
+    }
+  }
+
+  std::uint32_t strongest_of_rim() const {
+    std::uint32_t best = kFree;
+    for (const std::uint32_t node : rim_) {
+      if (group_[node] == kFree && (best == kFree || pull_[node] > pull_[best])) best = node;
+    }
+    return best;
+  }
+
+  /// A node left alone goes to the group that holds it strongest.
+  bool join_neighbour(std::uint32_t node) {
+    double most = 0;
+    const std::uint32_t alone = group_[node];
+    for (std::uint32_t k = couplings_.first[node]; k < couplings_.first[node + 1]; ++k) {
+      const std::uint32_t other = group_[couplings_.other[k]];
+      if (other == kFree || other == alone || couplings_.strength[k] <= most) continue;
+      most = couplings_.strength[k];
+      group_[node] = other;
+    }
+    return most > 0;
+  }
+
+  const Couplings& couplings_;
+  std::vector<std::uint32_t> group_;
+  std::vector<std::uint32_t> rim_;  ///< Free nodes beside the group that grows.
+  std::vector<double> pull_;        ///< Of that group on each of them.
+};
+
+/// Springs between the same two nodes become one.
+std::vector<Spring> merge(std::vector<Spring> springs) {
+  std::sort(springs.begin(), springs.end(),
+            [](const Spring& x, const Spring& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  std::vector<Spring> merged;
+  for (std::size_t begin = 0, end = 0; begin < springs.size(); begin = end) {
+    Spring one = springs[begin];
+    one.stretch_N_m = 0;
+    Vec3 moment = Vec3::Zero();
+    for (; end < springs.size() && springs[end].a == one.a && springs[end].b == one.b; ++end) {
+      one.stretch_N_m += springs[end].stretch_N_m;
+      moment += springs[end].stretch_N_m * springs[end].place;
+    }
+    one.place = moment / one.stretch_N_m;
+    one.turn.setZero();
+    for (std::size_t i = begin; i < end; ++i) {
+      one.turn += springs[i].turn + springs[i].stretch_N_m * lever(springs[i].place - one.place);
+    }
+    merged.push_back(one);
+  }
+  return merged;
+}
+
+}  // namespace
+
+template <class Real>
+SpringLevel<Real> SpringLevel<Real>::coarsen(std::size_t group_size) {
+  const Couplings couplings(*this);
+  Groups growing(couplings, size());
+  const std::uint32_t groups =
+      growing.grow(group_size, [&](std::uint32_t node) { return has_springs(node); });
+  group_ = growing.take();
+  std::vector<Spring> between;
+  for_each_spring([&](const Spring& spring) {
+    if (const std::optional<Spring> one = between_groups(spring)) between.push_back(*one);
+  });
+  SpringLevel coarse(groups, merge(std::move(between)));
+  place_in(coarse);
+  return coarse;
+}
+
+/// The spring as its groups see it; none if it is within one.
+template <class Real>
+std::optional<Spring> SpringLevel<Real>::between_groups(Spring spring) const {
+  spring.a = spring.a == Spring::kWorld ? Spring::kWorld : group_[spring.a];
+  spring.b = spring.b == Spring::kWorld ? Spring::kWorld : group_[spring.b];
+  if (spring.a == spring.b) return std::nullopt;
+  if (spring.a > spring.b) std::swap(spring.a, spring.b);
+  return spring;
+}
+
+template <class Real>
+void SpringLevel<Real>::place_in(const SpringLevel& coarse) {
+  arms_.resize(size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Vec3 way = places_[i] - coarse.places_[group_[i]];
+    arms_[i] = rounded<Real>(way, way.norm());
+  }
+}
+
+template <class Real>
+SpringEdit SpringLevel<Real>::edit_of_groups(const SpringEdit& edit, std::size_t groups) {
+  SpringEdit of_groups;
+  of_groups.changes.assign(groups, SpringEdit::Change::kNone);
+  const auto mark = [&] {
+    for (std::uint32_t i = 0; i < size(); ++i) {
+      if (edit.is_at(i)) of_groups.changes[group_[i]] = SpringEdit::Change::kSprings;
+    }
+  };
+  mark();
+  join_groups(edit);
+  mark();
+  std::vector<std::uint8_t> touched(runs_.size(), 0);
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    if (of_groups.is_at(group_[i])) touched[i / kRun] = 1;
+  }
+  std::vector<Spring> between;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (!touched[r]) continue;
+    for (const Spring& spring : runs_[r]->springs) {
+      const std::optional<Spring> one = between_groups(spring);
+      if (!one || !of_groups.is_at(*one)) continue;
+      // Of the two runs that it may be in, the first that was looked at counts.
+      const std::uint32_t first = std::min(spring.a, spring.b) / kRun;
+      if (first != r && touched[first]) continue;
+      between.push_back(*one);
+    }
+  }
+  of_groups.springs = merge(std::move(between));
+  return of_groups;
+}
+
+/// What is new goes to the group that holds it strongest.
+template <class Real>
+void SpringLevel<Real>::join_groups(const SpringEdit& edit) {
+  std::vector<std::uint8_t> homeless(size(), 0);
+  std::size_t left = 0;
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    homeless[i] = edit.changes[i] == SpringEdit::Change::kNew;
+    left += homeless[i];
+  }
+  while (left > 0) {
+    std::map<std::uint32_t, std::pair<double, std::uint32_t>> best;  // strength and group
+    for (const Spring& spring : edit.springs) {
+      if (spring.a == Spring::kWorld || spring.b == Spring::kWorld) continue;
+      if (homeless[spring.a] == homeless[spring.b]) continue;
+      const std::uint32_t node = homeless[spring.a] ? spring.a : spring.b;
+      const std::uint32_t other = homeless[spring.a] ? spring.b : spring.a;
+      auto& strongest = best[node];
+      if (spring.stretch_N_m > strongest.first) strongest = {spring.stretch_N_m, group_[other]};
+    }
+    if (best.empty()) return;  // they stay where what they stand for instead was
+    for (const auto& [node, strongest] : best) {
+      group_[node] = strongest.second;
+      homeless[node] = 0;
+      --left;
+    }
+  }
+}
+
+template <class Real>
+void SpringLevel<Real>::restrict_to(const Nodal<Real>& forces, Nodal<Real>& sums) const {
+  std::fill(sums.begin(), sums.end(), Six<Real>{});
+  for (std::size_t i = 0; i < size(); ++i) {
+    Six<Real>& sum = sums[group_[i]];
+    sum.linear += forces[i].linear;
+    sum.angular += forces[i].angular + cross(arms_[i], forces[i].linear);
+  }
+}
+
+template <class Real>
+void SpringLevel<Real>::prolong(Real factor, const Nodal<Real>& motions, Nodal<Real>& x) const {
+  for_chunks(size(), kRun, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Six<Real>& motion = motions[group_[i]];
+      x[i].linear += splat<Real>(factor) * (motion.linear + cross(motion.angular, arms_[i]));
+      x[i].angular += splat<Real>(factor) * motion.angular;
+    }
+  });
+}
+
+template SpringLevel<float> SpringLevel<float>::coarsen(std::size_t);
+template SpringEdit SpringLevel<float>::edit_of_groups(const SpringEdit&, std::size_t);
+template void SpringLevel<float>::place_in(const SpringLevel&);
+template void SpringLevel<float>::restrict_to(const Nodal<float>&, Nodal<float>&) const;
+template void SpringLevel<float>::prolong(float, const Nodal<float>&, Nodal<float>&) const;
+
+}  // namespace sunder::fracture

@@ -1,0 +1,208 @@
+#include "fracture/stress/spring_level.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/Dense>
+
+#include "engine/base/parallel.h"
+#include "fracture/stress/spring_math.h"
+
+namespace sunder::fracture {
+namespace {
+
+constexpr double kLeastTurn = 1e-9;  // of a block's eigenvalues, as part of their sum
+
+}  // namespace
+
+template <class Real>
+SpringLevel<Real>::SpringLevel(std::size_t nodes, std::vector<Spring> springs)
+    : places_(nodes, Vec3::Zero()), inverse_(nodes) {
+  std::vector<std::shared_ptr<Run>> runs;
+  for (std::uint32_t begin = 0; begin < nodes; begin += kRun) {
+    const auto end = std::min(static_cast<std::uint32_t>(nodes), begin + kRun);
+    runs.push_back(std::make_shared<Run>(Run{begin, end, {}, {}, {}}));
+  }
+  runs_.resize(runs.size());
+  for (const Spring& spring : springs) put(spring, runs);
+  finish(std::move(runs), nullptr);
+}
+
+template <class Real>
+SpringLevel<Real>::SpringLevel(const SpringLevel& old, const SpringEdit& edit) : SpringLevel(old) {
+  std::vector<std::uint8_t> touched(runs_.size(), 0);
+  for (std::size_t i = 0; i < edit.changes.size(); ++i) {
+    if (edit.changes[i] != SpringEdit::Change::kNone) touched[i / kRun] = 1;
+  }
+  std::vector<std::shared_ptr<Run>> runs(runs_.size());
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Run& before = *runs_[r];
+    const auto is_touched = [&](std::uint32_t other) { return touched[other] != 0; };
+    if (!touched[r] && std::ranges::none_of(before.beside, is_touched)) continue;
+    runs[r] = std::make_shared<Run>(Run{before.begin, before.end, {}, {}, {}});
+    for (const Spring& spring : before.springs) {
+      if (!edit.is_at(spring)) runs[r]->springs.push_back(spring);
+    }
+  }
+  for (const Spring& spring : edit.springs) {
+    for (const std::uint32_t end : {spring.a, spring.b}) {
+      if (end == Spring::kWorld || runs[end / kRun]) continue;
+      runs[end / kRun] = std::make_shared<Run>(*runs_[end / kRun]);
+      runs[end / kRun]->links.clear();
+    }
+    put(spring, runs);
+  }
+  finish(std::move(runs), &edit);
+}
+
+/// Adds a spring to the runs that it reaches into.
+template <class Real>
+void SpringLevel<Real>::put(const Spring& spring, std::vector<std::shared_ptr<Run>>& runs) const {
+  const bool from_a = spring.a != Spring::kWorld, from_b = spring.b != Spring::kWorld;
+  if (from_a) runs[spring.a / kRun]->springs.push_back(spring);
+  if (from_b && !(from_a && spring.a / kRun == spring.b / kRun)) {
+    runs[spring.b / kRun]->springs.push_back(spring);
+  }
+}
+
+/// Puts runs in place whose springs are there: of their nodes, or those of an edit among them, what
+/// follows from the springs; then all their links.
+template <class Real>
+void SpringLevel<Real>::finish(std::vector<std::shared_ptr<Run>> runs, const SpringEdit* edit) {
+  for_chunks(runs.size(), 1, [&](std::size_t r, std::size_t, std::size_t) {
+    if (runs[r]) place_nodes(*runs[r], edit);
+  });
+  for_chunks(runs.size(), 1, [&](std::size_t r, std::size_t, std::size_t) {
+    if (!runs[r]) return;
+    Run& run = *runs[r];
+    invert_blocks(run, edit);
+    run.links.reserve(run.springs.size());
+    run.beside.clear();
+    for (const Spring& spring : run.springs) {
+      run.links.push_back(link_of(spring));
+      for (const std::uint32_t end : {spring.a, spring.b}) {
+        const std::uint32_t other = end / kRun;
+        if (end == Spring::kWorld || std::ranges::find(run.beside, other) != run.beside.end()) {
+          continue;
+        }
+        run.beside.push_back(other);
+      }
+    }
+    runs_[r] = std::move(runs[r]);
+  });
+}
+
+template <class Real>
+void SpringLevel<Real>::place_nodes(const Run& run, const SpringEdit* edit) {
+  std::vector<double> stretch(run.end - run.begin, 0);
+  std::vector<Vec3> moment(run.end - run.begin, Vec3::Zero());
+  for (const Spring& spring : run.springs) {
+    for (const std::uint32_t end : {spring.a, spring.b}) {
+      if (end < run.begin || end >= run.end) continue;
+      stretch[end - run.begin] += spring.stretch_N_m;
+      moment[end - run.begin] += spring.stretch_N_m * spring.place;
+    }
+  }
+  for (std::uint32_t i = run.begin; i < run.end; ++i) {
+    if (edit && !edit->is_at(i)) continue;
+    const double sum = stretch[i - run.begin];
+    if (sum > 0) places_[i] = moment[i - run.begin] / sum;
+  }
+}
+
+template <class Real>
+typename SpringLevel<Real>::Link SpringLevel<Real>::link_of(const Spring& spring) const {
+  const auto nodes = static_cast<std::uint32_t>(size());
+  const auto arm = [&](std::uint32_t node) {
+    const Vec3 way = spring.place - places_[node];
+    return rounded<Real>(way, way.norm());
+  };
+  Link link;
+  link.a = std::min(spring.a, nodes);
+  link.b = std::min(spring.b, nodes);
+  link.arm_a = link.a < nodes ? arm(link.a) : Quad<Real>{};
+  link.arm_b = link.b < nodes ? arm(link.b) : Quad<Real>{};
+  link.turn = rounded<Real>(spring.turn);
+  link.turn.diagonal[3] = static_cast<Real>(spring.stretch_N_m);
+  return link;
+}
+
+template <class Real>
+void SpringLevel<Real>::invert_blocks(const Run& run, const SpringEdit* edit) {
+  std::vector<double> push(run.end - run.begin, 0);
+  std::vector<Mat3> turn(run.end - run.begin, Mat3::Zero());
+  for (const Spring& spring : run.springs) {
+    for (const std::uint32_t end : {spring.a, spring.b}) {
+      if (end < run.begin || end >= run.end) continue;
+      push[end - run.begin] += spring.stretch_N_m;
+      turn[end - run.begin] +=
+          spring.turn + spring.stretch_N_m * lever(spring.place - places_[end]);
+    }
+  }
+  for (std::uint32_t i = run.begin; i < run.end; ++i) {
+    if (edit && !edit->is_at(i)) continue;
+    inverse_[i] = {};
+    if (!(push[i - run.begin] > 0)) continue;
+    // Slivers turn about their length almost freely.
+    Mat3& block = turn[i - run.begin];
+    block.diagonal().array() += kLeastTurn * block.trace();
+    inverse_[i] = rounded<Real>(Mat3(block.inverse()));
+    inverse_[i].diagonal[3] = static_cast<Real>(1 / push[i - run.begin]);
+  }
+}
+
+template <class Real>
+template <class Start>
+void SpringLevel<Real>::apply(const Nodal<Real>& x, Nodal<Real>& y, Real sign,
+                              const Start& start) const {
+  y.resize(size() + 1);
+  for_chunks(runs_.size(), 1, [&](std::size_t r, std::size_t, std::size_t) {
+    const Run& run = *runs_[r];
+    for (std::uint32_t i = run.begin; i < run.end; ++i) y[i] = start(i);
+    for (const Link& link : run.links) {
+      const Six<Real>&at_a = x[link.a], &at_b = x[link.b];
+      const Quad<Real> turned = at_b.angular - at_a.angular;
+      const Quad<Real> shifted = at_b.linear - at_a.linear + cross(at_b.angular, link.arm_b) -
+                                 cross(at_a.angular, link.arm_a);
+      const Quad<Real> force = splat<Real>(sign * link.turn.diagonal[3]) * shifted;
+      const Quad<Real> torque = splat<Real>(sign) * (link.turn * turned);
+      if (link.a - run.begin < run.end - run.begin) {
+        y[link.a].linear -= force;
+        y[link.a].angular -= cross(link.arm_a, force) + torque;
+      }
+      if (link.b - run.begin < run.end - run.begin) {
+        y[link.b].linear += force;
+        y[link.b].angular += cross(link.arm_b, force) + torque;
+      }
+    }
+  });
+}
+
+template <class Real>
+void SpringLevel<Real>::multiply(const Nodal<Real>& x, Nodal<Real>& y) const {
+  apply(x, y, 1, [](std::uint32_t) { return Six<Real>{}; });
+}
+
+template <class Real>
+void SpringLevel<Real>::residual(const Nodal<Real>& f, const Nodal<Real>& x, Nodal<Real>& y) const {
+  apply(x, y, -1, [&](std::uint32_t i) { return f[i]; });
+}
+
+template <class Real>
+void SpringLevel<Real>::relax(Real factor, const Nodal<Real>& r, Nodal<Real>& x, bool add) const {
+  x.resize(size() + 1);
+  for_chunks(size(), kRun, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Symmetric<Real>& inverse = inverse_[i];
+      const Quad<Real> push = splat<Real>(factor * inverse.diagonal[3]) * r[i].linear;
+      const Quad<Real> turn = splat<Real>(factor) * (inverse * r[i].angular);
+      x[i].linear = add ? x[i].linear + push : push;
+      x[i].angular = add ? x[i].angular + turn : turn;
+    }
+  });
+}
+
+template class SpringLevel<float>;
+template class SpringLevel<double>;
+
+}  // namespace sunder::fracture

@@ -1,0 +1,155 @@
+#include "fracture/vacd/vacd.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "engine/base/check.h"
+#include "engine/base/parallel.h"
+#include "engine/base/trace.h"
+#include "fracture/adjacency/compound_builder.h"
+#include "fracture/vacd/nodes.h"
+#include "fracture/vacd/regions.h"
+#include "fracture/vacd/tree.h"
+
+namespace sunder::fracture {
+namespace {
+
+void check_options(const VacdOptions& options) {
+  if (options.nodes.size() > kMostNodes || options.node_count.value_or(0) > kMostNodes ||
+      options.convexes > kMostNodes) {
+    throw InputError("a decomposition has at most " + std::to_string(kMostNodes) +
+                     " nodes and convexes");
+  }
+  for (const Vec3& node : options.nodes) {
+    if (!node.allFinite()) throw InputError("nodes have finite coordinates");
+  }
+}
+
+/// Pieces of all shells, `count` automatic nodes among them unless there are nodes by hand.
+std::vector<VacdPiece> all_pieces(const RepairedMesh& mesh, const VacdOptions& options,
+                                  std::uint32_t count, PlaneNames& names) {
+  std::vector<VacdPiece> pieces;
+  const std::vector<std::uint32_t> share = share_nodes(mesh.shells, count);
+  for (std::size_t s = 0; s < mesh.shells.size(); ++s) {
+    const PolygonMesh& shell = mesh.shells[s];
+    const std::vector<Vec3> nodes =
+        options.nodes.empty() ? automatic_nodes(shell, share[s]) : options.nodes;
+    std::vector<VacdPiece> part = voronoi_pieces(shell, nodes, names);
+    std::move(part.begin(), part.end(), std::back_inserter(pieces));
+  }
+  return pieces;
+}
+
+/// As many as large meshes need for pieces of few enough polygons: nodes are placed sooner than
+/// pieces are cut one by one.
+std::uint32_t nodes_by_default(const RepairedMesh& mesh, const VacdOptions& options) {
+  constexpr double kUneven = 1.5;
+  std::size_t polygons = 0;
+  for (const PolygonMesh& shell : mesh.shells) polygons += shell.faces.size();
+  const double needed = kUneven * static_cast<double>(polygons) / options.polygons;
+  return std::clamp(static_cast<std::uint32_t>(std::min<double>(needed, kMostNodes)), kDefaultNodes,
+                    kMostNodes);
+}
+
+/// Pieces by nodes, if there are any, cut further where `convexes` allows or `polygons` demands.
+std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& options,
+                                  PlaneNames& names) {
+  const auto shells = static_cast<std::uint32_t>(mesh.shells.size());
+  const std::uint32_t limit = options.convexes;
+  std::uint32_t count =
+      options.node_count.value_or(limit > 0 ? shells : nodes_by_default(mesh, options));
+  for (;;) {
+    names = {};
+    std::vector<VacdPiece> pieces = all_pieces(mesh, options, count, names);
+    const auto made = static_cast<std::uint32_t>(pieces.size());
+    const bool fewest = options.nodes.empty() && count <= shells;
+    if (limit == 0 || made <= limit || fewest) {
+      return refine(std::move(pieces), {limit, options.polygons, options.progress}, names);
+    }
+    if (!options.nodes.empty()) {
+      throw InputError("the nodes make " + std::to_string(made) + " convexes, more than the " +
+                       std::to_string(limit) + " allowed; give fewer nodes or allow more");
+    }
+    count -= std::min(count - shells, made - limit);
+  }
+}
+
+/// Drops pieces that are inside out, and answers what they would enclose.
+double drop_inside_out(std::vector<VacdPiece>& pieces) {
+  std::vector<double> volume(pieces.size());
+  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
+    volume[p] = mass_properties(pieces[p].mesh).volume_m3;
+  });
+  double dropped = 0;
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (volume[p] > 0) {
+      if (kept != p) pieces[kept] = std::move(pieces[p]);
+      ++kept;
+    } else {
+      dropped -= volume[p];
+    }
+  }
+  pieces.resize(kept);
+  return dropped;
+}
+
+/// A part per piece: fitted to its mesh, which goes with it unless the part looks the same alone.
+std::vector<Part> fitted_parts(std::vector<VacdPiece> pieces, const VacdOptions& options) {
+  std::vector<Part> parts(pieces.size());
+  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
+    VacdPiece& piece = pieces[p];
+    parts[p].polyhedron = fitted_region(piece, options.fit);
+    parts[p].material = options.material;
+    if (!piece.is_internal() && !shows_all(parts[p].polyhedron, piece.mesh)) {
+      parts[p].visual = std::make_shared<PolygonMesh>(std::move(piece.mesh));
+    }
+  });
+  return parts;
+}
+
+/// Faces of different shells that lie this close to one plane touch.
+double touching_tolerance(const RepairedMesh& mesh) {
+  constexpr double kTouching = 1e-7;
+  Box box;
+  for (const PolygonMesh& shell : mesh.shells) box.extend(bounds(shell));
+  return kTouching * box.extent().maxCoeff();
+}
+
+VacdFigures measure(const Compound& compound, const RepairedMesh& mesh) {
+  VacdFigures figures;
+  figures.ghosts = compound.ghosts.size();
+  for (const PolygonMesh& shell : mesh.shells) {
+    figures.mesh_volume_m3 += mass_properties(shell).volume_m3;
+  }
+  for (const ConvexPtr& convex : compound.convexes) {
+    figures.hull_volume_m3 += mass_properties(convex->polyhedron).volume_m3;
+    figures.max_faces_per_convex =
+        std::max(figures.max_faces_per_convex,
+                 convex->visual ? convex->visual->faces.size() : convex->polyhedron.faces.size());
+  }
+  return figures;
+}
+
+}  // namespace
+
+Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
+  check_options(options);
+  const Stopwatch watch;
+  PlaneNames names;
+  std::vector<VacdPiece> pieces = cut_pieces(mesh, options, names);
+  const double inside_out_m3 = drop_inside_out(pieces);
+  const double split_ms = watch.ms();
+  std::vector<Part> parts = fitted_parts(std::move(pieces), options);
+  Vacd result{make_compound(std::move(parts), touching_tolerance(mesh)), {}};
+  const double total_ms = watch.ms();
+  result.figures = measure(result.compound, mesh);
+  result.figures.inside_out_m3 = inside_out_m3;
+  result.figures.split_ms = split_ms;
+  result.figures.total_ms = total_ms;
+  return result;
+}
+
+}  // namespace sunder::fracture

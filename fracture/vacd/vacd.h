@@ -1,0 +1,70 @@
+// Volumetric approximate convex decomposition: a visual mesh becomes a compound (paper 4.1).
+//
+// Read first: decompose() in vacd.cpp, the list of steps. Space is cut into convex regions, by
+// Voronoi nodes (vacd/nodes.h) and then by planes where that makes hulls tighter; each region
+// owns the islands of the mesh in it, and is fitted to each of them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/geometry/approximate_hull.h"
+#include "engine/geometry/repair/repair.h"
+#include "engine/model/compound.h"
+
+namespace sunder::fracture {
+
+inline constexpr std::uint32_t kDefaultNodes = 12;
+inline constexpr std::uint32_t kMostNodes = 10000;        ///< Also of convexes.
+inline constexpr std::uint32_t kDefaultPolygons = 10000;  ///< Of a piece.
+
+struct VacdOptions {
+  std::vector<Vec3> nodes;  ///< By hand, in the mesh's coordinates; empty: automatic.
+  /// Automatic nodes, shared among the shells; none by default where `convexes` is given.
+  std::optional<std::uint32_t> node_count;
+  /// At most so many convexes, and no fewer where more make tighter hulls; 0: what the nodes make.
+  /// A convex owns one connected mesh, so there are never fewer than shells.
+  std::uint32_t convexes = 0;
+  /// A piece with more is cut again, if `convexes` allows: what a hit costs grows with it.
+  std::uint32_t polygons = kDefaultPolygons;
+  Fit fit{Fit::Kind::kHull, 24};
+  MaterialIndex material;
+  std::function<void(double)> progress{};  ///< Told of the share of the work done; may be empty.
+};
+
+struct VacdFigures {
+  double mesh_volume_m3 = 0;
+  /// Of parts left out because they are inside out: the mesh passes through itself there.
+  double inside_out_m3 = 0;
+  double hull_volume_m3 = 0;             ///< Of all convexes' polyhedra.
+  std::size_t max_faces_per_convex = 0;  ///< Polygons of one convex's visual mesh.
+  std::size_t ghosts = 0;                ///< Overlaps of shells, or of islands' hulls.
+  double split_ms = 0;                   ///< Nodes, regions and the cutting of the mesh.
+  double total_ms = 0;
+
+  double hull_volume_ratio() const { return hull_volume_m3 / mesh_volume_m3; }
+};
+
+struct Vacd {
+  Compound compound;
+  VacdFigures figures;
+};
+
+/// Convexes that each own one connected watertight piece of a shell, within disjoint convex
+/// regions; pieces sum to the mesh, less what of it is inside out. Without visual mesh are regions
+/// wholly inside the mesh, and pieces that are flat-shaded convexes without texture: seen alone,
+/// they look the same. Regions that touch share plane ids and bonds, and hulls that overlap (of
+/// different shells, or of islands in one region) ghosts. Throws InputError if the options ask for
+/// more than kMostNodes, for nodes by hand that make more convexes than allowed, or for coordinates
+/// that are not finite.
+Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options = {});
+
+/// Nodes from a file: `x y z` a line, what follows a # is left out. Throws InputError naming `name`
+/// and the line.
+std::vector<Vec3> read_nodes(std::istream& in, const std::string& name);
+
+}  // namespace sunder::fracture

@@ -1,0 +1,152 @@
+// ffmpeg as a child process, started without a shell. Its input is a socket rather than a pipe, so
+// that writing to a dead child is an error instead of SIGPIPE.
+#include "render/image/encoder.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "engine/base/check.h"
+
+extern char** environ;
+
+namespace sunder::render {
+namespace {
+
+std::vector<std::string> arguments(const std::filesystem::path& file, int width, int height,
+                                   int frames_per_s) {
+  return {"ffmpeg",
+          "-hide_banner",
+          "-loglevel",
+          "error",
+          "-y",
+          "-f",
+          "rawvideo",
+          "-pix_fmt",
+          "rgb24",
+          "-s",
+          std::to_string(width) + "x" + std::to_string(height),
+          "-r",
+          std::to_string(frames_per_s),
+          "-i",
+          "pipe:0",
+          "-an",
+          "-c:v",
+          "libx264",
+          "-preset",
+          "veryfast",
+          "-crf",
+          "18",
+          "-pix_fmt",
+          "yuv420p",
+          "-movflags",
+          "+faststart",
+          "-f",
+          "mp4",
+          file.string()};
+}
+
+/// Starts the program with `input` as standard input and `log` as both outputs; 0 or an errno.
+int spawn(std::vector<std::string> words, int input, int log, int& pid) {
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, log, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, log, STDERR_FILENO);
+  const int error = ::posix_spawnp(&pid, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+void close_once(int& file) {
+  if (file >= 0) ::close(file);
+  file = -1;
+}
+
+}  // namespace
+
+Encoder::Encoder(const std::filesystem::path& path, int width, int height, int frames_per_s)
+    : path_(path), temporary_(temporary_name(path)), width_(width), height_(height) {
+  if (width % 2 != 0 || height % 2 != 0) {
+    throw InputError(path.string() + ": a video needs an even width and height, not " +
+                     std::to_string(width) + "x" + std::to_string(height));
+  }
+  int ends[2] = {-1, -1};
+  log_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
+  if (log_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+    const std::string reason = std::strerror(errno);
+    close_once(log_);
+    throw InputError(path.string() + ": no connection to ffmpeg: " + reason);
+  }
+  input_ = ends[0];
+  const int error = spawn(arguments(temporary_, width, height, frames_per_s), ends[1], log_, pid_);
+  ::close(ends[1]);
+  if (error == 0) return;
+  close_once(input_);
+  close_once(log_);
+  throw InputError(path.string() + ": the program ffmpeg cannot be started (" +
+                   std::strerror(error) +
+                   "); on Debian or Ubuntu: apt-get install ffmpeg. Images (.png, or a folder) "
+                   "need no ffmpeg.");
+}
+
+Encoder::~Encoder() {
+  if (pid_ > 0) {
+    ::kill(pid_, SIGKILL);
+    wait();
+    std::error_code ignored;
+    std::filesystem::remove(temporary_, ignored);
+  }
+  close_once(log_);
+}
+
+void Encoder::add(const Image& image) {
+  SUNDER_CHECK(image.width == width_ && image.height == height_ && pid_ > 0);
+  std::size_t sent = 0;
+  while (sent < image.rgb.size()) {
+    const ssize_t n =
+        ::send(input_, image.rgb.data() + sent, image.rgb.size() - sent, MSG_NOSIGNAL);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail();
+    sent += static_cast<std::size_t>(n);
+  }
+}
+
+void Encoder::finish() {
+  if (!wait()) fail();
+  replace_file(temporary_, path_);
+}
+
+bool Encoder::wait() {
+  close_once(input_);
+  int status = 0;
+  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+void Encoder::fail() {
+  if (pid_ > 0) wait();
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+  std::array<char, 2000> words = {};
+  const ssize_t size = ::pread(log_, words.data(), words.size() - 1, 0);
+  throw InputError(path_.string() + ": the program ffmpeg (package ffmpeg) failed: " +
+                   (size > 0 ? words.data() : "it said nothing"));
+}
+
+}  // namespace sunder::render

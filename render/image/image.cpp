@@ -1,0 +1,83 @@
+// PNG files by stb; the one place that holds stb's code.
+#include "render/image/image.h"
+
+#include <unistd.h>
+
+#include <memory>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+
+#include "engine/base/check.h"
+
+namespace sunder::render {
+namespace {
+
+constexpr int kChannels = 3;
+
+void append(void* bytes, void* data, int size) {
+  const auto* begin = static_cast<const std::uint8_t*>(data);
+  auto& out = *static_cast<std::vector<std::uint8_t>*>(bytes);
+  out.insert(out.end(), begin, begin + size);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_png(const Image& image) {
+  std::vector<std::uint8_t> bytes;
+  const int done = stbi_write_png_to_func(append, &bytes, image.width, image.height, kChannels,
+                                          image.rgb.data(), image.width * kChannels);
+  SUNDER_CHECK(done != 0);
+  return bytes;
+}
+
+std::filesystem::path temporary_name(const std::filesystem::path& path) {
+  return path.string() + ".part-" + std::to_string(::getpid());
+}
+
+void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (!error) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  throw InputError(path.string() + ": cannot be written: " + error.message());
+}
+
+void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  const std::filesystem::path temporary = temporary_name(path);
+  std::FILE* file = std::fopen(temporary.c_str(), "wb");
+  if (file == nullptr) {
+    throw InputError(path.string() + ": cannot be written; is the folder there and yours?");
+  }
+  const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  if (std::fclose(file) != 0 || !whole) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw InputError(path.string() + ": cannot be written; is the disk full?");
+  }
+  replace_file(temporary, path);
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  write_bytes(path, encode_png(image));
+}
+
+Image read_png(const std::filesystem::path& path) {
+  Image image;
+  int channels = 0;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load(path.c_str(), &image.width, &image.height, &channels, kChannels), stbi_image_free);
+  if (!pixels) throw InputError(path.string() + ": not a readable PNG: " + stbi_failure_reason());
+  const std::size_t size =
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * kChannels;
+  image.rgb.assign(pixels.get(), pixels.get() + size);
+  return image;
+}
+
+}  // namespace sunder::render

@@ -1,0 +1,94 @@
+// The frame's instances on the GPU: every mesh is uploaded once, every frame only where they are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "engine/model/frame.h"
+#include "render/gl/table.h"
+#include "render/passes/viewpoint.h"
+
+namespace sunder::render {
+
+class Pieces {
+ public:
+  explicit Pieces(const GlTable& gl);
+
+  /// Uploads what is new of `frame` and where everything is.
+  void update(const Frame& frame);
+  /// Balls around the opaque pieces, relative to the eye.
+  const std::vector<Caster>& casters() const { return casters_; }
+  /// The pieces with surfaces of a kind; opaque ones nearest first, glass farthest first.
+  enum class Group : std::uint8_t {
+    kMatte,
+    kShiny,
+    kGlass,  ///< For each piece its back faces, then its front faces.
+    kLarge,  ///< Of the matte ones again those that keep light from rooms.
+  };
+  static constexpr int kGroups = 4;
+  bool has(Group group) const { return !draws(group).counts.empty(); }
+  void draw(Group group) const;
+
+  GLuint slot_texture() const { return slot_texture_; }
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  /// One uploaded copy of a mesh. Vertices name their slot, so a mesh drawn twice in a frame is
+  /// uploaded twice.
+  struct Slot {
+    std::shared_ptr<const Mesh> mesh;
+    std::uint32_t first_index = 0;
+    std::uint32_t next_copy = kNone;
+    Vec3f center = Vec3f::Zero();  ///< Of a ball around the vertices, in the mesh's coordinates.
+    float radius = 0;
+  };
+  /// The copies of a mesh, and the first that this frame does not use yet.
+  struct Copies {
+    std::uint32_t first = kNone;
+    std::uint32_t unused = kNone;
+    std::uint64_t frame = 0;
+  };
+  struct Draws {
+    std::vector<GLsizei> counts;
+    std::vector<const void*> offsets;
+  };
+  struct Placed {
+    float distance;          ///< Along the view.
+    std::uint32_t instance;  ///< Decides ties, as slots depend on what was drawn before.
+    std::uint32_t slot;
+  };
+
+  bool assign_slots(const Frame& frame);
+  std::uint32_t find_slot(std::uint32_t mesh_index, const std::shared_ptr<const Mesh>& mesh);
+  void forget(const Frame& frame);
+  void upload_new();
+  void place(const Frame& frame);
+  const Draws& draws(Group group) const { return draws_[static_cast<std::size_t>(group)]; }
+  Draws ordered(std::vector<Placed>& placed, bool near_first) const;
+
+  const GlTable& gl_;
+  GLuint vertex_array_ = 0;
+  GLuint vertex_buffer_ = 0;
+  GLuint index_buffer_ = 0;
+  GLuint slot_buffer_ = 0;
+  GLuint slot_texture_ = 0;
+
+  std::vector<Slot> slots_;
+  std::vector<Copies> copies_;  ///< By mesh index.
+  std::size_t uploaded_slots_ = 0;
+  std::size_t vertices_ = 0;  ///< Uploaded.
+  std::size_t indices_ = 0;
+  std::size_t vertex_room_ = 0;
+  std::size_t index_room_ = 0;
+
+  std::uint64_t frame_number_ = 0;
+  std::vector<std::uint32_t> slot_of_instance_;
+  std::vector<float> slot_texels_;
+  std::vector<Caster> casters_;
+  std::array<Draws, kGroups> draws_;
+};
+
+}  // namespace sunder::render

@@ -1,0 +1,132 @@
+#include "render/passes/viewpoint.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/trigonometry.h"
+
+namespace sunder::render {
+namespace {
+
+using Mat4 = Eigen::Matrix4d;
+
+constexpr double kGroundPeriod_m = 64;  // the ground's texture repeats after this
+
+void store(float* out, const Vec3& v, double w) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+  out[3] = static_cast<float>(w);
+}
+
+void store(float* out, const Mat4& m) {
+  for (int i = 0; i < 16; ++i) out[i] = static_cast<float>(m(i % 4, i / 4));
+}
+
+/// Right, up and forward of somebody looking along `forward`, as rows.
+Mat3 frame_along(const Vec3& forward) {
+  const Vec3 ahead = forward.normalized();
+  const Vec3 sky = std::abs(ahead.y()) < 0.999 ? Vec3::UnitY() : Vec3::UnitZ();
+  const Vec3 right = ahead.cross(sky).normalized();
+  Mat3 rows;
+  rows << right.transpose(), right.cross(ahead).transpose(), ahead.transpose();
+  return rows;
+}
+
+/// The box of the casters in the sun's frame, kept to what is near the view's target.
+Box caster_box(std::span<const Caster> casters, const Mat3& sun, const Vec3& target, double reach) {
+  Box box;
+  for (const Caster& caster : casters) {
+    const Vec3 center = caster.center.cast<double>();
+    if ((center - target).norm() > reach) continue;
+    const Vec3 radius = Vec3::Constant(static_cast<double>(caster.radius));
+    const Vec3 at = sun * center;
+    box.extend(Vec3(at - radius));
+    box.extend(Vec3(at + radius));
+  }
+  if (box.empty()) {
+    box.extend(Vec3(sun * target - Vec3::Ones()));
+    box.extend(Vec3(sun * target + Vec3::Ones()));
+  }
+  return box;
+}
+
+/// The next of 1, 1.25, 1.5, 1.75 times a power of two that is at least x.
+double stepped_up(double x) {
+  int exponent = 0;
+  const double fraction = std::frexp(x, &exponent);  // in [0.5, 1)
+  return std::ldexp(std::ceil(fraction * 8) / 8, exponent);
+}
+
+/// Eye space to shadow-map coordinates. Steps are taken in the world, not relative to the eye, so
+/// that a moving camera does not make shadows crawl.
+Mat4 shadow_matrix(const Mat3& sun, const Box& box, const Vec3& eye_W, double& side_m) {
+  const Vec3 extent = box.extent();
+  // A quarter more than needed leaves room for the snapping below.
+  const double side = stepped_up(1.1 * std::max(extent.x(), extent.y()));
+  const double depth = stepped_up(1.1 * extent.z());
+  side_m = side;
+  const Vec3 eye = sun * eye_W;
+  const double grid = side / 32;
+  const auto snapped = [](double x, double step) { return std::floor(x / step + 0.5) * step; };
+  const Vec3 middle(snapped(box.center().x() + eye.x(), grid) - eye.x(),
+                    snapped(box.center().y() + eye.y(), grid) - eye.y(),
+                    snapped(box.center().z() + eye.z(), depth / 32) - eye.z());
+  const Vec3 scale(1 / side, 1 / side, 1 / depth);
+  Mat4 matrix = Mat4::Identity();
+  matrix.topLeftCorner<3, 3>() = scale.asDiagonal() * sun;
+  matrix.topRightCorner<3, 1>() = Vec3::Constant(0.5) - scale.cwiseProduct(middle);
+  return matrix;
+}
+
+}  // namespace
+
+FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, int width,
+                            int height) {
+  const Vec3 look = view.target_W - view.eye_W;
+  const double distance = look.norm() > 0 ? look.norm() : 1.0;
+  const Mat3 camera = frame_along(look.norm() > 0 ? look : Vec3(-Vec3::UnitZ()));
+  const SinCos half = sin_cos(0.5 * view.fov_rad);
+  const double tall = half.sin / half.cos;
+  const double wide = tall * width / height;
+  const double near_m = std::clamp(0.02 * distance, 0.01, 0.5);
+
+  // Depth runs from 0 at the near plane to 1 at infinity: depth = 1 - near / distance.
+  Mat4 projection = Mat4::Zero();
+  projection(0, 0) = 1 / wide;
+  projection(1, 1) = 1 / tall;
+  projection(2, 2) = 1;
+  projection(2, 3) = -2 * near_m;
+  projection(3, 2) = 1;
+  Mat4 rotation = Mat4::Identity();
+  rotation.topLeftCorner<3, 3>() = camera;
+
+  const Vec3 to_sun = view.to_sun_W.normalized();
+  const auto seen_along = [&](const Vec3& forward, double& side_m) {
+    const Mat3 light = frame_along(forward);
+    return shadow_matrix(light, caster_box(casters, light, look, 2.5 * distance), view.eye_W,
+                         side_m);
+  };
+  double shadow_m = 0;
+  double zenith_m = 0;
+  const Mat4 shadow = seen_along(-to_sun, shadow_m);
+  const Mat4 zenith = seen_along(-Vec3::UnitY(), zenith_m);
+
+  FrameUniforms u;
+  store(u.clip_of_eye, Mat4(projection * rotation));
+  store(u.shadow_of_eye, shadow);
+  store(u.zenith_of_eye, zenith);
+  store(u.ray_right, wide * camera.row(0).transpose(), 0);
+  store(u.ray_up, tall * camera.row(1).transpose(), 0);
+  store(u.ray_forward, camera.row(2).transpose(), 0);
+  store(u.to_sun, to_sun, shadow_m / kShadowTexels);
+  store(u.ground, view.ground_color.cast<double>(), view.ground_m - view.eye_W.y());
+  store(u.ground_offset,
+        Vec3(std::fmod(view.eye_W.x(), kGroundPeriod_m), std::fmod(view.eye_W.z(), kGroundPeriod_m),
+             0),
+        0);
+  const Vec3 size(width, height, 1.0 / width);
+  store(u.pixel, size, 1.0 / height);
+  store(u.lens, Vec3(near_m, height / (2 * tall), 0), 0);
+  return u;
+}
+
+}  // namespace sunder::render

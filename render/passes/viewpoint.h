@@ -1,0 +1,40 @@
+// The camera and the sun as matrices: world coordinates in double become floats relative to the
+// eye here, and only here.
+#pragma once
+
+#include <span>
+
+#include "engine/model/frame.h"
+
+namespace sunder::render {
+
+/// The uniform block `Frame` of shaders/common.glsl; std140.
+struct FrameUniforms {
+  float clip_of_eye[16];
+  float shadow_of_eye[16];
+  float zenith_of_eye[16];
+  float ray_right[4];
+  float ray_up[4];
+  float ray_forward[4];
+  float to_sun[4];
+  float ground[4];
+  float ground_offset[4];
+  float pixel[4];
+  float lens[4];
+};
+
+inline constexpr int kShadowTexels = 2048;
+inline constexpr int kZenithTexels = 512;
+
+/// A ball around something that casts a shadow, relative to the eye.
+struct Caster {
+  Vec3f center;
+  float radius;
+};
+
+/// The shadow map covers the casters in sight of the view's target, in steps coarse enough that it
+/// does not crawl while they move.
+FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, int width,
+                            int height);
+
+}  // namespace sunder::render

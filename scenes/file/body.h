@@ -1,0 +1,43 @@
+// Bodies made from meshes: what [[body]] in a scene may say, and what it becomes.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/model/scene.h"
+#include "scenes/file/keys.h"
+#include "scenes/file/schema.h"
+
+namespace sunder::scenes {
+
+enum class RepairChoice { kAuto, kOff };
+
+/// The keys of [[body]].
+struct BodyText {
+  std::string mesh;
+  std::string name;
+  double scale = 1;
+  std::optional<double> size_m;
+  CountOrFile nodes;
+  std::uint32_t convexes = 0;
+  std::string fit = "hull:24";
+  RepairChoice repair = RepairChoice::kAuto;
+  MaterialRef material{"concrete", {}};
+  Vec3 position = Vec3::Zero();
+  Vec3 rotation_rad = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();
+  Anchored anchored = Anchored::kNone;
+};
+const Keys<BodyText>& body_keys();
+
+/// The solids that a body is, one for each part that hangs together. Files are sought from
+/// `folder` on, decompositions kept in the cache (mesh_cache.h). Throws InputError without a place.
+std::vector<Solid> make_body(const BodyText& text, const std::filesystem::path& folder);
+
+/// About x, then y, then z.
+Quat rotation(const Vec3& angles_rad);
+
+}  // namespace sunder::scenes

@@ -1,0 +1,8 @@
+// The library of materials, scenes/materials.toml, compiled in as a string (sunder_embed).
+#pragma once
+
+namespace sunder::scenes::builtin {
+
+extern const char* const materials_toml;
+
+}  // namespace sunder::scenes::builtin

@@ -1,0 +1,310 @@
+// The reader behind the declarations of keys, and its errors.
+#include "scenes/file/keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "engine/base/check.h"
+
+namespace sunder::scenes {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::string bounds(const Range& range) {
+  const bool low = range.low > -std::numeric_limits<double>::max();
+  const bool high = range.high < std::numeric_limits<double>::max();
+  if (low && high) return " from " + format(range.low) + " to " + format(range.high);
+  if (low) return " of at least " + format(range.low);
+  return high ? " of at most " + format(range.high) : "";
+}
+
+/// One key of one table being read.
+struct Reading {
+  const Value& value;
+  const Key& key;
+  std::string_view table;
+  std::span<const Material> materials;
+  double scale;
+
+  [[noreturn]] void fail() const {
+    throw InputError(value.where + ": " + std::string(key.name) + " in " + std::string(table) +
+                     " is " + describe(value) + "; allowed: " + allowed(key));
+  }
+
+  double number(const Value& from) const {
+    double number = 0;
+    if (const auto* integer = std::get_if<std::int64_t>(&from.data)) {
+      number = static_cast<double>(*integer);
+    } else if (const auto* real = std::get_if<double>(&from.data)) {
+      number = *real;
+    } else {
+      fail();
+    }
+    number *= scale;
+    // Written so that NaN fails too; infinity passes where the range says so.
+    if (!(number >= key.range.low && number <= key.range.high)) fail();
+    return number;
+  }
+
+  template <class Integer>
+  Integer integer() const {
+    if (!std::holds_alternative<std::int64_t>(value.data)) fail();
+    return static_cast<Integer>(number(value));
+  }
+
+  template <class Vector>
+  Vector vector() const {
+    const Array* array = std::get_if<Array>(&value.data);
+    if (!array || array->size() != 3) fail();
+    Vector vector;
+    for (int i = 0; i < 3; ++i) {
+      vector[i] =
+          static_cast<typename Vector::Scalar>(number((*array)[static_cast<std::size_t>(i)]));
+    }
+    return vector;
+  }
+
+  template <class T>
+  const T& exactly() const {
+    const T* exact = std::get_if<T>(&value.data);
+    if (!exact) fail();
+    return *exact;
+  }
+
+  std::size_t choice() const {
+    const auto found = std::find(key.choices.begin(), key.choices.end(), exactly<std::string>());
+    if (found == key.choices.end()) fail();
+    return static_cast<std::size_t>(found - key.choices.begin());
+  }
+
+  Fit fit() const {
+    const std::optional<Fit> fit = parse_fit(exactly<std::string>());
+    if (!fit) fail();
+    return *fit;
+  }
+
+  std::string text() const {
+    const std::string& text = exactly<std::string>();
+    if (text.empty()) fail();
+    return text;
+  }
+};
+
+void store(const Reading& reading, void* object) {
+  using Kind = Key::Kind;
+  const Key& key = reading.key;
+  switch (key.kind) {
+    case Kind::kBool:
+      *static_cast<bool*>(key.field(object)) = reading.exactly<bool>();
+      break;
+    case Kind::kInteger:
+      *static_cast<int*>(key.field(object)) = reading.integer<int>();
+      break;
+    case Kind::kCount:
+      *static_cast<std::uint32_t*>(key.field(object)) = reading.integer<std::uint32_t>();
+      break;
+    case Kind::kSeed:
+      *static_cast<std::uint64_t*>(key.field(object)) = reading.integer<std::uint64_t>();
+      break;
+    case Kind::kNumber:
+      *static_cast<double*>(key.field(object)) = reading.number(reading.value);
+      break;
+    case Kind::kVector:
+      *static_cast<Vec3*>(key.field(object)) = reading.vector<Vec3>();
+      break;
+    case Kind::kColor:
+      *static_cast<Vec3f*>(key.field(object)) = reading.vector<Vec3f>();
+      break;
+    case Kind::kText:
+      *static_cast<std::string*>(key.field(object)) = reading.text();
+      break;
+    case Kind::kMaterial:
+      static_cast<MaterialRef*>(key.field(object))->name = reading.exactly<std::string>();
+      break;
+    case Kind::kCountOrFile: {
+      auto& either = *static_cast<CountOrFile*>(key.field(object));
+      either = {};
+      if (std::holds_alternative<std::string>(reading.value.data)) {
+        either.file = reading.text();
+      } else {
+        either.count = reading.integer<std::uint32_t>();
+      }
+      break;
+    }
+    case Kind::kFit:
+      *static_cast<Fit*>(key.field(object)) = reading.fit();
+      break;
+    case Kind::kChoice:
+      key.choose(object, reading.choice());
+      break;
+    case Kind::kTable:
+      break;
+  }
+}
+
+MaterialIndex find_material(std::string_view name, const std::string& where,
+                            std::span<const Material> materials) {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (materials[i].name == name) return MaterialIndex(i);
+    names.push_back(materials[i].name);
+  }
+  throw InputError(where + ": unknown material '" + std::string(name) + "'" +
+                   did_you_mean(name, names) + "; there are: " + join(names));
+}
+
+/// Levenshtein distance.
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string degrees_name(const Key& key) {
+  const std::string name(key.name);
+  return name.ends_with("_rad") ? name.substr(0, name.size() - 3) + "deg" : std::string();
+}
+
+std::string format(double number) {
+  std::ostringstream out;
+  out << number;
+  return out.str();
+}
+
+std::string join(std::span<const std::string_view> words, std::string_view separator) {
+  std::string joined;
+  for (std::string_view word : words) {
+    if (!joined.empty()) joined += separator;
+    joined += word;
+  }
+  return joined;
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {
+  std::string_view nearest;
+  std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (std::string_view candidate : candidates) {
+    const std::size_t distance = edits(word, candidate);
+    if (distance < fewest) {
+      fewest = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest.empty() ? "" : "; did you mean '" + std::string(nearest) + "'?";
+}
+
+std::string allowed(const Key& key) {
+  using Kind = Key::Kind;
+  const std::string unit = key.unit.empty() ? "" : ", in " + std::string(key.unit);
+  switch (key.kind) {
+    case Kind::kBool:
+      return "true or false";
+    case Kind::kInteger:
+    case Kind::kCount:
+    case Kind::kSeed:
+      return "a whole number" + bounds(key.range) + unit;
+    case Kind::kNumber:
+      return "a number" + bounds(key.range) + unit;
+    case Kind::kVector:
+    case Kind::kColor:
+      return "[x, y, z], each a number" + bounds(key.range) + unit;
+    case Kind::kText:
+      return "a text that is not empty";
+    case Kind::kMaterial:
+      return "the name of a material";
+    case Kind::kCountOrFile:
+      return "a whole number" + bounds(key.range) + ", or a file that lists them";
+    case Kind::kFit:
+      return std::string(kFitNames);
+    case Kind::kChoice:
+      return join(key.choices, " | ");
+    case Kind::kTable:
+      return "a table";
+  }
+  return "";
+}
+
+void check_known(const Value& table, std::string_view name,
+                 std::initializer_list<std::span<const Key>> allowed_keys) {
+  std::vector<std::string_view> names;
+  std::vector<std::string> degrees;
+  for (std::span<const Key> keys : allowed_keys) {
+    for (const Key& key : keys) {
+      names.push_back(key.name);
+      degrees.push_back(degrees_name(key));
+    }
+  }
+  for (const Entry& entry : as_table(table, name)) {
+    if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
+    if (std::find(degrees.begin(), degrees.end(), entry.key) != degrees.end()) continue;
+    throw InputError(entry.value.where + ": unknown key '" + entry.key + "' in " +
+                     std::string(name) + did_you_mean(entry.key, names) +
+                     "; allowed: " + join(names));
+  }
+}
+
+void read_keys(const Value& table, std::string_view name, std::span<const Key> keys,
+               std::span<const Material> materials, void* object) {
+  const Table& entries = as_table(table, name);
+  for (const Key& key : keys) {
+    const std::string in_degrees = degrees_name(key);
+    const Value* value = find(entries, key.name);
+    const Value* degrees = in_degrees.empty() ? nullptr : find(entries, in_degrees);
+    if (value && degrees) {
+      throw InputError(degrees->where + ": " + in_degrees + " in " + std::string(name) +
+                       " is given beside " + std::string(key.name) + "; keep one");
+    }
+    if (!value && !degrees && key.required) {
+      throw InputError(table.where + ": missing key '" + std::string(key.name) + "' in " +
+                       std::string(name) + ": " + allowed(key));
+    }
+    if (value) store({*value, key, name, materials, 1}, object);
+    if (degrees) store({*degrees, key, name, materials, kDegree}, object);
+    if (key.kind == Key::Kind::kMaterial) {
+      MaterialRef& material = *static_cast<MaterialRef*>(key.field(object));
+      material.index = find_material(material.name, value ? value->where : table.where, materials);
+    }
+  }
+}
+
+const Table& as_table(const Value& value, std::string_view name) {
+  const Table* table = std::get_if<Table>(&value.data);
+  if (!table) {
+    throw InputError(value.where + ": " + std::string(name) + " is " + describe(value) +
+                     "; expected a table");
+  }
+  return *table;
+}
+
+std::vector<const Value*> tables(const Value& parent, std::string_view key) {
+  const Value* value = find(std::get<Table>(parent.data), key);
+  if (!value) return {};
+  const std::string name = "[[" + std::string(key) + "]]";
+  const Array* array = std::get_if<Array>(&value->data);
+  if (!array) {
+    throw InputError(value->where + ": " + name + " is " + describe(*value) +
+                     "; expected an array of tables: write " + name + " with two brackets");
+  }
+  std::vector<const Value*> all;
+  for (const Value& element : *array) {
+    as_table(element, name);
+    all.push_back(&element);
+  }
+  return all;
+}
+
+}  // namespace sunder::scenes

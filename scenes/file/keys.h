@@ -1,0 +1,206 @@
+// What a table of a scene file may say: one declaration a key, from which come the reader, its
+// errors and the reference in README.md.
+//
+// Read first: kGroundKeys in schema.cpp for what a declaration looks like, then Keys::read().
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "engine/base/types.h"
+#include "engine/model/material.h"
+#include "scenes/file/value.h"
+
+namespace sunder::scenes {
+
+/// A material by name; the reader looks the index up.
+struct MaterialRef {
+  std::string name;
+  MaterialIndex index;
+};
+
+/// A number of something, or a file that lists it.
+struct CountOrFile {
+  std::uint32_t count = 0;  ///< 0: what is usual.
+  std::string file;
+};
+
+/// Allowed values, both ends included; of every component of a vector.
+struct Range {
+  double low = -std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::max();
+};
+
+/// One key: its name, where it is stored and what is allowed.
+struct Key {
+  enum class Kind {
+    kBool,
+    kInteger,   ///< int
+    kCount,     ///< std::uint32_t
+    kSeed,      ///< std::uint64_t
+    kNumber,    ///< double
+    kVector,    ///< Vec3
+    kColor,     ///< Vec3f
+    kText,      ///< std::string
+    kMaterial,  ///< MaterialRef
+    kFit,       ///< Fit
+    kCountOrFile,
+    kChoice,  ///< an enumeration
+    kTable,   ///< read by whoever asks for it: allowed, and documented elsewhere
+  };
+
+  std::string_view name;  ///< Ending in _rad: may also be given in degrees, ending in _deg.
+  Kind kind = Kind::kTable;
+  std::string_view unit;
+  Range range;
+  std::string_view help;
+  bool required = false;
+  bool optional = false;  ///< No default: absent means absent.
+  std::span<const std::string_view> choices;
+  void* (*field)(void* object) = nullptr;  ///< Makes an optional one present.
+  void (*choose)(void* object, std::size_t choice) = nullptr;
+  std::size_t (*chosen)(const void* object) = nullptr;
+
+  Key must() const {
+    Key key = *this;
+    key.required = true;
+    return key;
+  }
+};
+
+namespace detail {
+
+template <class T>
+struct MemberOf;
+template <class Owner, class Field>
+struct MemberOf<Field Owner::*> {
+  using owner = Owner;
+  using field = Field;
+};
+template <class T>
+struct Unwrapped {
+  using type = T;
+};
+template <class T>
+struct Unwrapped<std::optional<T>> {
+  using type = T;
+};
+
+template <class T>
+constexpr Key::Kind kind_of() {
+  using Kind = Key::Kind;
+  if constexpr (std::is_same_v<T, bool>) return Kind::kBool;
+  if constexpr (std::is_same_v<T, int>) return Kind::kInteger;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return Kind::kCount;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return Kind::kSeed;
+  if constexpr (std::is_same_v<T, double>) return Kind::kNumber;
+  if constexpr (std::is_same_v<T, Vec3>) return Kind::kVector;
+  if constexpr (std::is_same_v<T, Vec3f>) return Kind::kColor;
+  if constexpr (std::is_same_v<T, std::string>) return Kind::kText;
+  if constexpr (std::is_same_v<T, MaterialRef>) return Kind::kMaterial;
+  if constexpr (std::is_same_v<T, CountOrFile>) return Kind::kCountOrFile;
+  if constexpr (std::is_same_v<T, Fit>) return Kind::kFit;
+  if constexpr (std::is_enum_v<T>) return Kind::kChoice;
+}
+
+}  // namespace detail
+
+/// A key stored in a member; its default is what the member of a fresh object holds.
+template <auto member>
+Key key(std::string_view name, std::string_view unit, Range range, std::string_view help) {
+  using Owner = typename detail::MemberOf<decltype(member)>::owner;
+  using Field = typename detail::MemberOf<decltype(member)>::field;
+  using Bare = typename detail::Unwrapped<Field>::type;
+  Key key;
+  key.name = name;
+  key.kind = detail::kind_of<Bare>();
+  key.unit = unit;
+  key.range = range;
+  key.help = help;
+  key.optional = !std::is_same_v<Field, Bare>;
+  key.field = [](void* object) -> void* {
+    Field& field = static_cast<Owner*>(object)->*member;
+    if constexpr (std::is_same_v<Field, Bare>) {
+      return &field;
+    } else {
+      return &field.emplace();
+    }
+  };
+  return key;
+}
+
+template <auto member>
+Key key(std::string_view name, std::string_view help) {
+  return key<member>(name, "", Range(), help);
+}
+
+/// A key that names a value of an enumeration; `choices` in the enumeration's order.
+template <auto member>
+Key choice(std::string_view name, std::span<const std::string_view> choices,
+           std::string_view help) {
+  using Owner = typename detail::MemberOf<decltype(member)>::owner;
+  using Enum = typename detail::MemberOf<decltype(member)>::field;
+  Key key = scenes::key<member>(name, help);
+  key.choices = choices;
+  key.choose = [](void* object, std::size_t index) {
+    static_cast<Owner*>(object)->*member = static_cast<Enum>(index);
+  };
+  key.chosen = [](const void* object) {
+    return static_cast<std::size_t>(static_cast<const Owner*>(object)->*member);
+  };
+  return key;
+}
+
+/// A key that holds a table (or an array of them) with keys of its own.
+inline Key table_key(std::string_view name, std::string_view help) {
+  Key key;
+  key.name = name;
+  key.help = help;
+  return key;
+}
+
+/// The keys of one table, stored in a T.
+template <class T>
+struct Keys {
+  std::string_view table;  ///< As in "[ground]".
+  std::vector<Key> keys;
+};
+
+/// Throws InputError for a key that none of `allowed` lists, naming the nearest one.
+void check_known(const Value& table, std::string_view name,
+                 std::initializer_list<std::span<const Key>> allowed);
+/// Reads the keys that are there; looks materials up, defaults included.
+void read_keys(const Value& table, std::string_view name, std::span<const Key> keys,
+               std::span<const Material> materials, void* object);
+/// The entries of `value` as a table; throws InputError if it is something else.
+const Table& as_table(const Value& value, std::string_view name);
+/// The elements of an array of tables under `key`; none if the key is absent.
+std::vector<const Value*> tables(const Value& parent, std::string_view key);
+
+/// Changes what `object` says to what the table says. Throws InputError naming place, key and what
+/// is allowed.
+template <class T>
+void read(const Keys<T>& keys, const Value& table, std::span<const Material> materials, T& object) {
+  check_known(table, keys.table, {keys.keys});
+  read_keys(table, keys.table, keys.keys, materials, &object);
+}
+
+/// "; did you mean 'x'?", or nothing if no candidate is near.
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
+/// "a, b, c"
+std::string join(std::span<const std::string_view> words, std::string_view separator = ", ");
+
+/// What a key allows, for errors and the reference: "a number from 0 to 1".
+std::string allowed(const Key& key);
+/// The name under which an angle may be given in degrees; empty if the key is no angle.
+std::string degrees_name(const Key& key);
+/// As short as it can be said: "0.1", "1e+06", "inf".
+std::string format(double number);
+
+}  // namespace sunder::scenes

@@ -1,0 +1,160 @@
+#include "scenes/file/mesh_solid.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+
+#include "engine/base/check.h"
+#include "engine/base/trace.h"
+#include "engine/io/mesh/mesh_reader.h"
+#include "fracture/solids.h"
+#include "scenes/file/mesh_cache.h"
+#include "scenes/file/text_file.h"
+
+namespace sunder::scenes {
+namespace {
+
+constexpr const char* kBuiltIn[] = {"box", "column", "torus", "grid", "voronoi"};
+
+/// A whole number from `low` to `high`; none if the text is anything else.
+std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t low,
+                                          std::uint32_t high) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number < low || number > high ? std::nullopt : std::optional(number);
+}
+
+Fit fit_of(const std::string& text) {
+  if (const std::optional<Fit> fit = parse_fit(text)) return *fit;
+  throw InputError("fit " + text + ": expected " + std::string(kFitNames));
+}
+
+bool is_number(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isdigit(c) != 0 || c == '-' || c == '+' || c == '.';
+  });
+}
+
+void scale_mesh(RawMesh& mesh, const MeshOptions& options, fracture::VacdOptions& vacd) {
+  double scale = options.scale;
+  if (options.size_m) {
+    Box box;
+    for (const std::uint32_t vertex : mesh.corners) box.extend(mesh.vertices[vertex]);
+    scale = *options.size_m / std::max(box.empty() ? 0 : box.extent().maxCoeff(), 1e-300);
+  }
+  for (Vec3& vertex : mesh.vertices) vertex *= scale;
+  for (Vec3& node : vacd.nodes) node *= scale;
+}
+
+/// Of a mesh: parts inside out that are more than this show that it passes through itself so much
+/// that it has no inside of its own.
+constexpr double kTangled = 1e-3;
+
+/// Repairs and decomposes a mesh; one that is tangled gets a new surface first.
+fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const MeshOptions& options,
+                                  const fracture::VacdOptions& vacd_of, MeshSolid& solid) {
+  RepairOptions repair;
+  repair.repair = options.repair != "off";
+  const auto attempt = [&](RawMesh mesh) {
+    if (options.progress) options.progress("repairing", 0.1);
+    RepairedMesh repaired = repair_mesh(std::move(mesh), file, repair);
+    if (options.progress) options.progress("decomposing", 0.4);
+    fracture::Vacd vacd = fracture::decompose(repaired, vacd_of);
+    solid.closed = repaired.closed;
+    solid.repairs = std::move(repaired.repairs);
+    return vacd;
+  };
+  RawMesh copy = raw;
+  fracture::Vacd vacd = attempt(std::move(raw));
+  if (vacd.figures.inside_out_m3 <= kTangled * vacd.figures.mesh_volume_m3) return vacd;
+  if (!repair.repair) {
+    throw InputError(file + ": repairs are off, and the mesh passes through itself; mend it, or " +
+                     "allow repairs");
+  }
+  repair.enclose_all = true;
+  repair.shell_cells *= 2;
+  return attempt(std::move(copy));
+}
+
+/// Reads, repairs and decomposes a file, or recalls what that once gave.
+MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
+  fracture::VacdOptions vacd_of = vacd_options(options);
+  if (options.progress) {
+    options.progress("reading", 0);
+    vacd_of.progress = [&](double share) { options.progress("decomposing", 0.4 + 0.6 * share); };
+  }
+  RawMesh raw = read_mesh(file);
+  scale_mesh(raw, options, vacd_of);
+  const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
+  std::optional<MeshSolid> known = options.cached ? recall(key) : std::nullopt;
+  MeshSolid solid = known ? std::move(*known) : MeshSolid();
+  solid.name = std::filesystem::path(file).filename().string();
+  if (known) return solid;
+  solid.vertices = raw.vertices.size();
+  solid.faces = raw.polygons.size();
+  fracture::Vacd vacd = decompose_repaired(std::move(raw), file, options, vacd_of, solid);
+  solid.compound = std::move(vacd.compound);
+  solid.vacd = vacd.figures;
+  if (options.cached) keep(key, solid);
+  return solid;
+}
+
+}  // namespace
+
+bool names_built_in(const std::string& mesh) {
+  if (std::filesystem::exists(mesh)) return false;
+  const std::string kind = mesh.substr(0, mesh.find(':'));
+  return std::find(std::begin(kBuiltIn), std::end(kBuiltIn), kind) != std::end(kBuiltIn);
+}
+
+fracture::VacdOptions vacd_options(const MeshOptions& options) {
+  fracture::VacdOptions vacd;
+  vacd.fit = fit_of(options.fit);
+  vacd.convexes = options.convexes;
+  vacd.material = MaterialIndex(0u);
+  if (is_number(options.nodes)) {
+    vacd.node_count = whole_number(options.nodes, 1, fracture::kMostNodes);
+    if (!vacd.node_count) {
+      throw InputError("nodes " + options.nodes + ": expected a whole number from 1 to " +
+                       std::to_string(fracture::kMostNodes) + ", or a file of x y z a line");
+    }
+  } else if (!options.nodes.empty()) {
+    std::istringstream text(read_text(options.nodes));
+    vacd.nodes = fracture::read_nodes(text, options.nodes);
+  }
+  if (options.repair != "auto" && options.repair != "off") {
+    throw InputError("repair " + options.repair + ": expected auto | off");
+  }
+  return vacd;
+}
+
+MeshSolid as_mesh_solid(const std::string& name, Compound compound) {
+  MeshSolid solid;
+  solid.name = name;
+  solid.compound = std::move(compound);
+  for (const ConvexPtr& convex : solid.compound.convexes) {
+    solid.vertices += convex->polyhedron.vertices.size();
+    solid.faces += convex->polyhedron.faces.size();
+  }
+  return solid;
+}
+
+MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options) {
+  const Stopwatch watch;
+  MeshSolid solid;
+  if (names_built_in(mesh)) {
+    vacd_options(options);
+    if (options.scale != 1 || options.size_m) {
+      throw InputError(mesh + ": is built in; give it its size there, in place of a scale");
+    }
+    solid = as_mesh_solid(mesh, fracture::make_solid(mesh));
+  } else {
+    solid = decomposed(mesh, options);
+  }
+  solid.prepare_ms = watch.ms();
+  return solid;
+}
+
+}  // namespace sunder::scenes

@@ -1,0 +1,96 @@
+#include "scenes/file/planar.h"
+
+#include <cmath>
+
+#include "engine/base/check.h"
+#include "engine/geometry/prism.h"
+
+namespace sunder::scenes {
+namespace {
+
+constexpr double kFlat = 1e-9;  // m, m/s: as zero as arithmetic leaves it
+
+/// Says no in the scene's name.
+struct Checker {
+  const Scene& scene;
+  const std::string& where;
+
+  void require(bool planar, const std::string& what) const {
+    if (!planar) throw InputError(where + ": planar = true in [scene], but " + what);
+  }
+  void in_plane(const Vec3& vector, const std::string& what) const {
+    require(std::abs(vector.z()) <= kFlat, what + " has a z of its own; make it 0");
+  }
+  void check(const Solid& solid) const;
+  void check(const Ball& ball, const std::string& name) const;
+};
+
+void Checker::check(const Solid& solid) const {
+  const std::string name = "solid '" + solid.name + "' ";
+  in_plane(solid.velocity_W, name + "has a velocity that");
+  require(solid.angular_velocity_W.head<2>().norm() <= kFlat,
+          name + "turns about another axis than z");
+  for (const ConvexPtr& convex : solid.compound.convexes) {
+    const Material& material = scene.materials[convex->material.value];
+    require(!convex->visual, name + "is a mesh; build it of boxes and prisms");
+    const std::optional<ZPrism> prism = prism_along_z(convex->polyhedron, solid.X_WR);
+    require(prism.has_value(), name + "is no prism along z; turn it, or build it of boxes");
+    require(prism->low < -kFlat && prism->high > kFlat,
+            name +
+                "has parts that do not reach through the plane z = 0; move it there, or make "
+                "its blocks larger");
+    require(!material.breakable(),
+            name + "is made of " + material.name +
+                ", whose pattern would break it along z; say pattern = { kind = \"none\" } in a "
+                "[[material]] of that name");
+  }
+}
+
+void Checker::check(const Ball& ball, const std::string& name) const {
+  in_plane(ball.center_W, name + "is at a place that");
+  in_plane(ball.velocity_W, name + "has a velocity that");
+}
+
+double extent_m(const Convex& convex, const Quat& rotation) {
+  Box box;
+  for (const Vec3& vertex : convex.polyhedron.vertices) box.extend(rotation * vertex);
+  return std::sqrt(box.extent().x() * box.extent().y());
+}
+
+}  // namespace
+
+void check_planar(const Scene& scene, const std::string& where) {
+  const Checker checker{scene, where};
+  checker.in_plane(scene.gravity_W, "gravity");
+  for (const Solid& solid : scene.solids) checker.check(solid);
+  for (const Ball& ball : scene.balls) checker.check(ball, "ball '" + ball.name + "' ");
+  checker.require(scene.ties.empty(), "it has a [[joint]], which planar scenes do not have");
+  for (const Shot& shot : scene.shots) {
+    checker.check(shot.ball, "a ball of [script] ");
+    checker.require(!shot.hangs_from_W,
+                    "a ball of [script] hangs in joints, which planar scenes do not have");
+  }
+  for (const Blast& blast : scene.blasts) checker.in_plane(blast.center_W, "a blast's centre");
+  for (const Drive& drive : scene.drives) checker.in_plane(drive.velocity_W, "a drive's velocity");
+}
+
+double planar_piece_m(const Scene& scene) {
+  double logs = 0;
+  std::size_t count = 0;
+  const auto add = [&](double size_m) {
+    logs += std::log2(size_m);
+    ++count;
+  };
+  for (const Solid& solid : scene.solids) {
+    for (const ConvexPtr& convex : solid.compound.convexes) {
+      add(extent_m(*convex, solid.X_WR.rotation));
+    }
+  }
+  for (const Ball& ball : scene.balls) add(2 * ball.radius_m);
+  for (const Shot& shot : scene.shots) add(2 * shot.ball.radius_m);
+  return count == 0
+             ? 1
+             : std::ldexp(1, static_cast<int>(std::lround(logs / static_cast<double>(count))));
+}
+
+}  // namespace sunder::scenes

@@ -1,0 +1,125 @@
+// The tables of a scene file and their keys. Structures declare theirs in structures/.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/model/scene.h"
+#include "scenes/file/keys.h"
+
+namespace sunder::scenes {
+
+/// Speed against accuracy, by name.
+struct Preset {
+  std::string_view name;
+  Accuracy accuracy;
+  int sweeps;  ///< Of the solver in a substep.
+  std::string_view help;
+};
+std::span<const Preset> presets();
+
+inline constexpr int kMostSubsteps = 64;
+
+/// The part of [[material]] that does not end up in a Material.
+struct MaterialHead {
+  std::string name;
+  std::string like;
+};
+
+enum class Anchored { kNone, kBottom };
+
+/// The keys of [[solid]] that all structures share.
+struct SolidHead {
+  std::string structure;
+  std::string name;
+  Vec3 position = Vec3::Zero();
+  Vec3 rotation_rad = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();
+  Anchored anchored = Anchored::kNone;
+};
+
+struct BallText {
+  std::string name;
+  Vec3 position = Vec3(0, 1, 0);
+  Vec3 velocity = Vec3::Zero();
+  double radius_m = 0.5;
+  MaterialRef material{"steel", {}};
+};
+
+struct Script {
+  bool enabled = true;
+};
+
+struct ShotText {
+  std::string name;
+  double time_s = 0;
+  Vec3 from = Vec3::Zero();
+  std::optional<Vec3> velocity;
+  std::optional<Vec3> at;
+  double speed_m_s = 20;
+  double radius_m = 0.5;
+  MaterialRef material{"steel", {}};
+};
+
+struct BlastText {
+  double time_s = 0;
+  Vec3 at = Vec3::Zero();
+  double radius_m = 4;
+  double impulse_Ns_m2 = 1000;
+};
+
+struct RemoveText {
+  double time_s = 0;
+  std::optional<std::string> name;
+  std::optional<Vec3> from, to;
+};
+
+struct DriveText {
+  double time_s = 0;
+  double until_s = 600;
+  std::string name;
+  Vec3 velocity = Vec3::Zero();
+  double force_N = 1e6;
+};
+
+struct WreckingBallText {
+  std::string name;
+  double time_s = 0;
+  Vec3 from = Vec3::Zero();
+  Vec3 hangs_from = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
+  double radius_m = 0.5;
+  std::uint32_t links = 16;
+  MaterialRef material{"steel", {}};
+};
+
+/// The tables themselves; `top` lists the names of all others.
+struct Schema {
+  Keys<Scene> top;
+  Keys<Scene> scene;
+  Keys<Accuracy> accuracy;
+  Keys<SolverDials> solver;
+  Keys<Limits> limits;
+  Keys<Ground> ground;
+  Keys<View> view;
+  Keys<MaterialHead> material_head;
+  Keys<Material> material;
+  Keys<PatternSpec> pattern;
+  Keys<StrongerBlow> stronger;
+  Keys<Crumbling> crumbling;
+  Keys<Look> look;
+  Keys<SolidHead> solid;
+  Keys<BallText> ball;
+  Keys<Script> script;
+  Keys<ShotText> shot;
+  Keys<WreckingBallText> wrecking_ball;
+  Keys<BlastText> blast;
+  Keys<RemoveText> remove;
+  Keys<DriveText> drive;
+};
+const Schema& schema();
+
+}  // namespace sunder::scenes

@@ -1,0 +1,233 @@
+// Adding, removing, placing, freezing and waking of bodies; adding of shapes.
+#include "solver/rigid/body/bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "engine/base/check.h"
+#include "engine/base/parallel.h"
+
+namespace sunder::solver {
+namespace {
+
+/// Principal axes scaled by the square roots of the inverse moments, and whether those differ by
+/// 5 % or more. A degenerate inertia is filled up, so that no axis can be spun without effort.
+struct InertiaRoot {
+  Mat3f root = Mat3f::Zero();
+  Mat3 inertia = Mat3::Zero();
+  bool uneven = false;
+};
+
+InertiaRoot inertia_root(const Mat3& inertia_B) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(0.5 * (inertia_B + inertia_B.transpose()));
+  const double largest = solver.eigenvalues().maxCoeff();
+  SUNDER_CHECK(largest > 0);
+  const Vec3 moments = solver.eigenvalues().cwiseMax(1e-4 * largest);
+  const Mat3 axes = solver.eigenvectors();
+  InertiaRoot result;
+  result.root = (axes * moments.cwiseSqrt().cwiseInverse().asDiagonal()).cast<float>();
+  result.inertia = axes * moments.asDiagonal() * axes.transpose();
+  result.uneven = moments.minCoeff() < 0.95 * moments.maxCoeff();
+  return result;
+}
+
+Shape make_shape(const ShapeDesc& desc, const Vec3& com_R) {
+  Shape shape;
+  shape.kind = desc.kind;
+  shape.present = true;
+  shape.tag = desc.tag;
+  shape.friction = static_cast<float>(desc.friction);
+  shape.rolling = static_cast<float>(desc.rolling);
+  shape.restitution = static_cast<float>(desc.restitution);
+  shape.center = (desc.center_R - com_R).cast<float>();
+  shape.normal = desc.normal_R.normalized().cast<float>();
+  shape.radius_m = static_cast<float>(desc.radius_m);
+  if (desc.kind == ShapeDesc::Kind::kHull) {
+    shape.hull = Hull(*desc.hull, com_R);
+    shape.center = shape.hull.center();
+    shape.inner_radius_m = shape.hull.inner_radius_m();
+    shape.reach_m = shape.hull.reach_m();
+  } else if (desc.kind == ShapeDesc::Kind::kSphere) {
+    shape.inner_radius_m = shape.radius_m;
+    shape.reach_m = shape.center.norm() + shape.radius_m;
+  } else {
+    shape.inner_radius_m = 1e30f;
+  }
+  return shape;
+}
+
+}  // namespace
+
+void Bodies::resize(std::uint32_t count) {
+  motion.resize(count, Motion::kAbsent);
+  generation.resize(count, 0);
+  position.resize(count);
+  com_R.resize(count);
+  rotation.resize(count);
+  rotation_f.resize(count);
+  velocity.resize(count);
+  angular_velocity.resize(count);
+  mass_kg.resize(count);
+  inertia_B.resize(count);
+  inverse_mass.resize(count);
+  root_B.resize(count);
+  spins_freely.resize(count);
+  reach_m.resize(count);
+  turned_m.resize(count);
+  slow_s.resize(count);
+  rest_position.resize(count);
+  rest_rotation.resize(count);
+  is_new.resize(count);
+  changed.resize(count);
+  bears_load.resize(count);
+  group.resize(count);
+  tag.resize(count);
+  first_shape.resize(count, kNone);
+}
+
+std::uint32_t Bodies::add(const BodyDesc& desc) {
+  if (free_slots.empty()) {
+    free_slots.push_back(size());
+    resize(size() + 1);
+  }
+  const std::uint32_t body = free_slots.back();
+  free_slots.pop_back();
+  motion[body] = desc.is_static ? Motion::kStatic : Motion::kAwake;
+  com_R[body] = desc.com_R;
+  place(body, desc.X_WB.position, desc.X_WB.rotation);
+  velocity[body] = desc.is_static ? Vec3::Zero() : desc.velocity_W;
+  angular_velocity[body] = desc.is_static ? Vec3::Zero() : desc.angular_velocity_W;
+  mass_kg[body] = desc.mass_kg;
+  inertia_B[body] = Mat3::Zero();
+  inverse_mass[body] = 0;
+  root_B[body].setZero();
+  spins_freely[body] = 0;
+  if (!desc.is_static) {
+    SUNDER_CHECK(desc.mass_kg > 0 && desc.inertia_B.allFinite());
+    const InertiaRoot root = inertia_root(desc.inertia_B);
+    inertia_B[body] = root.inertia;
+    inverse_mass[body] = static_cast<float>(1 / desc.mass_kg);
+    root_B[body] = root.root;
+    spins_freely[body] = root.uneven;
+  }
+  reach_m[body] = 0;
+  turned_m[body] = 0;
+  slow_s[body] = 0;
+  rest_position[body] = position[body];
+  rest_rotation[body] = rotation[body];
+  is_new[body] = 1;
+  changed[body] = 1;
+  bears_load[body] = desc.bears_load;
+  group[body] = desc.group;
+  tag[body] = desc.tag;
+  first_shape[body] = kNone;
+  return body;
+}
+
+void Bodies::remove(std::uint32_t body) {
+  motion[body] = Motion::kAbsent;
+  ++generation[body];
+  free_slots.push_back(body);
+}
+
+void Bodies::place(std::uint32_t body, const Vec3& position_W, const Quat& rotation_WB) {
+  position[body] = position_W;
+  rotation[body] = rotation_WB.normalized();
+  rotation_f[body] = rotation[body].toRotationMatrix().cast<float>();
+}
+
+bool Bodies::finite(std::uint32_t body) const {
+  // Beyond 1e9 m/s squares no longer fit a float: as good as infinite.
+  return position[body].allFinite() && rotation[body].coeffs().allFinite() &&
+         velocity[body].cwiseAbs().maxCoeff() < 1e9 && velocity[body].allFinite() &&
+         angular_velocity[body].cwiseAbs().maxCoeff() < 1e9 && angular_velocity[body].allFinite();
+}
+
+Vec3 Bodies::freeze(std::uint32_t body) {
+  const Vec3 momentum =
+      velocity[body].allFinite() ? Vec3(mass_kg[body] * velocity[body]) : Vec3(Vec3::Zero());
+  motion[body] = Motion::kFrozen;
+  velocity[body].setZero();
+  angular_velocity[body].setZero();
+  inverse_mass[body] = 0;
+  root_B[body].setZero();
+  changed[body] = 1;
+  return momentum;
+}
+
+void Bodies::wake(std::uint32_t body) {
+  if (motion[body] != Motion::kAsleep) return;
+  motion[body] = Motion::kAwake;
+  slow_s[body] = 0;
+  changed[body] = 1;
+}
+
+namespace {
+
+std::uint64_t tag_key(std::uint32_t body, std::uint32_t tag) {
+  return std::uint64_t{body} << 32 | tag;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> Shapes::add(std::span<const NewShape> added, Bodies& bodies) {
+  std::vector<std::uint32_t> slots;
+  slots.reserve(added.size());
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    if (free_slots.empty()) {
+      free_slots.push_back(size());
+      items.emplace_back();
+    }
+    slots.push_back(free_slots.back());
+    free_slots.pop_back();
+  }
+  for_chunks(slots.size(), 32, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      items[slots[i]] = make_shape(*added[i].desc, bodies.com_R[added[i].body]);
+      items[slots[i]].body = added[i].body;
+    }
+  });
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const std::uint32_t s = slots[i], body = added[i].body;
+    items[s].next = bodies.first_shape[body];
+    if (items[s].next != kNone) items[items[s].next].previous = s;
+    bodies.first_shape[body] = s;
+    bodies.reach_m[body] = std::max(bodies.reach_m[body], double{items[s].reach_m});
+    if (bodies.motion[body] != Motion::kStatic) continue;
+    const std::uint64_t key = tag_key(body, items[s].tag);
+    if (!static_with_tag_.contains(key)) static_with_tag_.insert(key, s);
+  }
+  return slots;
+}
+
+std::vector<std::uint32_t> Shapes::of_body(std::uint32_t body, const Bodies& bodies) const {
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t s = bodies.first_shape[body]; s != kNone; s = items[s].next)
+    slots.push_back(s);
+  return slots;
+}
+
+std::uint32_t Shapes::with_tag(std::uint32_t body, std::uint32_t tag) const {
+  const std::uint32_t s = static_with_tag_.find(tag_key(body, tag));
+  SUNDER_CHECK(s != KeyMap::kAbsent);
+  return s;
+}
+
+void Shapes::remove(std::span<const std::uint32_t> removed, Bodies& bodies) {
+  for (const std::uint32_t s : removed) {
+    const Shape& shape = items[s];
+    const std::uint64_t key = tag_key(shape.body, shape.tag);
+    if (static_with_tag_.find(key) == s) static_with_tag_.erase(key);
+    if (shape.next != kNone) items[shape.next].previous = shape.previous;
+    if (shape.previous != kNone)
+      items[shape.previous].next = shape.next;
+    else
+      bodies.first_shape[shape.body] = shape.next;
+    items[s] = Shape();
+    free_slots.push_back(s);
+  }
+}
+
+}  // namespace sunder::solver

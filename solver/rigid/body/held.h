@@ -1,0 +1,43 @@
+// Bodies that sit a solve out: asleep for its length, and then they go on as they were.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "solver/rigid/body/bodies.h"
+
+namespace sunder::solver {
+
+class Held {
+ public:
+  /// From the next stop() to the release() after it.
+  void add(std::uint32_t body) { items_.push_back({body}); }
+  /// Those that are awake fall asleep.
+  void stop(Bodies& bodies) {
+    std::erase_if(items_, [&](const Item& item) { return !bodies.awake(item.body); });
+    for (Item& item : items_) {
+      item.velocity = std::exchange(bodies.velocity[item.body], Vec3::Zero());
+      item.angular_velocity = std::exchange(bodies.angular_velocity[item.body], Vec3::Zero());
+      bodies.motion[item.body] = Motion::kAsleep;
+    }
+  }
+  /// They go on as before.
+  void release(Bodies& bodies) {
+    for (const Item& item : items_) {
+      bodies.motion[item.body] = Motion::kAwake;
+      bodies.velocity[item.body] = item.velocity;
+      bodies.angular_velocity[item.body] = item.angular_velocity;
+      bodies.changed[item.body] = 1;
+    }
+    items_.clear();
+  }
+
+ private:
+  struct Item {
+    std::uint32_t body = 0;
+    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+  };
+  std::vector<Item> items_;
+};
+
+}  // namespace sunder::solver

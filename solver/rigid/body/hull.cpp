@@ -1,0 +1,115 @@
+// Layout of a hull. Topology comes from the polyhedron: no hull is computed here.
+#include "solver/rigid/body/hull.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/check.h"
+
+namespace sunder::solver {
+namespace {
+
+void set_lane(Wide3& chunk, std::uint32_t lane, const Vec3f& v) {
+  chunk.x[lane] = v.x();
+  chunk.y[lane] = v.y();
+  chunk.z[lane] = v.z();
+}
+
+}  // namespace
+
+Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
+  SUNDER_CHECK(!convex.empty() && convex.vertices.size() < 0xffff &&
+               convex.corners.size() < 0xffff);
+  vertex_count_ = static_cast<std::uint32_t>(convex.vertices.size());
+  vertices_.resize(wide_count(vertex_count_));
+  Vec3 sum = Vec3::Zero();
+  for (std::uint32_t i = 0; i < vertices_.size() * kLanes; ++i) {
+    const Vec3 v = convex.vertices[std::min(i, vertex_count_ - 1)] - com_R;
+    set_lane(vertices_[i / kLanes], i % kLanes, v.cast<float>());
+    if (i >= vertex_count_) continue;
+    sum += v;
+    reach_ = std::max(reach_, static_cast<float>(v.norm()));
+  }
+  center_ = (sum / vertex_count_).cast<float>();
+
+  const auto faces = static_cast<std::uint32_t>(convex.faces.size());
+  planes_.resize(wide_count(faces));
+  core_radius_ = reach_ + center_.norm();
+  for (std::uint32_t i = 0; i < planes_.size() * kLanes; ++i) {
+    const Plane& plane = convex.faces[std::min(i, faces - 1)].plane;
+    PlaneChunk& chunk = planes_[i / kLanes];
+    set_lane(chunk.normal, i % kLanes, plane.normal.cast<float>());
+    chunk.d[i % kLanes] = static_cast<float>(plane.distance(com_R));
+    const auto to_center = static_cast<float>(-plane.distance(com_R + center_.cast<double>()));
+    core_radius_ = std::min(core_radius_, to_center);
+  }
+  core_radius_ = std::max(core_radius_, 0.f);
+  inner_radius_ = std::max(core_radius_, 0.02f * reach_);
+
+  corners_.reserve(convex.corners.size());
+  face_first_.reserve(faces + 1);
+  for (std::uint32_t f = 0; f < faces; ++f) {
+    face_first_.push_back(static_cast<std::uint16_t>(corners_.size()));
+    for (const std::uint32_t corner : convex.face_corners(f))
+      corners_.push_back(static_cast<std::uint16_t>(corner));
+  }
+  face_first_.push_back(static_cast<std::uint16_t>(corners_.size()));
+  add_edges();
+}
+
+/// Sorted by their vertices, so that the two of an edge are neighbours: by counting, twice.
+std::vector<Hull::HalfEdge> Hull::half_edges() const {
+  std::vector<HalfEdge> halves, sorted(corners_.size());
+  halves.reserve(corners_.size());
+  for (std::uint32_t f = 0; f < face_count(); ++f) {
+    const auto loop = face_corners(f);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint16_t from = loop[i], to = loop[i + 1 < loop.size() ? i + 1 : 0];
+      halves.push_back(
+          {std::min(from, to), std::max(from, to), static_cast<std::uint16_t>(f), from < to});
+    }
+  }
+  std::vector<std::uint16_t> start(vertex_count_ + 1);
+  for (const auto key : {&HalfEdge::most, &HalfEdge::least}) {
+    std::fill(start.begin(), start.end(), std::uint16_t{0});
+    for (const HalfEdge& half : halves) ++start[half.*key + 1u];
+    for (std::uint32_t v = 0; v < vertex_count_; ++v)
+      start[v + 1] = static_cast<std::uint16_t>(start[v + 1] + start[v]);
+    for (const HalfEdge& half : halves) sorted[start[half.*key]++] = half;
+    halves.swap(sorted);
+  }
+  return halves;
+}
+
+void Hull::add_edges() {
+  const std::vector<HalfEdge> halves = half_edges();
+  edge_vertices_.reserve(halves.size() / 2);
+  edges_.resize(wide_count(static_cast<std::uint32_t>(halves.size() / 2)));
+  std::uint32_t count = 0;
+  auto put = [&](std::uint32_t slot, const HalfEdge& left, const HalfEdge& right) {
+    const Vec3f from = vertex(left.least), to = vertex(left.most);
+    EdgeChunk& chunk = edges_[slot / kLanes];
+    set_lane(chunk.point, slot % kLanes, from);
+    set_lane(chunk.direction, slot % kLanes, to - from);
+    set_lane(chunk.normal_left, slot % kLanes, normal(left.face));
+    set_lane(chunk.normal_right, slot % kLanes, normal(right.face));
+    const float cosine = normal(left.face).dot(normal(right.face));
+    chunk.bulge[slot % kLanes] = 1 / std::sqrt(std::max(1e-6f, 0.5f * (1 + cosine)));
+  };
+  for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {
+    const HalfEdge &one = halves[i], &other = halves[i + 1];
+    SUNDER_CHECK(one.least == other.least && one.most == other.most);
+    put(count++, one.forward ? one : other, one.forward ? other : one);
+    edge_vertices_.emplace_back(one.least, one.most);
+  }
+  const std::uint32_t last = (count - 1) % kLanes;  // what is over repeats the last edge
+  EdgeChunk& chunk = edges_.back();
+  for (std::uint32_t k = last + 1; k < kLanes; ++k) {
+    for (auto part : {&EdgeChunk::point, &EdgeChunk::direction, &EdgeChunk::normal_left,
+                      &EdgeChunk::normal_right})
+      set_lane(chunk.*part, k, lane(chunk.*part, last));
+    chunk.bulge[k] = chunk.bulge[last];
+  }
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,81 @@
+// Free flight: torque-free rotation by the implicit midpoint rule with Cayley updates.
+#include "solver/rigid/body/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/rotation.h"
+
+namespace sunder::solver {
+namespace {
+
+// Rad in a step; slower, the term is left out. What it does adds up over turns, not over steps.
+constexpr double kGyroscopicTurn = 1e-4;
+constexpr double kLargestTurn = 0.1;  // rad in one midpoint step
+constexpr double kFastestTurn = 100;  // rad in a step; faster, no rule follows it
+constexpr int kMidpointRounds = 12;
+
+struct Spin {
+  Quat rotation;
+  Vec3 w_B;
+};
+
+/// One midpoint step: w1 = w0 + h I⁻¹((I wm) × wm), wm = (w0 + w1)/2, then R1 = R0 Cay(h wm).
+void midpoint_step(const Mat3& inertia_B, const Mat3& inverse_B, double h, Quat& rotation,
+                   Vec3& w_B) {
+  const Vec3 w0 = w_B;
+  Vec3 w1 = w0;
+  for (int round = 0; round < kMidpointRounds; ++round) {
+    const Vec3 wm = 0.5 * (w0 + w1);
+    const Vec3 next = w0 + h * (inverse_B * (inertia_B * wm).cross(wm));
+    const double change = (next - w1).cwiseAbs().maxCoeff();
+    w1 = next;
+    if (change <= 1e-16 * w0.cwiseAbs().maxCoeff()) break;
+  }
+  const Vec3 half = 0.25 * h * (w0 + w1);
+  rotation = (rotation * Quat(1, half.x(), half.y(), half.z())).normalized();
+  w_B = w1;
+}
+
+Spin spun_freely(const Bodies& bodies, std::uint32_t body, double dt_s) {
+  Spin spin{bodies.rotation[body],
+            bodies.rotation[body].conjugate() * bodies.angular_velocity[body]};
+  const double turn = spin.w_B.norm() * dt_s;
+  const int parts = std::max(1, static_cast<int>(std::ceil(turn / kLargestTurn)));
+  const Mat3& inertia_B = bodies.inertia_B[body];
+  const Mat3 inverse_B = inertia_B.inverse();
+  for (int i = 0; i < parts; ++i)
+    midpoint_step(inertia_B, inverse_B, dt_s / parts, spin.rotation, spin.w_B);
+  return spin;
+}
+
+bool wobbles(const Bodies& bodies, std::uint32_t body, double dt_s) {
+  const double turn = bodies.angular_velocity[body].norm() * dt_s;
+  return bodies.spins_freely[body] != 0 && turn >= kGyroscopicTurn && turn < kFastestTurn;
+}
+
+}  // namespace
+
+void fly(Bodies& bodies, std::uint32_t body, const Vec3& gravity_W, double dt_s) {
+  const Vec3 way = dt_s * (bodies.velocity[body] + 0.5 * dt_s * gravity_W);
+  bodies.velocity[body] += dt_s * gravity_W;
+  const Vec3 angle_W = dt_s * bodies.angular_velocity[body];
+  Quat rotation;
+  if (wobbles(bodies, body, dt_s)) {
+    const Spin spin = spun_freely(bodies, body, dt_s);
+    rotation = spin.rotation;
+    bodies.angular_velocity[body] = spin.rotation * spin.w_B;
+  } else {
+    rotation = turn_by(angle_W) * bodies.rotation[body];
+  }
+  bodies.place(body, bodies.position[body] + way, rotation);
+  bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
+}
+
+Vec3 gyroscopic_change(const Bodies& bodies, std::uint32_t body, double dt_s) {
+  if (!wobbles(bodies, body, dt_s)) return Vec3::Zero();
+  return bodies.rotation[body] * spun_freely(bodies, body, dt_s).w_B -
+         bodies.angular_velocity[body];
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,150 @@
+// Approaches, from manifolds and the velocities before the solve.
+#include "solver/rigid/collide/approach.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/parallel.h"
+
+namespace sunder::solver {
+namespace {
+
+struct StepTime {
+  double dt_s;
+  double still_m_s;  ///< What closes more slowly rests.
+};
+
+double inverse_effective_mass(const Bodies& bodies, std::uint32_t body, const Vec3f& arm_W,
+                              const Vec3f& normal_W) {
+  if (!bodies.dynamic(body)) return 0;
+  const Vec3f turn_B = bodies.rotation_f[body].transpose() * arm_W.cross(normal_W);
+  return static_cast<double>(bodies.inverse_mass[body] +
+                             (bodies.root_B[body].transpose() * turn_B).squaredNorm());
+}
+
+/// Middle of the points that close within the step; false if none does.
+bool closing_middle(const Manifold& m, const Bodies& bodies, const StepTime& step, Vec3f& arm_A,
+                    Vec3f& arm_B, float& separation_m) {
+  int closing = 0;
+  arm_A.setZero(), arm_B.setZero();
+  separation_m = 1e30f;
+  for (std::size_t i = 0; i < m.count; ++i) {
+    const ManifoldPoint& p = m.points[i];
+    const double speed = closing_speed(m, bodies, p.arm_A, p.arm_B);
+    if (speed < step.still_m_s || double{p.separation_m} > speed * step.dt_s) continue;
+    ++closing;
+    arm_A += p.arm_A, arm_B += p.arm_B;
+    separation_m = std::min(separation_m, p.separation_m);
+  }
+  if (closing == 0) return false;
+  arm_A /= static_cast<float>(closing), arm_B /= static_cast<float>(closing);
+  return true;
+}
+
+bool make_approach(const Pair& pair, const Manifold& m, const Bodies& bodies, const Shapes& shapes,
+                   const StepTime& step, Approach& approach) {
+  Vec3f arm_A, arm_B;
+  float separation = 0;
+  if (!closing_middle(m, bodies, step, arm_A, arm_B, separation)) return false;
+  approach.speed_m_s = closing_speed(m, bodies, arm_A, arm_B);
+  const double inverse = inverse_effective_mass(bodies, m.body_a, arm_A, m.normal_W) +
+                         inverse_effective_mass(bodies, m.body_b, arm_B, m.normal_W);
+  if (approach.speed_m_s <= 0 || inverse <= 0) return false;
+  approach.effective_mass_kg = 1 / inverse;
+  approach.separation_m = separation;
+  approach.a = bodies.id(m.body_a), approach.b = bodies.id(m.body_b);
+  approach.body_tag_a = bodies.tag[m.body_a], approach.body_tag_b = bodies.tag[m.body_b];
+  approach.shape_tag_a = shapes[pair.shape_a].tag, approach.shape_tag_b = shapes[pair.shape_b].tag;
+  // On the body that stands still, if one does: there the point is where the blow will land.
+  const bool on_a = !bodies.awake(m.body_a) || bodies.awake(m.body_b);
+  approach.point_W = on_a ? Vec3(bodies.position[m.body_a] + arm_A.cast<double>())
+                          : Vec3(bodies.position[m.body_b] + arm_B.cast<double>());
+  approach.normal_W = m.normal_W.cast<double>().normalized();
+  return true;
+}
+
+}  // namespace
+
+double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A,
+                     const Vec3f& arm_B) {
+  const std::uint32_t a = m.body_a, b = m.body_b;
+  const Vec3 v_a =
+      bodies.velocity[a] + bodies.angular_velocity[a].cross(Vec3(arm_A.cast<double>()));
+  const Vec3 v_b =
+      bodies.velocity[b] + bodies.angular_velocity[b].cross(Vec3(arm_B.cast<double>()));
+  return m.normal_W.cast<double>().dot(v_a - v_b);
+}
+
+std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
+                                      const Shapes& shapes, double dt_s, const FallScale& fall) {
+  constexpr std::size_t kChunk = 4096;
+  const StepTime step{dt_s, fall.still_m_s(dt_s)};
+  using Keyed = std::pair<std::uint64_t, Approach>;
+  std::vector<std::vector<Keyed>> found((contacts.manifolds.size() + kChunk - 1) / kChunk);
+  for_chunks(contacts.manifolds.size(), kChunk,
+             [&](std::size_t begin, std::size_t end, std::size_t c) {
+               for (std::size_t i = begin; i < end; ++i) {
+                 const Manifold& m = contacts.manifolds[i];
+                 if (m.count == 0 || (!bodies.awake(m.body_a) && !bodies.awake(m.body_b))) continue;
+                 const Pair& pair = contacts.pairs[m.pair];
+                 Approach approach;
+                 if (make_approach(pair, m, bodies, shapes, step, approach))
+                   found[c].emplace_back(pair.key(), approach);
+               }
+             });
+  std::vector<Keyed> all;
+  for (const auto& chunk : found) all.insert(all.end(), chunk.begin(), chunk.end());
+  std::sort(all.begin(), all.end(),
+            [](const Keyed& a, const Keyed& b) { return a.first < b.first; });
+  std::vector<Approach> approaches;
+  approaches.reserve(all.size());
+  for (Keyed& keyed : all) approaches.push_back(std::move(keyed.second));
+  return approaches;
+}
+
+ContactsOfBodies::ContactsOfBodies(const Contacts& contacts, const Bodies& bodies)
+    : first_(bodies.size() + 1, 0) {
+  const auto visit = [&](auto&& use) {
+    for (std::uint32_t i = 0; i < contacts.manifolds.size(); ++i) {
+      const Manifold& m = contacts.manifolds[i];
+      if (m.count == 0) continue;
+      if (bodies.dynamic(m.body_a)) use(m.body_a, i);
+      if (bodies.dynamic(m.body_b)) use(m.body_b, i);
+    }
+  };
+  visit([&](std::uint32_t body, std::uint32_t) { ++first_[body + 1]; });
+  for (std::size_t body = 0; body < bodies.size(); ++body) first_[body + 1] += first_[body];
+  manifolds_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  visit([&](std::uint32_t body, std::uint32_t m) { manifolds_[next[body]++] = m; });
+}
+
+std::vector<Touch> find_touches(const Contacts& contacts, const Bodies& bodies,
+                                const Shapes& shapes, const ContactsOfBodies& contacts_of_bodies,
+                                std::span<const std::uint32_t> of) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> found;  // by key
+  for (const std::uint32_t body : of)
+    for (const std::uint32_t i : contacts_of_bodies.of(body))
+      found.emplace_back(contacts.pairs[contacts.manifolds[i].pair].key(), i);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  std::vector<Touch> touches;
+  touches.reserve(3 * found.size());
+  for (const auto& [key, i] : found) {
+    const Manifold& m = contacts.manifolds[i];
+    const Pair& pair = contacts.pairs[m.pair];
+    Touch touch;
+    touch.body_tag_a = bodies.tag[m.body_a], touch.body_tag_b = bodies.tag[m.body_b];
+    touch.shape_tag_a = shapes[pair.shape_a].tag, touch.shape_tag_b = shapes[pair.shape_b].tag;
+    touch.normal_W = m.normal_W.cast<double>().normalized();
+    for (std::size_t p = 0; p < m.count; ++p) {
+      touch.arm_a_W = m.points[p].arm_A.cast<double>();
+      touch.arm_b_W = m.points[p].arm_B.cast<double>();
+      touch.separation_m = double{m.points[p].separation_m};
+      touches.push_back(touch);
+    }
+  }
+  return touches;
+}
+
+}  // namespace sunder::solver

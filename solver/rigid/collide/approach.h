@@ -1,0 +1,43 @@
+// Which contacts close, how fast, and with how much mass behind them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/froude.h"
+#include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/contacts.h"
+
+namespace sunder::solver {
+
+/// One approach for each manifold that closes, or would within dt_s; in order of pair keys.
+std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
+                                      const Shapes& shapes, double dt_s, const FallScale& fall);
+
+/// The manifolds of each body that can move.
+class ContactsOfBodies {
+ public:
+  ContactsOfBodies() = default;
+  ContactsOfBodies(const Contacts& contacts, const Bodies& bodies);
+
+  bool empty() const { return first_.empty(); }
+  void clear() { first_.clear(); }
+  std::span<const std::uint32_t> of(std::uint32_t body) const {
+    return std::span(manifolds_).subspan(first_[body], first_[body + 1] - first_[body]);
+  }
+
+ private:
+  std::vector<std::uint32_t> first_, manifolds_;
+};
+
+/// The contact points of any of `bodies`, each once; in order of pair keys.
+std::vector<Touch> find_touches(const Contacts& contacts, const Bodies& bodies,
+                                const Shapes& shapes, const ContactsOfBodies& contacts_of_bodies,
+                                std::span<const std::uint32_t> of);
+
+/// Approach speed at an arm, along the manifold's normal; > 0 when closing.
+double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A,
+                     const Vec3f& arm_B);
+
+}  // namespace sunder::solver

@@ -1,0 +1,85 @@
+// A tree of boxes with fan-out eight, implicit in memory: leaves in Morton order, each node the
+// union of eight below it. Built in one pass, tested eight boxes at a time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/types.h"
+#include "solver/base/wide.h"
+
+namespace sunder::solver {
+
+/// An axis-aligned box in floats, rounded outwards.
+struct FloatBox {
+  Vec3f min = Vec3f::Constant(1e30f);
+  Vec3f max = Vec3f::Constant(-1e30f);
+
+  bool overlaps(const FloatBox& o) const {
+    return min.x() <= o.max.x() && o.min.x() <= max.x() && min.y() <= o.max.y() &&
+           o.min.y() <= max.y() && min.z() <= o.max.z() && o.min.z() <= max.z();
+  }
+  bool contains(const FloatBox& o) const {
+    return min.x() <= o.min.x() && o.max.x() <= max.x() && min.y() <= o.min.y() &&
+           o.max.y() <= max.y() && min.z() <= o.min.z() && o.max.z() <= max.z();
+  }
+};
+
+class BoxTree {
+ public:
+  /// Sorts `items` (indices into `boxes`) and builds every level.
+  void build(std::span<const FloatBox> boxes, std::span<const std::uint32_t> items);
+  /// Takes in boxes that moved since build(); the order of the leaves stays.
+  void refit(std::span<const FloatBox> boxes);
+  /// Calls hit(item) for each item whose box overlaps `query`.
+  template <class Hit>
+  void overlaps(const FloatBox& query, const Hit& hit) const;
+  std::size_t size() const { return items_.size(); }
+  /// Items in leaf order; kNoItem where one was removed.
+  std::span<const std::uint32_t> leaves() const { return items_; }
+  /// Takes a leaf out: its box is empty from now on. Not to be refitted any more.
+  void remove_leaf(std::uint32_t leaf);
+
+  static constexpr std::uint32_t kNoItem = 0xffffffff;
+
+ private:
+  struct Chunk {
+    Wide3 min, max;
+
+    void set(std::size_t lane, const FloatBox& box);
+    FloatBox bounds() const;
+  };
+  void fit_inner_levels();
+
+  std::vector<std::uint32_t> items_;        ///< In leaf order.
+  std::vector<std::vector<Chunk>> levels_;  ///< Level 0 holds leaves; the last has one chunk.
+};
+
+template <class Hit>
+void BoxTree::overlaps(const FloatBox& query, const Hit& hit) const {
+  if (items_.empty()) return;
+  struct Visit {
+    std::uint32_t level, chunk;
+  };
+  Visit stack[128];
+  std::uint32_t depth = 0;
+  stack[depth++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
+  while (depth > 0) {
+    const Visit visit = stack[--depth];
+    const Chunk& c = levels_[visit.level][visit.chunk];
+    std::uint32_t inside =
+        bits((c.min.x <= query.max.x()) & (c.max.x >= query.min.x()) & (c.min.y <= query.max.y()) &
+             (c.max.y >= query.min.y()) & (c.min.z <= query.max.z()) & (c.max.z >= query.min.z()));
+    for (; inside != 0; inside &= inside - 1) {
+      const std::uint32_t child =
+          visit.chunk * kLanes + static_cast<std::uint32_t>(__builtin_ctz(inside));
+      if (visit.level == 0)
+        hit(items_[child]);
+      else
+        stack[depth++] = {visit.level - 1, child};
+    }
+  }
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,300 @@
+// Boxes, trees and new pairs.
+#include "solver/rigid/collide/broad_phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/hash.h"
+#include "engine/base/parallel.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr std::size_t kChunk = 512;
+constexpr int kRefitsPerBuild = 12;
+// Neighbours of a shape that are looked at however deep they overlap, about.
+constexpr std::size_t kCrowd = 24;
+// Shapes overlap deeply if their middles are nearer than this share of their inner radii together.
+constexpr double kDeepMiddles = 0.9;
+
+/// Bounds of a hull turned by R, about the body's centre.
+FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
+  Vec3f low, high;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Wide3 row = {splat(R(axis, 0)), splat(R(axis, 1)), splat(R(axis, 2))};
+    Wide least = splat(1e30f), most = splat(-1e30f);
+    for (const Wide3& vertices : hull.vertices()) {
+      const Wide along = dot(row, vertices);
+      least = min(least, along);
+      most = max(most, along);
+    }
+    low[axis] = least[0], high[axis] = most[0];
+    for (std::uint32_t i = 1; i < kLanes; ++i) {
+      low[axis] = std::min(low[axis], least[i]);
+      high[axis] = std::max(high[axis], most[i]);
+    }
+  }
+  return {low, high};
+}
+
+FloatBox swept_box(const Shape& shape, const Bodies& bodies, const Vec3& gravity_W, double dt_s) {
+  const std::uint32_t body = shape.body;
+  FloatBox box;
+  if (shape.kind == ShapeDesc::Kind::kHull) {
+    box = turned_bounds(shape.hull, bodies.rotation_f[body]);
+  } else {
+    const Vec3f center = bodies.rotation_f[body] * shape.center;
+    box = {center.array() - shape.radius_m, center.array() + shape.radius_m};
+  }
+  float grow = 0.05f * shape.inner_radius_m;
+  if (bodies.awake(body)) {
+    const Vec3f shift = (bodies.velocity[body] * dt_s + gravity_W * (dt_s * dt_s)).cast<float>();
+    box.min += shift.cwiseMin(0.f);
+    box.max += shift.cwiseMax(0.f);
+    const double turn = std::min(2.0, bodies.angular_velocity[body].norm() * dt_s);
+    grow += static_cast<float>(turn) * shape.reach_m;
+  }
+  const Vec3f at = bodies.position[body].cast<float>();
+  grow += 4e-7f * (at.cwiseAbs().maxCoeff() + shape.reach_m);
+  return {at + box.min - Vec3f::Constant(grow), at + box.max + Vec3f::Constant(grow)};
+}
+
+/// Room for a few steps of the same motion.
+FloatBox fattened(const FloatBox& swept, const Shape& shape, const Bodies& bodies, double dt_s) {
+  FloatBox box = swept;
+  if (!bodies.dynamic(shape.body)) return box;
+  const Vec3f shift = (2 * dt_s * bodies.velocity[shape.body]).cast<float>();
+  const Vec3f grow = Vec3f::Constant(0.15f * shape.inner_radius_m);
+  box.min += shift.cwiseMin(0.f) - grow;
+  box.max += shift.cwiseMax(0.f) + grow;
+  return box;
+}
+
+/// The pair of two shapes: a is the half-space, or the hull, or the lesser slot.
+FoundPair pair_of(std::uint32_t s, std::uint32_t t, const Shapes& shapes) {
+  const Shape &first = shapes[s], &second = shapes[t];
+  const bool swap = first.kind != second.kind ? first.kind == ShapeDesc::Kind::kSphere ||
+                                                    second.kind == ShapeDesc::Kind::kHalfSpace
+                                              : t < s;
+  return {swap ? t : s, swap ? s : t, false};
+}
+
+}  // namespace
+
+void BroadPhase::add(std::span<const std::uint32_t> added, const Shapes& shapes,
+                     const Bodies& bodies) {
+  role_.resize(shapes.size(), Role::kAbsent);
+  swept_.resize(shapes.size());
+  fat_.resize(shapes.size());
+  moved_.resize(shapes.size());
+  crowded_.resize(shapes.size());
+  half_space_of_.resize(shapes.size(), -1);
+  for (const std::uint32_t s : added) {
+    fat_[s] = FloatBox();
+    if (shapes[s].kind == ShapeDesc::Kind::kHalfSpace) {
+      add_half_space(s, shapes, bodies);
+    } else if (bodies.dynamic(shapes[s].body)) {
+      role_[s] = Role::kMover;
+      movers_changed_ = true;
+    } else {
+      role_[s] = Role::kStatic;
+      new_statics_.push_back(s);
+    }
+  }
+}
+
+void BroadPhase::remove(std::span<const std::uint32_t> removed) {
+  for (const std::uint32_t s : removed) {
+    if (role_[s] == Role::kHalfSpace) {
+      remove_half_space(s);
+    } else if (role_[s] == Role::kMover) {
+      movers_changed_ = true;
+    } else if (std::erase(new_statics_, s) == 0) {
+      static_forest_.remove(s);
+    }
+    role_[s] = Role::kAbsent;
+  }
+}
+
+void BroadPhase::add_half_space(std::uint32_t s, const Shapes& shapes, const Bodies& bodies) {
+  const std::uint32_t body = shapes[s].body;
+  const Vec3 normal_W = (bodies.rotation[body] * shapes[s].normal.cast<double>()).normalized();
+  const Vec3 point_W =
+      bodies.position[body] + bodies.rotation[body] * shapes[s].center.cast<double>();
+  half_space_of_[s] = static_cast<std::int32_t>(half_spaces_.size());
+  half_spaces_.push_back({s, normal_W.cast<float>(), static_cast<float>(-normal_W.dot(point_W))});
+  role_[s] = Role::kHalfSpace;
+  look_again_ = true;
+}
+
+void BroadPhase::remove_half_space(std::uint32_t s) {
+  const auto at = static_cast<std::size_t>(half_space_of_[s]);
+  half_spaces_.erase(half_spaces_.begin() + half_space_of_[s]);
+  for (std::size_t i = at; i < half_spaces_.size(); ++i) --half_space_of_[half_spaces_[i].shape];
+  half_space_of_[s] = -1;
+}
+
+void BroadPhase::update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,
+                              double dt_s) {
+  for (const std::uint32_t s : moved_list_) moved_[s] = 0;
+  moved_list_.clear();
+  if (movers_changed_) {
+    movers_.clear();
+    for (std::uint32_t s = 0; s < role_.size(); ++s)
+      if (role_[s] == Role::kMover) movers_.push_back(s);
+  }
+  for_chunks(movers_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t s = movers_[i];
+      const Shape& shape = shapes.items[s];
+      moved_[s] = look_again_ || crowded_[s];
+      if (!bodies.changed[shape.body]) continue;
+      swept_[s] = swept_box(shape, bodies, gravity_W, dt_s);
+      if (fat_[s].contains(swept_[s])) continue;
+      fat_[s] = fattened(swept_[s], shape, bodies, dt_s);
+      moved_[s] = 1;
+    }
+  });
+  look_again_ = false;
+  for (const std::uint32_t s : movers_)
+    if (moved_[s]) moved_list_.push_back(s);
+  for_chunks(new_statics_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t s = new_statics_[i];
+      fat_[s] = swept_[s] = swept_box(shapes.items[s], bodies, gravity_W, dt_s);
+      moved_[s] = 1;
+    }
+  });
+  moved_list_.insert(moved_list_.end(), new_statics_.begin(), new_statics_.end());
+}
+
+void BroadPhase::update_trees() {
+  static_forest_.add(fat_, new_statics_);
+  new_statics_.clear();
+  if (movers_changed_ || (!moved_list_.empty() && ++refits_ >= kRefitsPerBuild)) {
+    mover_tree_.build(fat_, movers_);
+    refits_ = 0;
+  } else if (!moved_list_.empty()) {
+    mover_tree_.refit(fat_);
+  }
+  movers_changed_ = false;
+}
+
+std::vector<std::uint32_t> BroadPhase::pairs_with(std::span<const std::uint32_t> of,
+                                                  const Shapes& shapes,
+                                                  const KeyMap& slot_of) const {
+  std::vector<std::uint32_t> slots;
+  for (const std::uint32_t s : of) {
+    const auto consider = [&](std::uint32_t other) {
+      if (role_[other] == Role::kAbsent) return;  // gone since the tree was built
+      const std::uint32_t slot = slot_of.find(pair_of(s, other, shapes).key());
+      if (slot != KeyMap::kAbsent) slots.push_back(slot);
+    };
+    if (role_[s] == Role::kHalfSpace) {
+      for (const std::uint32_t other : movers_) consider(other);
+      continue;
+    }
+    mover_tree_.overlaps(fat_[s], consider);
+    if (role_[s] != Role::kMover) continue;
+    static_forest_.overlaps(fat_[s], consider);
+    for (const HalfSpace& plane : half_spaces_) consider(plane.shape);
+  }
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  return slots;
+}
+
+/// Of the movers that overlap a shape in a crowd, those whose middles are within it are looked at
+/// by a share only, as equal for both of a pair as their crowds are; the next update looks again.
+void BroadPhase::thin_out(std::uint32_t shape, std::size_t neighbours, const Shapes& shapes,
+                          const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first) {
+  const std::uint64_t share = ~std::uint64_t{0} / neighbours * kCrowd;
+  const auto middle = [&](const Shape& s) {
+    return Vec3(bodies.position[s.body] + (bodies.rotation_f[s.body] * s.center).cast<double>());
+  };
+  const auto left_out = [&](const FoundPair& pair) {
+    const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
+    if (a.kind == ShapeDesc::Kind::kHalfSpace) return false;
+    if (!bodies.dynamic(a.body) || !bodies.dynamic(b.body)) return false;
+    const double deep = kDeepMiddles * double{a.inner_radius_m + b.inner_radius_m};
+    return combine(kCrowd, pair.key()) > share &&
+           (middle(a) - middle(b)).squaredNorm() < deep * deep;
+  };
+  const auto kept =
+      std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), left_out);
+  crowded_[shape] = kept != found.end();
+  found.erase(kept, found.end());
+}
+
+void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
+                            const KeyMap& slot_of, std::vector<FoundPair>& found) {
+  const Shape& mine = shapes[shape];
+  const bool mover = bodies.dynamic(mine.body);
+  const std::size_t first = found.size();
+  std::size_t neighbours = 0;
+  auto consider = [&](std::uint32_t other) {
+    const Shape& theirs = shapes[other];
+    ++neighbours;
+    if (theirs.body == mine.body || (moved_[other] && other < shape)) return;
+    if (!mover && !bodies.dynamic(theirs.body)) return;
+    FoundPair pair = pair_of(shape, other, shapes);
+    pair.sibling =
+        bodies.group[mine.body] != 0 && bodies.group[mine.body] == bodies.group[theirs.body];
+    if (!slot_of.contains(pair.key())) found.push_back(pair);
+  };
+  mover_tree_.overlaps(fat_[shape], consider);
+  const auto order = [&] {
+    std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
+              [](const FoundPair& p, const FoundPair& q) { return p.key() < q.key(); });
+  };
+  if (!mover) return order();
+  static_forest_.overlaps(fat_[shape], consider);
+  for (const HalfSpace& plane : half_spaces_) {
+    Pair pair;
+    pair.shape_a = plane.shape, pair.shape_b = shape;
+    if (overlaps(pair, fat_)) consider(plane.shape);
+  }
+  crowded_[shape] = 0;
+  if (neighbours > kCrowd) thin_out(shape, neighbours, shapes, bodies, found, first);
+  order();
+}
+
+void BroadPhase::update(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,
+                        double dt_s, Contacts& contacts) {
+  update_boxes(shapes, bodies, gravity_W, dt_s);
+  update_trees();
+  const std::size_t chunks = (moved_list_.size() + kChunk - 1) / kChunk;
+  if (found_.size() < chunks) found_.resize(chunks);
+  for_chunks(moved_list_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    found_[c].clear();
+    for (std::size_t i = begin; i < end; ++i)
+      find_pairs(moved_list_[i], shapes, bodies, contacts.slot_of, found_[c]);
+  });
+  std::size_t all = 0;
+  for (std::size_t c = 0; c < chunks; ++c) all += found_[c].size();
+  contacts.expect_pairs(all);
+  for (std::size_t c = 0; c < chunks; ++c) {
+    for (const FoundPair& found : found_[c]) {
+      Pair pair;
+      pair.shape_a = found.shape_a, pair.shape_b = found.shape_b;
+      pair.body_a = shapes[pair.shape_a].body, pair.body_b = shapes[pair.shape_b].body;
+      pair.sibling = found.sibling;
+      contacts.add(pair);
+    }
+  }
+}
+
+bool BroadPhase::overlaps(const Pair& pair, const std::vector<FloatBox>& boxes) const {
+  const std::int32_t plane = half_space_of_[pair.shape_a];
+  if (plane < 0) return boxes[pair.shape_a].overlaps(boxes[pair.shape_b]);
+  const HalfSpace& half = half_spaces_[static_cast<std::size_t>(plane)];
+  const FloatBox& box = boxes[pair.shape_b];
+  const Vec3f center = 0.5f * (box.min + box.max), extent = 0.5f * (box.max - box.min);
+  return half.normal_W.dot(center) + half.d <= half.normal_W.cwiseAbs().dot(extent);
+}
+
+bool BroadPhase::near(const Pair& pair) const { return overlaps(pair, swept_); }
+
+bool BroadPhase::keep(const Pair& pair) const { return overlaps(pair, fat_); }
+
+}  // namespace sunder::solver

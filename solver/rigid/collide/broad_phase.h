@@ -1,0 +1,75 @@
+// Which shapes are near each other. Movers have a tree, statics a forest; every shape has a fat
+// box, and only shapes that leave theirs look for new neighbours.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/box_forest.h"
+#include "solver/rigid/collide/box_tree.h"
+#include "solver/rigid/collide/contacts.h"
+
+namespace sunder::solver {
+
+/// Two shapes that came near: as in Pair, a is the half-space, or the hull, or the lesser slot.
+struct FoundPair {
+  std::uint32_t shape_a, shape_b;
+  bool sibling;
+
+  std::uint64_t key() const { return pair_key(shape_a, shape_b); }
+};
+
+class BroadPhase {
+ public:
+  /// Takes shapes in; they are found by the next update().
+  void add(std::span<const std::uint32_t> added, const Shapes& shapes, const Bodies& bodies);
+  /// The slots of all pairs that have one of these shapes, each once, ascending. To be asked before
+  /// the shapes are removed.
+  std::vector<std::uint32_t> pairs_with(std::span<const std::uint32_t> of, const Shapes& shapes,
+                                        const KeyMap& slot_of) const;
+  /// Takes shapes out.
+  void remove(std::span<const std::uint32_t> removed);
+  /// Boxes of what changed, swept over dt_s; adds pairs that came near, in the same order for any
+  /// number of threads.
+  void update(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W, double dt_s,
+              Contacts& contacts);
+  /// Whether the pair's shapes may touch within the step.
+  bool near(const Pair& pair) const;
+  /// Whether the pair is worth keeping.
+  bool keep(const Pair& pair) const;
+
+ private:
+  enum class Role : std::uint8_t { kAbsent, kMover, kStatic, kHalfSpace };
+  struct HalfSpace {
+    std::uint32_t shape;
+    Vec3f normal_W;
+    float d;
+  };
+  void add_half_space(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies);
+  void remove_half_space(std::uint32_t shape);
+  void update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W, double dt_s);
+  void update_trees();
+  void find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
+                  const KeyMap& slot_of, std::vector<FoundPair>& found);
+  void thin_out(std::uint32_t shape, std::size_t neighbours, const Shapes& shapes,
+                const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first);
+  bool overlaps(const Pair& pair, const std::vector<FloatBox>& boxes) const;
+
+  std::vector<Role> role_;             ///< By shape slot.
+  std::vector<FloatBox> swept_, fat_;  ///< By shape slot.
+  std::vector<std::uint8_t> moved_;    ///< Left its fat box in this update.
+  std::vector<std::uint8_t> crowded_;  ///< Has neighbours that were not looked at.
+  std::vector<std::uint32_t> movers_, new_statics_, moved_list_;
+  std::vector<std::vector<FoundPair>> found_;  ///< By chunk of moved shapes.
+  std::vector<HalfSpace> half_spaces_;
+  std::vector<std::int32_t> half_space_of_;  ///< By shape slot; −1: not one.
+  BoxTree mover_tree_;
+  BoxForest static_forest_;
+  bool movers_changed_ = true;
+  bool look_again_ = false;  ///< A half-space came: it has no box that others would find.
+  int refits_ = 0;
+};
+
+}  // namespace sunder::solver

@@ -1,0 +1,172 @@
+// Building, matching and refreshing of manifolds.
+#include "solver/rigid/collide/manifold_build.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunder::solver {
+namespace {
+
+constexpr float kReuseMove = 0.03f;   // of the smaller inner radius
+constexpr float kReuseTurn = 0.005f;  // half-angle, rad
+constexpr float kMatchDistance = 0.5f;
+constexpr float kKeepSlide = 0.05f;  // of the smaller inner radius: an old point slid away
+constexpr float kKeepApart = 0.1f;   // of it: nearer to a new one, an old one tells nothing new
+constexpr float kKeepAlong = 0.9f;   // cosine of how far the normal may have turned
+constexpr std::size_t kRocking = 2;  // points: more, and there was an area to stand on
+
+Quatf relative_rotation(const Manifold& m, const Bodies& bodies) {
+  return (bodies.rotation[m.body_a].conjugate() * bodies.rotation[m.body_b]).cast<float>();
+}
+
+/// Hands impulses of old points to new ones: by feature, else to the nearest not yet served.
+void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
+                      std::span<ManifoldPoint> points) {
+  std::uint32_t taken = 0, served = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < old.size(); ++j) {
+      if ((taken >> j & 1) || old[j].feature != points[i].feature) continue;
+      points[i].impulse_Ns = old[j].impulse_Ns;
+      taken |= 1u << j, served |= 1u << i;
+      break;
+    }
+  }
+  const float limit = kMatchDistance * size_m;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (served >> i & 1) continue;
+    float nearest = limit * limit;
+    std::size_t match = old.size();
+    for (std::size_t j = 0; j < old.size(); ++j) {
+      const float square = (old[j].anchor_A - points[i].anchor_A).squaredNorm();
+      if (!(taken >> j & 1) && square < nearest) nearest = square, match = j;
+    }
+    if (match == old.size()) continue;
+    points[i].impulse_Ns = old[match].impulse_Ns;
+    taken |= 1u << match;
+  }
+}
+
+/// Adds old points that still are near, and not where the manifold has one.
+void keep_points(std::span<const ManifoldPoint> old, const PairMotion& motion,
+                 const Vec3f& normal_A, float reach_m, Manifold& m) {
+  const float slide_m = kKeepSlide * m.size_m, apart_m = kKeepApart * m.size_m;
+  for (const ManifoldPoint& was : old) {
+    if (m.count == m.points.size()) return;
+    const Vec3f gap = motion.pose.R * was.anchor_B + motion.pose.p - was.anchor_A;
+    const float separation_m = normal_A.dot(gap);
+    if (separation_m > reach_m) continue;
+    if ((gap - separation_m * normal_A).squaredNorm() > slide_m * slide_m) continue;
+    const auto same = [&](const ManifoldPoint& point) {
+      return point.feature == was.feature ||
+             (point.anchor_A - was.anchor_A).squaredNorm() < apart_m * apart_m;
+    };
+    if (std::any_of(m.points.begin(), m.points.begin() + m.count, same)) continue;
+    ManifoldPoint& kept = m.points[m.count++];
+    kept = ManifoldPoint();
+    kept.anchor_A = was.anchor_A, kept.anchor_B = was.anchor_B;
+    kept.separation_m = separation_m;
+    kept.feature = was.feature;
+  }
+}
+
+/// Points as they lie in the world, and friction at their middle.
+void place_points(const Mat3f& R_WA, const Mat3f& R_WB, Manifold& m) {
+  m.friction_anchor_A.setZero(), m.friction_anchor_B.setZero();
+  for (std::size_t i = 0; i < m.count; ++i) {
+    ManifoldPoint& point = m.points[i];
+    point.arm_A = R_WA * point.anchor_A;
+    point.arm_B = R_WB * point.anchor_B;
+    m.friction_anchor_A += point.anchor_A;
+    m.friction_anchor_B += point.anchor_B;
+  }
+  m.friction_anchor_A /= static_cast<float>(m.count);
+  m.friction_anchor_B /= static_cast<float>(m.count);
+  m.friction_arm_A = R_WA * m.friction_anchor_A;
+  m.friction_arm_B = R_WB * m.friction_anchor_B;
+}
+
+}  // namespace
+
+PairMotion pair_motion(const Pair& pair, const Bodies& bodies) {
+  const std::uint32_t a = pair.body_a, b = pair.body_b;
+  PairMotion motion;
+  motion.offset_W = (bodies.position[b] - bodies.position[a]).cast<float>();
+  motion.velocity_W = (bodies.velocity[b] - bodies.velocity[a]).cast<float>();
+  const Mat3f back = bodies.rotation_f[a].transpose();
+  motion.pose = {back * bodies.rotation_f[b], back * motion.offset_W};
+  return motion;
+}
+
+void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& motion,
+                    const Vec3f& normal_A, std::span<const PatchPoint> points, const Vec3f& shift_W,
+                    float reach_m, Manifold& m) {
+  const Mat3f &R_WA = bodies.rotation_f[pair.body_a], &R_WB = bodies.rotation_f[pair.body_b];
+  const std::array<ManifoldPoint, 4> old = m.points;
+  const std::size_t old_count = m.count;
+  m.body_a = pair.body_a, m.body_b = pair.body_b;
+  m.count = static_cast<std::uint8_t>(points.size());
+  const Vec3f normal_before_W = m.normal_W;
+  m.normal_W = (R_WA * normal_A).normalized();
+  m.normal_body = m.normal_on_b ? Vec3f(R_WB.transpose() * m.normal_W) : normal_A;
+  m.built_position = motion.pose.p;
+  m.built_rotation = relative_rotation(m, bodies);
+  const Vec3f p_shifted = motion.pose.p + R_WA.transpose() * shift_W;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ManifoldPoint& point = m.points[i];
+    point = ManifoldPoint();
+    point.anchor_A = points[i].on_a;
+    point.anchor_B = motion.pose.R.transpose() * (points[i].on_b - p_shifted);
+    point.separation_m = points[i].separation_m - m.normal_W.dot(shift_W);
+    point.feature = points[i].feature;
+  }
+  if (points.empty()) {
+    m.friction_impulse_W.setZero();
+    m.twist_impulse = 0;
+    return;
+  }
+  const std::span<const ManifoldPoint> before = std::span(old).first(old_count);
+  if (points.size() == 1 && old_count <= kRocking && m.reusable &&
+      normal_before_W.dot(m.normal_W) > kKeepAlong)
+    keep_points(before, motion, normal_A, reach_m, m);
+  place_points(R_WA, R_WB, m);
+  m.drift_W.setZero();
+  m.sticking = true;
+  inherit_impulses(before, m.size_m, std::span(m.points).first(m.count));
+}
+
+bool barely_moved(const Manifold& m, const Bodies& bodies, const PairMotion& motion) {
+  const float limit = kReuseMove * m.size_m;
+  if ((motion.pose.p - m.built_position).squaredNorm() > limit * limit) return false;
+  const Quatf turn = m.built_rotation.conjugate() * relative_rotation(m, bodies);
+  return turn.vec().squaredNorm() < kReuseTurn * kReuseTurn;
+}
+
+void refresh_manifold(const Bodies& bodies, const PairMotion& motion, Manifold& m) {
+  const Mat3f &R_WA = bodies.rotation_f[m.body_a], &R_WB = bodies.rotation_f[m.body_b];
+  m.normal_W = (m.normal_on_b ? R_WB : R_WA) * m.normal_body;
+  for (int i = 0; i < m.count; ++i) {
+    ManifoldPoint& point = m.points[i];
+    point.arm_A = R_WA * point.anchor_A;
+    point.arm_B = R_WB * point.anchor_B;
+    point.separation_m = m.normal_W.dot(motion.offset_W + point.arm_B - point.arm_A);
+  }
+  m.friction_arm_A = R_WA * m.friction_anchor_A;
+  if (!m.sticking) {
+    const float apart =
+        m.normal_W.dot(motion.offset_W + R_WB * m.friction_anchor_B - m.friction_arm_A);
+    m.friction_arm_B = m.friction_arm_A + apart * m.normal_W - motion.offset_W;
+    m.friction_anchor_B = R_WB.transpose() * m.friction_arm_B;
+    m.sticking = true;
+  }
+  m.friction_arm_B = R_WB * m.friction_anchor_B;
+  m.drift_W = motion.offset_W + m.friction_arm_B - m.friction_arm_A;
+}
+
+void forgive_overlap(Pair& pair, Manifold& m) {
+  if (!pair.sibling || m.count == 0) return;
+  const float overlap = std::max(0.f, -m.least_separation());
+  pair.slack_m = pair.slack_m < 0 ? overlap : std::min(pair.slack_m, overlap);
+  for (int i = 0; i < m.count; ++i) m.points[i].separation_m += pair.slack_m;
+}
+
+}  // namespace sunder::solver

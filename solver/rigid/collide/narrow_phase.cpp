@@ -1,0 +1,262 @@
+// Dispatch over shape kinds, reuse, and time of impact.
+#include "solver/rigid/collide/narrow_phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunder::solver {
+namespace {
+
+constexpr float kMargin = 0.05f;         // of the smaller inner radius: contact before touch
+constexpr float kAxisTolerance = 0.01f;  // of it: how much better another axis must be
+constexpr float kRocks = 0.25f;          // of it: what moves no farther in a step keeps old points
+constexpr float kLayer = 0.02f;          // of it: points so far above the lowest still count
+constexpr float kStill = 1e-6f;          // of it: a way that is not worth a look
+constexpr float kSliver = 1e-3f;         // of it: an overlap of faces that is no area
+constexpr float kRounding = 5e-7f;       // of a length in floats
+constexpr float kNoPoint = -1e30f;       // a reach within which nothing is
+constexpr int kImpactRounds = 24;
+
+using Kind = ShapeDesc::Kind;
+
+/// Two shapes at a relative pose that may be moved along.
+struct Probe {
+  const Shape& a;
+  const Shape& b;
+  float size_m;
+  NarrowScratch& scratch;
+
+  SeparatingAxis axis(const RelativePose& pose, const AxisReach& reach) const {
+    if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
+      place_in_each_other(a.hull, b.hull, pose, scratch.hulls);
+      return separating_axis(a.hull, b.hull, pose, reach, kAxisTolerance * size_m, scratch.hulls);
+    }
+    const Vec3f center_b = pose.R * b.center + pose.p;
+    SeparatingAxis axis;
+    if (a.kind == Kind::kHull) {
+      const HullDistance d = distance_to_hull(a.hull, center_b);
+      axis.normal_A = d.normal, axis.separation_m = d.distance_m - b.radius_m;
+    } else {
+      const Vec3f gap = center_b - a.center;
+      const float distance = gap.norm();
+      if (distance > 0) axis.normal_A = gap / distance;
+      axis.separation_m = distance - a.radius_m - b.radius_m;
+    }
+    return axis;
+  }
+
+  void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m,
+              float layer_m) const {
+    scratch.points.clear();
+    if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
+      make_patch(a.hull, b.hull, pose, axis, reach_m, scratch.hulls, scratch.patch, scratch.points);
+      reduce_patch(axis.normal_A, layer_m, scratch.points);
+    } else {
+      const Vec3f on_b = pose.R * b.center + pose.p - b.radius_m * axis.normal_A;
+      scratch.points.push_back(
+          {on_b - axis.separation_m * axis.normal_A, on_b, axis.separation_m, 0});
+    }
+  }
+};
+
+/// Time until the shapes come within `target_m`, moving straight; negative: not within dt_s.
+/// Advancing by the gap along a separating axis never oversteps. `axis`: the best at the start, and
+/// at that time in the end.
+float time_of_impact(const Probe& probe, const PairMotion& motion, const Vec3f& velocity_A,
+                     float target_m, float dt_s, SeparatingAxis& axis) {
+  RelativePose pose = motion.pose;
+  float time = 0;
+  for (int round = 0; round < kImpactRounds && axis.separation_m > target_m; ++round) {
+    const float closing = -axis.normal_A.dot(velocity_A);
+    if (closing <= 0) return -1;
+    time += (axis.separation_m - 0.5f * target_m) / closing;
+    if (time > dt_s) return -1;
+    pose.p = motion.pose.p + time * velocity_A;
+    axis = probe.axis(pose, {target_m, (dt_s - time) * velocity_A});
+  }
+  return time;
+}
+
+struct Reach {
+  float margin_m;  ///< Always.
+  float spin_m;    ///< What turning may add within the step.
+  float way_m;     ///< What moving may add within the step.
+
+  float all_m() const { return margin_m + spin_m + way_m; }
+};
+
+void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
+                        const PairMotion& motion, const Reach& reach, Manifold& m,
+                        NarrowScratch& scratch) {
+  const Quat& q_a = bodies.rotation[pair.body_a];
+  const Vec3 normal_W = q_a * a.normal.cast<double>();
+  const Vec3 surface_W = bodies.position[pair.body_a] + q_a * a.center.cast<double>();
+  const auto height = static_cast<float>(normal_W.dot(bodies.position[pair.body_b] - surface_W));
+  const Vec3f normal_B = bodies.rotation_f[pair.body_b].transpose() * normal_W.cast<float>();
+  auto& points = scratch.points;
+  points.clear();
+  auto add = [&](const Vec3f& point_B, std::uint32_t feature) {
+    const float separation = height + normal_B.dot(point_B);
+    if (separation > reach.all_m()) return;
+    const Vec3f on_b = motion.pose.R * point_B + motion.pose.p;
+    points.push_back({on_b - separation * a.normal, on_b, separation, feature});
+  };
+  if (b.kind == Kind::kHull) {
+    for (std::uint32_t v = 0; v < b.hull.vertex_count(); ++v) add(b.hull.vertex(v), v);
+    reduce_patch(a.normal, kLayer * m.size_m + reach.spin_m, points);
+  } else {
+    add(b.center - b.radius_m * normal_B, 0);
+  }
+  build_manifold(pair, bodies, motion, a.normal, points, Vec3f::Zero(), kNoPoint, m);
+}
+
+Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
+               const PairMotion& motion, const NarrowStep& step, float size_m) {
+  const auto dt = static_cast<float>(step.dt_s);
+  auto turn = [&](std::uint32_t body, float reach_m) {
+    const auto spin = static_cast<float>(bodies.angular_velocity[body].norm());
+    return std::min(1.f, spin * dt) * reach_m;
+  };
+  return {kMargin * size_m + step.fall_m,
+          turn(pair.body_a, a.reach_m) + turn(pair.body_b, b.reach_m),
+          dt * motion.velocity_W.norm()};
+}
+
+void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const PairMotion& motion,
+                  const Reach& reach, double dt_s, Pair& pair, Manifold& m,
+                  NarrowScratch& scratch) {
+  const Probe probe{a, b, m.size_m, scratch};
+  const auto dt = static_cast<float>(dt_s);
+  const Vec3f velocity_A = bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W;
+  AxisReach axis_reach{reach.margin_m + reach.spin_m, dt * velocity_A};
+  RelativePose pose = motion.pose;
+  SeparatingAxis axis = probe.axis(pose, axis_reach);
+  float time = 0;
+  const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
+  if (meet && reach.way_m > 0.5f * m.size_m) {
+    axis_reach.way_A.setZero();
+    time = time_of_impact(probe, motion, velocity_A, axis_reach.margin_m, dt, axis);
+    pose.p += std::max(0.f, time) * velocity_A;
+  }
+  const float limit = axis_reach.along(axis.normal_A);
+  scratch.points.clear();
+  if (time >= 0 && axis.separation_m <= limit)
+    probe.points(pose, axis, limit, kLayer * m.size_m + reach.spin_m);
+  pair.clearance_m = time == 0 && scratch.points.empty() ? axis.separation_m : -1;
+  pair.axis_A = pair.clearance_m > 0 ? axis.normal_A : Vec3f(Vec3f::Zero());
+  m.normal_on_b = axis.kind == SeparatingAxis::Kind::kFaceB;
+  m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && time == 0;
+  build_manifold(pair, bodies, motion, axis.normal_A, scratch.points,
+                 std::max(0.f, time) * motion.velocity_W,
+                 reach.spin_m + reach.way_m < kRocks * m.size_m ? limit : kNoPoint, m);
+}
+
+/// Whether the axis that parted the pair last still does, and by how much.
+bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, const AxisReach& reach,
+                  Pair& pair, NarrowScratch& scratch) {
+  if (pair.axis_A.isZero(0) || b.kind != Kind::kHull || a.kind != Kind::kHull) return false;
+  place_in_A(b.hull, motion.pose, scratch.hulls);
+  const float separation_m = separation_along(pair.axis_A, a.hull, scratch.hulls);
+  if (separation_m <= reach.along(pair.axis_A)) return false;
+  pair.clearance_m = separation_m;
+  return true;
+}
+
+/// Whether the pair is new, hardly moves and touches at an edge only, as most neighbours in a grid
+/// do: no contact until it has moved by a sliver.
+bool edges_at_rest(const Shape& a, const Shape& b, const PairMotion& motion, const Reach& reach,
+                   float size_m, Pair& pair, NarrowScratch& scratch) {
+  const float sliver_m = kSliver * size_m;
+  if (a.kind != Kind::kHull || b.kind != Kind::kHull || reach.spin_m + reach.way_m > sliver_m)
+    return false;
+  place_in_each_other(a.hull, b.hull, motion.pose, scratch.hulls);
+  if (!touch_without_area(a.hull, b.hull, motion.pose, sliver_m, scratch.hulls)) return false;
+  pair.axis_A.setZero();
+  pair.clearance_m = reach.margin_m + sliver_m;
+  return true;
+}
+
+}  // namespace
+
+bool same_as_before(const Bodies& bodies, std::span<const StepReach> reach, const Pair& pair,
+                    const Manifold* m) {
+  if (pair.fresh || (m && !(m->reusable && m->sticking)) || (!m && pair.clearance_m < 0))
+    return false;
+  const std::uint32_t a = pair.body_a, b = pair.body_b;
+  const Vec3f offset_W = (bodies.position[b] - bodies.position[a]).cast<float>();
+  const auto turned_m = static_cast<float>(bodies.turned_m[a] + bodies.turned_m[b] - pair.turned_m);
+  const float moved_m = (offset_W - pair.offset_W).norm() + turned_m;
+  if (m) return moved_m < kStill * m->size_m;
+  const Vec3f way_W = reach[b].way_W - reach[a].way_W;
+  const float closing_m = pair.axis_A.isZero(0)
+                              ? way_W.norm()
+                              : std::max(0.f, -way_W.dot(bodies.rotation_f[a] * pair.axis_A));
+  const float blur_m = kRounding * offset_W.norm();
+  return pair.clearance_m - moved_m - blur_m >
+         pair.margin_m + closing_m + reach[a].turn_m + reach[b].turn_m;
+}
+
+void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep& step, Pair& pair,
+                    Manifold& m, NarrowScratch& scratch) {
+  const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
+  const PairMotion motion = pair_motion(pair, bodies);
+  const float size_m = std::min(a.inner_radius_m, b.inner_radius_m);
+  const Reach reach = reach_of(a, b, pair, bodies, motion, step, size_m);
+  pair.turned_m = bodies.turned_m[pair.body_a] + bodies.turned_m[pair.body_b];
+  pair.offset_W = motion.offset_W;
+  pair.margin_m = reach.margin_m;
+  if (m.count > 0 && m.reusable && barely_moved(m, bodies, motion)) {
+    refresh_manifold(bodies, motion, m);
+    forgive_overlap(pair, m);
+    return;
+  }
+  const Vec3f way_A = static_cast<float>(step.dt_s) *
+                      (bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W);
+  const AxisReach axis_reach{reach.margin_m + reach.spin_m, way_A};
+  if (m.count == 0 && still_parted(a, b, motion, axis_reach, pair, scratch)) return;
+  if (m.count == 0 && edges_at_rest(a, b, motion, reach, size_m, pair, scratch)) return;
+  m.size_m = size_m;
+  m.friction = std::sqrt(a.friction * b.friction);
+  m.rolling_m = std::max(a.rolling, b.rolling) * std::min(a.inner_radius_m, b.inner_radius_m);
+  m.restitution = std::max(a.restitution, b.restitution);
+  if (a.kind == Kind::kHalfSpace) {
+    m.normal_on_b = false;
+    m.reusable = b.kind == Kind::kHull;
+    half_space_contact(a, b, pair, bodies, motion, reach, m, scratch);
+  } else {
+    make_contact(a, b, bodies, motion, reach, step.dt_s, pair, m, scratch);
+  }
+  forgive_overlap(pair, m);
+}
+
+HullDistance distance_to_hull(const Hull& hull, const Vec3f& point) {
+  std::uint32_t nearest_face = 0;
+  float most = -1e30f;
+  for (std::uint32_t f = 0; f < hull.face_count(); ++f) {
+    const float distance = hull.normal(f).dot(point) + hull.plane_d(f);
+    if (distance > most) most = distance, nearest_face = f;
+    if (distance <= 0) continue;
+    const auto corners = hull.face_corners(f);
+    bool above = true;
+    for (std::size_t i = 0; i < corners.size() && above; ++i) {
+      const Vec3f from = hull.vertex(corners[i]);
+      const Vec3f to = hull.vertex(corners[i + 1 < corners.size() ? i + 1 : 0]);
+      above = (to - from).cross(hull.normal(f)).dot(point - from) <= 0;
+    }
+    if (above) return {hull.normal(f), distance};
+  }
+  if (most <= 0) return {hull.normal(nearest_face), most};
+  Vec3f gap = Vec3f::Zero();
+  float least = 1e30f;
+  for (std::uint32_t e = 0; e < hull.edge_count(); ++e) {
+    const auto [from, to] = hull.edge_vertices(e);
+    const Vec3f start = hull.vertex(from), along = hull.vertex(to) - start;
+    const float t = std::clamp((point - start).dot(along) / along.squaredNorm(), 0.f, 1.f);
+    const Vec3f apart = point - (start + t * along);
+    if (const float square = apart.squaredNorm(); square < least) least = square, gap = apart;
+  }
+  const float distance = std::sqrt(least);
+  return {distance > 0 ? Vec3f(gap / distance) : hull.normal(nearest_face), distance};
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,38 @@
+// The contact patch of two hulls along a given axis: clipped faces or a pair of edges, cut down to
+// four points.
+#pragma once
+
+#include <vector>
+
+#include "solver/rigid/collide/contacts.h"
+#include "solver/rigid/collide/separation.h"
+
+namespace sunder::solver {
+
+/// A candidate point, in A.
+struct PatchPoint {
+  Vec3f on_a, on_b;
+  float separation_m = 0;
+  std::uint32_t feature = 0;
+};
+
+struct PatchScratch {
+  struct Corner {
+    Vec3f position;
+    std::uint32_t feature;
+  };
+  std::vector<Corner> polygon, clipped;
+  std::vector<Vec3f> reference;
+};
+
+/// Appends the points of the patch that are no further apart than `reach_m`.
+void make_patch(const Hull& a, const Hull& b, const RelativePose& pose, const SeparatingAxis& axis,
+                float reach_m, const HullScratch& hulls, PatchScratch& scratch,
+                std::vector<PatchPoint>& points);
+
+/// Keeps at most four points: the deepest, and those that span the largest area with it. Points
+/// more than `layer_m` above the deepest count only if there are not four below: a piece would
+/// tip onto what was left out in their favour.
+void reduce_patch(const Vec3f& normal_A, float layer_m, std::vector<PatchPoint>& points);
+
+}  // namespace sunder::solver

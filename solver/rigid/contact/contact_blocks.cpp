@@ -1,0 +1,144 @@
+// Blocks of 1, 4, 8 and 16 lanes, and which of them this processor runs.
+#include "solver/rigid/contact/contact_blocks.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace sunder::solver {
+namespace {
+
+constexpr std::size_t kCacheLine = 64;
+
+template <std::uint32_t kWidth>
+class BlocksOf final : public ContactBlocks {
+ public:
+  std::uint32_t lanes() const override { return kWidth; }
+  std::uint32_t size() const override { return used_; }
+  void clear(std::size_t manifolds) override {
+    used_ = 0;
+    const std::size_t blocks = manifolds / kWidth + kMaxColors;
+    if (blocks > blocks_.capacity()) blocks_.reserve(std::max(blocks, 2 * blocks_.size()));
+  }
+  void remember() override { search_.resize(used_); }
+  void add(std::uint32_t first, std::uint32_t count, std::uint32_t points, bool split) override {
+    for (std::uint32_t i = 0; i < count; i += kWidth) {
+      // Blocks of the last step are written over, not cleared.
+      if (used_ == blocks_.size()) blocks_.emplace_back();
+      ConstraintBlock<kWidth>& block = blocks_[used_++];
+      block.first = first + i;
+      block.count = std::min(kWidth, count - i);
+      block.points = points;
+      block.split = split;
+    }
+  }
+
+  void prepare(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (i + 1 < end) fetch_manifolds(blocks_[i + 1], step);
+      prepare_block(step, blocks_[i]);
+    }
+  }
+  void warm_start(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::warm_start(blocks_[i], step.rows);
+  }
+  void sweep_biased(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (i + 1 < end) fetch_bodies(blocks_[i + 1], step);
+      solver::sweep_biased(blocks_[i], step.rows, step.soft);
+    }
+  }
+  void sweep_relaxed(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (i + 1 < end) fetch_bodies(blocks_[i + 1], step);
+      solver::sweep_relaxed(blocks_[i], step.rows, step.soft);
+    }
+  }
+  void sum_impulses(std::uint32_t begin, std::uint32_t end) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::sum_impulses(blocks_[i]);
+  }
+  void ease(std::uint32_t begin, std::uint32_t end, const float* share_of_row) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::ease(blocks_[i], share_of_row);
+  }
+  void mark(std::uint32_t begin, std::uint32_t end) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::mark(blocks_[i], search_[i]);
+  }
+  void measure(std::uint32_t begin, std::uint32_t end, float* energy) const override {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      float of_lane[kWidth];
+      solver::measure(blocks_[i], search_[i], of_lane);
+      std::copy_n(of_lane, blocks_[i].count, energy + blocks_[i].first);
+    }
+  }
+  void go_on(std::uint32_t begin, std::uint32_t end, const ContactStep& step, float beta) override {
+    for (std::uint32_t i = begin; i < end; ++i)
+      solver::go_on(blocks_[i], search_[i], step.rows, beta);
+  }
+  void bounce(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::bounce(blocks_[i], step.rows);
+  }
+  void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (i + 1 < end) fetch_manifolds(blocks_[i + 1], step);
+      store_block(step, blocks_[i]);
+    }
+  }
+
+  Vec3 outside_impulse_Ns() const override {
+    Vec3 sum = Vec3::Zero();
+    for (std::uint32_t i = 0; i < used_; ++i) {
+      const ConstraintBlock<kWidth>& c = blocks_[i];
+      if (!c.summed) continue;
+      for (std::uint32_t lane = 0; lane < c.count; ++lane)
+        sum += double{c.outside_sign[lane]} *
+               Vec3(double{c.total.x[lane]}, double{c.total.y[lane]}, double{c.total.z[lane]});
+    }
+    return sum;
+  }
+
+ private:
+  // What lies scattered is asked for a block ahead; the blocks themselves stream.
+  static void fetch_manifolds(const ConstraintBlock<kWidth>& c, const ContactStep& step) {
+    for (std::uint32_t lane = 0; lane < c.count; ++lane) {
+      const Manifold* m = &step.contacts.manifolds[step.manifolds[c.first + lane]];
+      for (std::size_t at = 0; at < sizeof *m; at += kCacheLine)
+        __builtin_prefetch(reinterpret_cast<const char*>(m) + at, 1);
+    }
+  }
+  static void fetch_bodies(const ConstraintBlock<kWidth>& c, const ContactStep& step) {
+    for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+      __builtin_prefetch(&step.rows.rows[c.row_a[lane]], 1);
+      __builtin_prefetch(&step.rows.rows[c.row_b[lane]], 1);
+    }
+  }
+
+  std::vector<ConstraintBlock<kWidth>> blocks_;
+  std::vector<SearchLanes<kWidth>> search_;
+  std::uint32_t used_ = 0;
+};
+
+/// The most lanes that this processor has instructions for.
+int supported_lanes() {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl"))
+    return 16;
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") ? 8 : 4;
+#else
+  return 4;
+#endif
+}
+
+}  // namespace
+
+std::unique_ptr<ContactBlocks> make_contact_blocks(int most_lanes) {
+  static const int kSupported = supported_lanes();
+  const int most = most_lanes == 0 ? kSupported : std::min(most_lanes, kSupported);
+  if (most >= 16) return std::make_unique<BlocksOf<16>>();
+  if (most >= 8) return std::make_unique<BlocksOf<8>>();
+  if (most >= 4) return std::make_unique<BlocksOf<4>>();
+  return std::make_unique<BlocksOf<1>>();
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,18 @@
+// What contacts did in the last solve, for the world and its statistics.
+#pragma once
+
+#include <vector>
+
+#include "engine/model/physics.h"
+#include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/contacts.h"
+
+namespace sunder::solver {
+
+/// See Physics::contact_loads().
+std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodies& bodies,
+                                            const Shapes& shapes);
+/// See Physics::penetrations().
+std::vector<float> find_penetrations(const Contacts& contacts);
+
+}  // namespace sunder::solver

@@ -1,0 +1,194 @@
+// From what prepare.cpp gathered to Jacobians and masses, a manifold a lane. Read first: derive().
+// Included by sweep_1.cpp and so on alone, under the same rule as sweep_kernels.h.
+#pragma once
+
+#include "solver/rigid/contact/sweep_kernels.h"
+
+namespace sunder::solver {
+
+template <class V>
+SUNDER_INLINE V reciprocal(V x) {
+  const V zero = {}, one = splat<V>(1);
+  return x > zero ? one / (x > zero ? x : one) : zero;
+}
+
+template <class V>
+SUNDER_INLINE Triple<V> to_root(const Triple<V> (&column)[3], const Triple<V>& angular) {
+  return {dot(column[0], angular), dot(column[1], angular), dot(column[2], angular)};
+}
+
+/// How much one push moves each of the two, and both.
+template <class V>
+struct Response {
+  V a, b;
+
+  SUNDER_INLINE V all() const { return a + b; }
+};
+
+/// Makes bodies as light as the parts that split manifolds take of them.
+template <std::uint32_t lanes>
+SUNDER_INLINE void split_bodies(GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+  using V = WideOf<lanes>;
+  const V one = splat<V>(1), root_a = sqrt(g.parts_a), root_b = sqrt(g.parts_b);
+  c.inverse_mass_a *= g.parts_a, c.inverse_mass_b *= g.parts_b;
+  for (int k = 0; k < 3; ++k) {
+    g.root_a[k] = g.root_a[k] * root_a;
+    g.root_b[k] = g.root_b[k] * root_b;
+  }
+  c.parts.share_a = one / g.parts_a, c.parts.share_b = one / g.parts_b;
+  c.parts.root_a = one / root_a, c.parts.root_b = one / root_b;
+}
+
+/// Response of bodies over that of their parts.
+template <std::uint32_t lanes>
+SUNDER_INLINE WideOf<lanes> ease(const ConstraintBlock<lanes>& c,
+                                 const Response<WideOf<lanes>>& parts) {
+  return (parts.a * c.parts.share_a + parts.b * c.parts.share_b) * reciprocal(parts.all());
+}
+
+template <std::uint32_t lanes>
+SUNDER_INLINE void set_tangents(ConstraintBlock<lanes>& c) {
+  using V = WideOf<lanes>;
+  const V zero = {}, one = splat<V>(1);
+  const auto flat = c.normal.x * c.normal.x < splat<V>(0.5f);
+  const Wide3Of<lanes> helper = {flat ? one : zero, flat ? zero : one, zero};
+  const Wide3Of<lanes> t = cross(c.normal, helper);
+  const V square = dot(t, t);
+  c.tangent_1 = t * (one / sqrt(square > zero ? square : one));
+  c.tangent_2 = cross(c.normal, c.tangent_1);
+}
+
+template <std::uint32_t lanes>
+SUNDER_INLINE void derive_friction(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+  using V = WideOf<lanes>;
+  c.slide_1_a = to_root(g.root_a, cross(g.friction_arm_a, c.tangent_1));
+  c.slide_1_b = to_root(g.root_b, cross(g.friction_arm_b, c.tangent_1));
+  c.slide_2_a = to_root(g.root_a, cross(g.friction_arm_a, c.tangent_2));
+  c.slide_2_b = to_root(g.root_b, cross(g.friction_arm_b, c.tangent_2));
+  const V inverse_mass = c.inverse_mass_a + c.inverse_mass_b;
+  const Response<V> turn_1 = {dot(c.slide_1_a, c.slide_1_a), dot(c.slide_1_b, c.slide_1_b)};
+  const Response<V> turn_2 = {dot(c.slide_2_a, c.slide_2_a), dot(c.slide_2_b, c.slide_2_b)};
+  const V k11 = inverse_mass + turn_1.a + turn_1.b;
+  const V k22 = inverse_mass + turn_2.a + turn_2.b;
+  const V k12 = dot(c.slide_1_a, c.slide_2_a) + dot(c.slide_1_b, c.slide_2_b);
+  const V scale = reciprocal(k11 * k22 - k12 * k12);
+  c.slide_11 = k22 * scale, c.slide_12 = -k12 * scale, c.slide_22 = k11 * scale;
+  if (c.split)
+    c.parts.slide_ease = ease(c, {c.inverse_mass_a + c.inverse_mass_a + turn_1.a + turn_2.a,
+                                  c.inverse_mass_b + c.inverse_mass_b + turn_1.b + turn_2.b});
+  c.twist_a = to_root(g.root_a, c.normal);
+  c.twist_b = to_root(g.root_b, c.normal);
+  c.twist_mass = reciprocal(dot(c.twist_a, c.twist_a) + dot(c.twist_b, c.twist_b));
+  c.drift_1 = dot(g.drift, c.tangent_1), c.drift_2 = dot(g.drift, c.tangent_2);
+  c.slide_impulse_1 = dot(g.slide_impulse, c.tangent_1);
+  c.slide_impulse_2 = dot(g.slide_impulse, c.tangent_2);
+}
+
+template <std::uint32_t lanes>
+SUNDER_INLINE void derive_roll(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+  using V = WideOf<lanes>;
+  RollLanes<lanes>& r = c.roll;
+  r.turn_1_a = to_root(g.root_a, c.tangent_1), r.turn_1_b = to_root(g.root_b, c.tangent_1);
+  r.turn_2_a = to_root(g.root_a, c.tangent_2), r.turn_2_b = to_root(g.root_b, c.tangent_2);
+  const V k11 = dot(r.turn_1_a, r.turn_1_a) + dot(r.turn_1_b, r.turn_1_b);
+  const V k22 = dot(r.turn_2_a, r.turn_2_a) + dot(r.turn_2_b, r.turn_2_b);
+  const V k12 = dot(r.turn_1_a, r.turn_2_a) + dot(r.turn_1_b, r.turn_2_b);
+  const V scale = reciprocal(k11 * k22 - k12 * k12);
+  r.mass_11 = k22 * scale, r.mass_12 = -k12 * scale, r.mass_22 = k11 * scale;
+  r.impulse_1 = dot(g.roll_impulse, c.tangent_1);
+  r.impulse_2 = dot(g.roll_impulse, c.tangent_2);
+}
+
+/// The speed at which the point will have closed its gap, by energy, times restitution.
+template <std::uint32_t lanes>
+SUNDER_INLINE WideOf<lanes> rebound_of(const GatheredBlock<lanes>& g,
+                                       const ConstraintBlock<lanes>& c, const PointLanes<lanes>& p,
+                                       WideOf<lanes> u) {
+  using V = WideOf<lanes>;
+  const V zero = {};
+  const V fall = max(zero, -dot(c.normal, g.gravity)) * max(zero, p.separation);
+  const V speed = sqrt(u * u + fall + fall);
+  const auto bounces =
+      (u < splat<V>(-g.bounce_speed_m_s)) & (g.restitution > zero) & (p.mass > zero);
+  return bounces ? speed * g.restitution : zero;
+}
+
+template <std::uint32_t lanes>
+SUNDER_INLINE void derive_points(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+  using V = WideOf<lanes>;
+  const V inverse_mass = c.inverse_mass_a + c.inverse_mass_b;
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    PointLanes<lanes>& p = c.point[i];
+    p.turn_a = to_root(g.root_a, cross(g.arm_a[i], c.normal));
+    p.turn_b = to_root(g.root_b, cross(g.arm_b[i], c.normal));
+    const Response<V> turn = {dot(p.turn_a, p.turn_a), dot(p.turn_b, p.turn_b)};
+    p.mass = reciprocal(inverse_mass + turn.a + turn.b);
+    if (c.split)
+      c.parts.press_ease[i] = ease(c, {c.inverse_mass_a + turn.a, c.inverse_mass_b + turn.b});
+    const Wide3Of<lanes> off = g.arm_b[i] - g.friction_arm_b;
+    const Wide3Of<lanes> lever = off - c.normal * dot(off, c.normal);
+    p.arm = sqrt(dot(lever, lever));
+  }
+}
+
+template <std::uint32_t lanes>
+SUNDER_INLINE void derive_springs(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+  using V = WideOf<lanes>;
+  const V mass = splat<V>(g.press.mass_scale), give = g.ease * splat<V>(g.press.impulse_scale);
+  c.press_mass = mass / (mass + give), c.press_give = give / (mass + give);
+  if (!c.split) return;
+  for (std::uint32_t i = 0; i < c.points; ++i) c.parts.press_ease[i] *= g.ease;
+}
+
+template <bool kSplit, std::uint32_t lanes>
+SUNDER_INLINE void derive_rebounds(const GatheredBlock<lanes>& g, const SolverRows& bodies,
+                                   ConstraintBlock<lanes>& c) {
+  const Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    const PointLanes<lanes>& p = c.point[i];
+    c.rebound[i].speed = rebound_of(g, c, p, v.along(c.normal, p.turn_a, p.turn_b));
+    c.bouncy = c.bouncy || any(c.rebound[i].speed > WideOf<lanes>{});
+  }
+}
+
+/// Sleepers stay where they are: no response to any impulse.
+template <std::uint32_t lanes>
+SUNDER_INLINE void hold_sleepers(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+  c.inverse_mass_a *= g.awake_a, c.inverse_mass_b *= g.awake_b;
+  auto hold = [&](Wide3Of<lanes>& a, Wide3Of<lanes>& b) { a = a * g.awake_a, b = b * g.awake_b; };
+  hold(c.slide_1_a, c.slide_1_b);
+  hold(c.slide_2_a, c.slide_2_b);
+  hold(c.twist_a, c.twist_b);
+  hold(c.roll.turn_1_a, c.roll.turn_1_b);
+  hold(c.roll.turn_2_a, c.roll.turn_2_b);
+  for (std::uint32_t i = 0; i < c.points; ++i) hold(c.point[i].turn_a, c.point[i].turn_b);
+}
+
+template <std::uint32_t lanes>
+void derive(GatheredBlock<lanes>& g, const SolverRows& bodies, ConstraintBlock<lanes>& c) {
+  if (c.split) split_bodies(g, c);
+  set_tangents(c);
+  derive_friction(g, c);
+  if (c.rolls) derive_roll(g, c);
+  derive_points(g, c);
+  derive_springs(g, c);
+  if (any(g.restitution > WideOf<lanes>{}))
+    c.split ? derive_rebounds<true>(g, bodies, c) : derive_rebounds<false>(g, bodies, c);
+  if (g.sleepers) hold_sleepers(g, c);
+}
+
+/// Compiles all kernels for so many lanes.
+#define SUNDER_SWEEP_KERNELS(lanes)                                                            \
+  template void derive(GatheredBlock<lanes>&, const SolverRows&, ConstraintBlock<lanes>&);     \
+  template void warm_start(ConstraintBlock<lanes>&, const SolverRows&);                        \
+  template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);     \
+  template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);    \
+  template void sum_impulses(ConstraintBlock<lanes>&);                                         \
+  template void ease(ConstraintBlock<lanes>&, const float*);                                   \
+  template void mark(const ConstraintBlock<lanes>&, SearchLanes<lanes>&);                      \
+  template void measure(const ConstraintBlock<lanes>&, const SearchLanes<lanes>&, float*);     \
+  template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float); \
+  template void bounce(ConstraintBlock<lanes>&, const SolverRows&);                            \
+  template void separations_now(const ConstraintBlock<lanes>&, const SolverRows&, float(*)[lanes]);
+
+}  // namespace sunder::solver

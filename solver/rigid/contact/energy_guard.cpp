@@ -1,0 +1,88 @@
+#include "solver/rigid/contact/energy_guard.h"
+
+#include <algorithm>
+
+#include "engine/base/disjoint_sets.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr double kRounding = 1e-6;  // of the energy that moved to and fro
+
+double lanes_sum(const Wide& a, const Wide& b, double linear) {
+  double sum = 0;
+  for (std::uint32_t i = 0; i < 3; ++i) sum += linear * double{a[i]} * double{b[i]};
+  for (std::uint32_t i = 3; i < 6; ++i) sum += double{a[i]} * double{b[i]};
+  return sum;
+}
+
+}  // namespace
+
+void EnergyGuard::collect(std::span<const std::uint32_t> manifolds,
+                          std::span<const std::uint32_t> active, std::span<const Pair> joined,
+                          double slow_m_s, const Bodies& bodies, const Contacts& contacts) {
+  watches_ = std::ranges::any_of(active, [&](std::uint32_t body) {
+    const double turn_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
+    return bodies.velocity[body].norm() + turn_m_s > slow_m_s;
+  });
+  if (!watches_) return;
+  DisjointSets groups(bodies.size());
+  for (const std::uint32_t i : manifolds) {
+    const Manifold& m = contacts.manifolds[i];
+    if (bodies.awake(m.body_a) && bodies.awake(m.body_b)) groups.join(m.body_a, m.body_b);
+  }
+  for (const auto& [a, b] : joined) {
+    if (bodies.awake(a) && bodies.awake(b)) groups.join(a, b);
+  }
+  group_ = groups.roots();
+  if (!joined.empty()) leave_alone_what_swings_free(manifolds, active, joined, contacts);
+  of_body_.resize(bodies.size());
+  of_group_.resize(bodies.size());
+  share_.assign(bodies.size() + 1, 1);
+}
+
+/// Joints alone keep energy as well as their substeps do, and would only lose by this.
+void EnergyGuard::leave_alone_what_swings_free(std::span<const std::uint32_t> manifolds,
+                                               std::span<const std::uint32_t> active,
+                                               std::span<const Pair> joined,
+                                               const Contacts& contacts) {
+  std::vector<std::uint8_t> free(group_.size());
+  const auto mark = [&](std::uint32_t body, bool is_free) {
+    if (group_[body] != kNone) free[group_[body]] = is_free;
+  };
+  for (const auto& [a, b] : joined) mark(a, true), mark(b, true);
+  for (const std::uint32_t i : manifolds) {
+    mark(contacts.manifolds[i].body_a, false), mark(contacts.manifolds[i].body_b, false);
+  }
+  for (const std::uint32_t body : active)
+    if (free[group_[body]]) group_[body] = kNone;
+}
+
+void EnergyGuard::weigh(std::uint32_t body, float inverse_mass, const BodyRow& row) {
+  const Wide change = row.velocity - row.base;
+  const double mass = 1 / double{inverse_mass};
+  of_body_[body] = {lanes_sum(change, row.base, mass), 0.5 * lanes_sum(change, change, mass)};
+}
+
+void EnergyGuard::judge(std::span<const std::uint32_t> active) {
+  objects_ = false;
+  for (const std::uint32_t body : active)
+    if (group_[body] != kNone) of_group_[group_[body]] = {};
+  for (const std::uint32_t body : active) {
+    if (group_[body] == kNone) continue;
+    Work& work = of_group_[group_[body]];
+    work.first += of_body_[body].first;
+    work.second += of_body_[body].second;
+  }
+  for (const std::uint32_t body : active) {
+    float& share = share_[body + 1];
+    share = 1;
+    if (group_[body] == kNone) continue;
+    const Work& work = of_group_[group_[body]];
+    if (!(work.first + work.second > kRounding * work.second)) continue;
+    share = static_cast<float>(std::max(0.0, -work.first / work.second));
+    objects_ = true;
+  }
+}
+
+}  // namespace sunder::solver

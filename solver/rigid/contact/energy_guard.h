@@ -1,0 +1,54 @@
+// Contacts take kinetic energy or leave it, but the few sweeps of a substep may make some. Here the
+// bodies that touch each other, group by group, are held to what they had: see docs/decisions/029.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/contacts.h"
+#include "solver/rigid/contact/constraint_block.h"
+
+namespace sunder::solver {
+
+class EnergyGuard {
+ public:
+  using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+  /// Groups the awake bodies of these manifolds, and of these pairs in joints. What hangs in joints
+  /// and touches nothing is left alone; where nothing moves fast, all are.
+  void collect(std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> active,
+               std::span<const Pair> joined, double slow_m_s, const Bodies& bodies,
+               const Contacts& contacts);
+  /// Whether any group is watched in this step.
+  bool watches() const { return watches_; }
+
+  /// What the impulses of a substep did to the energy of a body.
+  void weigh(std::uint32_t body, float inverse_mass, const BodyRow& row);
+  /// Finds the shares of their impulses that groups may keep so that their energy is not more than
+  /// it was before.
+  void judge(std::span<const std::uint32_t> active);
+  /// Whether some group has to give some of its impulses back.
+  bool objects() const { return objects_; }
+  /// Of the impulses on a body; by slot + 1, as rows are.
+  const float* share_of_row() const { return share_.data(); }
+
+ private:
+  /// Energy of a share s of the impulses: s·first + s²·second.
+  struct Work {
+    double first = 0, second = 0;
+  };
+
+  void leave_alone_what_swings_free(std::span<const std::uint32_t> manifolds,
+                                    std::span<const std::uint32_t> active,
+                                    std::span<const Pair> joined, const Contacts& contacts);
+
+  bool watches_ = false, objects_ = false;
+  std::vector<std::uint32_t> group_;  ///< By slot, of awake bodies in contact; kNone: not watched.
+  std::vector<Work> of_body_, of_group_;
+  std::vector<float> share_;
+};
+
+}  // namespace sunder::solver

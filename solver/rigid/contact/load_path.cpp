@@ -1,0 +1,120 @@
+// Read first: follow_loads().
+#include "solver/rigid/contact/load_path.h"
+
+#include <algorithm>
+
+namespace sunder::solver {
+namespace {
+
+constexpr float kLeastSlope = 0.2f;  // of a normal that bears weight, along the vertical
+
+/// A body and a manifold that it stands on.
+struct Support {
+  double height_m;  ///< Of the body.
+  std::uint32_t body, below;
+  std::uint32_t manifold;
+};
+
+std::vector<Support> find_supports(const Vec3& up, std::span<const std::uint32_t> manifolds,
+                                   const Bodies& bodies, const Contacts& contacts) {
+  std::vector<Support> supports;
+  for (const std::uint32_t i : manifolds) {
+    const Manifold& m = contacts.manifolds[i];
+    const float slope = m.normal_W.dot(up.cast<float>());
+    if (std::abs(slope) < kLeastSlope) continue;
+    const std::uint32_t body = slope > 0 ? m.body_b : m.body_a;
+    const std::uint32_t below = slope > 0 ? m.body_a : m.body_b;
+    if (bodies.awake(body)) supports.push_back({up.dot(bodies.position[body]), body, below, i});
+  }
+  std::sort(supports.begin(), supports.end(), [](const Support& s, const Support& t) {
+    if (s.height_m != t.height_m) return s.height_m > t.height_m;
+    return s.body != t.body ? s.body < t.body : s.manifold < t.manifold;
+  });
+  return supports;
+}
+
+struct Share {
+  Manifold* manifold;
+  std::size_t point;
+  std::uint32_t below;
+  bool on_b;
+  Vec3f arm, arm_below;
+  float vertical = 0;
+};
+
+/// Impulses along the vertical at the shares that bear `weight` with the moment `turn` (about the
+/// two axes across): the least in squares, those that would pull left out.
+void bear(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float weight,
+          const Vec3f& turn, std::vector<Share>& shares) {
+  float longest = 0;  // arms are measured by it
+  for (const Share& s : shares) longest = std::max(longest, s.arm.norm());
+  const float inverse = longest > 0 ? 1 / longest : 0;
+  auto row = [&](const Share& s) {
+    return Vec3f(1, inverse * s.arm.dot(across_1), inverse * s.arm.dot(across_2));
+  };
+  // A push along `up` at x·across_1 + y·across_2 turns by x·(across_1 × up) + y·(across_2 × up).
+  const Vec3f wanted(weight, inverse * turn.dot(across_1.cross(up)),
+                     inverse * turn.dot(across_2.cross(up)));
+  Mat3f normal = Mat3f::Zero();
+  for (const Share& s : shares) normal += row(s) * row(s).transpose();
+  const float arms = normal(1, 1) + normal(2, 2);
+  normal(1, 1) += 1e-3f * arms + 1e-12f, normal(2, 2) += 1e-3f * arms + 1e-12f;
+  const Vec3f plane = normal.inverse() * wanted;
+  float sum = 0;
+  for (Share& s : shares) sum += s.vertical = std::max(0.f, plane.dot(row(s)));
+  for (Share& s : shares) s.vertical = sum > 0 ? s.vertical * weight / sum : 0;
+}
+
+}  // namespace
+
+void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
+                  float stored_scale, const Bodies& bodies, std::vector<BodyLoad>& loads,
+                  Contacts& contacts) {
+  if (gravity_W.isZero(0)) return;
+  const Vec3 up_W = -gravity_W.normalized();
+  const Vec3f up = up_W.cast<float>();
+  const Vec3f across_1 = up.unitOrthogonal(), across_2 = up.cross(across_1);
+  const std::vector<Support> supports = find_supports(up_W, manifolds, bodies, contacts);
+  for (std::size_t i = supports.size(); i-- > 0;) {
+    const Support& s = supports[i];
+    if (!bodies.awake(s.below) || loads[s.below].held) loads[s.body].held = true;
+  }
+  std::vector<Share> shares;
+  for (std::size_t begin = 0, end = 0; begin < supports.size(); begin = end) {
+    const std::uint32_t body = supports[begin].body;
+    shares.clear();
+    for (; end < supports.size() && supports[end].body == body; ++end) {
+      const Support& s = supports[end];
+      if (bodies.awake(s.below) && !loads[s.below].held) continue;
+      Manifold& m = contacts.manifolds[s.manifold];
+      const bool on_b = m.body_b == body;
+      for (std::size_t i = 0; i < m.count; ++i) {
+        const ManifoldPoint& p = m.points[i];
+        shares.push_back(
+            {&m, i, s.below, on_b, on_b ? p.arm_B : p.arm_A, on_b ? p.arm_A : p.arm_B});
+      }
+    }
+    const float weight = -loads[body].impulse_W.dot(up);
+    if (shares.empty() || weight <= 0) continue;
+    bear(up, across_1, across_2, weight, -loads[body].turn_W, shares);
+    for (const Share& s : shares) {
+      const float slope = std::abs(s.manifold->normal_W.dot(up));
+      s.manifold->points[s.point].impulse_Ns = stored_scale * s.vertical / slope;
+      loads[s.below].impulse_W -= s.vertical * up;
+      loads[s.below].turn_W -= s.arm_below.cross(s.vertical * up);
+    }
+  }
+}
+
+void release_above(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
+                   const Bodies& bodies, const Contacts& contacts, std::vector<BodyLoad>& loads) {
+  if (gravity_W.isZero(0)) return;
+  const std::vector<Support> supports =
+      find_supports(-gravity_W.normalized(), manifolds, bodies, contacts);
+  for (std::size_t i = supports.size(); i-- > 0;) {
+    const Support& s = supports[i];
+    if (bodies.awake(s.below) && !loads[s.below].held) loads[s.body].held = false;
+  }
+}
+
+}  // namespace sunder::solver

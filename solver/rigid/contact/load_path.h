@@ -1,0 +1,32 @@
+// What touching bodies at rest have to bear, estimated in one pass from the top down: each hands
+// its weight, and what lies on it, to what it stands on.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/contacts.h"
+#include "solver/rigid/contact/constraint_block.h"
+
+namespace sunder::solver {
+
+/// What a body has to hand down.
+struct BodyLoad {
+  Vec3f impulse_W = Vec3f::Zero();
+  Vec3f turn_W = Vec3f::Zero();  ///< About its centre.
+  bool held = false;             ///< Stands on something that holds it.
+};
+
+/// Gives the points of `manifolds` the impulses (times `stored_scale`) that hand `loads` (by body
+/// slot) down to what cannot move. What nothing holds hands down nothing.
+void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
+                  float stored_scale, const Bodies& bodies, std::vector<BodyLoad>& loads,
+                  Contacts& contacts);
+
+/// Bodies that stand on one that is not held are not held either.
+void release_above(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
+                   const Bodies& bodies, const Contacts& contacts, std::vector<BodyLoad>& loads);
+
+}  // namespace sunder::solver

@@ -1,0 +1,182 @@
+// Gathers manifolds into lanes and hands them back: what is done one by one. The arithmetic between
+// is in derive_kernels.h.
+#include "solver/rigid/contact/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunder::solver {
+namespace {
+
+// Springs go by the mass they hold, so a pebble that boulders press into a corner sinks in by a
+// share of its size. What gives way by more than this share of it gets stiffer
+// (docs/decisions/031); slowly, or an impact would be thrown back by a spring that hardened while
+// it was compressed.
+constexpr float kMostGive = 0.01f;  // of the inner radius of the smaller shape
+constexpr float kLeastEase = 0.1f;  // beyond, sweeps do not keep up
+constexpr float kLeastProp = 0.5f;  // of what is not pinched: what stands on it bounces at 0.3
+constexpr float kEaseStep = 0.97f;  // a step
+
+template <class V>
+void set_lane(Triple<V>& v, std::uint32_t lane, const Vec3f& value) {
+  v.x[lane] = value.x();
+  v.y[lane] = value.y();
+  v.z[lane] = value.z();
+}
+
+template <class V>
+Vec3f lane_of(const Triple<V>& v, std::uint32_t lane) {
+  return {v.x[lane], v.y[lane], v.z[lane]};
+}
+
+template <class V>
+void set_columns(Triple<V> (&columns)[3], std::uint32_t lane, const Mat3f& root) {
+  for (int k = 0; k < 3; ++k) set_lane(columns[k], lane, root.col(k));
+}
+
+Mat3f root_now(const Bodies& bodies, std::uint32_t body) {
+  return bodies.rotation_f[body] * bodies.root_B[body];
+}
+
+template <std::uint32_t lanes>
+void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lane,
+                   ConstraintBlock<lanes>& c, GatheredBlock<lanes>& g) {
+  const Bodies& bodies = step.bodies;
+  const bool a = bodies.awake(m.body_a), b = bodies.awake(m.body_b);
+  c.row_a[lane] = a ? static_cast<std::int32_t>(m.body_a + 1) : 0;
+  c.row_b[lane] = b ? static_cast<std::int32_t>(m.body_b + 1) : 0;
+  c.inverse_mass_a[lane] = bodies.inverse_mass[m.body_a];
+  c.inverse_mass_b[lane] = bodies.inverse_mass[m.body_b];
+  // A sleeper has its mass until derive() takes it out: see sleep.h.
+  const bool sleeps_a = !a && bodies.dynamic(m.body_a), sleeps_b = !b && bodies.dynamic(m.body_b);
+  g.sleepers = g.sleepers || sleeps_a || sleeps_b;
+  g.awake_a[lane] = a ? 1 : 0, g.awake_b[lane] = b ? 1 : 0;
+  if (a || sleeps_a)
+    set_columns(g.root_a, lane, a ? step.root_W[m.body_a] : root_now(bodies, m.body_a));
+  if (b || sleeps_b)
+    set_columns(g.root_b, lane, b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
+  c.summed = c.summed || !a || !b || bodies.bears_load[m.body_a] || bodies.bears_load[m.body_b];
+  c.outside_sign[lane] = (a ? 0.f : 1.f) - (b ? 0.f : 1.f);
+  set_lane(g.gravity, lane, ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.gravity_W);
+}
+
+float push_m_s(const ContactStep& step, const Manifold& m) {
+  return step.soft.push * std::sqrt(m.size_m);
+}
+
+/// The overlap that is pushed apart at the share of speed that a contact has: see kCrowdOfDeep.
+float most_overlap_m(const ContactStep& step, const Manifold& m) {
+  if (step.deep_contacts.empty() || !m.deep) return 1e30f;
+  const auto of = [&](std::uint32_t body) {
+    return step.bodies.dynamic(body) ? step.deep_contacts[body] : 0;
+  };
+  const std::uint32_t many = std::max(of(m.body_a), of(m.body_b));
+  if (many <= kCrowdOfDeep) return 1e30f;
+  const float share = static_cast<float>(kDeepTogether) / static_cast<float>(many);
+  return share * push_m_s(step, m) / step.soft.press[m.count - 1].rate;
+}
+
+template <std::uint32_t lanes>
+void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t lane,
+                    ConstraintBlock<lanes>& c, GatheredBlock<lanes>& g) {
+  set_lane(c.normal, lane, m.normal_W);
+  set_lane(g.drift, lane, m.drift_W);
+  set_lane(g.slide_impulse, lane, step.impulse_scale * m.friction_impulse_W);
+  set_lane(g.friction_arm_a, lane, m.friction_arm_A);
+  set_lane(g.friction_arm_b, lane, m.friction_arm_B);
+  c.twist_impulse[lane] = step.impulse_scale * m.twist_impulse;
+  c.friction[lane] = m.friction;
+  c.roll.lever[lane] = m.rolling_m;
+  c.rolls = c.rolls || m.rolling_m > 0;
+  set_lane(g.roll_impulse, lane, step.impulse_scale * m.roll_impulse_W);
+  g.restitution[lane] = m.restitution;
+  g.ease[lane] = m.ease;
+  c.push_m_s[lane] = push_m_s(step, m);
+  const float most_overlap = most_overlap_m(step, m);
+  for (std::size_t i = 0; i < m.count; ++i) {
+    const ManifoldPoint& p = m.points[i];
+    set_lane(g.arm_a[i], lane, p.arm_A);
+    set_lane(g.arm_b[i], lane, p.arm_B);
+    c.point[i].separation[lane] = std::max(p.separation_m - p.rest_m, -most_overlap);
+    c.point[i].impulse[lane] = step.impulse_scale * p.impulse_Ns;
+  }
+}
+
+}  // namespace
+
+template <std::uint32_t lanes>
+void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c) {
+  const std::uint32_t first = c.first, count = c.count;
+  const std::uint32_t points = c.points;
+  const bool split = c.split;
+  c = ConstraintBlock<lanes>{};
+  c.first = first, c.count = count, c.points = points, c.split = split;
+  GatheredBlock<lanes> g;
+  g.bounce_speed_m_s = step.bounce_speed_m_s;
+  g.press = step.soft.press[points - 1];
+  for (std::uint32_t lane = 0; lane < lanes; ++lane) g.parts_a[lane] = g.parts_b[lane] = 1;
+  for (std::uint32_t lane = 0; lane < count; ++lane) {
+    const Manifold& m = step.contacts.manifolds[step.manifolds[first + lane]];
+    gather_bodies(step, m, lane, c, g);
+    gather_contact(step, m, lane, c, g);
+    if (!split) continue;
+    const SplitSides& sides = step.split[first + lane - step.first_split];
+    c.parts.part_a[lane] = sides.part_a, c.parts.part_b[lane] = sides.part_b;
+    g.parts_a[lane] = static_cast<float>(sides.parts_a);
+    g.parts_b[lane] = static_cast<float>(sides.parts_b);
+  }
+  derive(g, step.rows, c);
+}
+
+/// How soft a contact should be for the load it bears, approached from how soft it was.
+template <std::uint32_t lanes>
+float ease_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
+               const Manifold& m) {
+  const float yield_s = step.soft.press[c.points - 1].yield_s, most_m = kMostGive * m.size_m;
+  float give_m = 0;
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    const float mass = c.point[i].mass[lane], seated_m = std::abs(m.points[i].rest_m);
+    if (mass > 0) give_m = std::max(give_m, yield_s * c.point[i].impulse[lane] / mass - seated_m);
+  }
+  const bool a_is_lighter = step.bodies.inverse_mass[m.body_a] > step.bodies.inverse_mass[m.body_b];
+  const bool pinched = step.bears_on[a_is_lighter ? m.body_a : m.body_b] >= kPinched;
+  const float least =
+      give_m > most_m ? std::max(pinched ? kLeastEase : kLeastProp, most_m / give_m) : 1;
+  return std::clamp(least, kEaseStep * m.ease, std::min(1.f, m.ease / kEaseStep));
+}
+
+template <std::uint32_t lanes>
+void store_block(const ContactStep& step, const ConstraintBlock<lanes>& c) {
+  float separation[4][lanes];
+  separations_now(c, step.rows, separation);
+  for (std::uint32_t lane = 0; lane < c.count; ++lane) {
+    Manifold& m = step.contacts.manifolds[step.manifolds[c.first + lane]];
+    float normal = 0;
+    for (std::size_t i = 0; i < m.count; ++i) {
+      m.points[i].impulse_Ns = c.point[i].impulse[lane];
+      m.points[i].separation_m = separation[i][lane] + m.points[i].rest_m;
+      normal += m.points[i].impulse_Ns;
+    }
+    const float s1 = c.slide_impulse_1[lane], s2 = c.slide_impulse_2[lane];
+    m.friction_impulse_W = s1 * lane_of(c.tangent_1, lane) + s2 * lane_of(c.tangent_2, lane);
+    m.twist_impulse = c.twist_impulse[lane];
+    if (c.rolls)
+      m.roll_impulse_W = c.roll.impulse_1[lane] * lane_of(c.tangent_1, lane) +
+                         c.roll.impulse_2[lane] * lane_of(c.tangent_2, lane);
+    m.ease = ease_now(step, c, lane, m);
+    m.step_impulse_W = lane_of(c.total, lane);
+    const float limit = c.friction[lane] * 0.999f;
+    if (s1 * s1 + s2 * s2 >= limit * limit * normal * normal) m.sticking = false;
+  }
+}
+
+#define SUNDER_PREPARE(lanes)                                               \
+  template void prepare_block(const ContactStep&, ConstraintBlock<lanes>&); \
+  template void store_block(const ContactStep&, const ConstraintBlock<lanes>&);
+SUNDER_PREPARE(1)
+SUNDER_PREPARE(4)
+SUNDER_PREPARE(8)
+SUNDER_PREPARE(16)
+#undef SUNDER_PREPARE
+
+}  // namespace sunder::solver

@@ -1,0 +1,53 @@
+// From manifolds to constraint blocks, and back.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/contacts.h"
+#include "solver/rigid/contact/sweep.h"
+
+namespace sunder::solver {
+
+/// Where a split manifold's changes of its bodies go, and into how many parts those are cut.
+struct SplitSides {
+  std::uint32_t part_a = 0, part_b = 0;
+  std::uint32_t parts_a = 1, parts_b = 1;
+};
+
+/// From so many loaded manifolds on a piece is pinched; a pebble under a column, held by two, would
+/// bounce off contacts that get much stiffer.
+inline constexpr std::uint8_t kPinched = 3;
+
+/// What the blocks of a step are made from, and what they work on.
+struct ContactStep {
+  const Bodies& bodies;
+  Contacts& contacts;
+  std::span<const std::uint32_t> manifolds;  ///< To solve, in the order of blocks.
+  std::uint32_t first_split = 0;             ///< Manifolds from here on are split,
+  std::span<const SplitSides> split;         ///< as this says of each.
+  std::span<const Mat3f> root_W;             ///< By body slot, of those awake.
+  SolverRows rows;
+  SoftStep soft;
+  Vec3f gravity_W = Vec3f::Zero();
+  float impulse_scale = 1;                            ///< Substep over that of the last step.
+  float bounce_speed_m_s = 0;                         ///< Slower impacts do not bounce.
+  std::span<const std::uint32_t> deep_contacts = {};  ///< By body slot; empty: there are none.
+  std::span<const std::uint8_t> bears_on = {};  ///< Loaded manifolds by body slot, up to kPinched.
+};
+
+/// With more deep contacts on a body than these, each is pushed apart at a share of the fastest,
+/// all of them together as fast as so many would be: however many lie in one place.
+inline constexpr std::uint32_t kCrowdOfDeep = 8, kDeepTogether = 2;
+
+/// Fills everything but `first`, `count`, `points` and `split`, which say what goes in.
+template <std::uint32_t lanes>
+void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& block);
+
+/// Hands impulses and final separations back to the manifolds, and lets friction anchors go where
+/// the patch slid.
+template <std::uint32_t lanes>
+void store_block(const ContactStep& step, const ConstraintBlock<lanes>& block);
+
+}  // namespace sunder::solver

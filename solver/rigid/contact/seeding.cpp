@@ -1,0 +1,363 @@
+// Read first: Seeding::seed(). The loads are found by nonsmooth nonlinear conjugate gradients
+// (Silcowitz, Niebe, Erleben 2010) over the sweeps of the solver itself.
+#include "solver/rigid/contact/seeding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/rigid/contact/load_path.h"
+#include "solver/rigid/contact/prepare.h"
+#include "solver/rigid/contact/sweep.h"
+
+namespace sunder::solver {
+namespace {
+
+constexpr std::uint32_t kGrain = 8;
+constexpr double kWork = 2e5;  // points swept at most, unless there are too many for it
+constexpr int kLeastRounds = 4, kMostRounds = 4000;
+constexpr int kFirstLook = 32;        // whenever as many rounds again are over: are more in vain?
+constexpr double kNearlyDone = 1e-7;  // of the loads' squares: what is not held by then will not be
+constexpr double kDone = 1e-12;       // of the loads' squares, a step's
+constexpr double kMostLeft = 0.01;    // of the energy of a substep of free fall
+// Of the inner radius: what is deeper is not at rest, and what is as far apart bears nothing.
+constexpr float kMostOverlap = 0.04f;
+constexpr float kMostRest = 0.1f;  // of it
+constexpr float kNoGap = 1e-4f;    // of it: rounding, or what would hardly be seen
+
+Vec3f lane_of(const Wide3Of<kSeedLanes>& v, std::uint32_t lane) {
+  return {v.x[lane], v.y[lane], v.z[lane]};
+}
+
+BlockLoads loads_of(const SeedBlock& c) {
+  BlockLoads loads;
+  for (std::size_t i = 0; i < 4; ++i) loads.press[i] = c.point[i].impulse;
+  loads.slide_1 = c.slide_impulse_1, loads.slide_2 = c.slide_impulse_2;
+  loads.twist = c.twist_impulse;
+  return loads;
+}
+
+void set_loads(const BlockLoads& loads, SeedBlock& c) {
+  for (std::size_t i = 0; i < 4; ++i) c.point[i].impulse = loads.press[i];
+  c.slide_impulse_1 = loads.slide_1, c.slide_impulse_2 = loads.slide_2;
+  c.twist_impulse = loads.twist;
+}
+
+/// a + s·b.
+BlockLoads sum(const BlockLoads& a, float s, const BlockLoads& b) {
+  const Wide4 w = splat<Wide4>(s);
+  BlockLoads loads;
+  for (int i = 0; i < 4; ++i) loads.press[i] = a.press[i] + w * b.press[i];
+  loads.slide_1 = a.slide_1 + w * b.slide_1, loads.slide_2 = a.slide_2 + w * b.slide_2;
+  loads.twist = a.twist + w * b.twist;
+  return loads;
+}
+
+/// Twist counts at the lever of the first point.
+double square_of(const SeedBlock& c, const BlockLoads& a) {
+  const Wide4 zero = {}, lever = c.point[0].arm;
+  const Wide4 twist = lever > zero ? a.twist / (lever > zero ? lever : splat<Wide4>(1)) : zero;
+  Wide4 square = a.slide_1 * a.slide_1 + a.slide_2 * a.slide_2 + twist * twist;
+  for (int i = 0; i < 4; ++i) square += a.press[i] * a.press[i];
+  double all = 0;
+  for (std::uint32_t lane = 0; lane < kSeedLanes; ++lane) all += double{square[lane]};
+  return all;
+}
+
+/// Of what is faster: the two surfaces against each other at the middle of the contact, or one of
+/// them against the world. What moves together, as the pieces of a slab that topples do, is not at
+/// rest either, whatever it stands on.
+double greatest_speed(const Manifold& m, const Bodies& bodies) {
+  auto velocity = [&](std::uint32_t body, const Vec3f& arm) {
+    return Vec3(bodies.velocity[body] + bodies.angular_velocity[body].cross(arm.cast<double>()));
+  };
+  const Vec3 a = velocity(m.body_a, m.friction_arm_A), b = velocity(m.body_b, m.friction_arm_B);
+  return std::max({(b - a).norm(), a.norm(), b.norm()});
+}
+
+/// What touches but for rounding bears as if it did, however short the substep.
+void close_gaps(const ContactStep& step, SeedBlock& c) {
+  for (std::uint32_t lane = 0; lane < c.count; ++lane) {
+    const float none_m = kNoGap * step.contacts.manifolds[step.manifolds[c.first + lane]].size_m;
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const float separation_m = c.point[i].separation[lane];
+      if (separation_m > 0 && separation_m < none_m) c.point[i].separation[lane] = 0;
+    }
+  }
+}
+
+/// How deep a point gives way under its load.
+float seat_m(const SeedBlock& c, std::uint32_t lane, std::size_t point, float yield_s) {
+  const float mass = c.point[point].mass[lane];
+  return mass > 0 ? yield_s * c.point[point].impulse[lane] / mass : 0;
+}
+
+/// Impulses of the points, and the separations at which they bear them.
+void seat_points(const SeedBlock& c, std::uint32_t lane, float yield_s, float stored_scale,
+                 float factor, Manifold& m) {
+  float depth[4] = {}, deepest = 0;
+  for (std::size_t i = 0; i < m.count; ++i) {
+    m.points[i].impulse_Ns = stored_scale * factor * c.point[i].impulse[lane];
+    depth[i] = factor * seat_m(c, lane, i, yield_s);
+    deepest = std::max(deepest, depth[i]);
+  }
+  // An overlap that this load explains is as much at rest as none.
+  const float most = kMostRest * m.size_m, least = -std::min(deepest, most);
+  for (std::size_t i = 0; i < m.count; ++i) {
+    ManifoldPoint& p = m.points[i];
+    p.rest_m = std::clamp(p.separation_m + depth[i], least, depth[i] > 0 ? most : 0);
+  }
+}
+
+/// Impulses of friction, and the drift of its anchors that bears them.
+void seat_friction(const SeedBlock& c, std::uint32_t lane, float yield_s, float stored_scale,
+                   float factor, Manifold& m) {
+  const float s1 = factor * c.slide_impulse_1[lane], s2 = factor * c.slide_impulse_2[lane];
+  const Vec3f t1 = lane_of(c.tangent_1, lane), t2 = lane_of(c.tangent_2, lane);
+  m.friction_impulse_W = stored_scale * (s1 * t1 + s2 * t2);
+  m.twist_impulse = stored_scale * factor * c.twist_impulse[lane];
+  const float m11 = c.slide_11[lane], m12 = c.slide_12[lane], m22 = c.slide_22[lane];
+  const float det = m11 * m22 - m12 * m12;
+  if (!(det > 0)) return;
+  const float far_1 = (m22 * s1 - m12 * s2) / det, far_2 = (m11 * s2 - m12 * s1) / det;
+  Vec3f drift = -yield_s * (far_1 * t1 + far_2 * t2);
+  const float far = drift.norm(), most = kMostRest * m.size_m;
+  if (far > most) drift *= most / far;
+  m.drift_W += drift;
+  m.friction_arm_B += drift;
+}
+
+}  // namespace
+
+void Seeding::seed(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s,
+                   double factor, const Bodies& bodies, Contacts& contacts) {
+  if (!collect(gravity_W, dt_s, bodies, contacts) || !(factor > 0)) return;
+  const double h_s = dt_s / substeps;
+  const double scale = stored_h_s > 0 ? h_s / stored_h_s : 1;
+  begin(gravity_W, static_cast<float>(scale), h_s, bodies, contacts);
+  estimate(gravity_W, h_s, static_cast<float>(1 / scale), bodies, contacts);
+  const auto first_split = static_cast<std::uint32_t>(manifolds_.size());
+  ContactStep step{bodies, contacts, manifolds_,     first_split,
+                   {},     root_W_,  {rows_.data()}, soft_step(h_s, FallScale(gravity_W))};
+  step.impulse_scale = static_cast<float>(scale);
+  step.bounce_speed_m_s = 1e30f;
+  const double kick_m_s = h_s * gravity_W.norm();
+  find_loads(step, kick_m_s);
+  find_held(kick_m_s, bodies);
+  release_overloaded(gravity_W, step.soft, bodies, contacts);
+  store(step.soft, static_cast<float>(1 / scale), static_cast<float>(factor), bodies, contacts);
+}
+
+bool Seeding::collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
+                      Contacts& contacts) {
+  find_resting(gravity_W, dt_s, bodies, contacts);
+  make_blocks(contacts);
+  return !manifolds_.empty();
+}
+
+/// Lists what is to be seeded by colour and number of points.
+void Seeding::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
+                           Contacts& contacts) {
+  std::uint32_t start[kSweepKeys + 1] = {};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> resting;  // key, manifold
+  resting.reserve(contacts.unseeded.size());
+  const double slow_m_s = 2 * dt_s * gravity_W.norm();
+  for (const std::uint32_t i : std::exchange(contacts.unseeded, {})) {
+    Manifold& m = contacts.manifolds[i];
+    if (!m.unseeded) continue;  // gone, or here for the second time
+    m.unseeded = false;
+    if (m.count == 0 || !(bodies.awake(m.body_a) || bodies.awake(m.body_b))) continue;
+    const bool rests = std::abs(m.least_separation()) < kMostOverlap * m.size_m;
+    if (!rests || greatest_speed(m, bodies) >= slow_m_s) continue;
+    resting.emplace_back(m.sweep_key(), i);
+    ++start[resting.back().first + 1];
+  }
+  for (std::size_t k = 0; k < kSweepKeys; ++k) start[k + 1] += start[k];
+  manifolds_.resize(resting.size());
+  for (const auto& [key, i] : resting) manifolds_[start[key]++] = i;
+}
+
+void Seeding::make_blocks(const Contacts& contacts) {
+  blocks_.clear();
+  blocks_.reserve(manifolds_.size() / kSeedLanes + kMaxColors);
+  colors_.clear();
+  for (std::uint32_t i = 0; i < manifolds_.size();) {
+    const Manifold& m = contacts.manifolds[manifolds_[i]];
+    // What found no colour may share bodies: one at a time.
+    const std::uint32_t width = m.color < kMaxColors ? kSeedLanes : 1;
+    if (i == 0 || contacts.manifolds[manifolds_[i - 1]].color != m.color)
+      colors_.push_back({0, static_cast<std::uint32_t>(blocks_.size()), 0, kGrain});
+    SeedBlock& block = blocks_.emplace_back();
+    block.first = i, block.points = m.count;
+    for (; i < manifolds_.size() && block.count < width; ++i, ++block.count) {
+      const Manifold& next = contacts.manifolds[manifolds_[i]];
+      if (next.color != m.color || next.count != m.count) break;
+    }
+    ++colors_.back().count;
+    if (width == 1) colors_.back().grain = colors_.back().count;
+  }
+}
+
+void Seeding::begin(const Vec3& gravity_W, float impulse_scale, double h_s, const Bodies& bodies,
+                    const Contacts& contacts) {
+  const Vec3f kick = (h_s * gravity_W).cast<float>();
+  rows_.resize(bodies.size() + 1);
+  rows_[0] = BodyRow{};
+  root_W_.resize(bodies.size());
+  concerned_.assign(bodies.size(), 0);
+  concerned_bodies_.clear();
+  for (const std::uint32_t i : manifolds_) {
+    for (const std::uint32_t body : {contacts.manifolds[i].body_a, contacts.manifolds[i].body_b}) {
+      if (concerned_[body] || !bodies.awake(body)) continue;
+      concerned_[body] = 1;
+      concerned_bodies_.push_back(body);
+      rows_[body + 1] = BodyRow{};
+      rows_[body + 1].velocity = Wide{kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
+      root_W_[body] = bodies.rotation_f[body] * bodies.root_B[body];
+    }
+  }
+  auto push = [&](std::uint32_t body, const Vec3f& impulse, const Vec3f& turn) {
+    if (!concerned_[body]) return;
+    const Vec3f v = bodies.inverse_mass[body] * impulse, w = root_W_[body].transpose() * turn;
+    rows_[body + 1].velocity += Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
+  };
+  for (const Manifold& m : contacts.manifolds) {
+    if (m.count == 0 || !(concerned_[m.body_a] || concerned_[m.body_b])) continue;
+    auto press = [&](const Vec3f& impulse, const Vec3f& arm_A, const Vec3f& arm_B) {
+      push(m.body_a, -impulse, -arm_A.cross(impulse));
+      push(m.body_b, impulse, arm_B.cross(impulse));
+    };
+    for (std::size_t i = 0; i < m.count; ++i) {
+      const ManifoldPoint& p = m.points[i];
+      press(impulse_scale * p.impulse_Ns * m.normal_W, p.arm_A, p.arm_B);
+    }
+    press(impulse_scale * m.friction_impulse_W, m.friction_arm_A, m.friction_arm_B);
+    const Vec3f turn = impulse_scale * m.twist_impulse * m.normal_W;
+    push(m.body_a, Vec3f::Zero(), -turn);
+    push(m.body_b, Vec3f::Zero(), turn);
+  }
+}
+
+/// A first guess, from which few rounds lead to the loads.
+void Seeding::estimate(const Vec3& gravity_W, double h_s, float stored_scale, const Bodies& bodies,
+                       Contacts& contacts) {
+  loads_.assign(bodies.size(), {});
+  const Vec3f kick = (h_s * gravity_W).cast<float>();
+  for (std::uint32_t body = 0; body < bodies.size(); ++body) {
+    if (!concerned_[body]) continue;
+    const Wide& v = rows_[body + 1].velocity;
+    const Vec3f velocity(v[0], v[1], v[2]), spin(v[3], v[4], v[5]);
+    loads_[body].impulse_W = velocity / bodies.inverse_mass[body];
+    loads_[body].turn_W = root_W_[body].transpose().inverse() * spin;
+    loads_[body].held = velocity.dot(kick) < 0.5f * kick.squaredNorm();
+  }
+  follow_loads(gravity_W, manifolds_, stored_scale, bodies, loads_, contacts);
+}
+
+void Seeding::find_loads(const ContactStep& step, double kick_m_s) {
+  enum { kPrepare, kWarmStart, kSweep, kLeap };
+  double points = 0;
+  for (const SeedBlock& c : blocks_) points += c.points * static_cast<double>(c.count);
+  const int rounds = std::clamp(static_cast<int>(kWork / points), kLeastRounds, kMostRounds);
+  step_.assign(blocks_.size(), {});
+  direction_.assign(blocks_.size(), {});
+  square_.resize(blocks_.size());
+  float lever = 0;
+  auto work = [&](int kind, std::uint32_t first, std::uint32_t end) {
+    for (std::uint32_t i = first; i < end; ++i) {
+      SeedBlock& c = blocks_[i];
+      if (kind == kPrepare) prepare_block(step, c), close_gaps(step, c);
+      if (kind == kWarmStart) warm_start(c, step.rows);
+      if (kind < kSweep) continue;
+      const BlockLoads before = loads_of(c);
+      if (kind == kSweep) {
+        sweep_relaxed(c, step.rows, step.soft);
+        step_[i] = sum(loads_of(c), -1, before);
+        square_[i] = {square_of(c, step_[i]), square_of(c, before)};
+      } else {
+        set_loads(sum({}, lever, direction_[i]), c);
+        warm_start(c, step.rows);
+        set_loads(sum(before, lever, direction_[i]), c);
+        direction_[i] = sum(step_[i], lever, direction_[i]);
+      }
+    }
+  };
+  auto run = [&](int kind) {
+    for (Stage& stage : colors_) stage.kind = kind;
+    run_stages(colors_, work);
+  };
+  run(kPrepare);
+  run(kWarmStart);
+  double last = 0, last_seen = 0;
+  std::size_t last_held = 0;
+  int look = kFirstLook;
+  for (int round = 0; round < rounds; ++round) {
+    run(kSweep);
+    double square = 0, loads = 0;
+    for (const auto& [of_step, of_loads] : square_) square += of_step, loads += of_loads;
+    if (square <= kDone * std::max(square, loads) || round + 1 == rounds) return;
+    if (round == look) {
+      // Rounding or sliding contacts may keep the loads from ever coming to rest.
+      const double seen = square / loads;
+      const std::size_t held = find_held(kick_m_s, step.bodies);
+      const bool stuck = seen > 0.5 * last_seen;
+      const bool all = held == concerned_bodies_.size();
+      if (seen < kNearlyDone && held <= last_held && (stuck || !all)) return;
+      last_seen = seen, last_held = held;
+      look *= 2;
+    }
+    lever = last > 0 && square <= last ? static_cast<float>(square / last) : 0.f;
+    last = square;
+    run(kLeap);
+  }
+}
+
+/// A body that its loads would leave with more energy than gravity gave it is not held: the rounds
+/// were too few, or nothing can hold it. Answers how many are.
+std::size_t Seeding::find_held(double kick_m_s, const Bodies& bodies) {
+  std::size_t held = 0;
+  for (const std::uint32_t body : concerned_bodies_) {
+    const Wide& v = rows_[body + 1].velocity;
+    const Vec3f velocity(v[0], v[1], v[2]), spin(v[3], v[4], v[5]);  // of unit inertia
+    const double energy =
+        double{velocity.squaredNorm()} + double{bodies.inverse_mass[body] * spin.squaredNorm()};
+    loads_[body].held = energy <= kMostLeft * kick_m_s * kick_m_s;
+    held += loads_[body].held;
+  }
+  return held;
+}
+
+/// What would have to give way further than contacts can be seated is not held, nor what stands on
+/// it: it will fall, and seats are springs under load, which would give it their energy.
+void Seeding::release_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
+                                 const Contacts& contacts) {
+  bool any = false;
+  for (const SeedBlock& c : blocks_) {
+    for (std::uint32_t lane = 0; lane < c.count; ++lane) {
+      const Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
+      float deepest = 0;
+      for (std::size_t i = 0; i < m.count; ++i)
+        deepest = std::max(deepest, seat_m(c, lane, i, soft.press[c.points - 1].yield_s));
+      if (deepest <= kMostRest * m.size_m) continue;
+      any = true;
+      for (const std::uint32_t body : {m.body_a, m.body_b}) loads_[body].held = false;
+    }
+  }
+  if (any) release_above(gravity_W, manifolds_, bodies, contacts, loads_);
+}
+
+void Seeding::store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
+                    Contacts& contacts) const {
+  for (const SeedBlock& c : blocks_) {
+    for (std::uint32_t lane = 0; lane < c.count; ++lane) {
+      Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
+      auto held = [&](std::uint32_t body) { return !concerned_[body] || loads_[body].held; };
+      const float part = held(m.body_a) && held(m.body_b) ? factor : 0;
+      seat_points(c, lane, soft.press[c.points - 1].yield_s, stored_scale, part, m);
+      seat_friction(c, lane, soft.slide[c.points - 1].yield_s, stored_scale, part, m);
+      m.friction_anchor_B = bodies.rotation_f[m.body_b].transpose() * m.friction_arm_B;
+    }
+  }
+}
+
+}  // namespace sunder::solver

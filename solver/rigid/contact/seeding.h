@@ -1,0 +1,66 @@
+// A contact that comes into being at rest, as thousands do when a scene starts or a wall breaks,
+// knows nothing of the load it is to bear. Soft contacts learn it by sinking, and meanwhile what
+// stands on them moves. So contacts that come with new bodies are given, before their first solve,
+// the impulses that would hold all at rest, and a rest separation at which they bear them without
+// sinking. What is not held by anything gets nothing: bodies that fall together do not press.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "solver/base/stage_runner.h"
+#include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/contacts.h"
+#include "solver/rigid/contact/load_path.h"
+#include "solver/rigid/contact/prepare.h"
+
+namespace sunder::solver {
+
+/// Four lanes are what every processor has, and bits must not follow the lanes.
+inline constexpr std::uint32_t kSeedLanes = 4;
+using Wide4 = WideOf<kSeedLanes>;
+using SeedBlock = ConstraintBlock<kSeedLanes>;
+
+/// Loads of one block's contacts, or a change of them.
+struct BlockLoads {
+  Wide4 press[4] = {};
+  Wide4 slide_1 = {}, slide_2 = {}, twist = {};
+};
+
+class Seeding {
+ public:
+  /// Seeds what is unseeded and hardly moves: what moves is under no load that could be known
+  /// before. The impulses that manifolds hold are of substeps of `stored_h_s`. `factor`: 1; 0 for
+  /// none; tests seed too much by it.
+  void seed(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s, double factor,
+            const Bodies& bodies, Contacts& contacts);
+
+ private:
+  bool collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies, Contacts& contacts);
+  void find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bodies, Contacts& contacts);
+  void make_blocks(const Contacts& contacts);
+  void begin(const Vec3& gravity_W, float impulse_scale, double h_s, const Bodies& bodies,
+             const Contacts& contacts);
+  void estimate(const Vec3& gravity_W, double h_s, float stored_scale, const Bodies& bodies,
+                Contacts& contacts);
+  void find_loads(const ContactStep& step, double kick_m_s);
+  std::size_t find_held(double kick_m_s, const Bodies& bodies);
+  void release_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
+                          const Contacts& contacts);
+  void store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
+             Contacts& contacts) const;
+
+  std::vector<std::uint32_t> manifolds_;  ///< By colour and number of points.
+  std::vector<SeedBlock> blocks_;
+  std::vector<Stage> colors_;  ///< The blocks of each; the overflow last.
+  std::vector<BlockLoads> step_, direction_;
+  std::vector<std::pair<double, double>> square_;  ///< Of each block's step, and of its loads.
+  std::vector<BodyRow> rows_;                      ///< By body slot + 1; row 0 stays still.
+  std::vector<std::uint8_t> concerned_;            ///< By body slot.
+  std::vector<std::uint32_t> concerned_bodies_;
+  std::vector<Mat3f> root_W_;
+  std::vector<BodyLoad> loads_;  ///< By body slot.
+};
+
+}  // namespace sunder::solver

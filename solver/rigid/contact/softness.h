@@ -1,0 +1,29 @@
+// How soft contacts are, from the length of a substep.
+#pragma once
+
+#include "engine/base/froude.h"
+
+namespace sunder::solver {
+
+/// A spring and damper in the form of a soft constraint (Catto 2011, "Soft Constraints").
+struct Softness {
+  float rate = 0;  ///< Of correction, 1/s.
+  float mass_scale = 1;
+  float impulse_scale = 0;
+  /// How far it gives way under a steady load, s: times the impulse of a substep, over the mass.
+  float yield_s = 0;
+};
+
+/// How soft contacts are in a substep.
+struct SoftStep {
+  Softness press[4];    ///< Along the normal, by the number of points less one.
+  Softness slide[4];    ///< Of friction that sticks.
+  float inverse_h = 0;  ///< 1/s.
+  /// Fastest correction of an overlap, √(m)/s: times the root of the smaller piece's inner radius.
+  float push = 0;
+};
+
+/// Of a substep of h_s.
+SoftStep soft_step(double h_s, const FallScale& fall);
+
+}  // namespace sunder::solver

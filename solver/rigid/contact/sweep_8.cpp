@@ -1,0 +1,8 @@
+// The kernels for eight lanes: AVX2 (x86-64-v3).
+#include "solver/rigid/contact/derive_kernels.h"
+
+namespace sunder::solver {
+
+SUNDER_SWEEP_KERNELS(8)
+
+}  // namespace sunder::solver

@@ -1,0 +1,381 @@
+// Projected Gauss-Seidel on soft contacts, central friction and twist, a manifold a lane. Read
+// first: sweep(). Included by sweep_1.cpp and so on alone: all here is a template of the lanes or
+// inlined by force, or code for one instruction set would stand in for that of another.
+#pragma once
+
+#include "solver/rigid/contact/sweep.h"
+
+namespace sunder::solver {
+
+/// Both bodies of every lane; of a split block, the parts of them that are the lane's own.
+template <std::uint32_t lanes, bool kSplit>
+struct Pairs {
+  using V = WideOf<lanes>;
+  using V3 = Wide3Of<lanes>;
+  Motion6<V> a, b;
+
+  SUNDER_INLINE Pairs(const ConstraintBlock<lanes>& c, const SolverRows& bodies,
+                      Wide BodyRow::*member)
+      : a(load(bodies.rows, c.row_a, member)), b(load(bodies.rows, c.row_b, member)) {
+    if constexpr (kSplit) {
+      a.angular = a.angular * c.parts.root_a;
+      b.angular = b.angular * c.parts.root_b;
+    }
+  }
+  SUNDER_INLINE static Motion6<V> load(const BodyRow* rows, const std::int32_t* index,
+                                       Wide BodyRow::*member) {
+    const float* row[lanes];
+    for (std::uint32_t i = 0; i < lanes; ++i)
+      row[i] = reinterpret_cast<const float*>(&(rows[index[i]].*member));
+    return load_rows<V>(row);
+  }
+  SUNDER_INLINE V along(const V3& direction, const V3& turn_a, const V3& turn_b) const {
+    return dot(direction, b.linear - a.linear) + dot(turn_b, b.angular) - dot(turn_a, a.angular);
+  }
+  SUNDER_INLINE void push(const ConstraintBlock<lanes>& c, const V3& direction, const V3& turn_a,
+                          const V3& turn_b, V impulse) {
+    a.linear = a.linear - direction * (impulse * c.inverse_mass_a);
+    b.linear = b.linear + direction * (impulse * c.inverse_mass_b);
+    a.angular = a.angular - turn_a * impulse;
+    b.angular = b.angular + turn_b * impulse;
+  }
+  SUNDER_INLINE void twist(const ConstraintBlock<lanes>& c, V impulse) {
+    a.angular = a.angular - c.twist_a * impulse;
+    b.angular = b.angular + c.twist_b * impulse;
+  }
+};
+
+template <std::uint32_t lanes>
+SUNDER_INLINE void store_side(const Motion6<WideOf<lanes>>& v, const std::int32_t* index,
+                              const bool* active, BodyRow* rows) {
+  float* row[lanes];
+  bool wanted[lanes];
+  for (std::uint32_t i = 0; i < lanes; ++i) {
+    row[i] = reinterpret_cast<float*>(&rows[index[i]].velocity);
+    wanted[i] = index[i] != 0 && (!active || active[i]);
+  }
+  store_rows(v, row, wanted);
+}
+
+/// What the parts of a body did, less what the body was, is their average's change.
+template <std::uint32_t lanes>
+SUNDER_INLINE void store_part(const Motion6<WideOf<lanes>>& v, const Motion6<WideOf<lanes>>& was,
+                              WideOf<lanes> share, WideOf<lanes> root, const std::int32_t* index,
+                              const std::uint32_t* part, Wide* parts) {
+  const Motion6<WideOf<lanes>> change = {(v.linear - was.linear) * share,
+                                         (v.angular - was.angular) * root};
+  float* row[lanes];
+  bool wanted[lanes];
+  for (std::uint32_t i = 0; i < lanes; ++i) {
+    row[i] = reinterpret_cast<float*>(&parts[part[i]]);
+    wanted[i] = index[i] != 0;
+  }
+  store_rows(change, row, wanted);
+}
+
+/// Hands new velocities back: to the bodies, or as changes to what will be summed.
+template <std::uint32_t lanes, bool kSplit>
+SUNDER_INLINE void store(const ConstraintBlock<lanes>& c, const Pairs<lanes, kSplit>& v,
+                         const SolverRows& bodies, const bool* active = nullptr) {
+  if constexpr (kSplit) {
+    const Pairs<lanes, true> was(c, bodies, &BodyRow::velocity);
+    const SplitLanes<lanes>& p = c.parts;
+    store_part<lanes>(v.a, was.a, p.share_a, p.root_a, c.row_a, p.part_a, bodies.parts);
+    store_part<lanes>(v.b, was.b, p.share_b, p.root_b, c.row_b, p.part_b, bodies.parts);
+  } else {
+    store_side<lanes>(v.a, c.row_a, active, bodies.rows);
+    store_side<lanes>(v.b, c.row_b, active, bodies.rows);
+  }
+}
+
+template <std::uint32_t lanes>
+SUNDER_INLINE WideOf<lanes> total_impulse(const ConstraintBlock<lanes>& c) {
+  WideOf<lanes> sum = c.point[0].impulse;
+  for (std::uint32_t i = 1; i < c.points; ++i) sum += c.point[i].impulse;
+  return sum;
+}
+
+/// Mass and impulse scale of a spring. Parts of bodies are softer than bodies: `ease` keeps the
+/// spring between them what it was, so that splitting changes the way to the solution and not the
+/// solution.
+template <class V>
+struct Spring {
+  V mass_scale, impulse_scale;
+
+  template <bool kSplit>
+  SUNDER_INLINE static Spring of(const Softness& soft, V ease) {
+    if constexpr (kSplit) {
+      const V impulse = ease * soft.impulse_scale;
+      const V scale = soft.mass_scale + impulse;
+      return {soft.mass_scale / scale, impulse / scale};
+    } else {
+      return {splat<V>(soft.mass_scale), splat<V>(soft.impulse_scale)};
+    }
+  }
+};
+
+/// Coulomb friction at the middle of the patch, both directions at once, limited to a circle.
+template <bool kBiased, std::uint32_t lanes, bool kSplit>
+SUNDER_INLINE void slide(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
+                         const Pairs<lanes, kSplit>& x, const SoftStep& soft) {
+  using V = WideOf<lanes>;
+  const V limit = c.friction * total_impulse(c);
+  V u1 = v.along(c.tangent_1, c.slide_1_a, c.slide_1_b);
+  V u2 = v.along(c.tangent_2, c.slide_2_a, c.slide_2_b);
+  const Softness& stick = soft.slide[c.points - 1];
+  if constexpr (kBiased) {
+    u1 += stick.rate * (c.drift_1 + x.along(c.tangent_1, c.slide_1_a, c.slide_1_b));
+    u2 += stick.rate * (c.drift_2 + x.along(c.tangent_2, c.slide_2_a, c.slide_2_b));
+  }
+  V d1 = -(c.slide_11 * u1 + c.slide_12 * u2), d2 = -(c.slide_12 * u1 + c.slide_22 * u2);
+  if constexpr (kBiased) {
+    const auto spring = Spring<V>::template of<kSplit>(stick, c.parts.slide_ease);
+    d1 = d1 * spring.mass_scale - c.slide_impulse_1 * spring.impulse_scale;
+    d2 = d2 * spring.mass_scale - c.slide_impulse_2 * spring.impulse_scale;
+  }
+  V new_1 = c.slide_impulse_1 + d1, new_2 = c.slide_impulse_2 + d2;
+  const V square = new_1 * new_1 + new_2 * new_2;
+  const auto sliding = square > limit * limit;
+  const V scale = sliding ? limit / sqrt(sliding ? square : splat<V>(1)) : splat<V>(1);
+  new_1 *= scale, new_2 *= scale;
+  v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, new_1 - c.slide_impulse_1);
+  v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, new_2 - c.slide_impulse_2);
+  c.slide_impulse_1 = new_1, c.slide_impulse_2 = new_2;
+}
+
+/// Friction against turning about the normal; its limit is that of the loaded points about their
+/// middle.
+template <std::uint32_t lanes, bool kSplit>
+SUNDER_INLINE void twist(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
+  using V = WideOf<lanes>;
+  V lever = c.point[0].impulse * c.point[0].arm;
+  for (std::uint32_t i = 1; i < c.points; ++i) lever += c.point[i].impulse * c.point[i].arm;
+  const V limit = c.friction * lever;
+  const V u = dot(c.twist_b, v.b.angular) - dot(c.twist_a, v.a.angular);
+  const V next = max(-limit, min(limit, c.twist_impulse - c.twist_mass * u));
+  v.twist(c, next - c.twist_impulse);
+  c.twist_impulse = next;
+}
+
+/// Turns both about the two tangents.
+template <std::uint32_t lanes, bool kSplit>
+SUNDER_INLINE void roll_by(const ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
+                           WideOf<lanes> impulse_1, WideOf<lanes> impulse_2) {
+  const RollLanes<lanes>& r = c.roll;
+  v.a.angular = v.a.angular - r.turn_1_a * impulse_1 - r.turn_2_a * impulse_2;
+  v.b.angular = v.b.angular + r.turn_1_b * impulse_1 + r.turn_2_b * impulse_2;
+}
+
+/// Resistance to rolling: a torque about the tangents of at most lever times load.
+template <std::uint32_t lanes, bool kSplit>
+SUNDER_INLINE void roll(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
+  using V = WideOf<lanes>;
+  RollLanes<lanes>& r = c.roll;
+  const V limit = r.lever * total_impulse(c);
+  const V u1 = dot(r.turn_1_b, v.b.angular) - dot(r.turn_1_a, v.a.angular);
+  const V u2 = dot(r.turn_2_b, v.b.angular) - dot(r.turn_2_a, v.a.angular);
+  V new_1 = r.impulse_1 - (r.mass_11 * u1 + r.mass_12 * u2);
+  V new_2 = r.impulse_2 - (r.mass_12 * u1 + r.mass_22 * u2);
+  const V square = new_1 * new_1 + new_2 * new_2;
+  const auto rolling = square > limit * limit;
+  const V scale = rolling ? limit / sqrt(rolling ? square : splat<V>(1)) : splat<V>(1);
+  new_1 *= scale, new_2 *= scale;
+  roll_by(c, v, new_1 - r.impulse_1, new_2 - r.impulse_2);
+  r.impulse_1 = new_1, r.impulse_2 = new_2;
+}
+
+template <bool kBiased, std::uint32_t lanes, bool kSplit>
+SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
+                         const Pairs<lanes, kSplit>& x, const SoftStep& soft) {
+  using V = WideOf<lanes>;
+  const V zero = {}, one = splat<V>(1);
+  const Softness& press = soft.press[c.points - 1];
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    PointLanes<lanes>& p = c.point[i];
+    const V s = p.separation + x.along(c.normal, p.turn_a, p.turn_b);
+    const auto apart = s > zero;
+    V u = v.along(c.normal, p.turn_a, p.turn_b);
+    V change;
+    if constexpr (kBiased) {
+      const V free = u;
+      u += s * (apart ? splat<V>(soft.inverse_h) : splat<V>(press.rate));
+      Spring<V> spring{c.press_mass, c.press_give};
+      if constexpr (kSplit) spring = Spring<V>::template of<true>(press, c.parts.press_ease[i]);
+      const V mass_scale = apart ? one : spring.mass_scale;
+      const V impulse_scale = apart ? zero : spring.impulse_scale;
+      change = -p.mass * mass_scale * u - impulse_scale * p.impulse;
+      // What bears a load is a spring; what overlaps without one parts no faster than this.
+      const V push = p.mass * mass_scale * (c.push_m_s - free);
+      change = apart ? change : min(change, push);
+    } else {
+      u += apart ? s * soft.inverse_h : zero;
+      change = -p.mass * u;
+    }
+    const V next = max(zero, p.impulse + change);
+    v.push(c, c.normal, p.turn_a, p.turn_b, next - p.impulse);
+    p.impulse = next;
+  }
+}
+
+template <std::uint32_t lanes>
+SUNDER_INLINE void note_impacts(ConstraintBlock<lanes>& c) {
+  for (std::uint32_t i = 0; i < c.points; ++i)
+    c.rebound[i].most_impulse = max(c.rebound[i].most_impulse, c.point[i].impulse);
+}
+
+template <bool kBiased, bool kSplit, std::uint32_t lanes>
+SUNDER_INLINE void sweep(ConstraintBlock<lanes>& c, const SolverRows& bodies,
+                         const SoftStep& soft) {
+  Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
+  const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
+  slide<kBiased>(c, v, x, soft);
+  if (c.points > 1) twist(c, v);
+  if (c.rolls) roll(c, v);
+  press<kBiased>(c, v, x, soft);
+  store(c, v, bodies);
+  if (c.bouncy) note_impacts(c);
+}
+
+template <std::uint32_t lanes>
+void sweep_biased(ConstraintBlock<lanes>& c, const SolverRows& bodies, const SoftStep& soft) {
+  c.split ? sweep<true, true>(c, bodies, soft) : sweep<true, false>(c, bodies, soft);
+}
+
+template <std::uint32_t lanes>
+void sweep_relaxed(ConstraintBlock<lanes>& c, const SolverRows& bodies, const SoftStep& soft) {
+  c.split ? sweep<false, true>(c, bodies, soft) : sweep<false, false>(c, bodies, soft);
+}
+
+template <std::uint32_t lanes>
+void sum_impulses(ConstraintBlock<lanes>& c) {
+  if (!c.summed) return;
+  c.total = c.total + c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
+            c.tangent_2 * c.slide_impulse_2;
+}
+
+template <std::uint32_t lanes>
+void ease(ConstraintBlock<lanes>& c, const float* share_of_row) {
+  using V = WideOf<lanes>;
+  V share = {};
+  for (std::uint32_t lane = 0; lane < lanes; ++lane)
+    share[lane] = share_of_row[c.row_a[lane] != 0 ? c.row_a[lane] : c.row_b[lane]];
+  if (c.summed) {
+    const Wide3Of<lanes> was = c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
+                               c.tangent_2 * c.slide_impulse_2;
+    c.total = c.total + was * (share - splat<V>(1));
+  }
+  for (std::uint32_t i = 0; i < c.points; ++i) c.point[i].impulse *= share;
+  c.slide_impulse_1 *= share, c.slide_impulse_2 *= share, c.twist_impulse *= share;
+  if (c.rolls) c.roll.impulse_1 *= share, c.roll.impulse_2 *= share;
+}
+
+template <bool kSplit, std::uint32_t lanes>
+SUNDER_INLINE void warm_start_as(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
+  Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
+  v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, c.slide_impulse_1);
+  v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, c.slide_impulse_2);
+  v.twist(c, c.twist_impulse);
+  if (c.rolls) roll_by(c, v, c.roll.impulse_1, c.roll.impulse_2);
+  for (std::uint32_t i = 0; i < c.points; ++i)
+    v.push(c, c.normal, c.point[i].turn_a, c.point[i].turn_b, c.point[i].impulse);
+  store(c, v, bodies);
+}
+
+template <std::uint32_t lanes>
+void warm_start(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
+  c.split ? warm_start_as<true>(c, bodies) : warm_start_as<false>(c, bodies);
+}
+
+/// Calls visit(slot, impulse, mass) for every impulse of a block.
+template <class Block, class Visit>
+SUNDER_INLINE void for_impulses(Block& c, const Visit& visit) {
+  for (std::uint32_t i = 0; i < c.points; ++i) visit(i, c.point[i].impulse, c.point[i].mass);
+  visit(4, c.slide_impulse_1, c.slide_11);
+  visit(5, c.slide_impulse_2, c.slide_22);
+  visit(6, c.twist_impulse, c.twist_mass);
+}
+
+template <std::uint32_t lanes>
+void mark(const ConstraintBlock<lanes>& c, SearchLanes<lanes>& search) {
+  for_impulses(c, [&](std::uint32_t slot, const WideOf<lanes>& impulse, const WideOf<lanes>&) {
+    search.start[slot] = impulse;
+  });
+}
+
+template <std::uint32_t lanes>
+void measure(const ConstraintBlock<lanes>& c, const SearchLanes<lanes>& search, float* energy) {
+  using V = WideOf<lanes>;
+  const V zero = {}, one = splat<V>(1);
+  V sum = zero;
+  for_impulses(c, [&](std::uint32_t slot, const V& impulse, const V& mass) {
+    const V change = impulse - search.start[slot];
+    const auto moves = mass > zero;
+    sum += moves ? change * change / (moves ? mass : one) : zero;
+  });
+  for (std::uint32_t lane = 0; lane < lanes; ++lane) energy[lane] = sum[lane];
+}
+
+template <std::uint32_t lanes>
+void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRows& bodies,
+           float beta) {
+  using V = WideOf<lanes>;
+  V step[7] = {};
+  for_impulses(c, [&](std::uint32_t slot, V& impulse, const V&) {
+    step[slot] = beta * search.way[slot];
+    search.way[slot] = step[slot] + (impulse - search.start[slot]);
+    impulse += step[slot];
+  });
+  Pairs<lanes, false> v(c, bodies, &BodyRow::velocity);
+  v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, step[4]);
+  v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, step[5]);
+  v.twist(c, step[6]);
+  for (std::uint32_t i = 0; i < c.points; ++i)
+    v.push(c, c.normal, c.point[i].turn_a, c.point[i].turn_b, step[i]);
+  store(c, v, bodies);
+}
+
+template <bool kSplit, std::uint32_t lanes>
+SUNDER_INLINE void bounce_as(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
+  using V = WideOf<lanes>;
+  Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
+  const V zero = {};
+  bool active[lanes] = {};
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    const PointLanes<lanes>& p = c.point[i];
+    const ReboundLanes<lanes>& r = c.rebound[i];
+    const V u = v.along(c.normal, p.turn_a, p.turn_b);
+    const auto leaves = (r.speed > zero) & (r.most_impulse > zero);
+    const V change = leaves ? max(zero, p.mass * (r.speed - u)) : zero;
+    v.push(c, c.normal, p.turn_a, p.turn_b, change);
+    c.total = c.total + c.normal * change;
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) active[lane] |= change[lane] > 0;
+  }
+  store(c, v, bodies, active);
+}
+
+template <std::uint32_t lanes>
+void bounce(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
+  // Every split block leaves its changes, or older ones would be summed again.
+  if (c.split)
+    bounce_as<true>(c, bodies);
+  else if (c.bouncy)
+    bounce_as<false>(c, bodies);
+}
+
+template <std::uint32_t lanes>
+void separations_now(const ConstraintBlock<lanes>& c, const SolverRows& bodies,
+                     float (*separation)[lanes]) {
+  auto write = [&](const auto& x) {
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const PointLanes<lanes>& p = c.point[i];
+      const WideOf<lanes> s = p.separation + x.along(c.normal, p.turn_a, p.turn_b);
+      for (std::uint32_t lane = 0; lane < lanes; ++lane) separation[i][lane] = s[lane];
+    }
+  };
+  if (c.split)
+    write(Pairs<lanes, true>(c, bodies, &BodyRow::position));
+  else
+    write(Pairs<lanes, false>(c, bodies, &BodyRow::position));
+}
+
+}  // namespace sunder::solver

@@ -1,0 +1,61 @@
+// Joints: what holds bodies together, and the rules of who wakes, sleeps and touches whom by them.
+// How they are solved: joint_solver.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/model/physics.h"
+#include "solver/rigid/body/bodies.h"
+
+namespace sunder::solver {
+
+/// Rows of a joint at most: three of place, three of turn.
+inline constexpr int kMostJointRows = 6;
+
+struct Joint {
+  JointDesc desc;  ///< `a` and `b` as they are now.
+  bool present = false;
+  std::uint32_t generation = 0;
+  std::uint32_t body_a = kNone, body_b = kNone;     ///< kNone: the world, or a lost end.
+  bool lost = false;                                ///< An end's body is gone: it holds nothing.
+  std::array<double, kMostJointRows> impulse = {};  ///< Of the last substep, by row.
+
+  bool holds() const { return present && !lost; }
+};
+
+class Joints {
+ public:
+  JointId add(const JointDesc& desc, Bodies& bodies);
+  void attach(JointId id, bool end_a, BodyId body, Bodies& bodies);
+  void cut(JointId id, Bodies& bodies);
+  /// Before a body goes: its ends are lost, and what they held wakes.
+  void lose(std::uint32_t body, Bodies& bodies);
+  /// Wakes every sleeper that is joined to something awake, through others.
+  void wake(Bodies& bodies) const;
+  /// Whether two bodies ignore each other because they are joined.
+  bool apart(std::uint32_t body_a, std::uint32_t body_b) const;
+  /// A joint that bore too much goes, and is remembered for take_broken().
+  void break_off(std::uint32_t joint, Bodies& bodies);
+  std::vector<JointId> take_broken();
+
+  bool empty() const { return items_.size() == free_slots_.size(); }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(items_.size()); }
+  const Joint& operator[](std::uint32_t i) const { return items_[i]; }
+  Joint& operator[](std::uint32_t i) { return items_[i]; }
+  std::span<const Joint> all() const { return items_; }
+
+ private:
+  Joint& at(JointId id);
+  void wake_ends(const Joint& joint, Bodies& bodies) const;
+  void note_pairs();
+
+  std::vector<Joint> items_;
+  std::vector<std::uint32_t> free_slots_;
+  std::vector<std::uint64_t> apart_;  ///< Keys of body pairs that ignore each other, ascending.
+  std::vector<JointId> broken_;
+};
+
+}  // namespace sunder::solver

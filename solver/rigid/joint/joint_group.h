@@ -1,0 +1,63 @@
+// Joints that are solved together, exactly: the rows of a band of linear equations.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/froude.h"
+#include "solver/rigid/joint/joint_rows.h"
+
+namespace sunder::solver {
+
+/// A symmetric positive matrix L·Lᵀ whose row i begins at column first[i]: an envelope, which
+/// factoring does not leave.
+struct Envelope {
+  std::vector<std::uint32_t> first;  ///< Column of each row's first entry.
+  std::vector<std::uint32_t> start;  ///< Where a row's entries begin; one more than there are rows.
+  std::vector<double> entries;
+
+  std::uint32_t rows() const { return static_cast<std::uint32_t>(first.size()); }
+  double& at(std::uint32_t row, std::uint32_t column) {
+    return entries[start[row] + column - first[row]];
+  }
+  /// Cholesky, in place. Pivots must be positive.
+  void factor();
+  /// Solves for the right side, in place.
+  void solve(std::span<double> right) const;
+};
+
+struct JointGroup {
+  std::uint32_t first = 0, count = 0;  ///< Joints.
+  std::uint8_t color = 0;
+  Envelope matrix;
+  std::vector<double> softness;  ///< On the diagonal, by row.
+  std::vector<double> change;    ///< Scratch.
+};
+
+/// How joints answer to errors in a substep.
+struct JointStep {
+  double h_s = 0;
+  double impulse_scale = 1;  ///< Substep over that of the last step.
+  FallScale fall;
+};
+
+/// Rows for the bodies as the step begins.
+void begin_group(JointGroup& group, std::span<JointWork> works, const BodyRow* rows);
+/// Applies last step's impulses.
+void warm_start_group(std::span<JointWork> works, const JointStep& step, BodyRow* rows);
+/// One pass, with the correction of errors or without.
+void solve_group(JointGroup& group, std::span<JointWork> works, const JointStep& step, bool biased,
+                 BodyRow* rows);
+/// After bodies moved: new rows.
+void turn_group(JointGroup& group, std::span<JointWork> works, const BodyRow* rows);
+/// After a substep: joints that would have had to bear too much bear nothing from here on.
+void test_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
+                BodyRow* rows);
+
+/// Bodies have kept a share of the substep's impulses, by row: joints keep it too, and then hold
+/// again, which takes energy as any joint does.
+void ease_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
+                const float* share_of_row, BodyRow* rows);
+
+}  // namespace sunder::solver

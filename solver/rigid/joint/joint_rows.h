@@ -1,0 +1,69 @@
+// What a joint asks of its bodies: up to six rows of a Jacobian and their errors.
+//
+// As with contacts, angular motion is in root space (Bodies::root_B). Unlike contacts, the rows are
+// worked out anew in every substep, from arms that turn with the bodies: a velocity that is put
+// right at the new place keeps the energy of a swing (RATTLE, Andersen 1983, in effect).
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "solver/rigid/body/body_row.h"
+#include "solver/rigid/joint/joint.h"
+
+namespace sunder::solver {
+
+struct JointRow {
+  Vec3f push = Vec3f::Zero();                            ///< On b; linear.
+  Vec3f turn_a = Vec3f::Zero(), turn_b = Vec3f::Zero();  ///< Root space.
+  double error = 0;                                      ///< m or rad.
+};
+
+/// An impulse on b and its counterpart on a.
+struct JointPush {
+  Vec3f push = Vec3f::Zero(), turn_a = Vec3f::Zero(), turn_b = Vec3f::Zero();
+
+  JointPush operator-(const JointPush& o) const {
+    return {push - o.push, turn_a - o.turn_a, turn_b - o.turn_b};
+  }
+};
+
+/// A joint within a step.
+struct JointWork {
+  std::uint32_t joint = 0;
+  JointDesc::Kind kind = JointDesc::Kind::kBall;
+  bool broken = false;
+  int rows = 0;
+  int place_rows = 0;                  ///< The first of them; the others turn.
+  std::uint32_t row_a = 0, row_b = 0;  ///< In BodyRow; 0: immovable.
+  float inverse_mass_a = 0, inverse_mass_b = 0;
+  Mat3f root_a = Mat3f::Zero(), root_b = Mat3f::Zero();  ///< In W, frozen for the step.
+  Vec3 gap = Vec3::Zero();  ///< From anchor a to anchor b when the step began.
+  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();    ///< From the centres of mass, likewise.
+  Vec3 axis_a = Vec3::Zero(), axis_b = Vec3::Zero();  ///< kHinge, likewise.
+  Vec3 side_a = Vec3::Zero();                         ///< kHinge: across its axis, fixed to a.
+  Quat twist = Quat::Identity();  ///< kFixed: how far b is turned from where a wants it.
+  double reach_m = 0;             ///< Of the smaller body that moves.
+  double length_m = 0, breaking_N = 0, breaking_Nm = 0;
+  std::array<JointRow, kMostJointRows> row;
+  std::array<double, kMostJointRows> impulse = {};  ///< Of this substep.
+  Vec3 total_W = Vec3::Zero();                      ///< On b, over the step.
+
+  /// What the impulses of this substep would do along rows that have turned since, less what they
+  /// did: owed to the next substep, which starts from them.
+  JointPush owed;
+
+  /// Speed along row i.
+  double speed(int i, const BodyRow* body_rows) const;
+  /// Impulses along all rows, as they act on the bodies.
+  JointPush sum(std::span<const double> by) const;
+  void apply(const JointPush& push, BodyRow* body_rows) const;
+};
+
+/// A joint as the step begins.
+JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bodies,
+                      std::span<const Mat3f> root_W);
+/// Rows and errors as the bodies lie now.
+void refresh_rows(JointWork& work, const BodyRow* rows);
+
+}  // namespace sunder::solver

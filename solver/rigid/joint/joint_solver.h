@@ -1,0 +1,69 @@
+// Solves joints beside contacts, in the same stages and on the same rows.
+//
+// Joints that hang together are solved exactly, a group at a time: the equations of a chain form a
+// narrow band, which is factored in a time that grows with its length, so that a chain does not
+// stretch however heavy what hangs on it. Groups meet contacts, and each other where one would be
+// too large, by Gauss-Seidel. Groups of one colour move different bodies and run in parallel.
+// Read first: JointSolver::group_joints(), then solve_group() in joint_group.h.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/base/stage_runner.h"
+#include "solver/rigid/joint/joint_group.h"
+
+namespace sunder::solver {
+
+class JointSolver {
+ public:
+  /// Groups the joints that hold something awake, and marks their bodies in `in_contact`, by slot.
+  void collect(const Bodies& bodies, const Joints& joints, std::span<std::uint8_t> in_contact);
+  bool empty() const { return groups_.empty(); }
+  /// Stages over all groups of a kind of work, colour by colour.
+  void each_color(int kind, std::vector<Stage>& stages) const;
+  /// The work on group i; `rows` and `root_W` are those of the step.
+  void begin(std::uint32_t i, const Bodies& bodies, const Joints& joints,
+             std::span<const Mat3f> root_W, const BodyRow* rows);
+  void warm_start(std::uint32_t i, const JointStep& step, BodyRow* rows) {
+    warm_start_group(works(groups_[i]), step, rows);
+  }
+  void push(std::uint32_t i, const JointStep& step, BodyRow* rows) {
+    solve_group(groups_[i], works(groups_[i]), step, true, rows);
+  }
+  void turn(std::uint32_t i, const BodyRow* rows) {
+    turn_group(groups_[i], works(groups_[i]), rows);
+  }
+  void relax(std::uint32_t i, const JointStep& step, BodyRow* rows) {
+    solve_group(groups_[i], works(groups_[i]), step, false, rows);
+  }
+  /// Once all contacts have had their say in a substep.
+  void test(std::uint32_t i, const JointStep& step, BodyRow* rows) {
+    test_group(groups_[i], works(groups_[i]), step, rows);
+  }
+  /// Bodies keep this share of a substep's impulses, by row: so do joints, which then hold again.
+  void ease(std::uint32_t i, const JointStep& step, const float* share_of_row, BodyRow* rows) {
+    ease_group(groups_[i], works(groups_[i]), step, share_of_row, rows);
+  }
+  /// What hangs together and may move, a joint at a time: a joint to the world twice the same body.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& joined() const { return joined_; }
+  /// Hands impulses back; joints that bore too much go. The answer is the impulse on bodies from
+  /// what cannot move.
+  Vec3 finish(Bodies& bodies, Joints& joints);
+
+ private:
+  void group_joints(const Bodies& bodies, const Joints& joints);
+  void color_groups(const Bodies& bodies, const Joints& joints);
+  std::span<JointWork> works(const JointGroup& group) {
+    return std::span(works_).subspan(group.first, group.count);
+  }
+
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_;
+  std::vector<std::uint32_t> active_;  ///< Joints, island by island, ascending within one.
+  std::vector<JointGroup> groups_;     ///< By colour.
+  std::vector<Stage> colors_;
+  std::vector<JointWork> works_;  ///< As `active_`.
+};
+
+}  // namespace sunder::solver

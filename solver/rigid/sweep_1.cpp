@@ -1,8 +1,0 @@
-// The kernels for one lane: the reference that the others must equal, and what debuggers like.
-#include "solver/rigid/derive_kernels.h"
-
-namespace sunder::solver {
-
-SUNDER_SWEEP_KERNELS(1)
-
-}  // namespace sunder::solver

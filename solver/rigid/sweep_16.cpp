@@ -1,8 +1,0 @@
-// The kernels for sixteen lanes: AVX-512 (x86-64-v4).
-#include "solver/rigid/derive_kernels.h"
-
-namespace sunder::solver {
-
-SUNDER_SWEEP_KERNELS(16)
-
-}  // namespace sunder::solver

@@ -1,8 +1,0 @@
-// The kernels for eight lanes: AVX2 (x86-64-v3).
-#include "solver/rigid/derive_kernels.h"
-
-namespace sunder::solver {
-
-SUNDER_SWEEP_KERNELS(8)
-
-}  // namespace sunder::solver
