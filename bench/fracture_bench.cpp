@@ -23,7 +23,7 @@
 namespace sunder::fracture {
 namespace {
 
-BreakCommand blow(const Vec3& at, double radius_m, int cells = 50) {
+BreakCommand impact(const Vec3& at, double radius_m, int cells = 50) {
   BreakCommand command;
   command.pattern.kind = PatternSpec::Kind::kVoronoi;
   command.pattern.cells = cells;
@@ -50,13 +50,13 @@ void run_event(benchmark::State& state, const Compound& solid, const BreakComman
 
 void Event_50_cells_on_one_convex(benchmark::State& state) {
   const Compound box = box_compound(Vec3::Constant(-1), Vec3::Constant(1));
-  run_event(state, box, blow(Vec3::Zero(), std::numeric_limits<double>::infinity()));
+  run_event(state, box, impact(Vec3::Zero(), std::numeric_limits<double>::infinity()));
 }
 BENCHMARK(Event_50_cells_on_one_convex)->Unit(benchmark::kMillisecond);
 
 void Event_on_30_convexes(benchmark::State& state) {
   run_event(state, voronoi_compound(30, 1),
-            blow(Vec3(.2, .1, .1), std::numeric_limits<double>::infinity()));
+            impact(Vec3(.2, .1, .1), std::numeric_limits<double>::infinity()));
 }
 BENCHMARK(Event_on_30_convexes)->Unit(benchmark::kMillisecond);
 

@@ -8,7 +8,7 @@
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
 #include "fracture/fracture.h"
-#include "fracture/stress/bear.h"
+#include "fracture/stress/stress_breaks.h"
 
 namespace sunder::fracture {
 namespace {
@@ -27,7 +27,7 @@ Quat turned_onto(const Vec3& axis, double turn_rad) {
   return Quat(rotation).normalized();
 }
 
-/// The direction across a pane; otherwise that of the blow.
+/// The direction across a pane; otherwise that of the impact.
 Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
   double least = std::numeric_limits<double>::infinity();
   Vec3 thin = direction_R;
@@ -46,7 +46,7 @@ Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
 }
 
 /// How a pattern lies: Voronoi cells any way round, masonry as it was built, wood along the
-/// longest side of the convex, webs across a pane or the blow.
+/// longest side of the convex, webs across a pane or the impact.
 Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direction_R,
                  Random& random) {
   const double turn = random.uniform(0, 2 * std::numbers::pi);
@@ -81,7 +81,7 @@ class PatternBreaker final : public Breaker {
     command.pattern = material.pattern;
     command.radius_m = material.impact_radius_m;
     command.fit = material.fit;
-    for (const StrongerBlow& stronger : material.stronger) {
+    for (const StrongerImpact& stronger : material.stronger) {
       if (hit.energy_J < stronger.energy_J) break;
       command.pattern = stronger.pattern;
       command.radius_m = stronger.impact_radius_m;
@@ -102,7 +102,7 @@ class PatternBreaker final : public Breaker {
     return edit;
   }
 
-  LoadAnswer bear(const Structure& structure, const LoadCase& load) const override {
+  StressAnswer stress(const Structure& structure, const LoadCase& load) const override {
     return bear_load(structure, load);
   }
 

@@ -10,7 +10,7 @@
 #include "render/image/antialias.h"
 #include "render/image/hud.h"
 #include "render/passes/chips.h"
-#include "render/passes/looks.h"
+#include "render/passes/material_rows.h"
 #include "render/passes/pieces.h"
 #include "render/passes/puffs.h"
 #include "render/passes/tiles.h"

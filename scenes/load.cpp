@@ -84,7 +84,7 @@ Scene Loader::load(const LoadOptions& options) {
   for (const Value* table : tables(document_, "body")) add_body(*table);
   for (const Value* table : tables(document_, "ball")) add_ball(*table);
   for (const Value* table : tables(document_, "joint"))
-    scene_.ties.push_back(read_joint(*table, scene_));
+    scene_.joints.push_back(read_joint(*table, scene_));
   if (const Value* table = find(std::get<Table>(document_.data), "script"))
     read_script(*table, scene_);
   check_names();
@@ -123,7 +123,7 @@ void Loader::read_accuracy() {
 void Loader::aim() {
   Accuracy& accuracy = scene_.accuracy;
   if (accuracy.error_target_m <= 0) return;
-  const int wanted = substeps_for_sink(load_paths(scene_).deepest, scene_.gravity_W.norm(),
+  const int wanted = substeps_for_sink(stacks_in(scene_).deepest, scene_.gravity_W.norm(),
                                        accuracy.dt_s, accuracy.error_target_m);
   accuracy.substeps = std::min(wanted, kMostSubsteps);
 }

@@ -10,9 +10,9 @@
 namespace sunder {
 
 /// Speeds and times of falling (Froude's scaling).
-class FallScale {
+class FroudeScale {
  public:
-  explicit FallScale(const Vec3& gravity_W)
+  explicit FroudeScale(const Vec3& gravity_W)
       : gravity_m_s2_(std::max(kLeastGravity_m_s2, gravity_W.norm())) {}
 
   /// What is weightless is judged as if it weighed this much.

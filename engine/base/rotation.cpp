@@ -4,7 +4,7 @@
 
 namespace sunder {
 
-Quat turn_by(const Vec3& angle_W) {
+Quat rotation_by(const Vec3& angle_W) {
   const double angle = angle_W.norm();
   if (angle < 1e-3) {  // sin(x/2)/x to 1e-15
     const double square = angle * angle;

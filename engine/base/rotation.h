@@ -6,6 +6,6 @@
 namespace sunder {
 
 /// The turn by a rotation vector.
-Quat turn_by(const Vec3& angle_W);
+Quat rotation_by(const Vec3& angle_W);
 
 }  // namespace sunder

@@ -11,10 +11,10 @@
 
 namespace sunder {
 
-/// A blow on a compound, in its rest frame R.
+/// An impact on a compound, in its rest frame R.
 struct Hit {
   Vec3 point_R = Vec3::Zero();
-  Vec3 direction_R = Vec3::UnitY();  ///< Unit, the way the blow pushes (into the solid).
+  Vec3 direction_R = Vec3::UnitY();  ///< Unit, the way the impact pushes (into the solid).
   std::uint32_t convex = 0;          ///< Slot of the one that was hit.
   double energy_J = 0;
 };
@@ -85,11 +85,11 @@ struct Load {
 
 /// What a breaker knows of a compound under load and wants back when it is asked again; only it
 /// knows what is inside. Never changed once made.
-class LoadMemory {
+class StressMemory {
  public:
-  virtual ~LoadMemory() = default;
+  virtual ~StressMemory() = default;
 };
-using LoadMemoryPtr = std::shared_ptr<const LoadMemory>;
+using StressMemoryPtr = std::shared_ptr<const StressMemory>;
 
 /// What a compound bears, besides itself.
 struct LoadCase {
@@ -98,30 +98,30 @@ struct LoadCase {
   Vec3 gravity_R = Vec3::Zero();
   /// To spend on the answer, in visits of bonds, about: a few iterations are made in any case.
   std::uint64_t most_work = 0;
-  LoadMemoryPtr memory;  ///< Of this compound, or of what it was a piece of; null at first.
+  StressMemoryPtr memory;  ///< Of this compound, or of what it was a piece of; null at first.
 };
 
 /// What becomes of it.
-struct LoadAnswer {
+struct StressAnswer {
   BreakEdit edit;          ///< Bonds that were too weak are cut; what they held comes off.
   double worst = 0;        ///< Highest stress in what is left, in parts of the limit; <= 1.
   bool settled = false;    ///< Nothing is left to do until the load, or the compound, changes.
   std::uint64_t work = 0;  ///< Spent.
-  LoadMemoryPtr memory;    ///< For the next time, of any of the pieces.
+  StressMemoryPtr memory;  ///< For the next time, of any of the pieces.
 };
 
 /// Pure and const: any thread may ask about any structure.
 class Breaker {
  public:
   virtual ~Breaker() = default;
-  /// The command that a blow amounts to; `material` is that of the convex hit.
+  /// The command that an impact amounts to; `material` is that of the convex hit.
   virtual BreakCommand command(const Convex& convex, const Material& material, const Hit& hit,
                                std::uint64_t event, std::uint64_t seed) const = 0;
   /// Carries a command out, at a cost that depends on what it reaches; the structure stays as it
   /// is. A pattern that misses changes nothing.
   virtual BreakEdit plan(const Structure& structure, const BreakCommand& command) const = 0;
   /// Which bonds of a structure a steady load breaks, judged by the stress that balances it.
-  virtual LoadAnswer bear(const Structure& structure, const LoadCase& load) const = 0;
+  virtual StressAnswer stress(const Structure& structure, const LoadCase& load) const = 0;
 };
 
 }  // namespace sunder

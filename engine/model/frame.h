@@ -94,7 +94,7 @@ struct FrameReport {
   double potential_J = 0;
   /// |change of momentum − external impulses| of the frame over the momentum that changed hands.
   double momentum_residual = 0;
-  std::uint32_t carried_over = 0;  ///< Blows and loads waiting for a later step's budget.
+  std::uint32_t carried_over = 0;  ///< Impacts and loads waiting for a later step's budget.
   std::uint32_t failed = 0;        ///< Convexes that a break left whole, as they would not add up.
   std::uint32_t limits_hit = 0;
   std::uint32_t aged = 0;  ///< Fragments that became debris to make room.

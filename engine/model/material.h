@@ -50,8 +50,8 @@ struct PatternSpec {
   }
 };
 
-/// How a harder blow breaks a material.
-struct StrongerBlow {
+/// How a harder impact breaks a material.
+struct StrongerImpact {
   double energy_J = 0;  ///< From this on.
   PatternSpec pattern;
   double impact_radius_m = 1;
@@ -75,8 +75,8 @@ struct Material {
   PatternSpec pattern;
   /// Radius of the impact sphere (paper 3.2); infinity breaks the whole solid.
   double impact_radius_m = 1;
-  /// In place of `pattern` and `impact_radius_m` for harder blows, ascending by energy.
-  std::vector<StrongerBlow> stronger;
+  /// In place of `pattern` and `impact_radius_m` for harder impacts, ascending by energy.
+  std::vector<StrongerImpact> stronger;
   /// Stress that breaks the bonds between its convexes, own weight and slow load included; 0:
   /// never. Where two materials meet, the weaker decides.
   double tensile_Pa = 0;

@@ -41,9 +41,9 @@ struct BodyDesc {
   double mass_kg = 0;             ///< > 0 unless static.
   Mat3 inertia_B = Mat3::Zero();  ///< kg·m², about the centre of mass; unless static.
   std::vector<ShapeDesc> shapes;
-  std::uint32_t tag = 0;    ///< Opaque; comes back in contacts.
-  bool bears_load = false;  ///< What presses on it is reported.
-  std::uint32_t group = 0;  ///< Bodies of one non-zero group ignore each other until separated.
+  std::uint32_t tag = 0;      ///< Opaque; comes back in contacts.
+  bool reports_load = false;  ///< What presses on it is reported.
+  std::uint32_t group = 0;    ///< Bodies of one non-zero group ignore each other until separated.
 };
 
 /// A change to the shapes of a body that stays; what it keeps keeps its contacts, and costs
@@ -148,7 +148,7 @@ class Physics {
   virtual void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) = 0;
   /// Bodies that stand still in the next solve and go on as they were after it: nothing pushes
   /// them, and others meet them as they meet what is asleep. A physics that cannot lets them move.
-  virtual void hold(std::span<const BodyId> /*bodies*/) {}
+  virtual void pause(std::span<const BodyId> /*bodies*/) {}
   /// Joins two bodies and wakes them. When a body is removed, its ends of joints hold nothing until
   /// attach() or cut().
   virtual JointId join(const JointDesc&) {

@@ -41,7 +41,7 @@ struct Shot {
 };
 
 /// What holds two things of the scene together, or one and the world, as they stand at the start.
-struct Tie {
+struct Joint {
   JointDesc::Kind kind = JointDesc::Kind::kBall;
   /// Indices of solids, then of balls; none: the world.
   std::optional<std::uint32_t> a = std::nullopt, b = std::nullopt;
@@ -126,7 +126,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Solid> solids;
   std::vector<Ball> balls;
-  std::vector<Tie> ties;
+  std::vector<Joint> joints;
   // The script, each in order of time.
   std::vector<Shot> shots;
   std::vector<Blast> blasts;

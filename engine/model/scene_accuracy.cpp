@@ -79,16 +79,16 @@ std::vector<std::vector<std::uint32_t>> supports(const std::vector<Block>& block
   return below;
 }
 
-double buckling_sink_m(const LoadPath& path) {
-  const double n = path.bodies;
-  const double limit = (path.load > 2 * n ? kBuckleLoaded : kBuckleSelf) / (n * path.tilt_1_m);
-  return std::min(kDeepest * path.size_m, limit);
+double buckling_sink_m(const Stack& stack) {
+  const double n = stack.bodies;
+  const double limit = (stack.load > 2 * n ? kBuckleLoaded : kBuckleSelf) / (n * stack.tilt_1_m);
+  return std::min(kDeepest * stack.size_m, limit);
 }
 
 }  // namespace
 
-LoadPaths load_paths(const Scene& scene) {
-  LoadPaths found;
+Stacks stacks_in(const Scene& scene) {
+  Stacks found;
   if (scene.gravity_W.isZero()) return found;
   const std::vector<Block> blocks = blocks_of(scene, -scene.gravity_W.normalized());
   if (blocks.empty()) return found;
@@ -97,45 +97,45 @@ LoadPaths load_paths(const Scene& scene) {
   std::iota(order.begin(), order.end(), 0u);
   std::ranges::stable_sort(
       order, [&](std::uint32_t a, std::uint32_t b) { return blocks[a].height > blocks[b].height; });
-  std::vector<LoadPath> paths(blocks.size());
+  std::vector<Stack> stacks(blocks.size());
   std::vector<double> carried_kg(blocks.size());
   double most = 0, softest = 0;
   for (const std::uint32_t i : order) {
-    LoadPath& path = paths[i];
-    ++path.bodies;
-    path.size_m = path.bodies > 1 ? std::min(path.size_m, blocks[i].size_m) : blocks[i].size_m;
-    path.tilt_1_m += blocks[i].tilt_1_m;
+    Stack& stack = stacks[i];
+    ++stack.bodies;
+    stack.size_m = stack.bodies > 1 ? std::min(stack.size_m, blocks[i].size_m) : blocks[i].size_m;
+    stack.tilt_1_m += blocks[i].tilt_1_m;
     carried_kg[i] += blocks[i].mass_kg;
-    path.load = carried_kg[i] / blocks[i].mass_kg;
-    if (path.load > most) most = path.load, found.deepest = path;
-    const double need = path.load / buckling_sink_m(path);
-    if (need > softest) softest = need, found.weakest = path;
+    stack.load = carried_kg[i] / blocks[i].mass_kg;
+    if (stack.load > most) most = stack.load, found.deepest = stack;
+    const double need = stack.load / buckling_sink_m(stack);
+    if (need > softest) softest = need, found.weakest = stack;
     for (const std::uint32_t lower : below[i]) {
       carried_kg[lower] += carried_kg[i] / static_cast<double>(below[i].size());
-      if (path.bodies > paths[lower].bodies) paths[lower] = path;
+      if (stack.bodies > stacks[lower].bodies) stacks[lower] = stack;
     }
   }
   return found;
 }
 
-double expected_sink_m(const LoadPath& path, double gravity_m_s2, double h_s) {
-  return kSink * path.load * gravity_m_s2 * h_s * h_s;
+double expected_sink_m(const Stack& stack, double gravity_m_s2, double h_s) {
+  return kSink * stack.load * gravity_m_s2 * h_s * h_s;
 }
 
-int substeps_for_sink(const LoadPath& path, double gravity_m_s2, double dt_s, double target_m) {
-  const double sink_m = expected_sink_m(path, gravity_m_s2, dt_s);
+int substeps_for_sink(const Stack& stack, double gravity_m_s2, double dt_s, double target_m) {
+  const double sink_m = expected_sink_m(stack, gravity_m_s2, dt_s);
   return std::max(1, static_cast<int>(std::ceil(std::min(1e6, std::sqrt(sink_m / target_m)))));
 }
 
-int substeps_to_stand(const LoadPath& path, double gravity_m_s2, double dt_s) {
-  if (path.bodies == 0) return 1;
-  return substeps_for_sink(path, gravity_m_s2, dt_s, buckling_sink_m(path));
+int substeps_to_stand(const Stack& stack, double gravity_m_s2, double dt_s) {
+  if (stack.bodies == 0) return 1;
+  return substeps_for_sink(stack, gravity_m_s2, dt_s, buckling_sink_m(stack));
 }
 
 Accuracy accuracy_to_stand(const Scene& scene, int most_substeps) {
   Accuracy accuracy = scene.accuracy;
   const int all =
-      substeps_to_stand(load_paths(scene).weakest, scene.gravity_W.norm(), accuracy.dt_s);
+      substeps_to_stand(stacks_in(scene).weakest, scene.gravity_W.norm(), accuracy.dt_s);
   const int steps = (all + most_substeps - 1) / most_substeps;
   accuracy.dt_s /= steps;
   accuracy.substeps = (all + steps - 1) / steps;
@@ -144,21 +144,21 @@ Accuracy accuracy_to_stand(const Scene& scene, int most_substeps) {
 
 std::string accuracy_warning(const Scene& scene, int most_substeps) {
   const Accuracy& accuracy = scene.accuracy;
-  const LoadPaths paths = load_paths(scene);
+  const Stacks stacks = stacks_in(scene);
   const double g = scene.gravity_W.norm();
   char text[400];
-  if (substeps_to_stand(paths.weakest, g, accuracy.dt_s) > accuracy.substeps) {
+  if (substeps_to_stand(stacks.weakest, g, accuracy.dt_s) > accuracy.substeps) {
     const Accuracy stand = accuracy_to_stand(scene, most_substeps);
     std::snprintf(text, sizeof text,
                   "%u bodies on top of each other, the lowest under %.4g times its own weight, may "
                   "sink in and buckle: %d substeps of dt 1/%.4g s would hold them, there are %d "
                   "of 1/%.4g s; set accuracy.substeps%s, or a finer preset",
-                  paths.weakest.bodies, paths.weakest.load, stand.substeps, 1 / stand.dt_s,
+                  stacks.weakest.bodies, stacks.weakest.load, stand.substeps, 1 / stand.dt_s,
                   accuracy.substeps, 1 / accuracy.dt_s,
                   stand.dt_s < accuracy.dt_s ? " and accuracy.dt_s" : "");
     return text;
   }
-  const double sink_m = expected_sink_m(paths.deepest, g, accuracy.dt_s / accuracy.substeps);
+  const double sink_m = expected_sink_m(stacks.deepest, g, accuracy.dt_s / accuracy.substeps);
   if (accuracy.error_target_m > 0 && sink_m > accuracy.error_target_m) {
     std::snprintf(text, sizeof text,
                   "error_target_m = %g is out of reach with dt 1/%.4g s and %d substeps, the most "

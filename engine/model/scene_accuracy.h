@@ -9,7 +9,7 @@
 namespace sunder {
 
 /// The body of a scene that asks for the shortest substep, and what lies on it.
-struct LoadPath {
+struct Stack {
   std::uint32_t bodies = 0;  ///< On top of each other, itself included; 0: nothing can press.
   double load = 0;           ///< What it carries, itself included, in its own weights.
   double size_m = 0;         ///< Least extent of a body on the way up.
@@ -17,18 +17,18 @@ struct LoadPath {
 };
 
 /// The body that sinks in most; the one that buckles first.
-struct LoadPaths {
-  LoadPath deepest, weakest;
+struct Stacks {
+  Stack deepest, weakest;
 };
-LoadPaths load_paths(const Scene& scene);
+Stacks stacks_in(const Scene& scene);
 
 /// How far a body under such a load sinks in, about: 1.55·load·g·h² (docs/decisions/027).
-double expected_sink_m(const LoadPath& path, double gravity_m_s2, double h_s);
+double expected_sink_m(const Stack& stack, double gravity_m_s2, double h_s);
 /// Substeps of `dt_s` so that it sinks no farther than `target_m`; at least 1.
-int substeps_for_sink(const LoadPath& path, double gravity_m_s2, double dt_s, double target_m);
+int substeps_for_sink(const Stack& stack, double gravity_m_s2, double dt_s, double target_m);
 /// Substeps so that what stands does not buckle: soft contacts let a column of N cubes of size a
 /// sink by less than 1.96·a/N² under its own weight, or 0.62·a/N² under a load on top.
-int substeps_to_stand(const LoadPath& path, double gravity_m_s2, double dt_s);
+int substeps_to_stand(const Stack& stack, double gravity_m_s2, double dt_s);
 /// The scene's accuracy with so many; a shorter step where that is more than `most_substeps`.
 Accuracy accuracy_to_stand(const Scene& scene, int most_substeps);
 

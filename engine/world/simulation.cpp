@@ -34,7 +34,7 @@ void solve(World& world) {
   const Vec3 before = momentum(world).momentum_Ns;
   const SolveReport report =
       world.physics->solve(world.scene.accuracy.dt_s, world.scene.accuracy.substeps);
-  note_broken_ties(world);
+  note_broken_joints(world);
   const Momentum after = momentum(world);
   world.momentum_error_Ns += (after.momentum_Ns - before - report.external_impulse_Ns).norm();
   // At rest weight and support cancel: what changed hands is the weight, not the sum of both.
@@ -76,7 +76,7 @@ Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
   add_ground(world);
   add_compounds(world, world.scene.solids);
   for (const Ball& ball : world.scene.balls) add_ball(world, ball);
-  for (const Tie& tie : world.scene.ties) add_tie(world, tie);  // keys are indices still
+  for (const Joint& joint : world.scene.joints) add_joint(world, joint);  // keys are indices still
 }
 
 Simulation::~Simulation() = default;

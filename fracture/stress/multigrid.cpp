@@ -57,10 +57,10 @@ void lengthen(double factor, const Nodal<double>& y, Nodal<double>& x) {
 /// y = x / unit as floats; what is rounding beside the unit becomes zero (see SpringLevel).
 void to_float(const Nodal<double>& x, double unit, Nodal<float>& y) {
   constexpr double kLeast = 1e-15;
-  const auto one = [&](Quad<double> part) {
+  const auto one = [&](Simd4<double> part) {
     part *= splat<double>(1 / unit);
     const auto keep = (part > splat<double>(kLeast)) | (part < splat<double>(-kLeast));
-    return __builtin_convertvector(keep ? part : Quad<double>{}, Quad<float>);
+    return __builtin_convertvector(keep ? part : Simd4<double>{}, Simd4<float>);
   };
   for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) y[i] = {one(x[i].linear), one(x[i].angular)};
@@ -69,8 +69,8 @@ void to_float(const Nodal<double>& x, double unit, Nodal<float>& y) {
 
 /// y = unit · x
 void to_double(const Nodal<float>& x, double unit, Nodal<double>& y) {
-  const auto one = [&](Quad<float> part) {
-    return splat<double>(unit) * __builtin_convertvector(part, Quad<double>);
+  const auto one = [&](Simd4<float> part) {
+    return splat<double>(unit) * __builtin_convertvector(part, Simd4<double>);
   };
   for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) y[i] = {one(x[i].linear), one(x[i].angular)};
@@ -125,7 +125,7 @@ void Multigrid::factorize() {
   Nodal<double> unit = last.zero(), column = unit;
   for (std::size_t j = 0; j < last.size(); ++j) {
     for (int k = 0; k < 6; ++k) {
-      Quad<double>& part = k < 3 ? unit[j].linear : unit[j].angular;
+      Simd4<double>& part = k < 3 ? unit[j].linear : unit[j].angular;
       part[k % 3] = 1;
       last.multiply(unit, column);
       part[k % 3] = 0;
@@ -160,8 +160,8 @@ void Multigrid::solve_coarsest(const Nodal<float>& r, Nodal<float>& z) const {
   coarsest_.solveInPlace(flat);
   z.resize(nodes + 1);
   for (std::size_t i = 0; i < nodes; ++i) {
-    z[i].linear = quad<float>(flat.segment<3>(static_cast<Eigen::Index>(6 * i)));
-    z[i].angular = quad<float>(flat.segment<3>(static_cast<Eigen::Index>(6 * i + 3)));
+    z[i].linear = simd4<float>(flat.segment<3>(static_cast<Eigen::Index>(6 * i)));
+    z[i].angular = simd4<float>(flat.segment<3>(static_cast<Eigen::Index>(6 * i + 3)));
   }
 }
 

@@ -120,8 +120,8 @@ typename SpringLevel<Real>::Link SpringLevel<Real>::link_of(const Spring& spring
   Link link;
   link.a = std::min(spring.a, nodes);
   link.b = std::min(spring.b, nodes);
-  link.arm_a = link.a < nodes ? arm(link.a) : Quad<Real>{};
-  link.arm_b = link.b < nodes ? arm(link.b) : Quad<Real>{};
+  link.arm_a = link.a < nodes ? arm(link.a) : Simd4<Real>{};
+  link.arm_b = link.b < nodes ? arm(link.b) : Simd4<Real>{};
   link.turn = rounded<Real>(spring.turn);
   link.turn.diagonal[3] = static_cast<Real>(spring.stretch_N_m);
   return link;
@@ -161,11 +161,11 @@ void SpringLevel<Real>::apply(const Nodal<Real>& x, Nodal<Real>& y, Real sign,
     for (std::uint32_t i = run.begin; i < run.end; ++i) y[i] = start(i);
     for (const Link& link : run.links) {
       const Six<Real>&at_a = x[link.a], &at_b = x[link.b];
-      const Quad<Real> turned = at_b.angular - at_a.angular;
-      const Quad<Real> shifted = at_b.linear - at_a.linear + cross(at_b.angular, link.arm_b) -
-                                 cross(at_a.angular, link.arm_a);
-      const Quad<Real> force = splat<Real>(sign * link.turn.diagonal[3]) * shifted;
-      const Quad<Real> torque = splat<Real>(sign) * (link.turn * turned);
+      const Simd4<Real> turned = at_b.angular - at_a.angular;
+      const Simd4<Real> shifted = at_b.linear - at_a.linear + cross(at_b.angular, link.arm_b) -
+                                  cross(at_a.angular, link.arm_a);
+      const Simd4<Real> force = splat<Real>(sign * link.turn.diagonal[3]) * shifted;
+      const Simd4<Real> torque = splat<Real>(sign) * (link.turn * turned);
       if (link.a - run.begin < run.end - run.begin) {
         y[link.a].linear -= force;
         y[link.a].angular -= cross(link.arm_a, force) + torque;
@@ -194,8 +194,8 @@ void SpringLevel<Real>::relax(Real factor, const Nodal<Real>& r, Nodal<Real>& x,
   for_chunks(size(), kRun, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       const Symmetric<Real>& inverse = inverse_[i];
-      const Quad<Real> push = splat<Real>(factor * inverse.diagonal[3]) * r[i].linear;
-      const Quad<Real> turn = splat<Real>(factor) * (inverse * r[i].angular);
+      const Simd4<Real> push = splat<Real>(factor * inverse.diagonal[3]) * r[i].linear;
+      const Simd4<Real> turn = splat<Real>(factor) * (inverse * r[i].angular);
       x[i].linear = add ? x[i].linear + push : push;
       x[i].angular = add ? x[i].angular + turn : turn;
     }

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "fracture/stress/quad.h"
+#include "fracture/stress/simd4.h"
 
 namespace sunder::fracture {
 
@@ -92,7 +92,7 @@ class SpringLevel {
   /// A spring made ready to be multiplied. Its stretch is the fourth lane of turn.diagonal.
   struct Link {
     std::uint32_t a = 0, b = 0;  ///< The world is the greatest number.
-    Quad<Real> arm_a, arm_b;
+    Simd4<Real> arm_a, arm_b;
     Symmetric<Real> turn;
   };
   /// Springs that reach into one run of nodes; those between two runs are in both.
@@ -120,7 +120,7 @@ class SpringLevel {
   std::vector<std::shared_ptr<const Run>> runs_;
   std::vector<Symmetric<Real>>
       inverse_;                       ///< Of D's turns; the fourth lane of diagonal is of its push.
-  std::vector<Quad<Real>> arms_;      ///< Per node: from the place of its group.
+  std::vector<Simd4<Real>> arms_;     ///< Per node: from the place of its group.
   std::vector<std::uint32_t> group_;  ///< Per node: its node on the next coarser level.
 };
 

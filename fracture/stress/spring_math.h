@@ -4,22 +4,22 @@
 
 #include <limits>
 
-#include "fracture/stress/quad.h"
+#include "fracture/stress/simd4.h"
 
 namespace sunder::fracture {
 
 /// As stored in `Real`, without what is rounding beside `size`: products of such numbers end up
 /// below what a processor multiplies fast.
 template <class Real>
-Quad<Real> rounded(const Vec3& v, double size) {
+Simd4<Real> rounded(const Vec3& v, double size) {
   const double least = size * double{std::numeric_limits<Real>::epsilon()};
-  return quad<Real>((v.array().abs() > least).select(v, Vec3::Zero()));
+  return simd4<Real>((v.array().abs() > least).select(v, Vec3::Zero()));
 }
 
 template <class Real>
 Symmetric<Real> rounded(const Mat3& m) {
   Symmetric<Real> result;
-  result.diagonal = quad<Real>(m.diagonal());
+  result.diagonal = simd4<Real>(m.diagonal());
   result.rest = rounded<Real>(Vec3(m(1, 2), m(0, 2), m(0, 1)), m.trace());
   return result;
 }

@@ -236,9 +236,9 @@ SolveResult StressSystem::solve(std::span<const Load> loads, const Vec3& gravity
     const std::uint32_t node = node_of_convex_[c];
     if (node == Spring::kWorld) continue;
     const Vec3 arm = centroids_[c] - level.place(node);
-    f[node] = {quad<double>(forces_N[c]), quad<double>(torques_Nm[c] + arm.cross(forces_N[c]))};
+    f[node] = {simd4<double>(forces_N[c]), simd4<double>(torques_Nm[c] + arm.cross(forces_N[c]))};
     const Displacement& d = displacements[c];
-    x[node] = {quad<double>(d.shift_R - d.turn_R.cross(arm)), quad<double>(d.turn_R)};
+    x[node] = {simd4<double>(d.shift_R - d.turn_R.cross(arm)), simd4<double>(d.turn_R)};
   }
   // What falls freely has forces that cancel but for rounding.
   double applied_N = 0;

@@ -62,7 +62,7 @@ void check_bricks(const FractureOptions& options, const Vec3& brick_m, const Com
                    "give larger ones");
 }
 
-/// What the flags ask for. The blow goes towards the middle, or down.
+/// What the flags ask for. The impact goes towards the middle, or down.
 BreakCommand command_of(const FractureOptions& options, const Compound& compound) {
   const Box box = bounds(compound);
   Material material;

@@ -86,26 +86,26 @@ const Keys<JointText>& joint_keys() {
   return kKeys;
 }
 
-Tie read_joint(const Value& table, const Scene& scene) {
+Joint read_joint(const Value& table, const Scene& scene) {
   JointText text;
   read(joint_keys(), table, {}, text);
   check(table, text);
   const Table& entries = std::get<Table>(table.data);
-  Tie tie;
-  tie.kind = text.kind;
-  tie.at_W = text.at;
-  tie.to_W = text.to.value_or(text.at);
-  tie.a = thing_named(scene, text.a, *find(entries, "a"), text.at);
-  if (text.b) tie.b = thing_named(scene, *text.b, *find(entries, "b"), tie.to_W);
-  if (tie.a == tie.b) fail(table, "b", "a and b in [[joint]] are the same thing");
-  if (is_held(scene, tie.a) && is_held(scene, tie.b)) {
+  Joint joint;
+  joint.kind = text.kind;
+  joint.at_W = text.at;
+  joint.to_W = text.to.value_or(text.at);
+  joint.a = thing_named(scene, text.a, *find(entries, "a"), text.at);
+  if (text.b) joint.b = thing_named(scene, *text.b, *find(entries, "b"), joint.to_W);
+  if (joint.a == joint.b) fail(table, "b", "a and b in [[joint]] are the same thing");
+  if (is_held(scene, joint.a) && is_held(scene, joint.b)) {
     fail(table, "a", "neither end of this [[joint]] can move: the world holds both");
   }
-  tie.axis_W = text.axis;
-  tie.breaking_N = text.breaking_N;
-  tie.breaking_Nm = text.breaking_Nm;
-  tie.collide = text.collide;
-  return tie;
+  joint.axis_W = text.axis;
+  joint.breaking_N = text.breaking_N;
+  joint.breaking_Nm = text.breaking_Nm;
+  joint.collide = text.collide;
+  return joint;
 }
 
 }  // namespace sunder::scenes

@@ -26,6 +26,6 @@ const Keys<JointText>& joint_keys();
 
 /// The joint of a table, between solids and balls that the scene has by now. Throws InputError with
 /// the place of what is wrong.
-Tie read_joint(const Value& table, const Scene& scene);
+Joint read_joint(const Value& table, const Scene& scene);
 
 }  // namespace sunder::scenes

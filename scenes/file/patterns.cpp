@@ -39,17 +39,17 @@ void read_stronger(const Value& table, const std::filesystem::path& folder, Mate
   if (!find(std::get<Table>(table.data), "stronger")) return;
   material.stronger.clear();
   for (const Value* entry : tables(table, "stronger")) {
-    StrongerBlow blow{0, material.pattern, material.impact_radius_m};
-    read(schema().stronger, *entry, {}, blow);
+    StrongerImpact impact{0, material.pattern, material.impact_radius_m};
+    read(schema().stronger, *entry, {}, impact);
     if (const Value* pattern = find(std::get<Table>(entry->data), "pattern")) {
-      read_pattern(*pattern, folder, blow.pattern);
+      read_pattern(*pattern, folder, impact.pattern);
     }
-    if (!material.stronger.empty() && blow.energy_J <= material.stronger.back().energy_J) {
+    if (!material.stronger.empty() && impact.energy_J <= material.stronger.back().energy_J) {
       throw InputError(entry->where + ": energy_J in [[material.stronger]] is " +
-                       format(blow.energy_J) +
+                       format(impact.energy_J) +
                        ", no more than in the entry before it; let them ascend");
     }
-    material.stronger.push_back(std::move(blow));
+    material.stronger.push_back(std::move(impact));
   }
 }
 

@@ -64,7 +64,7 @@ void check_planar(const Scene& scene, const std::string& where) {
   checker.in_plane(scene.gravity_W, "gravity");
   for (const Solid& solid : scene.solids) checker.check(solid);
   for (const Ball& ball : scene.balls) checker.check(ball, "ball '" + ball.name + "' ");
-  checker.require(scene.ties.empty(), "it has a [[joint]], which planar scenes do not have");
+  checker.require(scene.joints.empty(), "it has a [[joint]], which planar scenes do not have");
   for (const Shot& shot : scene.shots) {
     checker.check(shot.ball, "a ball of [script] ");
     checker.require(!shot.hangs_from_W,

@@ -79,7 +79,7 @@ Keys<Material> material_keys() {
        key<&Material::smallest_piece_m3>("smallest_piece_m3", "m³", Range{0, kInfinity},
                                          "Smaller pieces are debris, no bodies."),
        key<&Material::fit>("fit", "How tightly what collides encloses broken meshes."),
-       table_key("pattern", "How it breaks."), table_key("stronger", "Patterns of harder blows."),
+       table_key("pattern", "How it breaks."), table_key("stronger", "Patterns of harder impacts."),
        table_key("crumbling", "What comes off where it broke."),
        table_key("surface", "How it looks outside."),
        table_key("interior", "How it looks where it broke.")}};
@@ -107,15 +107,16 @@ Keys<PatternSpec> pattern_keys() {
            "Cells are joined into so many pieces, which need not be convex; 0: each is one.")}};
 }
 
-Keys<StrongerBlow> stronger_keys() {
-  return {"[[material.stronger]]",
-          {key<&StrongerBlow::energy_J>(
-               "energy_J", "J", Range{0, kInfinity},
-               "From this on, a blow breaks the material as follows; ascending.")
-               .must(),
-           key<&StrongerBlow::impact_radius_m>("impact_radius_m", "m", Range{0.001, kInfinity},
-                                               "In place of the material's, which is the default."),
-           table_key("pattern", "In place of the material's; starts from that.")}};
+Keys<StrongerImpact> stronger_keys() {
+  return {
+      "[[material.stronger]]",
+      {key<&StrongerImpact::energy_J>(
+           "energy_J", "J", Range{0, kInfinity},
+           "From this on, an impact breaks the material as follows; ascending.")
+           .must(),
+       key<&StrongerImpact::impact_radius_m>("impact_radius_m", "m", Range{0.001, kInfinity},
+                                             "In place of the material's, which is the default."),
+       table_key("pattern", "In place of the material's; starts from that.")}};
 }
 
 Keys<Crumbling> crumbling_keys() {

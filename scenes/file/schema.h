@@ -108,7 +108,7 @@ struct Schema {
   Keys<MaterialHead> material_head;
   Keys<Material> material;
   Keys<PatternSpec> pattern;
-  Keys<StrongerBlow> stronger;
+  Keys<StrongerImpact> stronger;
   Keys<Crumbling> crumbling;
   Keys<Look> look;
   Keys<SolidHead> solid;

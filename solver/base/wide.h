@@ -140,12 +140,12 @@ SUNDER_INLINE Triple<V> cross(const Triple<V>& a, const Triple<V>& b) {
 
 namespace detail {
 
-typedef float Quad __attribute__((vector_size(16), may_alias));
+typedef float Simd4 __attribute__((vector_size(16), may_alias));
 
 /// The four at `offset` of rows 0, 4, 8 and so on, side by side. A row has eight floats.
 template <class V>
 SUNDER_INLINE V quads(const float* const* row, std::uint32_t offset) {
-  auto quad = [&](int i) { return *reinterpret_cast<const Quad*>(row[i] + offset); };
+  auto quad = [&](int i) { return *reinterpret_cast<const Simd4*>(row[i] + offset); };
   if constexpr (kLanesOf<V> == 4) {
     return quad(0);
   } else if constexpr (kLanesOf<V> == 8) {
@@ -158,8 +158,8 @@ SUNDER_INLINE V quads(const float* const* row, std::uint32_t offset) {
 }
 template <class V>
 SUNDER_INLINE void store_quads(V v, float* const* row, const bool* wanted, std::uint32_t offset) {
-  auto put = [&](std::uint32_t i, Quad quad) {
-    if (wanted[i]) *reinterpret_cast<Quad*>(row[i] + offset) = quad;
+  auto put = [&](std::uint32_t i, Simd4 quad) {
+    if (wanted[i]) *reinterpret_cast<Simd4*>(row[i] + offset) = quad;
   };
   if constexpr (kLanesOf<V> == 4) {
     put(0, v);

@@ -7,7 +7,7 @@
 
 #include "engine/base/parallel.h"
 #include "solver/base/place_order.h"
-#include "solver/particles/turn.h"
+#include "solver/particles/rotate.h"
 
 namespace sunder::solver {
 namespace {

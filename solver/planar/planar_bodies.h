@@ -18,7 +18,7 @@ struct PlanarBody {
   std::uint32_t generation = 0;
   std::uint32_t tag = 0;
   std::uint32_t group = 0;
-  bool bears_load = false;
+  bool reports_load = false;
   bool frozen = false;                ///< Was not finite; static since.
   bool fresh = true;                  ///< Not yet stepped.
   double mass_kg = 0;                 ///< 0: static.

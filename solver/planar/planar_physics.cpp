@@ -11,7 +11,7 @@
 #include "engine/base/trace.h"
 #include "engine/base/trigonometry.h"
 #include "solver/base/check_bodies.h"
-#include "solver/planar/planar_ledger.h"
+#include "solver/planar/contact_listener.h"
 #include "solver/planar/planar_touches.h"
 
 namespace sunder::solver {
@@ -61,7 +61,7 @@ class PlanarPhysics final : public Physics {
   Plane2 plane_;
   b2World world_;
   PlanarBodies bodies_;
-  Books books_;
+  ContactListener listener_;
   std::vector<Nearby> nearby_;
   bool nearby_known_ = false;
   double dt_s_ = 0;  ///< Of the last collide.
@@ -73,11 +73,11 @@ PlanarPhysics::PlanarPhysics(const PlanarOptions& options)
       plane_{1 / options.piece_m},
       world_(plane_.units(options.gravity_W)),
       bodies_(world_, plane_, kBounce_s * options.gravity_W.norm()),
-      books_(bodies_.items) {
+      listener_(bodies_.items) {
   SUNDER_CHECK(options.piece_m > 0 && options.gravity_W.z() == 0);
   world_.SetAllowSleeping(options.sleeping);
   world_.SetContinuousPhysics(false);
-  world_.SetContactListener(&books_);
+  world_.SetContactListener(&listener_);
 }
 
 std::vector<BodyId> PlanarPhysics::replace(std::span<const BodyId> remove,
@@ -140,7 +140,7 @@ double PlanarPhysics::inverse_mass(const PlanarBody& body, const Vec3& arm_W,
 }
 
 std::vector<Approach> PlanarPhysics::approaches() {
-  const double still_m_s = FallScale(options_.gravity_W).still_m_s(dt_s_);
+  const double still_m_s = FroudeScale(options_.gravity_W).still_m_s(dt_s_);
   std::vector<Approach> all;
   for (const Nearby& near : nearby()) {
     const PlanarBody &a = bodies_.items[near.body_a], &b = bodies_.items[near.body_b];
@@ -229,11 +229,11 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   SolveReport report;
   freeze_broken(report);
   const int steps = steps_for(dt_s, substeps);
-  books_.begin();
+  listener_.begin();
   for (int i = 0; i < steps; ++i) step(static_cast<float>(dt_s / steps), report);
-  books_.end(steps);
+  listener_.end(steps);
   freeze_broken(report);
-  report.external_impulse_Ns += plane_.metres(books_.from_static);
+  report.external_impulse_Ns += plane_.metres(listener_.from_static);
   for (const b2Contact* c = world_.GetContactList(); c; c = c->GetNext()) {
     if (!c->IsTouching()) continue;
     ++report.contacts;
@@ -314,12 +314,12 @@ BodyState PlanarPhysics::state(BodyId id) const {
 
 std::vector<ContactLoad> PlanarPhysics::contact_loads() const {
   std::vector<ContactLoad> loads;
-  for (const auto& [pair, p] : books_.passed) {
+  for (const auto& [pair, p] : listener_.passed) {
     if (p.weight <= 0) continue;
     const Vec3 impulse = plane_.metres(p.impulse), point = plane_.metres((1 / p.weight) * p.moment);
     for (const bool on_b : {false, true}) {
       const PlanarBody& body = bodies_.items[on_b ? p.body_b : p.body_a];
-      if (!body.bears_load) continue;
+      if (!body.reports_load) continue;
       const std::uint32_t shape = on_b ? pair.second : pair.first;
       loads.push_back(
           {body.tag, bodies_.shapes[shape].tag, on_b ? impulse : Vec3(-impulse), point});

@@ -9,7 +9,7 @@
 #include "engine/base/trace.h"
 #include "solver/base/check_bodies.h"
 #include "solver/rigid/body/bodies.h"
-#include "solver/rigid/body/held.h"
+#include "solver/rigid/body/paused.h"
 #include "solver/rigid/collide/approach.h"
 #include "solver/rigid/collide/broad_phase.h"
 #include "solver/rigid/collide/contacts.h"
@@ -17,7 +17,7 @@
 #include "solver/rigid/collide/narrow_phase.h"
 #include "solver/rigid/contact/contact_reports.h"
 #include "solver/rigid/contact/contact_solver.h"
-#include "solver/rigid/contact/seeding.h"
+#include "solver/rigid/contact/static_warm_start.h"
 #include "solver/rigid/joint/joint.h"
 #include "solver/rigid/sleep.h"
 
@@ -49,7 +49,7 @@ class RigidPhysics final : public Physics {
   void attach(JointId joint, bool end_a, BodyId body) override;
   void cut(JointId joint) override;
   std::vector<JointId> take_broken() override { return joints_.take_broken(); }
-  void hold(std::span<const BodyId> bodies) override;
+  void pause(std::span<const BodyId> bodies) override;
   SolveReport solve(double dt_s, int substeps) override;
   BodyState state(BodyId body) const override;
   std::vector<ContactLoad> contact_loads() const override {
@@ -76,9 +76,9 @@ class RigidPhysics final : public Physics {
   Crowd crowd_;
   Sleep sleep_;
   ContactSolver contact_solver_;
-  Seeding seeding_;
+  StaticWarmStart static_warm_start_;
   ContactsOfBodies contacts_of_bodies_;
-  Held held_;
+  Paused paused_;
   double dt_s_ = 0;               ///< Of the last collide.
   std::uint32_t frozen_ = 0;      ///< Since the last solve began.
   std::vector<StepReach> reach_;  ///< By body slot.
@@ -228,7 +228,7 @@ Vec3 RigidPhysics::freeze_broken() {
 }
 
 std::vector<Approach> RigidPhysics::approaches() {
-  return find_approaches(contacts_, bodies_, shapes_, dt_s_, FallScale(options_.gravity_W));
+  return find_approaches(contacts_, bodies_, shapes_, dt_s_, FroudeScale(options_.gravity_W));
 }
 
 std::vector<Touch> RigidPhysics::touches(std::span<const BodyId> bodies) {
@@ -280,7 +280,7 @@ void RigidPhysics::look_again(JointId id) {
 JointId RigidPhysics::join(const JointDesc& joint) {
   const JointId id = joints_.add(joint, bodies_);
   look_again(id);
-  // Seeding knows of contacts only: it would let them bear what hangs in joints.
+  // StaticWarmStart knows of contacts only: it would let them bear what hangs in joints.
   for (const BodyId end : {joint.a, joint.b})
     if (bodies_.holds(end)) bodies_.is_new[end.slot] = 0;
   return id;
@@ -293,10 +293,10 @@ void RigidPhysics::attach(JointId id, bool end_a, BodyId body) {
 
 void RigidPhysics::cut(JointId id) { joints_.cut(id, bodies_); }
 
-void RigidPhysics::hold(std::span<const BodyId> bodies) {
+void RigidPhysics::pause(std::span<const BodyId> bodies) {
   for (const BodyId id : bodies) {
     SUNDER_CHECK(bodies_.holds(id));
-    if (bodies_.awake(id.slot)) held_.add(id.slot);
+    if (bodies_.awake(id.slot)) paused_.add(id.slot);
   }
 }
 
@@ -306,15 +306,15 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   SolveReport report;
   report.external_impulse_Ns = freeze_broken();
   joints_.wake(bodies_);
-  held_.stop(bodies_);
+  paused_.stop(bodies_);
   double awake_mass = 0;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     if (!bodies_.awake(body)) continue;
     awake_mass += bodies_.mass_kg[body];
     bodies_.changed[body] = 1;
   }
-  seeding_.seed(options_.gravity_W, dt_s, substeps, contact_solver_.last_h_s(), options_.seeding,
-                bodies_, contacts_);
+  static_warm_start_.seed(options_.gravity_W, dt_s, substeps, contact_solver_.last_h_s(),
+                          options_.static_warm_start, bodies_, contacts_);
   std::fill(bodies_.is_new.begin(), bodies_.is_new.end(), std::uint8_t{0});
   const ContactSolveReport solved =
       contact_solver_.solve(dt_s, substeps, options_.gravity_W, bodies_, contacts_, joints_);
@@ -327,7 +327,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     report.external_impulse_Ns +=
         sleep_.put_to_sleep(options_.gravity_W, dt_s, h_s, joints_, bodies_, contacts_);
   }
-  held_.release(bodies_);
+  paused_.release(bodies_);
   timings_ms_[3].second += watch.lap_ms();
   contacts_of_bodies_.clear();
   report.contacts = solved.manifolds;

@@ -20,8 +20,9 @@ struct RigidOptions {
   /// Manifolds solved side by side by a thread: 1, 4, 8 or 16, or fewer if the processor has not
   /// so many; 0: the most it has. The same bits for any.
   int lanes = 0;
-  /// Part of its load that a contact of new bodies is given: see seeding.h. 0: it starts cold.
-  double seeding = 1;
+  /// Part of its load that a contact of new bodies is given: see static_warm_start.h. 0: it starts
+  /// cold.
+  double static_warm_start = 1;
 };
 
 /// The lanes that a solver works with if it is asked for so many.

@@ -25,12 +25,12 @@ constexpr float kChange = 0.3f;  // of the sleeper's weight: what wakes it
 constexpr float kLoadChange = 0.3f;
 
 float weight_N(const Bodies& bodies, std::uint32_t body, const Vec3& gravity_W) {
-  return static_cast<float>(bodies.mass_kg[body] * FallScale(gravity_W).gravity_m_s2());
+  return static_cast<float>(bodies.mass_kg[body] * FroudeScale(gravity_W).gravity_m_s2());
 }
 
 /// So many speeds of falling of a piece, or what gravity does in a step, if that is more.
-double speed_m_s(double speeds, const FallScale& fall, double dt_s, double reach_m) {
-  return std::max(speeds * fall.speed_m_s(reach_m), fall.gravity_m_s2() * dt_s);
+double speed_m_s(double speeds, const FroudeScale& froude, double dt_s, double reach_m) {
+  return std::max(speeds * froude.speed_m_s(reach_m), froude.gravity_m_s2() * dt_s);
 }
 
 Vec3f up(const Vec3& gravity_W) {
@@ -49,7 +49,7 @@ std::uint32_t Sleep::root(std::uint32_t body) {
   return body;
 }
 
-void Sleep::note_rest(const FallScale& fall, double dt_s, Bodies& bodies) {
+void Sleep::note_rest(const FroudeScale& froude, double dt_s, Bodies& bodies) {
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     if (!bodies.awake(i)) continue;
     const double reach = bodies.reach_m[i];
@@ -57,7 +57,7 @@ void Sleep::note_rest(const FallScale& fall, double dt_s, Bodies& bodies) {
     const Quat turn = bodies.rest_rotation[i].conjugate() * bodies.rotation[i];
     const double drift =
         (bodies.position[i] - bodies.rest_position[i]).norm() + 2 * turn.vec().norm() * reach;
-    if (speed < speed_m_s(kSlow, fall, dt_s, reach) && drift < kDrift * reach) {
+    if (speed < speed_m_s(kSlow, froude, dt_s, reach) && drift < kDrift * reach) {
       bodies.slow_s[i] += static_cast<float>(dt_s);
     } else {
       bodies.slow_s[i] = 0;
@@ -101,13 +101,13 @@ void Sleep::hold_by_joints(const Bodies& bodies, const Joints& joints) {
 
 Vec3 Sleep::put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, const Joints& joints,
                          Bodies& bodies, Contacts& contacts) {
-  const FallScale fall(gravity_W);
-  note_rest(fall, dt_s, bodies);
+  const FroudeScale froude(gravity_W);
+  note_rest(froude, dt_s, bodies);
   const std::uint32_t n = bodies.size();
   candidate_.assign(n, 0);
   bool any = false;
   for (std::uint32_t i = 0; i < n; ++i) {
-    const double rest_s = std::max(kRestTime * fall.time_s(bodies.reach_m[i]), kRestSteps * dt_s);
+    const double rest_s = std::max(kRestTime * froude.time_s(bodies.reach_m[i]), kRestSteps * dt_s);
     candidate_[i] = bodies.awake(i) && double{bodies.slow_s[i]} >= rest_s;
     any = any || candidate_[i];
   }
@@ -150,13 +150,13 @@ Vec3 Sleep::put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, const J
 
 void Sleep::wake_hit(const Contacts& contacts, const Vec3& gravity_W, double dt_s,
                      Bodies& bodies) const {
-  const FallScale fall(gravity_W);
+  const FroudeScale froude(gravity_W);
   std::vector<std::uint32_t> woken;
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0) continue;
     const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
-    const double hit_m_s = speed_m_s(kHit, fall, dt_s, bodies.reach_m[a ? m.body_a : m.body_b]);
+    const double hit_m_s = speed_m_s(kHit, froude, dt_s, bodies.reach_m[a ? m.body_a : m.body_b]);
     for (std::size_t i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
       const double speed = closing_speed(m, bodies, p.arm_A, p.arm_B);

@@ -32,7 +32,7 @@ class Sleep {
                  const Contacts& contacts, Bodies& bodies);
 
  private:
-  void note_rest(const FallScale& fall, double dt_s, Bodies& bodies);
+  void note_rest(const FroudeScale& froude, double dt_s, Bodies& bodies);
   void hold_by_joints(const Bodies& bodies, const Joints& joints);
   void keep_joined_awake(const Bodies& bodies, const Joints& joints);
   std::uint32_t root(std::uint32_t body);

@@ -164,16 +164,16 @@ TEST(WreckingBall, HangsOnAChainThatReachesItsSurface) {
   EXPECT_NEAR(run.simulation->next()->report.mass_kg, before, 1e-9 * before) << "it was counted";
 }
 
-TEST(Tie, FollowsThePieceThatHasItsAnchorOrGoes) {
+TEST(Joint, FollowsThePieceThatHasItsAnchorOrGoes) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3(0, 0, 0), 3, false)};
   scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(-0.3, 0.5, 0.5), Vec3(60, 0, 0)}};
-  Tie held;  // at the far end, a little outside
+  Joint held;  // at the far end, a little outside
   held.a = 0;
   held.at_W = Vec3(3.001, 0.5, 0.5);
-  Tie beside = held;  // above nothing
+  Joint beside = held;  // above nothing
   beside.at_W = Vec3(1.5, 2, 0.5);
-  scene.ties = {held, beside};
+  scene.joints = {held, beside};
   ActRun run(scene, 0.01, [](const ScriptedPhysics& scripted, int) {
     return scripted.approach(1, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX());
   });

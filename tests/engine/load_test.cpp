@@ -35,7 +35,7 @@ Scene scene_of(const Compound& compound) {
 
 /// A run whose breaker answers what the test says, and counts how often it is asked.
 struct LoadRun {
-  using Answer = std::function<LoadAnswer(const Structure&, const LoadCase&)>;
+  using Answer = std::function<StressAnswer(const Structure&, const LoadCase&)>;
 
   ScriptedPhysics* physics = nullptr;
   int asked = 0;
@@ -66,14 +66,14 @@ struct LoadRun {
   }
 };
 
-LoadAnswer holds(const Structure&, const LoadCase&) {
-  LoadAnswer answer;
+StressAnswer holds(const Structure&, const LoadCase&) {
+  StressAnswer answer;
   answer.settled = true;
   return answer;
 }
 
-LoadAnswer parts(const Structure& structure, const LoadCase&) {
-  LoadAnswer answer;
+StressAnswer parts(const Structure& structure, const LoadCase&) {
+  StressAnswer answer;
   answer.settled = true;
   answer.edit = ScriptedBreaker::part(structure);
   return answer;
@@ -110,7 +110,7 @@ TEST(LoadStage, ABlowIsSpreadOverTheTimeOfTheAverageWhateverTheStep) {
     double highest = 0;
     LoadRun run(scene, [&](const Structure&, const LoadCase& load) {
       for (const Load& one : load.loads) highest = std::max(highest, one.force_N.norm());
-      LoadAnswer answer;
+      StressAnswer answer;
       answer.settled = true;
       return answer;
     });
@@ -154,7 +154,7 @@ TEST(LoadStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   std::vector<std::uint64_t> allowed;
   LoadRun run(scene, [&](const Structure& structure, const LoadCase& load) {
     allowed.push_back(load.most_work);
-    LoadAnswer answer = parts(structure, load);
+    StressAnswer answer = parts(structure, load);
     answer.work = load.most_work;
     return answer;
   });
@@ -168,12 +168,12 @@ TEST(LoadStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
 }
 
 TEST(LoadStage, GivesTheMemoryBack) {
-  struct Marked final : LoadMemory {};
+  struct Marked final : StressMemory {};
   const auto memory = std::make_shared<const Marked>();
-  LoadMemoryPtr seen;
+  StressMemoryPtr seen;
   LoadRun run(scene_of(two_boxes(true)), [&](const Structure&, const LoadCase& load) {
     seen = load.memory;
-    LoadAnswer answer;
+    StressAnswer answer;
     answer.settled = seen != nullptr;
     answer.memory = memory;
     return answer;

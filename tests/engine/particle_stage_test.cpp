@@ -154,7 +154,8 @@ TEST(ParticleStage, FacesMoveAsTheirPiecesDoOnceTheBlowHasDrivenThemApart) {
   const ConvexPolyhedron box = make_box(Vec3::Zero(), Vec3::Ones());
   for (const RecordingParticles::Face& face : run.particles->faces) {
     const Vec3 velocity_W = face.emission.motion(face.corners_W[0]);
-    EXPECT_LT((velocity_W - Vec3(0, 3, 6)).norm(), 1e-9) << "the parent's, and what the blow added";
+    EXPECT_LT((velocity_W - Vec3(0, 3, 6)).norm(), 1e-9)
+        << "the parent's, and what the impact added";
     EXPECT_NEAR(face.emission.parting_m_s, 5, 1e-9);
   }
   const Vec3 corner = box.vertices[box.face_corners(0)[0]];

@@ -70,7 +70,7 @@ class ScriptedPhysics : public Physics {
     const Vec3 twist = (point_W - body.state.X_WB.position).cross(impulse_W);
     body.state.angular_velocity_W += q * (body.desc.inertia_B.inverse() * (q.conjugate() * twist));
   }
-  void hold(std::span<const BodyId> held) override {
+  void pause(std::span<const BodyId> held) override {
     for (const BodyId id : held) bodies[id.slot].held = true;
   }
   JointId join(const JointDesc& joint) override {
@@ -155,8 +155,8 @@ class ScriptedBreaker final : public Breaker {
     }
     return edit;
   }
-  LoadAnswer bear(const Structure& structure, const LoadCase& load) const override {
-    return bearing ? bearing(structure, load) : LoadAnswer{};
+  StressAnswer stress(const Structure& structure, const LoadCase& load) const override {
+    return bearing ? bearing(structure, load) : StressAnswer{};
   }
 
   /// Every convex comes off, if there are several.
@@ -171,7 +171,7 @@ class ScriptedBreaker final : public Breaker {
     return edit;
   }
 
-  std::function<LoadAnswer(const Structure&, const LoadCase&)> bearing;  ///< What bear() answers.
+  std::function<StressAnswer(const Structure&, const LoadCase&)> bearing;  ///< What bear() answers.
 
  private:
   double area_m2_;

@@ -177,7 +177,7 @@ TEST(BreakStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   const double before = sum_of(*run.physics).kinetic;
   const FramePtr first = run.simulation.next();
   ASSERT_EQ(first->breaks.size(), 1u);
-  EXPECT_EQ(first->breaks[0].body_key, 0u);  // the harder blow first
+  EXPECT_EQ(first->breaks[0].body_key, 0u);  // the harder impact first
   EXPECT_EQ(first->report.carried_over, 1u);
   const BodyState waiting = run.physics->find(3)->state;
   EXPECT_EQ(waiting.velocity_W, Vec3(20, 0, 0));

@@ -26,7 +26,7 @@ BreakPlan cut(const Compound& solid, const Pattern& pattern, const Placement& pl
   return fracture(solid, pattern, placement, {placement.origin_R, kEndless}, 1);
 }
 
-BreakCommand blow(PatternSpec::Kind kind, int cells, const Vec3& at, double radius) {
+BreakCommand impact(PatternSpec::Kind kind, int cells, const Vec3& at, double radius) {
   BreakCommand command;
   command.pattern.kind = kind;
   command.pattern.cells = cells;
@@ -84,7 +84,7 @@ TEST(DegenerateCuts, of_solids_of_any_size_keep_every_truth) {
       const Compound solid = make_compound(parts, 1e-6 * size);
       EXPECT_EQ(solid.ghosts.size(), 1u) << size;
       const BreakPlan plan =
-          break_compound(solid, blow(kind, cells, size * Vec3(1, .5, .5), kEndless));
+          break_compound(solid, impact(kind, cells, size * Vec3(1, .5, .5), kEndless));
       EXPECT_EQ(broken_truth(solid, plan), "") << size;
       EXPECT_GT(plan.pieces.size(), cells == 3 ? 2u : 15u) << size;
       EXPECT_EQ(plan.failed, 0u);
@@ -97,7 +97,7 @@ TEST(Fracture, is_the_same_to_the_bit_for_any_order_of_convexes) {
   for (const char* name : {"voronoi:60", "hall:3"}) {
     const Compound solid = make_solid(name);
     const BreakCommand command =
-        blow(PatternSpec::Kind::kVoronoi, 40, Vec3(.1, 2.8, .05).cwiseMin(bounds(solid).max), .9);
+        impact(PatternSpec::Kind::kVoronoi, 40, Vec3(.1, 2.8, .05).cwiseMin(bounds(solid).max), .9);
     const std::uint64_t expected = hash_any_order(break_compound(solid, command));
     for (int round = 0; round < 5; ++round) {
       std::vector<std::uint32_t> order(solid.convexes.size());
@@ -115,7 +115,7 @@ TEST(Fracture, of_different_compounds_at_once_gives_the_same_bits) {
   for (int i = 0; i < 12; ++i) solids.push_back(voronoi_compound(10 + i, i + 1));
   const auto plan = [&](std::size_t i) {
     return hash_of(
-        break_compound(solids[i], blow(PatternSpec::Kind::kVoronoi, 20, Vec3(.1, 0, .1), .3)));
+        break_compound(solids[i], impact(PatternSpec::Kind::kVoronoi, 20, Vec3(.1, 0, .1), .3)));
   };
   std::vector<std::uint64_t> alone(solids.size()), together(solids.size());
   for (std::size_t i = 0; i < solids.size(); ++i) alone[i] = plan(i);
@@ -131,7 +131,7 @@ TEST(Fracture, leaves_contacts_that_agree_with_the_papers_sort_by_distance) {
        {std::pair("grid:3,3,3", Vec3(1.5, 1.5, 1.5)), std::pair("voronoi:40", Vec3(0, 0, 0)),
         std::pair("hall:2", Vec3(0, 3.1, 0))}) {
     const Compound solid = make_solid(name);
-    const BreakPlan plan = break_compound(solid, blow(PatternSpec::Kind::kVoronoi, 25, at, .8));
+    const BreakPlan plan = break_compound(solid, impact(PatternSpec::Kind::kVoronoi, 25, at, .8));
     std::size_t bonds = 0;
     for (const Compound& piece : plan.pieces) {
       const std::vector<Bond> expected = contacts_by_distance(piece, 1e-9);
@@ -152,7 +152,7 @@ TEST(Fracture, covers_space_as_its_parent_by_winding_numbers) {
   for (const char* name : {"torus:1,.3", "hall:2"}) {
     const Compound solid = make_solid(name);
     const Box box = bounds(solid);
-    BreakCommand command = blow(PatternSpec::Kind::kVoronoi, 40, box.center(), kEndless);
+    BreakCommand command = impact(PatternSpec::Kind::kVoronoi, 40, box.center(), kEndless);
     command.stretch_P = Vec3(1, .5, 2).asDiagonal();
     const BreakPlan plan = break_compound(solid, command);
     ASSERT_GT(plan.pieces.size(), 10u);
@@ -170,7 +170,7 @@ TEST(Fracture, keeps_volume_after_export_to_single_precision) {
   for (const char* name : {"box:1,2,3", "torus:1,.3", "voronoi:30"}) {
     const Compound solid = make_solid(name);
     const BreakPlan plan =
-        break_compound(solid, blow(PatternSpec::Kind::kVoronoi, 60, Vec3(.1, .2, .1), kEndless));
+        break_compound(solid, impact(PatternSpec::Kind::kVoronoi, 60, Vec3(.1, .2, .1), kEndless));
     double exported = 0;
     for (const Compound& piece : plan.pieces) {
       for (const ConvexPtr& convex : piece.convexes) {
@@ -185,7 +185,7 @@ TEST(Fracture, keeps_volume_after_export_to_single_precision) {
 
 TEST(Fracture, of_coloured_cells_makes_as_many_pieces_as_colours_that_hang_together) {
   const Compound solid = box_compound(Vec3::Constant(-1), Vec3::Constant(1));
-  BreakCommand command = blow(PatternSpec::Kind::kGrid, 4, Vec3::Zero(), 1);
+  BreakCommand command = impact(PatternSpec::Kind::kGrid, 4, Vec3::Zero(), 1);
   command.pattern.colors = 5;
   const BreakPlan plan = break_compound(solid, command);
   EXPECT_EQ(broken_truth(solid, plan), "");

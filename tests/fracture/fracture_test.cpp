@@ -36,8 +36,8 @@ PatternSpec web(int rings, int spokes) {
   return spec;
 }
 
-BreakCommand blow(const PatternSpec& pattern, const Vec3& at, double radius,
-                  std::uint64_t event = 1) {
+BreakCommand impact(const PatternSpec& pattern, const Vec3& at, double radius,
+                    std::uint64_t event = 1) {
   BreakCommand command;
   command.event = event;
   command.seed = event;
@@ -49,7 +49,7 @@ BreakCommand blow(const PatternSpec& pattern, const Vec3& at, double radius,
 
 TEST(Fracture, keeps_every_truth_when_a_box_breaks_whole) {
   const Compound box = box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1));
-  const BreakPlan plan = break_compound(box, blow(voronoi(50), Vec3(0.2, 0.1, 0.3), kEndless));
+  const BreakPlan plan = break_compound(box, impact(voronoi(50), Vec3(0.2, 0.1, 0.3), kEndless));
   EXPECT_EQ(broken_truth(box, plan), "");
 
   EXPECT_GT(plan.pieces.size(), 35u);
@@ -61,7 +61,7 @@ TEST(Fracture, breaks_every_solid_that_is_built_in) {
   for (const char* name : {"box:1,2,3", "column:.5,2", "torus:1,.3", "grid:3,2,1", "voronoi:9"}) {
     const Compound solid = make_solid(name);
     EXPECT_EQ(find_islands(solid.convexes.size(), solid.bonds).back(), 0u) << name;
-    const BreakPlan plan = break_compound(solid, blow(voronoi(30), Vec3(.7, .2, .1), kEndless));
+    const BreakPlan plan = break_compound(solid, impact(voronoi(30), Vec3(.7, .2, .1), kEndless));
     EXPECT_EQ(broken_truth(solid, plan), "") << name;
     EXPECT_GT(plan.pieces.size(), 5u) << name;
   }
@@ -73,7 +73,7 @@ TEST(Fracture, breaks_every_solid_that_is_built_in) {
 
 TEST(Fracture, covers_every_point_exactly_once) {
   const Compound ring = ring_compound(12, 0.6, 1, 0.5);
-  const BreakPlan plan = break_compound(ring, blow(voronoi(40), Vec3(0.8, 0.2, 0), 0.7));
+  const BreakPlan plan = break_compound(ring, impact(voronoi(40), Vec3(0.8, 0.2, 0), 0.7));
   ASSERT_TRUE(plan.broke());
   Random random(5);
   for (int i = 0; i < 20000; ++i) {
@@ -86,7 +86,7 @@ TEST(Fracture, covers_every_point_exactly_once) {
 
 TEST(Fracture, that_misses_gives_back_its_input) {
   const Compound wall = grid_compound(4, 4, 1);
-  const BreakPlan plan = break_compound(wall, blow(voronoi(50), Vec3(20, 0, 0), 1));
+  const BreakPlan plan = break_compound(wall, impact(voronoi(50), Vec3(20, 0, 0), 1));
   ASSERT_EQ(plan.pieces.size(), 1u);
   EXPECT_EQ(plan.pieces[0].convexes, wall.convexes);
   EXPECT_EQ(hash_of(plan.pieces[0]), hash_of(wall));
@@ -96,7 +96,7 @@ TEST(Fracture, that_misses_gives_back_its_input) {
 TEST(Fracture, leaves_convexes_outside_the_sphere_the_very_same) {
   const Compound wall = grid_compound(10, 10, 2, Vec3(0.4, 0.2, 0.2), true);
   const Vec3 at(2.1, 1.1, 0.4);
-  const BreakPlan plan = break_compound(wall, blow(voronoi(50), at, 0.5));
+  const BreakPlan plan = break_compound(wall, impact(voronoi(50), at, 0.5));
   ASSERT_TRUE(plan.broke());
   EXPECT_EQ(broken_truth(wall, plan), "");
   const ImpactSphere sphere{at, 0.5};
@@ -112,7 +112,7 @@ TEST(Fracture, leaves_convexes_outside_the_sphere_the_very_same) {
 
 TEST(Fracture, joins_what_is_outside_the_sphere_into_one_compound) {
   const Compound pane = box_compound(Vec3(-1, -1, -.003), Vec3(1, 1, .003));
-  BreakCommand command = blow(web(6, 12), Vec3(0.2, 0.1, 0), 0.4);
+  BreakCommand command = impact(web(6, 12), Vec3(0.2, 0.1, 0), 0.4);
   command.X_RP.rotation = Quat(Mat3((Mat3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished()));
   const BreakPlan plan = break_compound(pane, command);
   EXPECT_EQ(broken_truth(pane, plan), "");
@@ -186,7 +186,7 @@ TEST(Fracture, does_not_depend_on_the_order_of_convexes) {
   const auto pieces = [&](const Compound& solid) {
     std::multiset<std::pair<double, std::size_t>> found;  // volume and bonds of each piece
     for (const Compound& piece :
-         break_compound(solid, blow(voronoi(40), Vec3(1, .4, .2), 0.5)).pieces) {
+         break_compound(solid, impact(voronoi(40), Vec3(1, .4, .2), 0.5)).pieces) {
       double least = std::numeric_limits<double>::infinity();
       for (const ConvexPtr& convex : piece.convexes) {
         least = std::min(least, convex->solid.volume_m3);
@@ -203,7 +203,7 @@ TEST(Fracture, is_the_same_for_any_number_of_threads) {
   std::set<std::uint64_t> hashes;
   for (const int count : {1, 2, 4}) {
     set_threads(count);
-    hashes.insert(hash_of(break_compound(wall, blow(voronoi(60), Vec3(1.5, .8, .4), 0.8))));
+    hashes.insert(hash_of(break_compound(wall, impact(voronoi(60), Vec3(1.5, .8, .4), 0.8))));
   }
   set_threads(0);
   EXPECT_EQ(hashes.size(), 1u);
@@ -223,7 +223,7 @@ TEST(Fracture, keeps_the_truths_at_many_places_to_any_depth) {
         box.min +
         Vec3(random.uniform(), random.uniform(), random.uniform()).cwiseProduct(box.extent());
     const double radius = 0.4 * box.extent().norm();
-    const BreakPlan plan = break_compound(solid, blow(voronoi(12), at, radius, ++event));
+    const BreakPlan plan = break_compound(solid, impact(voronoi(12), at, radius, ++event));
     ASSERT_EQ(broken_truth(solid, plan), "") << "round " << round;
     ASSERT_EQ(plan.failed, 0u);
     debris += plan.debris_volume_m3;
@@ -238,7 +238,7 @@ TEST(Fracture, keeps_the_truths_at_many_places_to_any_depth) {
 
 TEST(Fracture, reports_as_exposed_what_it_laid_bare) {
   const Compound bricks = grid_compound(3, 3, 3);
-  const BreakPlan plan = break_compound(bricks, blow(voronoi(30), Vec3(1.5, 1.5, 1.5), kEndless));
+  const BreakPlan plan = break_compound(bricks, impact(voronoi(30), Vec3(1.5, 1.5, 1.5), kEndless));
   double exposed = 0;
   for (const ExposedFace& face : plan.exposed) {
     const ConvexPolyhedron& polyhedron = plan.pieces[face.piece].convexes[face.convex]->polyhedron;
@@ -260,7 +260,7 @@ TEST(Fracture, reports_as_exposed_what_it_laid_bare) {
 
 TEST(Fracture, keeps_anchored_only_what_still_reaches_the_held_side) {
   const Compound block = box_compound(Vec3(-1, 0, -1), Vec3(1, 2, 1), 1);
-  const BreakPlan plan = break_compound(block, blow(voronoi(40), Vec3(0, 1, 0), kEndless));
+  const BreakPlan plan = break_compound(block, impact(voronoi(40), Vec3(0, 1, 0), kEndless));
   std::size_t held = 0;
   for (const Compound& piece : plan.pieces) {
     const bool reaches = bounds(piece).min.y() < 1e-9;

@@ -6,8 +6,8 @@
 
 #include "engine/base/trigonometry.h"
 #include "fracture/adjacency/compound_builder.h"
-#include "fracture/stress/bear.h"
 #include "fracture/stress/stress.h"
+#include "fracture/stress/stress_breaks.h"
 
 namespace sunder::fracture {
 

@@ -47,7 +47,7 @@ double union_volume(const std::vector<Box>& boxes) {
   return sum;
 }
 
-BreakCommand blow(const Vec3& at, double radius, int cells, std::uint64_t event = 1) {
+BreakCommand impact(const Vec3& at, double radius, int cells, std::uint64_t event = 1) {
   BreakCommand command;
   command.event = command.seed = event;
   command.pattern.kind = PatternSpec::Kind::kVoronoi;
@@ -173,7 +173,7 @@ TEST(Ghosts, weigh_an_overlap_as_the_first_of_its_materials) {
 TEST(Ghosts, keep_the_truths_when_a_column_breaks_under_its_roof) {
   const Compound hall = make_solid("hall:4");
   for (const double radius : {.6, 1.5, kEndless}) {
-    const BreakPlan plan = break_compound(hall, blow(Vec3(0, 2.6, 0), radius, 60));
+    const BreakPlan plan = break_compound(hall, impact(Vec3(0, 2.6, 0), radius, 60));
     EXPECT_EQ(broken_truth(hall, plan), "") << radius;
     EXPECT_GT(plan.pieces.size(), 3u) << radius;
     EXPECT_EQ(plan.failed, 0u);
@@ -183,7 +183,7 @@ TEST(Ghosts, keep_the_truths_when_a_column_breaks_under_its_roof) {
 TEST(Ghosts, hold_a_column_to_the_roof_that_the_blow_does_not_reach) {
   const Compound pair =
       compound_of({{Vec3(0, 0, 0), Vec3(1, 4, 1)}, {Vec3(-1, 3.5, -1), Vec3(2, 5, 2)}});
-  const BreakPlan plan = break_compound(pair, blow(Vec3(.5, 2.4, .5), 1, 40));
+  const BreakPlan plan = break_compound(pair, impact(Vec3(.5, 2.4, .5), 1, 40));
   EXPECT_EQ(broken_truth(pair, plan), "");
   ASSERT_GT(plan.pieces.size(), 5u);
   const ConvexPtr& roof = pair.convexes[1];
@@ -203,7 +203,7 @@ TEST(Ghosts, hold_a_column_to_the_roof_that_the_blow_does_not_reach) {
 TEST(Ghosts, are_welded_away_where_a_cell_is_full) {
   const Compound pair =
       compound_of({{Vec3(-2, -2, -2), Vec3(1, 2, 2)}, {Vec3(-1, -2, -2), Vec3(2, 2, 2)}});
-  const BreakPlan plan = break_compound(pair, blow(Vec3(.3, .1, 0), 1.2, 60));
+  const BreakPlan plan = break_compound(pair, impact(Vec3(.3, .1, 0), 1.2, 60));
   EXPECT_EQ(broken_truth(pair, plan), "");
   EXPECT_GT(plan.welded, 20u);
   for (const Compound& piece : plan.pieces) {
@@ -215,7 +215,7 @@ TEST(Ghosts, count_crack_area_once) {
   const Compound pair =
       compound_of({{Vec3(0, 0, 0), Vec3(2, 1, 1)}, {Vec3(1, 0, 0), Vec3(3, 1, 1)}});
   const Compound one = compound_of({{Vec3(0, 0, 0), Vec3(3, 1, 1)}});
-  const BreakCommand command = blow(Vec3(1.4, .5, .5), kEndless, 30);
+  const BreakCommand command = impact(Vec3(1.4, .5, .5), kEndless, 30);
   const BreakPlan of_pair = break_compound(pair, command), of_one = break_compound(one, command);
   ASSERT_EQ(of_pair.pieces.size(), of_one.pieces.size());
   EXPECT_NEAR(of_pair.new_area_m2, of_one.new_area_m2, 1e-9 * of_one.new_area_m2);
@@ -230,7 +230,7 @@ TEST(Ghosts, are_the_same_for_any_number_of_threads) {
     set_threads(count);
     Random random(5);
     const Compound heap = compound_of(random_boxes(random, 12));
-    const BreakPlan plan = break_compound(heap, blow(Vec3(.8, .8, .8), .5, 40));
+    const BreakPlan plan = break_compound(heap, impact(Vec3(.8, .8, .8), .5, 40));
     hashes.insert(combine(hash_of(heap), hash_of(plan)));
   }
   set_threads(0);

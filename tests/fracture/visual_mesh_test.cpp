@@ -21,7 +21,7 @@ RepairedMesh read_repaired(const std::filesystem::path& file) {
   return repair_mesh(read_mesh(file), file.filename().string());
 }
 
-BreakCommand blow(int cells, const Vec3& at, double radius_m, std::uint64_t event = 1) {
+BreakCommand impact(int cells, const Vec3& at, double radius_m, std::uint64_t event = 1) {
   BreakCommand command;
   command.event = command.seed = event;
   command.pattern.kind = PatternSpec::Kind::kVoronoi;
@@ -41,7 +41,7 @@ TEST(RealMeshes, break_whole_and_keep_every_truth) {
       for (const int cells : {1, 20, 100}) {
         const Vec3 center = bounds(solid).center();
         const BreakPlan plan =
-            break_compound(solid, blow(cells, center, std::numeric_limits<double>::infinity()));
+            break_compound(solid, impact(cells, center, std::numeric_limits<double>::infinity()));
         EXPECT_EQ(broken_visual_truth(solid, plan), "") << name << " in " << cells;
         EXPECT_EQ(plan.failed, 0u) << name << " in " << cells;
         EXPECT_LT(plan.debris_volume_m3, 1e-5 * volume(solid)) << name << " in " << cells;
@@ -64,7 +64,7 @@ TEST(RealMeshes, survive_three_levels) {
     for (const Compound& solid : solids) {
       ++event;
       const BreakPlan plan = break_compound(
-          solid, blow(8, bounds(solid).center(), std::numeric_limits<double>::infinity(), event));
+          solid, impact(8, bounds(solid).center(), std::numeric_limits<double>::infinity(), event));
       ASSERT_EQ(broken_visual_truth(solid, plan), "") << "event " << event;
       ASSERT_EQ(plan.failed, 0u) << "event " << event;
       debris += plan.debris_volume_m3;
@@ -96,7 +96,7 @@ TEST(RealMeshes, break_where_they_are_hit_and_nowhere_else) {
   EXPECT_GE(solid.bonds.size(), 12u);
   const Box box = bounds(solid);
   const BreakCommand command =
-      blow(30, box.center() + 0.3 * box.extent(), 0.15 * box.extent().norm());
+      impact(30, box.center() + 0.3 * box.extent(), 0.15 * box.extent().norm());
   const BreakPlan plan = break_compound(solid, command);
   ASSERT_TRUE(plan.broke());
   EXPECT_EQ(broken_visual_truth(solid, plan), "");
@@ -125,7 +125,7 @@ TEST(RealMeshes, break_alike_with_any_number_of_threads) {
   for (const int count : {1, 2, 4}) {
     set_threads(count);
     const BreakPlan plan = break_compound(
-        solid, blow(60, bounds(solid).center(), 0.3 * bounds(solid).extent().norm()));
+        solid, impact(60, bounds(solid).center(), 0.3 * bounds(solid).extent().norm()));
     EXPECT_TRUE(plan.broke());
     hashes.push_back(hash_of(plan));
   }

@@ -32,8 +32,8 @@ PolygonMesh box_mesh(const Vec3& min, const Vec3& max) {
   return original(polygon_mesh(make_box(min, max)));
 }
 
-BreakCommand blow(PatternSpec::Kind kind, int cells, const Vec3& at = Vec3::Zero(),
-                  double radius = kEndless, std::uint64_t event = 1) {
+BreakCommand impact(PatternSpec::Kind kind, int cells, const Vec3& at = Vec3::Zero(),
+                    double radius = kEndless, std::uint64_t event = 1) {
   BreakCommand command;
   command.event = command.seed = event;
   command.pattern.kind = kind;
@@ -65,7 +65,7 @@ TEST(Visual, every_kind_of_mesh_keeps_the_truths) {
       for (const double radius : {0.7, kEndless}) {
         const int cells = kind == PatternSpec::Kind::kGrid ? 4 : 20;
         const BreakPlan plan =
-            break_compound(solid, blow(kind, cells, Vec3(.1, .2, .3), radius, ++event));
+            break_compound(solid, impact(kind, cells, Vec3(.1, .2, .3), radius, ++event));
         EXPECT_EQ(broken_visual_truth(solid, plan), "")
             << "event " << event << " of kind " << static_cast<int>(kind);
         EXPECT_EQ(plan.failed, 0u) << "event " << event;
@@ -76,7 +76,7 @@ TEST(Visual, every_kind_of_mesh_keeps_the_truths) {
 
 TEST(Visual, cells_wholly_inside_become_internal_convexes) {
   const Compound solid = solid_of(box_mesh(Vec3::Constant(-1), Vec3::Constant(1)));
-  const BreakPlan plan = break_compound(solid, blow(PatternSpec::Kind::kVoronoi, 200));
+  const BreakPlan plan = break_compound(solid, impact(PatternSpec::Kind::kVoronoi, 200));
   EXPECT_EQ(broken_visual_truth(solid, plan), "");
   EXPECT_GT(count_internal(plan), 10u);
   for (const Compound& piece : plan.pieces) {
@@ -96,7 +96,7 @@ TEST(Visual, cells_wholly_inside_become_internal_convexes) {
 TEST(Visual, only_internal_convexes_weld) {
   const Compound solid = solid_of(box_mesh(Vec3::Constant(-1), Vec3::Constant(1)));
   // The pattern is √3 in size: the middle 5 of its 9 cells along an axis are inside the box.
-  BreakCommand command = blow(PatternSpec::Kind::kGrid, 9);
+  BreakCommand command = impact(PatternSpec::Kind::kGrid, 9);
   const BreakPlan first = break_compound(solid, command);
   ASSERT_GT(count_internal(first), 0u);
   Compound whole;  // what was broken, as one compound again
@@ -105,7 +105,7 @@ TEST(Visual, only_internal_convexes_weld) {
   }
   whole.anchored.assign(whole.convexes.size(), 0);
   whole.bonds = find_contacts(whole.convexes);
-  command = blow(PatternSpec::Kind::kVoronoi, 300, Vec3::Zero(), kEndless, 2);
+  command = impact(PatternSpec::Kind::kVoronoi, 300, Vec3::Zero(), kEndless, 2);
   const BreakPlan second = break_compound(whole, command);
   EXPECT_GT(second.welded, 0u);
   EXPECT_EQ(broken_visual_truth(whole, second), "");
@@ -114,7 +114,7 @@ TEST(Visual, only_internal_convexes_weld) {
 TEST(Visual, legs_that_are_cut_off_are_convexes_of_their_own) {
   const Compound comb = solid_of(original(test::comb(2)));  // a U: two legs on a bar
   PatternSpec slabs;
-  BreakCommand command = blow(PatternSpec::Kind::kSlabs, 2);
+  BreakCommand command = impact(PatternSpec::Kind::kSlabs, 2);
   command.pattern.jitter = 0;
   // Slabs lie across y; turned so that they lie across z, along the bar.
   command.X_RP.rotation = Quat(Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitX()));
@@ -196,7 +196,7 @@ TEST(Visual, corner_attributes_are_interpolated_along_cuts) {
     mesh.corner_normals[c] = (p - ring).normalized().cast<float>();
     mesh.corner_uvs[c] = Vec2f(static_cast<float>(2 * p.x()), static_cast<float>(p.y() - p.z()));
   }
-  const BreakPlan plan = break_compound(solid_of(mesh), blow(PatternSpec::Kind::kVoronoi, 30));
+  const BreakPlan plan = break_compound(solid_of(mesh), impact(PatternSpec::Kind::kVoronoi, 30));
   ASSERT_GT(plan.pieces.size(), 10u);
   std::size_t caps = 0;
   for (const Compound& piece : plan.pieces) {
@@ -236,7 +236,7 @@ TEST(Visual, tighter_fits_enclose_less_and_bonds_remain) {
   double before = kEndless;
   for (const Fit& fit : {Fit{Fit::Kind::kAabb}, Fit{Fit::Kind::k14Dop}, Fit{Fit::Kind::k26Dop},
                          Fit{Fit::Kind::kHull, 64}}) {
-    BreakCommand command = blow(PatternSpec::Kind::kVoronoi, 40, Vec3(.7, 0, 0), 0.3);
+    BreakCommand command = impact(PatternSpec::Kind::kVoronoi, 40, Vec3(.7, 0, 0), 0.3);
     command.fit = fit;
     const BreakPlan plan = break_compound(solid, command);
     ASSERT_TRUE(plan.broke());
@@ -282,7 +282,7 @@ TEST(Visual, what_is_drawn_is_what_shows) {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) surface += face_area(mesh, f);
     EXPECT_NEAR(drawn_area(solid), surface, 1e-5);
     const BreakPlan plan =
-        break_compound(solid, blow(PatternSpec::Kind::kVoronoi, 20, Vec3(.7, .1, 0), 0.4));
+        break_compound(solid, impact(PatternSpec::Kind::kVoronoi, 20, Vec3(.7, .1, 0), 0.4));
     ASSERT_TRUE(plan.broke());
     double drawn = 0;
     for (const Compound& piece : plan.pieces) drawn += drawn_area(piece);
@@ -295,14 +295,14 @@ TEST(Visual, a_break_that_leaves_the_mesh_whole_gives_the_convex_back) {
   const Compound solid = solid_of(original(test::ring()));
   // In the middle of the hole: cells cut the convex, but not the mesh.
   const BreakPlan plan =
-      break_compound(solid, blow(PatternSpec::Kind::kVoronoi, 10, Vec3(0, .5, 0), 0.05));
+      break_compound(solid, impact(PatternSpec::Kind::kVoronoi, 10, Vec3(0, .5, 0), 0.05));
   ASSERT_EQ(plan.pieces.size(), 1u);
   EXPECT_EQ(plan.failed, 0u);
 }
 
 TEST(Visual, the_same_break_gives_the_same_bits) {
   const Compound solid = solid_of(original(test::torus(30, 12)));
-  const BreakCommand command = blow(PatternSpec::Kind::kVoronoi, 25);
+  const BreakCommand command = impact(PatternSpec::Kind::kVoronoi, 25);
   EXPECT_EQ(hash_of(break_compound(solid, command)), hash_of(break_compound(solid, command)));
 }
 

@@ -26,11 +26,11 @@ Scene wall_under_fire(int shots) {
 TEST(Building, StaysTheBodyItWasAndLosesOnlyWhatCameOff) {
   Scene scene = wall_under_fire(14);
   scene.limits.parts_a_frame = 2000;
-  scene.limits.load_work_a_frame = 4000000000;  // blows alone wait
+  scene.limits.load_work_a_frame = 4000000000;  // impacts alone wait
   Trial run(scene);
   const double mass = run.frame->report.mass_kg;
   std::uint32_t most_waiting = 0;
-  while (run.frame->time_s < 0.6) {  // the last blow is struck by 0.5 s
+  while (run.frame->time_s < 0.6) {  // the last impact is struck by 0.5 s
     run.step();
     EXPECT_NEAR(run.frame->report.mass_kg, mass, 1e-9 * mass);
     EXPECT_LT(run.frame->report.momentum_residual, 1e-4);

@@ -117,8 +117,9 @@ TEST_P(AtAnyStep, ABulletBreaksTwoPanesInOneStepAndLosesExactlyTheEnergyBooked) 
   EXPECT_NEAR(all_J - kinetic_J(ball_kg(bullet), speed), run.broken_J, 1e-3 * run.broken_J);
 }
 
-/// A blow of which `work_J` arrives at what may break, as `scene_of(speed)` has it: what it takes
-/// to break it decides whether it breaks, and, where that is all there is, is all that is lost.
+/// An impact of which `work_J` arrives at what may break, as `scene_of(speed)` has it: what it
+/// takes to break it decides whether it breaks, and, where that is all there is, is all that is
+/// lost.
 void expect_decided_by_work(const std::function<Scene(double)>& scene_of,
                             const std::function<double(double)>& work_J, bool is_all = true) {
   const auto first_break = [&](double speed) {
@@ -140,17 +141,17 @@ void expect_decided_by_work(const std::function<Scene(double)>& scene_of,
 }
 
 /// A ball about to hit a loose block from the side, which `tie` holds to the world.
-Scene held_block(double dt_s, double speed_m_s, const Tie& tie) {
+Scene held_block(double dt_s, double speed_m_s, const Joint& tie) {
   Scene scene = bare_scene(dt_s, 300, 500);
   scene.solids = {box_solid(Vec3::Zero(), Vec3(0.4, 0.4, 0.4))};
   scene.materials[0].smallest_break_m3 = 0.99 * volume(scene.solids[0].compound);
   scene.balls = {steel_ball(0.1, Vec3(-0.31, 0, 0), Vec3(speed_m_s, 0, 0))};
-  scene.ties = {tie};
+  scene.joints = {tie};
   return scene;
 }
 
 TEST_P(AtAnyStep, ABlockFixedToTheWorldBearsAllOfABlow) {
-  Tie tie;
+  Joint tie;
   tie.kind = JointDesc::Kind::kFixed;
   tie.a = 0;
   tie.at_W = Vec3(0.15, 0.15, 0.15);
@@ -160,7 +161,7 @@ TEST_P(AtAnyStep, ABlockFixedToTheWorldBearsAllOfABlow) {
 }
 
 TEST_P(AtAnyStep, ABlockOnARopeBearsOfABlowWhatAFreeOneDoes) {
-  Tie tie;
+  Joint tie;
   tie.kind = JointDesc::Kind::kRope;
   tie.a = 0;
   tie.at_W = Vec3(0, 0.2, 0);

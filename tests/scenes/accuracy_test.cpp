@@ -46,11 +46,11 @@ double deepest_m(Scene scene) {
 }
 
 TEST(Accuracy, AStackCountsByItsHeightAndAHeavyTopByItsWeight) {
-  const LoadPath even = load_paths(stack(10, 1, "accurate")).deepest;
+  const Stack even = stacks_in(stack(10, 1, "accurate")).deepest;
   EXPECT_EQ(even.bodies, 10u);
   EXPECT_NEAR(even.load, 10, 1e-9);
   EXPECT_NEAR(even.size_m, 1, 1e-9);
-  const LoadPath heavy = load_paths(stack(10, 100, "accurate")).deepest;
+  const Stack heavy = stacks_in(stack(10, 100, "accurate")).deepest;
   EXPECT_NEAR(heavy.load, 109, 1e-9);
 }
 
@@ -60,7 +60,7 @@ TEST(Accuracy, AWideWallNeedsFewerSubstepsThanATowerAndTheShippedOneHasThem) {
         "[scene]\ndescription = \"x\"\nduration_s = 3\n[[solid]]\n"
         "structure = \"stack\"\ncount = 20\nsize_m = " +
         std::string(size);
-    return load_paths(scenes::parse_scene(text, "tower.toml", {"realtime", {}})).weakest;
+    return stacks_in(scenes::parse_scene(text, "tower.toml", {"realtime", {}})).weakest;
   };
   EXPECT_NEAR(tower("[0.2, 0.2, 0.2]").tilt_1_m, 100, 1e-6);
   EXPECT_NEAR(tower("[0.4, 0.2, 0.3]").tilt_1_m, 20 * 0.2 / 0.09, 1e-6);
@@ -76,7 +76,7 @@ TEST(Accuracy, SubstepsFollowFromTheTargetAndItIsMet) {
       const double reached = deepest_m(scene);
       std::printf("stack of %2d, target %.1e m: %2d substeps, reached %.1e m\n", count, target,
                   substeps, reached);
-      EXPECT_EQ(substeps, substeps_for_sink(load_paths(scene).deepest, kG, 1.0 / 120, target));
+      EXPECT_EQ(substeps, substeps_for_sink(stacks_in(scene).deepest, kG, 1.0 / 120, target));
       EXPECT_LT(reached, 1.2 * target);
     }
   }
@@ -86,7 +86,7 @@ TEST(Accuracy, AWarningNamesTheSubstepsThatWouldDo) {
   EXPECT_EQ(warning_of(stack(10, 1, "draft")), "");
   EXPECT_EQ(warning_of(stack(10, 1, "accurate")), "");
   const Scene heavy = stack(10, 10000, "accurate");
-  const int needed = substeps_to_stand(load_paths(heavy).weakest, kG, heavy.accuracy.dt_s);
+  const int needed = substeps_to_stand(stacks_in(heavy).weakest, kG, heavy.accuracy.dt_s);
   EXPECT_GT(needed, heavy.accuracy.substeps);
   const std::string warning = warning_of(heavy);
   EXPECT_NE(warning.find(std::to_string(needed) + " substeps"), std::string::npos) << warning;

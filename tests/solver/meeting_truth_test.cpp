@@ -16,7 +16,7 @@ constexpr double kTimeSteps[] = {1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 /
 constexpr double kSpeed_m_s = 500;
 constexpr double kRounding = 5e-6;  // of a momentum, by 128 sweeps in single precision
 
-/// Sweeps enough for the four corners of a face to share a blow evenly.
+/// Sweeps enough for the four corners of a face to share an impact evenly.
 RigidOptions space() {
   RigidOptions options;
   options.gravity_W = Vec3::Zero();

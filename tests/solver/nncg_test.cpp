@@ -24,7 +24,7 @@ RigidOptions with_sweeps(int sweeps, bool accelerated) {
 /// after one step of so many sweeps?
 double residual(int sweeps, bool accelerated) {
   RigidOptions options = with_sweeps(sweeps, accelerated);
-  options.seeding = 0;
+  options.static_warm_start = 0;
   RigidWorld world(options);
   world.add(W::ground());
   for (int i = 0; i < 50; ++i) world.add(W::box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0)));

@@ -173,7 +173,7 @@ TEST(Planar, ATableBearsTheWeightOfWhatStandsOnItAwakeAndAsleep) {
   RigidWorld world = plane();
   BodyDesc table = W::fixed(W::box(Vec3(4, 1, 1), Vec3::Zero()));
   table.tag = 3;
-  table.bears_load = true;
+  table.reports_load = true;
   world.add(table);
   const BodyDesc box = W::box(Vec3(1, 1, 1), Vec3(0, 1, 0));
   const BodyId id = world.add(box);

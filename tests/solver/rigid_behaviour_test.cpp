@@ -222,7 +222,7 @@ TEST(RigidPhysics, ReportsApproachesBeforeTheyTouch) {
 TEST(RigidPhysics, ReportsWhatPressesOnABodyThatBearsLoadAsleepOrAwake) {
   RigidWorld world;
   BodyDesc table = W::fixed(W::box(Vec3(2, 1, 2), Vec3(0, 0.5, 0)));
-  table.bears_load = true;
+  table.reports_load = true;
   table.tag = 7;
   table.shapes[0].tag = 3;
   world.add(table);

@@ -18,7 +18,7 @@ constexpr int kColors[] = {0, 8, 64};
 RigidOptions with(int max_colors, int sweeps = 1, int lanes = 0) {
   RigidOptions options;
   options.sleeping = false;
-  options.seeding = 0;  // or there would be nothing to converge to
+  options.static_warm_start = 0;  // or there would be nothing to converge to
   options.max_colors = max_colors;
   options.sweeps = sweeps;
   options.accelerate_from = sweeps + 1;

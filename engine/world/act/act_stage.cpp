@@ -41,7 +41,7 @@ void drop(World& world, const std::vector<std::size_t>& gone) {
   std::vector<BodyId> bodies;
   for (const std::size_t i : gone) {
     bodies.push_back(world.actors[i].body);
-    cut_ties(world, world.actors[i].key);
+    cut_joints(world, world.actors[i].key);
   }
   world.physics->replace(bodies, {});
   for (auto i = gone.rbegin(); i != gone.rend(); ++i) {

@@ -80,12 +80,13 @@ bool was_tried(const World& world, const Burst& burst, const Convex& convex, con
   });
 }
 
-/// The blow that a blast amounts to, where it presses hardest; of no energy if it cannot break it.
-Blow blow_of(const World& world, const Burst& burst, const Actor& actor) {
+/// The impact that a blast amounts to, where it presses hardest; of no energy if it cannot break
+/// it.
+Impact blow_of(const World& world, const Burst& burst, const Actor& actor) {
   const Blast& blast = burst.blast;
-  Blow blow;
+  Impact impact;
   const Pose X_WR = rest_pose(world, actor);
-  if (!reaches(blast, actor, X_WR)) return blow;
+  if (!reaches(blast, actor, X_WR)) return impact;
   const Structure& structure = actor.structure;
   std::vector<Push> pushes(structure.slot_count());
   std::uint32_t hardest = 0;
@@ -94,27 +95,27 @@ Blow blow_of(const World& world, const Burst& burst, const Actor& actor) {
     if (was_tried(world, burst, convex, pushes[slot])) pushes[slot] = {};
     if (pushes[slot].weight_Ns > pushes[hardest].weight_Ns) hardest = slot;
   });
-  if (pushes.empty() || pushes[hardest].weight_Ns <= 0) return blow;
+  if (pushes.empty() || pushes[hardest].weight_Ns <= 0) return impact;
   const Material& material = world.material(structure.convex(hardest)->material);
-  if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) return blow;
-  blow.key = actor.key;
-  blow.other_key = kNobodyKey;
-  blow.convex = hardest;
-  blow.point_W = pushes[hardest].point_W();
+  if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) return impact;
+  impact.key = actor.key;
+  impact.other_key = kNobodyKey;
+  impact.convex = hardest;
+  impact.point_W = pushes[hardest].point_W();
   Vec3 impulse_W = Vec3::Zero();
   double energy_J = 0;
   structure.for_each([&](std::uint32_t slot, const Convex& convex) {
     const bool near = pushes[slot].weight_Ns > 0 &&
-                      (pushes[slot].point_W() - blow.point_W).norm() <= material.impact_radius_m;
+                      (pushes[slot].point_W() - impact.point_W).norm() <= material.impact_radius_m;
     if (!near) return;
     const double mass_kg = world.material(convex.material).density_kg_m3 * convex.solid.volume_m3;
     impulse_W += pushes[slot].impulse_W;
     energy_J += 0.5 * pushes[slot].impulse_W.squaredNorm() / mass_kg;
   });
-  if (impulse_W.norm() < material.strength_Ns || impulse_W.norm() <= 0) return blow;
-  blow.direction_W = impulse_W.normalized();
-  blow.energy_J = energy_J;
-  return blow;
+  if (impulse_W.norm() < material.strength_Ns || impulse_W.norm() <= 0) return impact;
+  impact.direction_W = impulse_W.normalized();
+  impact.energy_J = energy_J;
+  return impact;
 }
 
 void push_away(World& world, const Blast& blast, const Actor& actor) {
@@ -149,11 +150,11 @@ void light_blasts(World& world) {
   for (Burst& burst : world.bursts) {
     std::vector<Vec3> tried_W;
     for (const Actor& actor : world.actors) {
-      const Blow blow = blow_of(world, burst, actor);
-      if (blow.energy_J <= 0) continue;
-      tried_W.push_back(blow.point_W);
-      const auto same = [&](const Blow& known) { return known.key == blow.key; };
-      if (std::ranges::none_of(world.waiting, same)) world.waiting.push_back(blow);
+      const Impact impact = blow_of(world, burst, actor);
+      if (impact.energy_J <= 0) continue;
+      tried_W.push_back(impact.point_W);
+      const auto same = [&](const Impact& known) { return known.key == impact.key; };
+      if (std::ranges::none_of(world.waiting, same)) world.waiting.push_back(impact);
     }
     burst.tried_W.insert(burst.tried_W.end(), tried_W.begin(), tried_W.end());
   }

@@ -20,7 +20,7 @@ double ball_volume_m3(double radius_m) {
 }
 
 /// Whether load may break a compound: one that stands, or a large one that moves.
-bool bears_load(const World& world, const Actor& actor) {
+bool reports_load(const World& world, const Actor& actor) {
   constexpr std::size_t kLeastMoving = 16;  // convexes
   if (actor.structure.size() < (actor.is_static ? 2 : kLeastMoving)) return false;
   return std::ranges::any_of(actor.materials, [&](MaterialIndex material) {
@@ -80,8 +80,8 @@ Actor make_actor(World& world, const Compound& compound) {
   actor.volume_m3 = volume(compound);
   actor.materials = materials_of(compound);
   actor.born_step = world.step;
-  actor.bearing.bears = bears_load(world, actor);
-  actor.bearing.since_step = world.step;
+  actor.stress.breakable = reports_load(world, actor);
+  actor.stress.since_step = world.step;
   set_least(world, actor);
   return actor;
 }
@@ -114,7 +114,7 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
     body.shapes.push_back(shape_of(world, actor, slot));
   });
   body.tag = actor.key;
-  body.bears_load = actor.bearing.bears;
+  body.reports_load = actor.stress.breakable;
   return body;
 }
 

@@ -24,23 +24,24 @@ const Actor* actor_at(std::span<const Actor* const> actors, const Vec3& point_R)
   return nearest;
 }
 
-void lose(World& world, std::vector<HeldTie>::iterator tie) {
-  world.physics->cut(tie->joint);
-  world.ties.erase(tie);
+void lose(World& world, std::vector<LiveJoint>::iterator joint) {
+  world.physics->cut(joint->id);
+  world.joints.erase(joint);
   ++world.report.joints_lost;
 }
 
 }  // namespace
 
-void add_tie(World& world, const Tie& tie) {
-  HeldTie held;
-  JointDesc joint;
-  joint.kind = tie.kind;
-  held.rigid = tie.kind == JointDesc::Kind::kFixed;
-  const bool apart = tie.kind == JointDesc::Kind::kDistance || tie.kind == JointDesc::Kind::kRope;
-  const Vec3 end_W = apart ? tie.to_W : tie.at_W;
+void add_joint(World& world, const Joint& joint) {
+  LiveJoint live;
+  JointDesc desc;
+  desc.kind = joint.kind;
+  live.rigid = joint.kind == JointDesc::Kind::kFixed;
+  const bool apart =
+      joint.kind == JointDesc::Kind::kDistance || joint.kind == JointDesc::Kind::kRope;
+  const Vec3 end_W = apart ? joint.to_W : joint.at_W;
   Quat rotation_WR[2];
-  const auto set_end = [&](std::optional<std::uint32_t> key, const Vec3& anchor_W, TieEnd& end,
+  const auto set_end = [&](std::optional<std::uint32_t> key, const Vec3& anchor_W, JointEnd& end,
                            BodyId& body, Vec3& anchor_R, Vec3& axis_R, Quat& q) {
     end = {key.value_or(kGroundKey), anchor_W};
     Pose X_WR;
@@ -51,82 +52,82 @@ void add_tie(World& world, const Tie& tie) {
       body = actor.body;
     }
     anchor_R = end.anchor_R = X_WR.inverse() * anchor_W;
-    axis_R = X_WR.rotation.conjugate() * tie.axis_W.normalized();
+    axis_R = X_WR.rotation.conjugate() * joint.axis_W.normalized();
     q = X_WR.rotation;
   };
-  set_end(tie.a, tie.at_W, held.a, joint.a, joint.anchor_a_R, joint.axis_a_R, rotation_WR[0]);
-  set_end(tie.b, end_W, held.b, joint.b, joint.anchor_b_R, joint.axis_b_R, rotation_WR[1]);
-  joint.rotation_RaRb = rotation_WR[0].conjugate() * rotation_WR[1];
-  joint.length_m = (end_W - tie.at_W).norm();
-  joint.breaking_N = tie.breaking_N;
-  joint.breaking_Nm = tie.breaking_Nm;
-  joint.collide = tie.collide;
-  held.joint = world.physics->join(joint);
-  world.ties.push_back(held);
+  set_end(joint.a, joint.at_W, live.a, desc.a, desc.anchor_a_R, desc.axis_a_R, rotation_WR[0]);
+  set_end(joint.b, end_W, live.b, desc.b, desc.anchor_b_R, desc.axis_b_R, rotation_WR[1]);
+  desc.rotation_RaRb = rotation_WR[0].conjugate() * rotation_WR[1];
+  desc.length_m = (end_W - joint.at_W).norm();
+  desc.breaking_N = joint.breaking_N;
+  desc.breaking_Nm = joint.breaking_Nm;
+  desc.collide = joint.collide;
+  live.id = world.physics->join(desc);
+  world.joints.push_back(live);
 }
 
 void hang(World& world, const Shot& shot) {
   std::optional<std::uint32_t> above;
-  Tie tie;
+  Joint joint;
   if (shot.links.empty()) {
     add_ball(world, shot.ball);
-    tie.kind = JointDesc::Kind::kRope;
-    tie.at_W = *shot.hangs_from_W;
-    tie.to_W = shot.ball.center_W;
+    joint.kind = JointDesc::Kind::kRope;
+    joint.at_W = *shot.hangs_from_W;
+    joint.to_W = shot.ball.center_W;
   } else {
     const Vec3 way = shot.ball.center_W - *shot.hangs_from_W;
     const Vec3 chain = way - shot.ball.radius_m * way.normalized();
     const double count = static_cast<double>(shot.links.size());
     for (std::size_t i = 0; i < shot.links.size(); ++i) {
       add_compounds(world, std::span(&shot.links[i], 1));
-      tie.a = above;
-      tie.b = above = world.actors.back().key;
-      tie.at_W = *shot.hangs_from_W + static_cast<double>(i) / count * chain;
-      add_tie(world, tie);
+      joint.a = above;
+      joint.b = above = world.actors.back().key;
+      joint.at_W = *shot.hangs_from_W + static_cast<double>(i) / count * chain;
+      add_joint(world, joint);
     }
     add_ball(world, shot.ball);
-    tie.at_W = *shot.hangs_from_W + chain;
+    joint.at_W = *shot.hangs_from_W + chain;
   }
-  tie.a = above;
-  tie.b = world.actors.back().key;
-  add_tie(world, tie);
+  joint.a = above;
+  joint.b = world.actors.back().key;
+  add_joint(world, joint);
 }
 
-void move_ties(World& world, const Actor& parent, bool stays, std::span<const Actor> pieces) {
+void move_joints(World& world, const Actor& parent, bool stays, std::span<const Actor> pieces) {
   std::vector<const Actor*> actors;
   if (stays) actors.push_back(&parent);
   for (const Actor& piece : pieces) actors.push_back(&piece);
-  for (auto tie = world.ties.begin(); tie != world.ties.end();) {
-    bool held = true;
-    for (TieEnd* end : {&tie->a, &tie->b}) {
+  for (auto joint = world.joints.begin(); joint != world.joints.end();) {
+    bool whole = true;
+    for (JointEnd* end : {&joint->a, &joint->b}) {
       if (end->key != parent.key) continue;
       const Actor* actor = actor_at(actors, end->anchor_R);
-      held = held && actor;
+      whole = whole && actor;
       if (!actor || actor == &parent) continue;
       end->key = actor->key;
-      world.physics->attach(tie->joint, end == &tie->a, actor->body);
+      world.physics->attach(joint->id, end == &joint->a, actor->body);
     }
-    if (held) {
-      ++tie;
+    if (whole) {
+      ++joint;
       continue;
     }
-    const std::ptrdiff_t at = tie - world.ties.begin();
-    lose(world, tie);
-    tie = world.ties.begin() + at;
+    const std::ptrdiff_t at = joint - world.joints.begin();
+    lose(world, joint);
+    joint = world.joints.begin() + at;
   }
 }
 
-void cut_ties(World& world, std::uint32_t key) {
-  for (std::size_t i = world.ties.size(); i-- > 0;) {
-    const auto tie = world.ties.begin() + static_cast<std::ptrdiff_t>(i);
-    if (tie->a.key == key || tie->b.key == key) lose(world, tie);
+void cut_joints(World& world, std::uint32_t key) {
+  for (std::size_t i = world.joints.size(); i-- > 0;) {
+    const auto joint = world.joints.begin() + static_cast<std::ptrdiff_t>(i);
+    if (joint->a.key == key || joint->b.key == key) lose(world, joint);
   }
 }
 
-void note_broken_ties(World& world) {
-  if (world.ties.empty()) return;
+void note_broken_joints(World& world) {
+  if (world.joints.empty()) return;
   for (const JointId joint : world.physics->take_broken()) {
-    std::erase_if(world.ties, [&](const HeldTie& tie) { return tie.joint == joint; });
+    std::erase_if(world.joints, [&](const LiveJoint& live) { return live.id == joint; });
     ++world.report.joints_lost;
   }
 }
@@ -137,9 +138,9 @@ std::vector<std::uint32_t> fixed_to_world(const World& world) {
     return key == kGroundKey || (actor != world.actors.end() && actor->is_static);
   };
   std::vector<std::uint32_t> keys;
-  for (const HeldTie& tie : world.ties) {
-    if (tie.rigid && stands(tie.b.key)) keys.push_back(tie.a.key);
-    if (tie.rigid && stands(tie.a.key)) keys.push_back(tie.b.key);
+  for (const LiveJoint& joint : world.joints) {
+    if (joint.rigid && stands(joint.b.key)) keys.push_back(joint.a.key);
+    if (joint.rigid && stands(joint.a.key)) keys.push_back(joint.b.key);
   }
   std::ranges::sort(keys);
   return keys;

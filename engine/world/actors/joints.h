@@ -8,19 +8,19 @@
 
 namespace sunder {
 
-/// Joins two things as they stand; `tie.a` and `tie.b` are keys here.
-void add_tie(World& world, const Tie& tie);
+/// Joins two things as they stand; `joint.a` and `joint.b` are keys here.
+void add_joint(World& world, const Joint& joint);
 /// A shot ball on its rope, or on its chain, which appears with it.
 void hang(World& world, const Shot& shot);
 /// After `parent` gave way to pieces, or lost them and stays: its ends go to what has the anchor
 /// now, and joints without one are cut and counted.
-void move_ties(World& world, const Actor& parent, bool stays, std::span<const Actor> pieces);
+void move_joints(World& world, const Actor& parent, bool stays, std::span<const Actor> pieces);
 /// Before actors go: their joints are cut and counted.
-void cut_ties(World& world, std::uint32_t key);
+void cut_joints(World& world, std::uint32_t key);
 /// Keys of what a joint that does not give holds to the world, or to what the world holds;
 /// ascending.
 std::vector<std::uint32_t> fixed_to_world(const World& world);
 /// After a solve: counts what broke under its load.
-void note_broken_ties(World& world);
+void note_broken_joints(World& world);
 
 }  // namespace sunder

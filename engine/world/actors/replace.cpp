@@ -102,7 +102,7 @@ struct Pieces {
     Actor& piece = actors.emplace_back(make_actor(world, compound));
     piece.born_step = world.step + 1;
     piece.root_key = parent.root_key;
-    if (piece.bearing.bears) piece.bearing.memory = parent.bearing.memory;
+    if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;
     world.debris_mass_kg -= piece.weight.mass_kg;
     bodies.push_back(describe(world, piece, motion));
     return piece.key;
@@ -134,10 +134,10 @@ void stay(World& world, Actor& actor, const BreakEdit& edit,
   renew_meshes(world, actor, changed);
   set_least(world, actor);
   const auto is_gone = [&](const Press& press) { return !actor.structure.has(press.convex); };
-  std::erase_if(actor.bearing.pressing, is_gone);
-  std::erase_if(actor.bearing.judged, is_gone);
-  actor.bearing.settled = false;
-  actor.bearing.since_step = world.step;
+  std::erase_if(actor.stress.pressing, is_gone);
+  std::erase_if(actor.stress.judged, is_gone);
+  actor.stress.settled = false;
+  actor.stress.since_step = world.step;
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
     ids = world.physics->replace(std::span(&parent.body, 1), pieces.bodies);
   }
   for (std::size_t i = 0; i < ids.size(); ++i) pieces.actors[i].body = ids[i];
-  move_ties(world, parent, stays, pieces.actors);
+  move_joints(world, parent, stays, pieces.actors);
   if (!parent.is_static) {
     const Vec3 after =
         momentum_of(world, pieces.actors) + debris_momentum(parent, pieces.actors, motion);

@@ -25,13 +25,13 @@ struct Press {
 };
 
 /// What an actor bears, and how far it is known whether it can.
-struct Bearing {
-  bool bears = false;            ///< Load can break it.
+struct StressState {
+  bool breakable = false;        ///< Load can break it.
   bool settled = false;          ///< Judged for `judged`, to the end.
   std::uint64_t since_step = 0;  ///< Waits to be judged since then, if not settled.
   std::vector<Press> pressing;   ///< Averaged over time; ascending by convex.
   std::vector<Press> judged;
-  LoadMemoryPtr memory;
+  StressMemoryPtr memory;
 };
 
 /// Stands for a mesh that is not made yet: until the next snapshot, nobody looks.
@@ -58,11 +58,11 @@ struct Actor {
   double volume_m3 = 0;
   std::vector<MaterialIndex> materials;  ///< Of its convexes when it was made, each once.
   std::uint64_t born_step = 0;
-  /// No blow with less energy can break it: it is too tough, or its last fruitless plan asked for
+  /// No impact with less energy can break it: it is too tough, or its last fruitless plan asked for
   /// more. Infinite if nothing can.
   double least_J = std::numeric_limits<double>::infinity();
-  double least_Ns = 0;  ///< No blow with less impulse can break it.
-  Bearing bearing;
+  double least_Ns = 0;  ///< No impact with less impulse can break it.
+  StressState stress;
   std::vector<MeshIndex> meshes;  ///< Per slot; none() where nothing shows, or kUndrawn.
   std::vector<std::vector<std::uint8_t>> hidden;  ///< Per slot, a flag for each face.
 };
@@ -72,8 +72,8 @@ inline constexpr std::uint32_t kGroundKey = 0xffffffff;
 /// What hits where nobody does: a blast.
 inline constexpr std::uint32_t kNobodyKey = 0xfffffffe;
 
-/// A blow that may break an actor, as decided from the approaches of a body pair.
-struct Blow {
+/// An impact that may break an actor, as decided from the approaches of a body pair.
+struct Impact {
   std::uint32_t key = 0;        ///< The actor that may break.
   std::uint32_t other_key = 0;  ///< What hits it.
   std::uint32_t convex = 0;     ///< The convex that is hit, by slot.
@@ -83,7 +83,7 @@ struct Blow {
 };
 
 /// What breaks laid bare since the particles last moved.
-struct Crumbs {
+struct Exposed {
   /// The solid that a break took apart, as it was then.
   struct Parent {
     Pose X_WR;
@@ -111,15 +111,15 @@ struct Burst {
 };
 
 /// One end of a joint: an actor, or the world.
-struct TieEnd {
+struct JointEnd {
   std::uint32_t key = 0;  ///< kGroundKey: the world.
   Vec3 anchor_R = Vec3::Zero();
 };
 
 /// A joint of the running world.
-struct HeldTie {
-  JointId joint;
-  TieEnd a, b;
+struct LiveJoint {
+  JointId id;
+  JointEnd a, b;
   bool rigid = false;  ///< kFixed.
 };
 
@@ -148,8 +148,8 @@ struct World {
   bool started = false;  ///< Frame 0 has been given out.
   std::size_t next_shot = 0, next_blast = 0, next_removal = 0;
   std::vector<Burst> bursts;
-  std::vector<HeldTie> ties;
-  std::vector<Blow> waiting;    ///< Of blasts, over the frame's budget: decided first in the next.
+  std::vector<LiveJoint> joints;
+  std::vector<Impact> waiting;  ///< Of blasts, over the frame's budget: decided first in the next.
   std::vector<Waiter> waiters;  ///< Ascending by key; as of the last step.
   std::uint64_t next_waiting = 0;    ///< Number of the next cluster to wait.
   std::uint32_t trials_waiting = 0;  ///< Clusters that they are in.
@@ -159,7 +159,7 @@ struct World {
   double debris_mass_kg = 0;
   double removed_mass_kg = 0;  ///< By the script.
   int steps_per_frame = 1;
-  Crumbs crumbs;
+  Exposed exposed;
   std::uint64_t particles_ignored = 0;  ///< Up to the last frame, for want of room.
 
   FrameReport report;  ///< Of the frame under way.

@@ -21,13 +21,13 @@ namespace sunder {
 namespace {
 
 constexpr int kRounds = 8;  // solids that can break one behind the other within one step
-// A blow with less than this part of what the last fruitless plan asked for is not planned.
+// An impact with less than this part of what the last fruitless plan asked for is not planned.
 constexpr double kWorthPlanning = 0.7;
 constexpr int kAdmitted = 3;  // clusters that have waited and are looked at in one round
 
-/// A blow and what it would do.
+/// An impact and what it would do.
 struct Planned {
-  Blow blow;
+  Impact impact;
   std::uint32_t load = 0;  ///< Index in the probe's answer.
   BreakCommand command;
   BreakEdit edit;
@@ -54,19 +54,19 @@ double crack_energy_J(const World& world, const Structure& structure, const Brea
 }
 
 void prepare(World& world, Planned& planned) {
-  const Blow& blow = planned.blow;
-  const Actor& actor = *world.find(blow.key);
+  const Impact& impact = planned.impact;
+  const Actor& actor = *world.find(impact.key);
   const Pose X_WB = world.physics->state(actor.body).X_WB;
   Hit hit;
-  hit.point_R = X_WB.inverse() * blow.point_W + actor.weight.com_R;
-  hit.direction_R = X_WB.rotation.conjugate() * blow.direction_W;
-  hit.convex = blow.convex;
-  hit.energy_J = blow.energy_J;
+  hit.point_R = X_WB.inverse() * impact.point_W + actor.weight.com_R;
+  hit.direction_R = X_WB.rotation.conjugate() * impact.direction_W;
+  hit.convex = impact.convex;
+  hit.energy_J = impact.energy_J;
   const std::uint64_t event = world.next_event++;
-  // Of the actor: hit once more, it would break the same way, or a blow that comes in several steps
-  // would be given several chances.
-  const std::uint64_t seed = combine(world.scene.seed, blow.key);
-  const Convex& convex = *actor.structure.convex(blow.convex);
+  // Of the actor: hit once more, it would break the same way, or an impact that comes in several
+  // steps would be given several chances.
+  const std::uint64_t seed = combine(world.scene.seed, impact.key);
+  const Convex& convex = *actor.structure.convex(impact.convex);
   planned.command =
       world.breaker->command(convex, world.material(convex.material), hit, event, seed);
 }
@@ -76,7 +76,7 @@ void plan_all(World& world, std::span<Planned* const> all) {
     for (std::size_t i = begin; i < end; ++i) {
       Planned& planned = *all[i];
       const Stopwatch watch;
-      const Structure& structure = world.find(planned.blow.key)->structure;
+      const Structure& structure = world.find(planned.impact.key)->structure;
       planned.edit = world.breaker->plan(structure, planned.command);
       planned.plan_ms = watch.ms();
       planned.needed_J = crack_energy_J(world, structure, planned.edit);
@@ -84,17 +84,17 @@ void plan_all(World& world, std::span<Planned* const> all) {
   });
 }
 
-/// How many parts a blow cuts, about: what it costs follows that (docs/decisions/032).
+/// How many parts an impact cuts, about: what it costs follows that (docs/decisions/032).
 std::uint32_t parts_of(World& world, const Planned& planned) {
   constexpr std::size_t kPartsOfConvex = 8;
   const BreakCommand& command = planned.command;
-  const Structure& structure = world.find(planned.blow.key)->structure;
+  const Structure& structure = world.find(planned.impact.key)->structure;
   const std::size_t reached = structure.within(command.X_RP.position, command.radius_m).size();
   const auto cells = static_cast<std::size_t>(command.pattern.cell_count());
   return static_cast<std::uint32_t>(cells + kPartsOfConvex * reached);
 }
 
-/// Whether the frame's budget allows for the blows, which are made ready. A frame that has spent
+/// Whether the frame's budget allows for the impacts, which are made ready. A frame that has spent
 /// none yet can afford anything, or what costs more than a frame has would wait for ever.
 bool afford(World& world, std::span<Planned> all) {
   std::uint32_t parts = 0;
@@ -111,20 +111,20 @@ bool afford(World& world, std::span<Planned> all) {
   return true;
 }
 
-/// Breaks the actor of a blow that has paid for it.
+/// Breaks the actor of an impact that has paid for it.
 void break_actor(World& world, Planned& planned) {
-  const Blow& blow = planned.blow;
-  const std::uint32_t pieces = pieces_after(world.find(blow.key)->structure, planned.edit);
-  world.breaks.push_back({world.time_s(), blow.key, blow.point_W, planned.needed_J,
+  const Impact& impact = planned.impact;
+  const std::uint32_t pieces = pieces_after(world.find(impact.key)->structure, planned.edit);
+  world.breaks.push_back({world.time_s(), impact.key, impact.point_W, planned.needed_J,
                           planned.edit.loose.new_area_m2, planned.plan_ms, pieces});
   world.report.failed += planned.edit.loose.failed;
-  carry_out(world, blow.key, planned.edit);
+  carry_out(world, impact.key, planned.edit);
 }
 
-/// Whether the blow's plan could be carried out; remembers what it asked for, if not.
+/// Whether the impact's plan could be carried out; remembers what it asked for, if not.
 bool worth(World& world, const Planned& planned) {
-  Actor& actor = *world.find(planned.blow.key);
-  const double energy_J = planned.blow.energy_J;
+  Actor& actor = *world.find(planned.impact.key);
+  const double energy_J = planned.impact.energy_J;
   const bool breaks = planned.edit.changed;
   if (breaks && energy_J > planned.needed_J) return has_room(world, planned.edit);
   actor.least_J =
@@ -132,19 +132,19 @@ bool worth(World& world, const Planned& planned) {
   return false;
 }
 
-/// Blows that come with an energy of their own: those of blasts.
+/// Impacts that come with an energy of their own: those of blasts.
 bool break_by_blasts(World& world) {
   std::vector<Planned> all;
-  for (Blow& blow : std::exchange(world.waiting, {})) {
-    const auto same = [&](const Planned& known) { return known.blow.key == blow.key; };
-    const Actor* actor = world.find(blow.key);
-    if (!actor || !actor->structure.has(blow.convex) || std::ranges::any_of(all, same)) continue;
+  for (Impact& impact : std::exchange(world.waiting, {})) {
+    const auto same = [&](const Planned& known) { return known.impact.key == impact.key; };
+    const Actor* actor = world.find(impact.key);
+    if (!actor || !actor->structure.has(impact.convex) || std::ranges::any_of(all, same)) continue;
     Planned planned;
-    planned.blow = blow;
+    planned.impact = impact;
     if (afford(world, std::span(&planned, 1))) {
       all.push_back(std::move(planned));
     } else {
-      world.waiting.push_back(blow);
+      world.waiting.push_back(impact);
     }
   }
   std::vector<Planned*> pointers;
@@ -159,8 +159,8 @@ bool break_by_blasts(World& world) {
   return broke;
 }
 
-/// The blows that a probe's loads amount to, if they are strong enough for the material.
-void add_blows(World& world, Trial& trial) {
+/// The impacts that a probe's loads amount to, if they are strong enough for the material.
+void add_impacts(World& world, Trial& trial) {
   trial.planned.clear();
   for (std::uint32_t i = 0; i < trial.loads.size(); ++i) {
     const ProbeLoad& load = trial.loads[i];
@@ -169,11 +169,11 @@ void add_blows(World& world, Trial& trial) {
     if (!material.breakable() || load.impulse_Ns < material.strength_Ns) continue;
     Planned planned;
     planned.load = i;
-    planned.blow.key = actor.key;
-    planned.blow.convex = load.shape;
-    planned.blow.point_W = world.physics->state(actor.body).X_WB.position + load.arm_W;
-    planned.blow.direction_W = load.direction_W;
-    planned.blow.energy_J = load.work_J;
+    planned.impact.key = actor.key;
+    planned.impact.convex = load.shape;
+    planned.impact.point_W = world.physics->state(actor.body).X_WB.position + load.arm_W;
+    planned.impact.direction_W = load.direction_W;
+    planned.impact.energy_J = load.work_J;
     trial.planned.push_back(std::move(planned));
   }
 }
@@ -186,7 +186,7 @@ void take_over(World& world, const BreakProbe& probe) {
     const Actor& actor = *world.find(probe.bodies()[b].key);
     BodyState state = world.physics->state(actor.body);
     state.X_WB.position += motion.shift_W;
-    state.X_WB.rotation = (turn_by(motion.turn_W) * state.X_WB.rotation).normalized();
+    state.X_WB.rotation = (rotation_by(motion.turn_W) * state.X_WB.rotation).normalized();
     state.velocity_W = motion.velocity_W;
     state.angular_velocity_W = motion.angular_velocity_W;
     world.physics->set_state(actor.body, state);
@@ -206,7 +206,7 @@ void wait(World& world, Trial& trial, std::vector<Waiter>& waiters) {
     waiters.push_back({body.key, waited ? known->since_step : world.step, world.next_waiting});
     bodies.push_back(world.find(body.key)->body);
   }
-  world.physics->hold(bodies);
+  world.physics->pause(bodies);
   ++world.next_waiting;
   ++world.trials_waiting;
 }
@@ -239,7 +239,7 @@ void wait_on(World& world, const std::vector<Waiter>& queue, std::vector<Waiter>
     bodies.push_back(world.find(queue[i].key)->body);
     if (i == 0 || queue[i].cluster != queue[i - 1].cluster) ++world.trials_waiting;
   }
-  world.physics->hold(bodies);
+  world.physics->pause(bodies);
   waiters.insert(waiters.end(), queue.begin(), queue.end());
 }
 
@@ -277,7 +277,7 @@ bool settle(World& world, Trial& trial, std::vector<std::uint32_t>& all_broken) 
   for (const std::uint32_t load : broken) {
     Planned& planned = trial.planned[of_load[load]];
     break_actor(world, planned);
-    all_broken.push_back(planned.blow.key);
+    all_broken.push_back(planned.impact.key);
   }
   return true;
 }
@@ -290,7 +290,7 @@ std::vector<Trial> leave_for_later(World& world, std::vector<Trial>& trials) {
   for (Trial& trial : trials) {
     std::set<std::uint32_t> hit;
     for (const Planned& planned : trial.planned) {
-      if (world.find(planned.blow.key)->is_static) hit.insert(planned.blow.key);
+      if (world.find(planned.impact.key)->is_static) hit.insert(planned.impact.key);
     }
     const bool taken = std::ranges::any_of(hit, [&](auto key) { return claimed.contains(key); });
     if (!taken) claimed.insert(hit.begin(), hit.end());
@@ -316,7 +316,7 @@ bool decide(World& world, std::vector<Trial>& trials, bool in_time, std::vector<
     const auto stale = [&](const Trial& trial) { return is_stale(world, trial, broken); };
     again |= std::erase_if(trials, stale) > 0;
     broken.clear();
-    for (Trial& trial : trials) add_blows(world, trial);
+    for (Trial& trial : trials) add_impacts(world, trial);
     std::vector<Trial> next = leave_for_later(world, trials);
     std::vector<Trial> affordable;
     for (Trial& trial : trials) {

@@ -10,7 +10,7 @@ namespace sunder {
 namespace {
 
 // Of a cluster, those nearest to the approach; fewer where what approaches cannot break itself, and
-// a blow can only be passed on.
+// an impact can only be passed on.
 constexpr std::size_t kMostBodies = 32, kMostPassingOn = 12;
 
 /// The approaches between two bodies as one.
@@ -182,7 +182,7 @@ class Reach {
                           touch.separation_m});
     }
     return BreakProbe(std::move(bodies), std::move(contacts), world_.horizon_s(),
-                      FallScale(world_.scene.gravity_W).still_m_s(world_.scene.accuracy.dt_s));
+                      FroudeScale(world_.scene.gravity_W).still_m_s(world_.scene.accuracy.dt_s));
   }
 
   bool could_break(double energy_J) const {

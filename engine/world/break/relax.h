@@ -1,5 +1,5 @@
 // Contacts of a few bodies solved at once, without rebound or friction: what the break probe makes
-// of a blow.
+// of an impact.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Stage `load`: own weight, and what presses on a compound, break what they overload.
 //
 // Read first: load_stage(). What presses is averaged over a tenth of a second, so that a push
-// counts alike at every length of a step; blows are the business of stage `break`. An actor is
+// counts alike at every length of a step; impacts are the business of stage `break`. An actor is
 // judged when its load has changed since it was judged last, or its bonds have. The breaker judges
 // by the stress in balance with the load: nothing is worn out by time.
 #include <algorithm>
@@ -33,8 +33,8 @@ std::vector<Press> averaged(const World& world, const Actor& actor, const std::v
   const double dt = world.scene.accuracy.dt_s, share = dt / (kAverage_s + dt);
   const double trifle = kTrifle * weight_N(world, actor.weight.mass_kg);
   std::vector<Press> mean;
-  auto old = actor.bearing.pressing.begin();
-  const auto end = actor.bearing.pressing.end();
+  auto old = actor.stress.pressing.begin();
+  const auto end = actor.stress.pressing.end();
   for (auto it = now.begin(); it != now.end() || old != end;) {
     Press press;
     press.convex =
@@ -56,7 +56,7 @@ std::vector<Press> averaged(const World& world, const Actor& actor, const std::v
 /// Whether what presses differs from what the actor was judged by.
 bool changed(const World& world, const Actor& actor) {
   const double trifle = kTrifle * weight_N(world, actor.weight.mass_kg);
-  const std::vector<Press>&x = actor.bearing.judged, &y = actor.bearing.pressing;
+  const std::vector<Press>&x = actor.stress.judged, &y = actor.stress.pressing;
   for (std::size_t i = 0, j = 0; i < x.size() || j < y.size();) {
     const std::uint32_t convex =
         std::min(i < x.size() ? x[i].convex : kNoConvex, j < y.size() ? y[j].convex : kNoConvex);
@@ -104,16 +104,16 @@ std::vector<std::uint32_t> due(World& world) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> waiting;
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
     Actor& actor = world.actors[i];
-    Bearing& bearing = actor.bearing;
-    if (!bearing.bears) continue;
-    bearing.pressing = averaged(world, actor, now[i]);
+    StressState& stress = actor.stress;
+    if (!stress.breakable) continue;
+    stress.pressing = averaged(world, actor, now[i]);
     // What falls freely feels nothing.
-    if (!actor.is_static && bearing.pressing.empty()) continue;
-    if (bearing.settled && changed(world, actor)) {
-      bearing.settled = false;
-      bearing.since_step = world.step;
+    if (!actor.is_static && stress.pressing.empty()) continue;
+    if (stress.settled && changed(world, actor)) {
+      stress.settled = false;
+      stress.since_step = world.step;
     }
-    if (!bearing.settled) waiting.emplace_back(bearing.since_step, actor.key);
+    if (!stress.settled) waiting.emplace_back(stress.since_step, actor.key);
   }
   std::sort(waiting.begin(), waiting.end());
   std::vector<std::uint32_t> keys;
@@ -121,9 +121,9 @@ std::vector<std::uint32_t> due(World& world) {
   return keys;
 }
 
-LoadAnswer judge(const World& world, const Actor& actor, std::uint64_t most_work) {
+StressAnswer judge(const World& world, const Actor& actor, std::uint64_t most_work) {
   std::vector<Load> loads;
-  for (const Press& press : actor.bearing.pressing) {
+  for (const Press& press : actor.stress.pressing) {
     const Vec3& centroid = actor.structure.convex(press.convex)->solid.centroid;
     loads.push_back({press.convex, press.force_R, centroid, press.torque_R});
   }
@@ -133,14 +133,14 @@ LoadAnswer judge(const World& world, const Actor& actor, std::uint64_t most_work
   load.gravity_R =
       world.physics->state(actor.body).X_WB.rotation.conjugate() * world.scene.gravity_W;
   load.most_work = most_work;
-  load.memory = actor.bearing.memory;
-  return world.breaker->bear(actor.structure, load);
+  load.memory = actor.stress.memory;
+  return world.breaker->stress(actor.structure, load);
 }
 
 struct Judged {
   std::uint32_t key = 0;
   std::uint64_t most_work = 0;
-  LoadAnswer answer;
+  StressAnswer answer;
   double ms = 0;
 };
 
@@ -165,18 +165,18 @@ void judge_all(World& world, std::vector<Judged>& batch) {
 /// Does to the actor what the answer says.
 void apply(World& world, Judged& judged) {
   Actor& actor = *world.find(judged.key);
-  LoadAnswer& answer = judged.answer;
-  actor.bearing.judged = actor.bearing.pressing;
-  actor.bearing.memory = answer.memory;
-  actor.bearing.settled = answer.settled;
-  actor.bearing.since_step = world.step;
+  StressAnswer& answer = judged.answer;
+  actor.stress.judged = actor.stress.pressing;
+  actor.stress.memory = answer.memory;
+  actor.stress.settled = answer.settled;
+  actor.stress.since_step = world.step;
   BreakEdit& edit = answer.edit;
   if (!edit.changed) {
     actor.structure.apply(edit);
     return;
   }
   if (!has_room(world, edit)) {
-    actor.bearing.settled = true;
+    actor.stress.settled = true;
     return;
   }
   const Pose X_WB = world.physics->state(actor.body).X_WB;
@@ -193,7 +193,7 @@ void apply(World& world, Judged& judged) {
 
 void load_stage(World& world) {
   const bool any = std::any_of(world.actors.begin(), world.actors.end(),
-                               [](const Actor& actor) { return actor.bearing.bears; });
+                               [](const Actor& actor) { return actor.stress.breakable; });
   if (!any) return;
   const std::vector<std::uint32_t> keys = due(world);
   std::size_t next = 0;

@@ -25,9 +25,9 @@ double elapsed_s(const World& world) {
 
 /// A face where it was when the frame began, moving as it does now; a face of what is gone again
 /// moves as the solid did that it came off.
-Emission emission_of(World& world, const Crumbs::Face& face, std::span<const Vec3> corners_R,
+Emission emission_of(World& world, const Exposed::Face& face, std::span<const Vec3> corners_R,
                      std::vector<Vec3>& corners_W) {
-  const Crumbs::Parent& parent = world.crumbs.parents[face.parent];
+  const Exposed::Parent& parent = world.exposed.parents[face.parent];
   Pose X_WR = parent.X_WR;
   Emission emission;
   emission.motion = parent.motion;
@@ -54,12 +54,12 @@ Emission emission_of(World& world, const Crumbs::Face& face, std::span<const Vec
 }
 
 void emit(World& world) {
-  Crumbs& crumbs = world.crumbs;
+  Exposed& crumbs = world.exposed;
   std::vector<Emission> emissions;
   std::vector<Vec3> corners_W;
   corners_W.reserve(crumbs.corners_R.size());  // spans into it stay
   std::size_t begin = 0;
-  for (const Crumbs::Face& face : crumbs.faces) {
+  for (const Exposed::Face& face : crumbs.faces) {
     const std::size_t count = face.corners_end - begin;
     const std::span<const Vec3> corners_R = std::span(crumbs.corners_R).subspan(begin, count);
     emissions.push_back(emission_of(world, face, corners_R, corners_W));
@@ -137,14 +137,14 @@ void for_polygons(const Convex& convex, std::uint32_t face, const Use& use) {
 void crumble(World& world, const Structure& structure, const BreakEdit& edit, const Motion& before,
              std::span<const std::uint32_t> piece_keys) {
   if (!world.particles || edit.loose.exposed.empty()) return;
-  Crumbs& crumbs = world.crumbs;
+  Exposed& crumbs = world.exposed;
   crumbs.parents.push_back({before.X_WR,
                             {before.point_W, before.velocity_W, before.angular_velocity_W},
                             elapsed_s(world)});
   for (const ExposedFace& exposed : edit.loose.exposed) {
     const Convex& convex = edit.exposed_convex(structure, exposed);
     if (!(world.material(convex.material).crumbling.particles_per_m2 > 0)) continue;
-    Crumbs::Face face;
+    Exposed::Face face;
     face.parent = static_cast<std::uint32_t>(crumbs.parents.size() - 1);
     face.owner_key = piece_keys[exposed.piece];
     face.normal_R = convex.polyhedron.faces[exposed.face].plane.normal;
@@ -163,9 +163,9 @@ void add_chip(World& world, const Compound& piece, const Motion& motion) {
   const Vec3 center_W = motion.X_WR * weight.com_R;
   const VelocityField field{motion.point_W, motion.velocity_W, motion.angular_velocity_W};
   const Vec3 velocity_W = field(center_W);
-  world.crumbs.chips.push_back({center_W - elapsed_s(world) * velocity_W,
-                                radius_of_ball_m(volume(piece)), velocity_W,
-                                motion.angular_velocity_W, piece.convexes[0]->material});
+  world.exposed.chips.push_back({center_W - elapsed_s(world) * velocity_W,
+                                 radius_of_ball_m(volume(piece)), velocity_W,
+                                 motion.angular_velocity_W, piece.convexes[0]->material});
 }
 
 void particle_stage(World& world) {

@@ -81,7 +81,7 @@ void Bodies::resize(std::uint32_t count) {
   rest_rotation.resize(count);
   is_new.resize(count);
   changed.resize(count);
-  bears_load.resize(count);
+  reports_load.resize(count);
   group.resize(count);
   tag.resize(count);
   first_shape.resize(count, kNone);
@@ -119,7 +119,7 @@ std::uint32_t Bodies::add(const BodyDesc& desc) {
   rest_rotation[body] = rotation[body];
   is_new[body] = 1;
   changed[body] = 1;
-  bears_load[body] = desc.bears_load;
+  reports_load[body] = desc.reports_load;
   group[body] = desc.group;
   tag[body] = desc.tag;
   first_shape[body] = kNone;

@@ -66,7 +66,7 @@ void fly(Bodies& bodies, std::uint32_t body, const Vec3& gravity_W, double dt_s)
     rotation = spin.rotation;
     bodies.angular_velocity[body] = spin.rotation * spin.w_B;
   } else {
-    rotation = turn_by(angle_W) * bodies.rotation[body];
+    rotation = rotation_by(angle_W) * bodies.rotation[body];
   }
   bodies.place(body, bodies.position[body] + way, rotation);
   bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];

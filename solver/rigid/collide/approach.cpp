@@ -55,7 +55,7 @@ bool make_approach(const Pair& pair, const Manifold& m, const Bodies& bodies, co
   approach.a = bodies.id(m.body_a), approach.b = bodies.id(m.body_b);
   approach.body_tag_a = bodies.tag[m.body_a], approach.body_tag_b = bodies.tag[m.body_b];
   approach.shape_tag_a = shapes[pair.shape_a].tag, approach.shape_tag_b = shapes[pair.shape_b].tag;
-  // On the body that stands still, if one does: there the point is where the blow will land.
+  // On the body that stands still, if one does: there the point is where the impact will land.
   const bool on_a = !bodies.awake(m.body_a) || bodies.awake(m.body_b);
   approach.point_W = on_a ? Vec3(bodies.position[m.body_a] + arm_A.cast<double>())
                           : Vec3(bodies.position[m.body_b] + arm_B.cast<double>());
@@ -76,9 +76,10 @@ double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A
 }
 
 std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
-                                      const Shapes& shapes, double dt_s, const FallScale& fall) {
+                                      const Shapes& shapes, double dt_s,
+                                      const FroudeScale& froude) {
   constexpr std::size_t kChunk = 4096;
-  const StepTime step{dt_s, fall.still_m_s(dt_s)};
+  const StepTime step{dt_s, froude.still_m_s(dt_s)};
   using Keyed = std::pair<std::uint64_t, Approach>;
   std::vector<std::vector<Keyed>> found((contacts.manifolds.size() + kChunk - 1) / kChunk);
   for_chunks(contacts.manifolds.size(), kChunk,

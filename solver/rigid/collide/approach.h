@@ -13,7 +13,7 @@ namespace sunder::solver {
 
 /// One approach for each manifold that closes, or would within dt_s; in order of pair keys.
 std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
-                                      const Shapes& shapes, double dt_s, const FallScale& fall);
+                                      const Shapes& shapes, double dt_s, const FroudeScale& froude);
 
 /// The manifolds of each body that can move.
 class ContactsOfBodies {

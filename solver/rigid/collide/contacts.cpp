@@ -51,8 +51,8 @@ void Contacts::touch(std::uint32_t pair, const Manifold& manifold, const Bodies&
   const std::uint32_t slot = put(manifold, free_manifolds, manifolds);
   Manifold& m = manifolds[slot];
   m.pair = pair;
-  m.unseeded = bodies.is_new[m.body_a] || bodies.is_new[m.body_b];
-  if (m.unseeded) unseeded.push_back(slot);
+  m.cold = bodies.is_new[m.body_a] || bodies.is_new[m.body_b];
+  if (m.cold) cold.push_back(slot);
   pairs[pair].manifold = slot;
   const bool a = bodies.dynamic(m.body_a), b = bodies.dynamic(m.body_b);
   const std::uint64_t used = (a ? body_colors[m.body_a] : 0) | (b ? body_colors[m.body_b] : 0);

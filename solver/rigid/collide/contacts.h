@@ -44,7 +44,7 @@ struct ManifoldPoint {
   Vec3f arm_A = Vec3f::Zero(), arm_B = Vec3f::Zero();        ///< From the centres of mass, in W.
   float separation_m = 0;
   float impulse_Ns = 0;  ///< Of the last substep, along the normal.
-  float rest_m = 0;      ///< Separation at which it rests without load: see seeding.h.
+  float rest_m = 0;      ///< Separation at which it rests without load: see static_warm_start.h.
   std::uint32_t feature = 0;
 };
 
@@ -58,7 +58,7 @@ struct Manifold {
   bool reusable = false;     ///< Points may be carried along while the pair barely moves.
   bool deep = false;         ///< They overlap so far that the normal says little.
   bool sticking = false;     ///< The friction anchors hold since the last rebuild.
-  bool unseeded = false;     ///< Came with a new body: gets its load before the next solve.
+  bool cold = false;         ///< Came with a new body: gets its load before the next solve.
   float friction = 0;
   float restitution = 0;
   float ease = 1;                   ///< How soft its springs are; less where it bears much.
@@ -107,8 +107,9 @@ struct Contacts {
   std::vector<std::uint32_t> free_pairs, free_manifolds;
   std::uint8_t colors = kMaxColors;        ///< That may be given out.
   std::vector<std::uint64_t> body_colors;  ///< Bit c: a manifold of colour c touches the body.
-  std::vector<std::uint32_t> unseeded;     ///< Manifolds that came with new bodies: see seeding.h.
-  KeyMap slot_of;                          ///< Pair slots by key.
+  std::vector<std::uint32_t>
+      cold;        ///< Manifolds that came with new bodies: see static_warm_start.h.
+  KeyMap slot_of;  ///< Pair slots by key.
 
   void add(const Pair& pair);
   // Make room for so many more.

@@ -8,7 +8,7 @@ std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodi
                                             const Shapes& shapes) {
   std::vector<const Manifold*> loaded;
   for (const Manifold& m : contacts.manifolds)
-    if (m.count > 0 && (bodies.bears_load[m.body_a] || bodies.bears_load[m.body_b]))
+    if (m.count > 0 && (bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b]))
       loaded.push_back(&m);
   std::sort(loaded.begin(), loaded.end(), [&](const Manifold* m, const Manifold* n) {
     return contacts.pairs[m->pair].key() < contacts.pairs[n->pair].key();
@@ -22,7 +22,7 @@ std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodi
     const Vec3 point = bodies.position[m.body_a] + m.middle_of_load().cast<double>();
     for (const bool on_b : {false, true}) {
       const std::uint32_t body = on_b ? m.body_b : m.body_a;
-      if (!bodies.bears_load[body]) continue;
+      if (!bodies.reports_load[body]) continue;
       const Shape& shape = shapes[on_b ? pair.shape_b : pair.shape_a];
       loads.push_back({bodies.tag[body], shape.tag, on_b ? impulse : Vec3(-impulse), point});
     }

@@ -76,7 +76,7 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
                    split_,
                    root_W_,
                    {rows, parts_.data()},
-                   soft_step(h, FallScale(gravity_W))};
+                   soft_step(h, FroudeScale(gravity_W))};
   step.deep_contacts = deep_contacts_;
   step.bears_on = bears_on_;
   step.gravity_W = gravity_W.cast<float>();
@@ -85,7 +85,7 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
   const Vec3f kick = (h * gravity_W).cast<float>();
   const Wide gravity = {kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
   const auto h_f = static_cast<float>(h);
-  const JointStep joint_step{h, double{step.impulse_scale}, FallScale(gravity_W)};
+  const JointStep joint_step{h, double{step.impulse_scale}, FroudeScale(gravity_W)};
 
   auto work_on_body = [&](int kind, std::uint32_t i) {
     const std::uint32_t body = (kind == kFly ? flying_ : active_)[i];
@@ -372,7 +372,7 @@ void ContactSolver::finish_body(std::uint32_t body, Bodies& bodies) const {
   bodies.angular_velocity[body] += (root_W_[body] * angular(change)).cast<double>();
   const Vec3f way = linear(row.position);
   const Vec3f angle = root_W_[body] * angular(row.position);
-  const Quat turn = turn_by(angle.cast<double>());
+  const Quat turn = rotation_by(angle.cast<double>());
   // Energy is that of the velocity as an uneven body sees it, so it turns with the body.
   if (bodies.spins_freely[body])
     bodies.angular_velocity[body] = turn * bodies.angular_velocity[body];

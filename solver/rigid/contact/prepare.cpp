@@ -55,7 +55,7 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
     set_columns(g.root_a, lane, a ? step.root_W[m.body_a] : root_now(bodies, m.body_a));
   if (b || sleeps_b)
     set_columns(g.root_b, lane, b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
-  c.summed = c.summed || !a || !b || bodies.bears_load[m.body_a] || bodies.bears_load[m.body_b];
+  c.summed = c.summed || !a || !b || bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b];
   c.outside_sign[lane] = (a ? 0.f : 1.f) - (b ? 0.f : 1.f);
   set_lane(g.gravity, lane, ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.gravity_W);
 }

@@ -25,14 +25,14 @@ Softness softness(double stiffness, double h) {
 
 }  // namespace
 
-SoftStep soft_step(double h_s, const FallScale& fall) {
+SoftStep soft_step(double h_s, const FroudeScale& froude) {
   SoftStep step;
   for (int i = 0; i < 4; ++i) {
     step.press[i] = softness(kPressStiffness[i], h_s);
     step.slide[i] = softness(kSlideStiffness[i], h_s);
   }
   step.inverse_h = static_cast<float>(1 / h_s);
-  step.push = static_cast<float>(kPush * fall.speed_m_s(1));
+  step.push = static_cast<float>(kPush * froude.speed_m_s(1));
   return step;
 }
 

@@ -24,6 +24,6 @@ struct SoftStep {
 };
 
 /// Of a substep of h_s.
-SoftStep soft_step(double h_s, const FallScale& fall);
+SoftStep soft_step(double h_s, const FroudeScale& froude);
 
 }  // namespace sunder::solver

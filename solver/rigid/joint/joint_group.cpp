@@ -8,7 +8,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr double kRate = 0.25;      // of an error that a substep takes out
-constexpr double kJointPush = 2;         // fastest correction, in speeds of falling
+constexpr double kJointPush = 2;    // fastest correction, in speeds of falling
 constexpr double kSoftness = 1e-6;  // of a row's response: two hinges of a door say the same twice
 
 /// Response of row i of one joint to an impulse along row j of another, through what they share.
@@ -90,7 +90,7 @@ double bias(const JointWork& work, int i, const JointStep& step, bool biased) {
   const double apart = work.kind == JointDesc::Kind::kRope ? std::min(0.0, error) : 0;
   if (apart < 0) return apart / step.h_s;  // a slack rope may run out
   if (!biased) return 0;
-  const double push_m_s = kJointPush * step.fall.speed_m_s(work.reach_m);
+  const double push_m_s = kJointPush * step.froude.speed_m_s(work.reach_m);
   const double most = i < work.place_rows ? push_m_s : push_m_s / work.reach_m;
   return std::clamp(kRate / step.h_s * error, -most, most);
 }

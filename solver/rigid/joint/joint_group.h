@@ -39,7 +39,7 @@ struct JointGroup {
 struct JointStep {
   double h_s = 0;
   double impulse_scale = 1;  ///< Substep over that of the last step.
-  FallScale fall;
+  FroudeScale froude;
 };
 
 /// Rows for the bodies as the step begins.

@@ -26,7 +26,7 @@ End end_of(std::uint32_t body, const Vec3& anchor_R, const Vec3& axis_R, const B
 
 /// How far a body has turned since the step began.
 Quat turn_of(const Mat3f& root, const BodyRow& row) {
-  return turn_by((root * angular(row.position)).cast<double>());
+  return rotation_by((root * angular(row.position)).cast<double>());
 }
 
 void place_row(JointWork& w, const Vec3& arm_a, const Vec3& arm_b, const Vec3& direction,

@@ -1,5 +1,5 @@
 // What a steady load breaks, and what it leaves alone.
-#include "fracture/stress/bear.h"
+#include "fracture/stress/stress_breaks.h"
 
 #include <cmath>
 #include <limits>
@@ -19,13 +19,13 @@ namespace {
 constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40;
 
 /// An answer, and what becomes of the compound as pieces; none if nothing does.
-struct Outcome : LoadAnswer {
+struct Outcome : StressAnswer {
   std::size_t cut = 0;
   BreakPlan plan = {};
 };
 
 Outcome bear(const Compound& compound, const std::vector<Material>& materials,
-             std::vector<Load> loads = {}, LoadMemoryPtr memory = nullptr,
+             std::vector<Load> loads = {}, StressMemoryPtr memory = nullptr,
              std::uint64_t most_work = kPlenty) {
   Structure structure(compound);
   Outcome outcome{bear_load(structure, {materials, loads, kDown, most_work, std::move(memory)})};
@@ -65,10 +65,10 @@ void expect_snapped_at_root(const BreakPlan& plan) {
   EXPECT_LE(plan.new_area_m2, 1.5 * kWidth * kWidth);
 }
 
-TEST(Bear, ACantileverBearsNineTenthsOfItsLoadForEverAndSnapsAtElevenTenths) {
+TEST(StressBreaks, ACantileverBearsNineTenthsOfItsLoadForEverAndSnapsAtElevenTenths) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const std::vector<Material> materials = weightless(kRootStrength);
-  LoadMemoryPtr memory;
+  StressMemoryPtr memory;
   for (int step = 0; step < 200; ++step) {
     // A load that trembles is solved for anew each time; nothing must add up.
     const double load_N = (0.9 + (step % 2 ? 0.01 : -0.01)) * kSnaps_N;
@@ -82,7 +82,7 @@ TEST(Bear, ACantileverBearsNineTenthsOfItsLoadForEverAndSnapsAtElevenTenths) {
   expect_snapped_at_root(answer.plan);
 }
 
-TEST(Bear, ACantileverThatIsTooLongSnapsUnderItsOwnWeightAtTheRoot) {
+TEST(StressBreaks, ACantileverThatIsTooLongSnapsUnderItsOwnWeightAtTheRoot) {
   // 3 ρ g L² / h
   const double length = std::sqrt(kRootStrength * kWidth / (3 * kDensity * kGravity));
   EXPECT_EQ(bear(bar(0.95 * length, kWidth, 30, 4), stone(kRootStrength)).cut, 0u);
@@ -90,7 +90,7 @@ TEST(Bear, ACantileverThatIsTooLongSnapsUnderItsOwnWeightAtTheRoot) {
   expect_snapped_at_root(answer.plan);
 }
 
-TEST(Bear, TheSameLoadAgainCostsOneLookAndChangesNothing) {
+TEST(StressBreaks, TheSameLoadAgainCostsOneLookAndChangesNothing) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const Outcome first = bear(compound, stone(1e9));
   const Outcome second = bear(compound, stone(1e9), {}, first.memory);
@@ -99,12 +99,12 @@ TEST(Bear, TheSameLoadAgainCostsOneLookAndChangesNothing) {
   EXPECT_EQ(first.worst, second.worst);
 }
 
-TEST(Bear, WorkPutOffIsNotLost) {
+TEST(StressBreaks, WorkPutOffIsNotLost) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const std::vector<Material> materials = weightless(kRootStrength);
   const std::vector<Load> loads = at_tip(compound, 1.1 * kSnaps_N);
   const std::uint64_t little = 3 * compound.bonds.size();
-  LoadMemoryPtr memory;
+  StressMemoryPtr memory;
   Compound left = compound;
   std::size_t pieces = 1;
   int calls = 0;
@@ -140,7 +140,7 @@ Compound arch(bool keystone) {
   return make_compound(std::move(parts));
 }
 
-TEST(Bear, AnArchStandsByItsKeystone) {
+TEST(StressBreaks, AnArchStandsByItsKeystone) {
   const std::vector<Material> weak_mortar = stone(1e5);
   EXPECT_EQ(bear(arch(true), weak_mortar).cut, 0u);
   const Outcome answer = bear(arch(false), weak_mortar);
@@ -153,7 +153,7 @@ TEST(Bear, AnArchStandsByItsKeystone) {
   EXPECT_GE(falling, 6);
 }
 
-TEST(Bear, WhatHangsOnNothingIsAPieceOfItsOwn) {
+TEST(StressBreaks, WhatHangsOnNothingIsAPieceOfItsOwn) {
   std::vector<Part> parts;
   add_grid(Vec3(0, 0, 0), Vec3(1, 1, 1), 1, 2, 1, true, parts);
   add_grid(Vec3(0, 3, 0), Vec3(1, 4, 1), 2, 1, 1, false, parts);
@@ -165,12 +165,12 @@ TEST(Bear, WhatHangsOnNothingIsAPieceOfItsOwn) {
   EXPECT_EQ(answer.plan.pieces[1].bonds.size(), 1u);
 }
 
-TEST(Bear, MaterialsWithoutLimitsNeverBreak) {
+TEST(StressBreaks, MaterialsWithoutLimitsNeverBreak) {
   const Compound compound = bar(kLength, kWidth, 20, 2);
   EXPECT_EQ(bear(compound, stone(0), at_tip(compound, 1e12)).cut, 0u);
 }
 
-TEST(Bear, AnyCompoundGivesPiecesThatAddUpAndTheSameForAnyNumberOfThreads) {
+TEST(StressBreaks, AnyCompoundGivesPiecesThatAddUpAndTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed, 17);
     Compound compound = voronoi_compound(2 + static_cast<int>(random.below(120)), seed);

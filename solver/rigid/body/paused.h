@@ -8,7 +8,7 @@
 
 namespace sunder::solver {
 
-class Held {
+class Paused {
  public:
   /// From the next stop() to the release() after it.
   void add(std::uint32_t body) { items_.push_back({body}); }

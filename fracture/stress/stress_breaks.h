@@ -10,6 +10,6 @@
 namespace sunder::fracture {
 
 /// See Breaker::bear().
-LoadAnswer bear_load(const Structure& structure, const LoadCase& load);
+StressAnswer bear_load(const Structure& structure, const LoadCase& load);
 
 }  // namespace sunder::fracture

@@ -1,4 +1,4 @@
-#include "solver/planar/planar_ledger.h"
+#include "solver/planar/contact_listener.h"
 
 #include <algorithm>
 
@@ -9,32 +9,32 @@ const PlanarBody& of(const std::vector<PlanarBody>& bodies, const b2Fixture* fix
   return bodies[body_of(fixture->GetBody())];
 }
 
-Books::Pair pair_of(const b2Contact& contact) {
+ContactListener::Pair pair_of(const b2Contact& contact) {
   return std::minmax(shape_of(contact.GetFixtureA()), shape_of(contact.GetFixtureB()));
 }
 
 }  // namespace
 
-bool Books::siblings(const b2Contact& contact) const {
+bool ContactListener::siblings(const b2Contact& contact) const {
   const PlanarBody& a = of(bodies_, contact.GetFixtureA());
   return a.group != 0 && a.group == of(bodies_, contact.GetFixtureB()).group;
 }
 
-bool Books::asleep(const Passed& p) const {
+bool ContactListener::asleep(const Passed& p) const {
   const auto still = [&](std::uint32_t slot) {
     return !bodies_[slot].dynamic() || !bodies_[slot].body->IsAwake();
   };
   return still(p.body_a) && still(p.body_b);
 }
 
-void Books::begin() {
+void ContactListener::begin() {
   from_static.SetZero();
   std::erase_if(passed,
                 [&](const auto& entry) { return entry.second.ended || !asleep(entry.second); });
   for (auto& [pair, p] : passed) p.steps = -1;  // complete
 }
 
-void Books::end(int steps) {
+void ContactListener::end(int steps) {
   for (auto& [pair, p] : passed) {
     if (p.steps <= 0 || !asleep(p)) continue;
     const float scale = static_cast<float>(steps) / static_cast<float>(p.steps);
@@ -42,24 +42,24 @@ void Books::end(int steps) {
   }
 }
 
-void Books::BeginContact(b2Contact* contact) {
+void ContactListener::BeginContact(b2Contact* contact) {
   if (!siblings(*contact)) return;
   const bool born_so =
       of(bodies_, contact->GetFixtureA()).fresh || of(bodies_, contact->GetFixtureB()).fresh;
   if (born_so) overlapping_.insert(pair_of(*contact));
 }
 
-void Books::EndContact(b2Contact* contact) {
+void ContactListener::EndContact(b2Contact* contact) {
   overlapping_.erase(pair_of(*contact));
   if (const auto found = passed.find(pair_of(*contact)); found != passed.end())
     found->second.ended = true;
 }
 
-void Books::PreSolve(b2Contact* contact, const b2Manifold*) {
+void ContactListener::PreSolve(b2Contact* contact, const b2Manifold*) {
   if (!overlapping_.empty() && overlapping_.contains(pair_of(*contact))) contact->SetEnabled(false);
 }
 
-void Books::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
+void ContactListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
   b2WorldManifold manifold;
   contact->GetWorldManifold(&manifold);
   const b2Vec2 tangent = b2Cross(manifold.normal, 1.f);
@@ -82,7 +82,7 @@ void Books::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
   }
   if (!bodies_[a].dynamic()) from_static += sum;
   if (!bodies_[b].dynamic()) from_static -= sum;
-  if (!bodies_[a].bears_load && !bodies_[b].bears_load) return;
+  if (!bodies_[a].reports_load && !bodies_[b].reports_load) return;
   Passed& p = passed[{shape_of(first), shape_of(second)}];
   if (p.steps < 0) p = Passed();  // of a pair that woke up
   p.body_a = a, p.body_b = b;

@@ -1,4 +1,4 @@
-#include "fracture/stress/bear.h"
+#include "fracture/stress/stress_breaks.h"
 
 #include <algorithm>
 #include <limits>
@@ -31,7 +31,7 @@ constexpr std::uint64_t kLeastIterations = 2;
 constexpr double kWorthALook = 0.6;
 
 /// What is handed back to the next solve.
-struct Memory final : LoadMemory {
+struct Memory final : StressMemory {
   std::vector<std::uint32_t> slots;  ///< Per convex.
   std::vector<ConvexPtr> convexes;
   std::vector<std::uint8_t> anchored;
@@ -109,8 +109,8 @@ class Bearing {
     }
   }
 
-  LoadAnswer run() {
-    LoadAnswer answer;
+  StressAnswer run() {
+    StressAnswer answer;
     recall(answer);
     most_work_ =
         std::max(load_.most_work, answer.work + kLeastIterations * memory_->system->work());
@@ -135,7 +135,7 @@ class Bearing {
 
  private:
   /// Takes over what is known of the compound, or of what it was a part of.
-  void recall(LoadAnswer& answer) {
+  void recall(StressAnswer& answer) {
     const auto* old = dynamic_cast<const Memory*>(load_.memory.get());
     if (old && old->is_of(compound_)) {
       *memory_ = *old;
@@ -210,7 +210,7 @@ class Bearing {
   }
 
   /// False if the stress is not known by now: there is no work left, or it is given up.
-  bool solve(LoadAnswer& answer) {
+  bool solve(StressAnswer& answer) {
     const std::uint64_t each = std::max<std::uint64_t>(1, memory_->system->work());
     if (answer.work >= most_work_) return false;
     const auto left = static_cast<int>(
@@ -224,7 +224,7 @@ class Bearing {
   }
 
   /// The worst bonds of each overloaded region, ascending.
-  std::vector<std::uint32_t> overloaded(LoadAnswer& answer) const {
+  std::vector<std::uint32_t> overloaded(StressAnswer& answer) const {
     std::vector<double> parts(compound_.bonds.size(), 0);
     for_chunks(parts.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) parts[i] = part_of_limit(i);
@@ -358,7 +358,7 @@ class Bearing {
 
 }  // namespace
 
-LoadAnswer bear_load(const Structure& structure, const LoadCase& load) {
+StressAnswer bear_load(const Structure& structure, const LoadCase& load) {
   SUNDER_CHECK(!structure.empty());
   return Bearing(structure, load).run();
 }

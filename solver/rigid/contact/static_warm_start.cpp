@@ -1,6 +1,6 @@
-// Read first: Seeding::seed(). The loads are found by nonsmooth nonlinear conjugate gradients
-// (Silcowitz, Niebe, Erleben 2010) over the sweeps of the solver itself.
-#include "solver/rigid/contact/seeding.h"
+// Read first: StaticWarmStart::seed(). The loads are found by nonsmooth nonlinear conjugate
+// gradients (Silcowitz, Niebe, Erleben 2010) over the sweeps of the solver itself.
+#include "solver/rigid/contact/static_warm_start.h"
 
 #include <algorithm>
 #include <cmath>
@@ -129,8 +129,8 @@ void seat_friction(const SeedBlock& c, std::uint32_t lane, float yield_s, float 
 
 }  // namespace
 
-void Seeding::seed(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s,
-                   double factor, const Bodies& bodies, Contacts& contacts) {
+void StaticWarmStart::seed(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s,
+                           double factor, const Bodies& bodies, Contacts& contacts) {
   if (!collect(gravity_W, dt_s, bodies, contacts) || !(factor > 0)) return;
   const double h_s = dt_s / substeps;
   const double scale = stored_h_s > 0 ? h_s / stored_h_s : 1;
@@ -138,7 +138,7 @@ void Seeding::seed(const Vec3& gravity_W, double dt_s, int substeps, double stor
   estimate(gravity_W, h_s, static_cast<float>(1 / scale), bodies, contacts);
   const auto first_split = static_cast<std::uint32_t>(manifolds_.size());
   ContactStep step{bodies, contacts, manifolds_,     first_split,
-                   {},     root_W_,  {rows_.data()}, soft_step(h_s, FallScale(gravity_W))};
+                   {},     root_W_,  {rows_.data()}, soft_step(h_s, FroudeScale(gravity_W))};
   step.impulse_scale = static_cast<float>(scale);
   step.bounce_speed_m_s = 1e30f;
   const double kick_m_s = h_s * gravity_W.norm();
@@ -148,24 +148,24 @@ void Seeding::seed(const Vec3& gravity_W, double dt_s, int substeps, double stor
   store(step.soft, static_cast<float>(1 / scale), static_cast<float>(factor), bodies, contacts);
 }
 
-bool Seeding::collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
-                      Contacts& contacts) {
+bool StaticWarmStart::collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
+                              Contacts& contacts) {
   find_resting(gravity_W, dt_s, bodies, contacts);
   make_blocks(contacts);
   return !manifolds_.empty();
 }
 
 /// Lists what is to be seeded by colour and number of points.
-void Seeding::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
-                           Contacts& contacts) {
+void StaticWarmStart::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
+                                   Contacts& contacts) {
   std::uint32_t start[kSweepKeys + 1] = {};
   std::vector<std::pair<std::uint32_t, std::uint32_t>> resting;  // key, manifold
-  resting.reserve(contacts.unseeded.size());
+  resting.reserve(contacts.cold.size());
   const double slow_m_s = 2 * dt_s * gravity_W.norm();
-  for (const std::uint32_t i : std::exchange(contacts.unseeded, {})) {
+  for (const std::uint32_t i : std::exchange(contacts.cold, {})) {
     Manifold& m = contacts.manifolds[i];
-    if (!m.unseeded) continue;  // gone, or here for the second time
-    m.unseeded = false;
+    if (!m.cold) continue;  // gone, or here for the second time
+    m.cold = false;
     if (m.count == 0 || !(bodies.awake(m.body_a) || bodies.awake(m.body_b))) continue;
     const bool rests = std::abs(m.least_separation()) < kMostOverlap * m.size_m;
     if (!rests || greatest_speed(m, bodies) >= slow_m_s) continue;
@@ -177,7 +177,7 @@ void Seeding::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bod
   for (const auto& [key, i] : resting) manifolds_[start[key]++] = i;
 }
 
-void Seeding::make_blocks(const Contacts& contacts) {
+void StaticWarmStart::make_blocks(const Contacts& contacts) {
   blocks_.clear();
   blocks_.reserve(manifolds_.size() / kSeedLanes + kMaxColors);
   colors_.clear();
@@ -198,8 +198,8 @@ void Seeding::make_blocks(const Contacts& contacts) {
   }
 }
 
-void Seeding::begin(const Vec3& gravity_W, float impulse_scale, double h_s, const Bodies& bodies,
-                    const Contacts& contacts) {
+void StaticWarmStart::begin(const Vec3& gravity_W, float impulse_scale, double h_s,
+                            const Bodies& bodies, const Contacts& contacts) {
   const Vec3f kick = (h_s * gravity_W).cast<float>();
   rows_.resize(bodies.size() + 1);
   rows_[0] = BodyRow{};
@@ -239,8 +239,8 @@ void Seeding::begin(const Vec3& gravity_W, float impulse_scale, double h_s, cons
 }
 
 /// A first guess, from which few rounds lead to the loads.
-void Seeding::estimate(const Vec3& gravity_W, double h_s, float stored_scale, const Bodies& bodies,
-                       Contacts& contacts) {
+void StaticWarmStart::estimate(const Vec3& gravity_W, double h_s, float stored_scale,
+                               const Bodies& bodies, Contacts& contacts) {
   loads_.assign(bodies.size(), {});
   const Vec3f kick = (h_s * gravity_W).cast<float>();
   for (std::uint32_t body = 0; body < bodies.size(); ++body) {
@@ -254,7 +254,7 @@ void Seeding::estimate(const Vec3& gravity_W, double h_s, float stored_scale, co
   follow_loads(gravity_W, manifolds_, stored_scale, bodies, loads_, contacts);
 }
 
-void Seeding::find_loads(const ContactStep& step, double kick_m_s) {
+void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
   enum { kPrepare, kWarmStart, kSweep, kLeap };
   double points = 0;
   for (const SeedBlock& c : blocks_) points += c.points * static_cast<double>(c.count);
@@ -314,7 +314,7 @@ void Seeding::find_loads(const ContactStep& step, double kick_m_s) {
 
 /// A body that its loads would leave with more energy than gravity gave it is not held: the rounds
 /// were too few, or nothing can hold it. Answers how many are.
-std::size_t Seeding::find_held(double kick_m_s, const Bodies& bodies) {
+std::size_t StaticWarmStart::find_held(double kick_m_s, const Bodies& bodies) {
   std::size_t held = 0;
   for (const std::uint32_t body : concerned_bodies_) {
     const Wide& v = rows_[body + 1].velocity;
@@ -329,8 +329,8 @@ std::size_t Seeding::find_held(double kick_m_s, const Bodies& bodies) {
 
 /// What would have to give way further than contacts can be seated is not held, nor what stands on
 /// it: it will fall, and seats are springs under load, which would give it their energy.
-void Seeding::release_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
-                                 const Contacts& contacts) {
+void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& soft,
+                                         const Bodies& bodies, const Contacts& contacts) {
   bool any = false;
   for (const SeedBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
@@ -346,8 +346,8 @@ void Seeding::release_overloaded(const Vec3& gravity_W, const SoftStep& soft, co
   if (any) release_above(gravity_W, manifolds_, bodies, contacts, loads_);
 }
 
-void Seeding::store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
-                    Contacts& contacts) const {
+void StaticWarmStart::store(const SoftStep& soft, float stored_scale, float factor,
+                            const Bodies& bodies, Contacts& contacts) const {
   for (const SeedBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];

@@ -1,4 +1,4 @@
-#include "render/passes/looks.h"
+#include "render/passes/material_rows.h"
 
 #include "render/passes/tiles.h"
 

@@ -14,10 +14,10 @@ using W = RigidWorld;
 constexpr double kG = 9.81;
 constexpr int kBricks = 10;
 
-RigidOptions awake(double seeding = 1) {
+RigidOptions awake(double part = 1) {
   RigidOptions options;
   options.sleeping = false;
-  options.seeding = seeding;
+  options.static_warm_start = part;
   return options;
 }
 
@@ -57,8 +57,8 @@ struct Aftermath {
 };
 
 /// The second after a tower at rest has broken.
-Aftermath break_at_rest(int substeps, double seeding) {
-  RigidWorld world(awake(seeding));
+Aftermath break_at_rest(int substeps, double part) {
+  RigidWorld world(awake(part));
   const std::vector<BodyId> bricks = add_tower(world);
   world.run(2, 1.0 / 60, substeps);
   const double before_J = world.kinetic_energy() + world.potential_energy(kG);
@@ -74,7 +74,7 @@ Aftermath break_at_rest(int substeps, double seeding) {
   return after;
 }
 
-TEST(Seeding, ATowerWhoseBricksAllBreakInOneStepHardlyMoves) {
+TEST(StaticWarmStart, ATowerWhoseBricksAllBreakInOneStepHardlyMoves) {
   for (const int substeps : {4, 8}) {
     const double cold_J = break_at_rest(substeps, 0).peak_kinetic_J;
     const double seeded_J = break_at_rest(substeps, 1).peak_kinetic_J;
@@ -84,7 +84,7 @@ TEST(Seeding, ATowerWhoseBricksAllBreakInOneStepHardlyMoves) {
   }
 }
 
-TEST(Seeding, ABreakAtRestGainsNoEnergyAndTwiceTheSeedWouldBeCaught) {
+TEST(StaticWarmStart, ABreakAtRestGainsNoEnergyAndTwiceTheSeedWouldBeCaught) {
   constexpr double kMost = 1e-6;
   for (const int substeps : {4, 8}) {
     const double gain = break_at_rest(substeps, 1).most_gain;
@@ -96,7 +96,7 @@ TEST(Seeding, ABreakAtRestGainsNoEnergyAndTwiceTheSeedWouldBeCaught) {
   }
 }
 
-TEST(Seeding, BodiesThatFallTogetherDoNotPress) {
+TEST(StaticWarmStart, BodiesThatFallTogetherDoNotPress) {
   RigidWorld world(awake());
   const BodyId low = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 10.5, 0)));
   const BodyId high = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 11.5, 0), 8000));
@@ -106,7 +106,7 @@ TEST(Seeding, BodiesThatFallTogetherDoNotPress) {
   EXPECT_NEAR(world.state(low).velocity_W.y(), -kG / 60, 1e-6);
 }
 
-TEST(Seeding, ABodyPutOnAStackThatRestsIsBorneAtOnce) {
+TEST(StaticWarmStart, ABodyPutOnAStackThatRestsIsBorneAtOnce) {
   RigidWorld world(awake());
   world.add(W::ground());
   for (int i = 0; i < 5; ++i) world.add(W::box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0)));
@@ -117,7 +117,7 @@ TEST(Seeding, ABodyPutOnAStackThatRestsIsBorneAtOnce) {
   EXPECT_LT(world.kinetic_energy(), 1e-3);
 }
 
-TEST(Seeding, GivesTheSameBitsForAnyNumberOfThreads) {
+TEST(StaticWarmStart, GivesTheSameBitsForAnyNumberOfThreads) {
   std::uint64_t first = 0;
   for (const int count : {1, 2, 3}) {
     set_threads(count);

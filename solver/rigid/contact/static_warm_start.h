@@ -28,9 +28,9 @@ struct BlockLoads {
   Wide4 slide_1 = {}, slide_2 = {}, twist = {};
 };
 
-class Seeding {
+class StaticWarmStart {
  public:
-  /// Seeds what is unseeded and hardly moves: what moves is under no load that could be known
+  /// Seeds what is cold and hardly moves: what moves is under no load that could be known
   /// before. The impulses that manifolds hold are of substeps of `stored_h_s`. `factor`: 1; 0 for
   /// none; tests seed too much by it.
   void seed(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s, double factor,

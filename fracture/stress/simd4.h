@@ -8,20 +8,20 @@ namespace sunder::fracture {
 
 template <class Real>
 struct Lanes {
-  typedef Real Quad __attribute__((vector_size(4 * sizeof(Real))));
+  typedef Real Simd4 __attribute__((vector_size(4 * sizeof(Real))));
 };
 /// Four of `Real`, float or double.
 template <class Real>
-using Quad = typename Lanes<Real>::Quad;
+using Simd4 = typename Lanes<Real>::Simd4;
 
 template <class Real>
-Quad<Real> splat(Real x) {
-  return Quad<Real>{x, x, x, x};
+Simd4<Real> splat(Real x) {
+  return Simd4<Real>{x, x, x, x};
 }
 template <class Real>
-Quad<Real> quad(const Vec3& v) {
-  return Quad<Real>{static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z()),
-                    0};
+Simd4<Real> simd4(const Vec3& v) {
+  return Simd4<Real>{static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z()),
+                     0};
 }
 template <class Q>
 Vec3 vec3(Q q) {
@@ -48,10 +48,10 @@ Q cross(Q a, Q b) {
 /// A symmetric 3×3 matrix; its fourth lanes are the caller's.
 template <class Real>
 struct Symmetric {
-  Quad<Real> diagonal{};  ///< xx, yy, zz
-  Quad<Real> rest{};      ///< yz, xz, xy
+  Simd4<Real> diagonal{};  ///< xx, yy, zz
+  Simd4<Real> rest{};      ///< yz, xz, xy
 
-  Quad<Real> operator*(Quad<Real> v) const {
+  Simd4<Real> operator*(Simd4<Real> v) const {
     return diagonal * v + zxy(rest) * yzx(v) + yzx(rest) * zxy(v);
   }
 };
@@ -59,12 +59,12 @@ struct Symmetric {
 /// A translation and a rotation, or a force and a torque.
 template <class Real>
 struct Six {
-  Quad<Real> linear{}, angular{};
+  Simd4<Real> linear{}, angular{};
 };
 
 template <class Real>
 double dot(const Six<Real>& x, const Six<Real>& y) {
-  return sum(Quad<Real>(x.linear * y.linear + x.angular * y.angular));
+  return sum(Simd4<Real>(x.linear * y.linear + x.angular * y.angular));
 }
 
 }  // namespace sunder::fracture

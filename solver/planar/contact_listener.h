@@ -12,9 +12,9 @@
 namespace sunder::solver {
 
 /// Sums up impulses, in units, and lets bodies of a group ignore each other until separated.
-class Books final : public b2ContactListener {
+class ContactListener final : public b2ContactListener {
  public:
-  explicit Books(std::vector<PlanarBody>& bodies) : bodies_(bodies) {}
+  explicit ContactListener(std::vector<PlanarBody>& bodies) : bodies_(bodies) {}
 
   /// What one pair of shapes passed on, on the second.
   struct Passed {
