@@ -12,7 +12,7 @@ endif()
 find_program(SUNDER_CCACHE ccache)
 if(SUNDER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${SUNDER_CCACHE})
-  if(SUNDER_PRECOMPILE)
+  if(SUNDER_QUICK_BUILD)
     set(CMAKE_CXX_COMPILER_LAUNCHER
       ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${SUNDER_CCACHE})
   endif()
@@ -39,7 +39,7 @@ if(SUNDER_ARCH)
 endif()
 if(SUNDER_STRICT)
   set(shadow -Wshadow)
-  if(SUNDER_UNITY)  # the sources of a batch see each other's file-local names
+  if(SUNDER_QUICK_BUILD)  # the sources of a batch see each other's file-local names
     set(shadow -Wshadow=local -Wno-subobject-linkage)
   endif()
   target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic
@@ -60,9 +60,10 @@ endif()
 install(TARGETS sunder_options EXPORT sunderTargets)
 set_target_properties(sunder_options PROPERTIES EXPORT_NAME options)
 
-# Parsed once for a family of targets with the same flags, where SUNDER_PRECOMPILE asks for it.
+# Headers parsed once for tests, whose files are too alike to share a compiler run: a family of
+# targets with the same flags, where SUNDER_QUICK_BUILD asks for it.
 function(sunder_precompile target first)
-  if(NOT SUNDER_PRECOMPILE)
+  if(NOT SUNDER_QUICK_BUILD)
     return()
   endif()
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
@@ -74,10 +75,10 @@ function(sunder_precompile target first)
   endif()
 endfunction()
 
-# Several sources a compiler run, where SUNDER_UNITY asks for it: headers are parsed once for all.
+# Several sources a compiler run, where SUNDER_QUICK_BUILD asks for it: their headers are parsed once.
 function(sunder_unity target)
   set_target_properties(${target} PROPERTIES
-    UNITY_BUILD ${SUNDER_UNITY} UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 8)
+    UNITY_BUILD ${SUNDER_QUICK_BUILD} UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
 # Files as strings: sunder_embed(OUT HEADER NAMESPACE FILES...) writes OUT, which defines what HEADER
@@ -105,7 +106,6 @@ function(sunder_room name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sunder>)
   target_link_libraries(sunder_${name} PUBLIC sunder_options Eigen3::Eigen ${ROOM_LINK}
     PRIVATE ${ROOM_PRIVATE_LINK})
-  sunder_precompile(sunder_${name} sunder_engine)
   sunder_unity(sunder_${name})
   set_target_properties(sunder_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
   install(TARGETS sunder_${name} EXPORT sunderTargets)

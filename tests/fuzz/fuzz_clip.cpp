@@ -8,6 +8,7 @@
 
 #include "engine/base/check.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/planes.h"
 
 namespace sunder {
@@ -49,10 +50,7 @@ void cut_box(std::span<const std::uint8_t> bytes) {
   }
 }
 
+const fuzz::Registration clip_target("clip", cut_box);
+
 }  // namespace
 }  // namespace sunder
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  sunder::cut_box({data, size});
-  return 0;
-}

@@ -11,6 +11,7 @@
 #include "engine/geometry/clip_mesh.h"
 #include "engine/geometry/mesh_islands.h"
 #include "tests/engine/geometry_mesh_fixtures.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/planes.h"
 
 namespace sunder {
@@ -67,10 +68,7 @@ void cut_mesh(std::span<const std::uint8_t> bytes) {
   SUNDER_CHECK(std::abs(sum - volume(mesh)) <= 1e-13 + 40 * worst_tolerance);
 }
 
+const fuzz::Registration clip_mesh_target("clip_mesh", cut_mesh);
+
 }  // namespace
 }  // namespace sunder
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  sunder::cut_mesh({data, size});
-  return 0;
-}

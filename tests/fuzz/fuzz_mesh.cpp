@@ -1,4 +1,4 @@
-// Any bytes as a mesh of FUZZED_FORMAT: reading ends with a mesh whose every corner names a vertex,
+// Any bytes as a mesh of any format: reading ends with a mesh whose every corner names a vertex,
 // or with an InputError.
 #include <cstdint>
 #include <cstdlib>
@@ -6,19 +6,30 @@
 
 #include "engine/base/check.h"
 #include "engine/io/mesh/mesh_reader.h"
+#include "tests/fuzz/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace sunder {
+namespace {
+
+template <MeshFormat format>
+void read(std::span<const std::uint8_t> bytes) {
   // Small limits keep the fuzzer fast; they are input like any other.
-  const sunder::MeshLimits limits{.bytes = 1 << 20, .vertices = 1 << 16, .corners = 1 << 18};
+  const MeshLimits limits{.bytes = 1 << 20, .vertices = 1 << 16, .corners = 1 << 18};
   try {
-    const sunder::RawMesh mesh =
-        sunder::parse_mesh(std::as_bytes(std::span(data, size)), sunder::MeshFormat::FUZZED_FORMAT,
-                           "no_such_folder/mesh", limits);
+    const RawMesh mesh = parse_mesh(std::as_bytes(bytes), format, "no_such_folder/mesh", limits);
     for (const std::uint32_t v : mesh.corners) SUNDER_CHECK(v < mesh.vertices.size());
-    for (const sunder::Vec3& p : mesh.vertices) SUNDER_CHECK(p.allFinite());
+    for (const Vec3& p : mesh.vertices) SUNDER_CHECK(p.allFinite());
     SUNDER_CHECK(mesh.corner_normals.empty() || mesh.corner_normals.size() == mesh.corners.size());
     SUNDER_CHECK(mesh.corner_uvs.empty() || mesh.corner_uvs.size() == mesh.corners.size());
-  } catch (const sunder::InputError&) {
+  } catch (const InputError&) {
   }
-  return 0;
 }
+
+const fuzz::Registration mesh_targets[] = {{"mesh_obj", read<MeshFormat::kObj>},
+                                           {"mesh_ply", read<MeshFormat::kPly>},
+                                           {"mesh_stl", read<MeshFormat::kStl>},
+                                           {"mesh_off", read<MeshFormat::kOff>},
+                                           {"mesh_gltf", read<MeshFormat::kGltf>}};
+
+}  // namespace
+}  // namespace sunder

@@ -8,11 +8,14 @@
 #include "engine/base/check.h"
 #include "fracture/fracture.h"
 #include "fracture/solids.h"
+#include "tests/fuzz/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace sunder;
-  if (size > 4096) return 0;
-  std::istringstream obj(std::string(data, data + size));
+namespace sunder {
+namespace {
+
+void break_by_file(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() > 4096) return;
+  std::istringstream obj(std::string(bytes.begin(), bytes.end()));
   try {
     const fracture::Pattern pattern = fracture::read_pattern(obj, "fuzz.obj");
     const Compound box = fracture::box_compound(Vec3(-.7, -.5, -.6), Vec3(.8, .9, .5));
@@ -22,5 +25,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     SUNDER_CHECK(std::abs(sum - volume(box)) <= 1e-12 * volume(box));
   } catch (const InputError&) {
   }
-  return 0;
 }
+
+const fuzz::Registration pattern_target("pattern", break_by_file);
+
+}  // namespace
+}  // namespace sunder

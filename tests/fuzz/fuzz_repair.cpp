@@ -7,31 +7,38 @@
 #include "engine/base/check.h"
 #include "engine/geometry/repair/clean.h"
 #include "engine/geometry/repair/repair.h"
+#include "tests/fuzz/fuzz_target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size > 400) return 0;
-  sunder::RawMesh mesh;
+namespace sunder {
+namespace {
+
+void repair_lattice(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() > 400) return;
+  RawMesh mesh;
   for (int i = 0; i < 64; ++i) mesh.vertices.emplace_back(i % 4, i / 4 % 4, i / 16);
   // The lattice's points are slightly off for one half of the inputs.
-  const bool bent = size > 0 && (data[0] & 1) != 0;
-  for (sunder::Vec3& p : mesh.vertices)
-    p += bent ? 1e-7 * p.cwiseProduct(p) : sunder::Vec3(0, 0, 0);
+  const bool bent = !bytes.empty() && (bytes[0] & 1) != 0;
+  for (Vec3& p : mesh.vertices) p += bent ? 1e-7 * p.cwiseProduct(p) : Vec3(0, 0, 0);
   std::vector<std::uint32_t> polygon;
-  for (std::size_t i = 1; i < size; ++i) {
-    polygon.push_back(data[i] & 63u);
-    if ((data[i] & 64) == 0 && i + 1 < size) continue;
-    sunder::append_polygon(mesh, polygon, 0);
+  for (std::size_t i = 1; i < bytes.size(); ++i) {
+    polygon.push_back(bytes[i] & 63u);
+    if ((bytes[i] & 64) == 0 && i + 1 < bytes.size()) continue;
+    append_polygon(mesh, polygon, 0);
     polygon.clear();
   }
   try {
-    const sunder::RepairedMesh repaired = sunder::repair_mesh(mesh, "lattice", {.shell_cells = 6});
+    const RepairedMesh repaired = repair_mesh(mesh, "lattice", {.shell_cells = 6});
     SUNDER_CHECK(!repaired.shells.empty());
-    for (const sunder::PolygonMesh& shell : repaired.shells) {
-      SUNDER_CHECK(sunder::open_edges(shell) == 0);
-      SUNDER_CHECK(std::isfinite(sunder::mass_properties(shell).volume_m3));
-      for (const sunder::Vec3f& n : shell.corner_normals) SUNDER_CHECK(n.allFinite());
+    for (const PolygonMesh& shell : repaired.shells) {
+      SUNDER_CHECK(open_edges(shell) == 0);
+      SUNDER_CHECK(std::isfinite(mass_properties(shell).volume_m3));
+      for (const Vec3f& n : shell.corner_normals) SUNDER_CHECK(n.allFinite());
     }
-  } catch (const sunder::InputError&) {
+  } catch (const InputError&) {
   }
-  return 0;
 }
+
+const fuzz::Registration repair_target("repair", repair_lattice);
+
+}  // namespace
+}  // namespace sunder
