@@ -43,7 +43,6 @@ struct BodyDesc {
   std::vector<ShapeDesc> shapes;
   std::uint32_t tag = 0;      ///< Opaque; comes back in contacts.
   bool reports_load = false;  ///< What presses on it is reported.
-  std::uint32_t group = 0;    ///< Bodies of one non-zero group ignore each other until separated.
 };
 
 /// A change to the shapes of a body that stays; what it keeps keeps its contacts, and costs

@@ -5,20 +5,11 @@
 namespace sunder::solver {
 namespace {
 
-const PlanarBody& of(const std::vector<PlanarBody>& bodies, const b2Fixture* fixture) {
-  return bodies[body_of(fixture->GetBody())];
-}
-
 ContactListener::Pair pair_of(const b2Contact& contact) {
   return std::minmax(shape_of(contact.GetFixtureA()), shape_of(contact.GetFixtureB()));
 }
 
 }  // namespace
-
-bool ContactListener::siblings(const b2Contact& contact) const {
-  const PlanarBody& a = of(bodies_, contact.GetFixtureA());
-  return a.group != 0 && a.group == of(bodies_, contact.GetFixtureB()).group;
-}
 
 bool ContactListener::asleep(const Passed& p) const {
   const auto still = [&](std::uint32_t slot) {
@@ -42,21 +33,9 @@ void ContactListener::end(int steps) {
   }
 }
 
-void ContactListener::BeginContact(b2Contact* contact) {
-  if (!siblings(*contact)) return;
-  const bool born_so =
-      of(bodies_, contact->GetFixtureA()).fresh || of(bodies_, contact->GetFixtureB()).fresh;
-  if (born_so) overlapping_.insert(pair_of(*contact));
-}
-
 void ContactListener::EndContact(b2Contact* contact) {
-  overlapping_.erase(pair_of(*contact));
   if (const auto found = passed.find(pair_of(*contact)); found != passed.end())
     found->second.ended = true;
-}
-
-void ContactListener::PreSolve(b2Contact* contact, const b2Manifold*) {
-  if (!overlapping_.empty() && overlapping_.contains(pair_of(*contact))) contact->SetEnabled(false);
 }
 
 void ContactListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {

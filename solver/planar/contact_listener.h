@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -11,7 +10,7 @@
 
 namespace sunder::solver {
 
-/// Sums up impulses, in units, and lets bodies of a group ignore each other until separated.
+/// Sums up impulses, in units.
 class ContactListener final : public b2ContactListener {
  public:
   explicit ContactListener(std::vector<PlanarBody>& bodies) : bodies_(bodies) {}
@@ -36,15 +35,11 @@ class ContactListener final : public b2ContactListener {
   std::map<Pair, Passed> passed;  ///< Where one of the bodies bears load.
 
  private:
-  void BeginContact(b2Contact* contact) override;
   void EndContact(b2Contact* contact) override;
-  void PreSolve(b2Contact* contact, const b2Manifold* old) override;
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
-  bool siblings(const b2Contact& contact) const;
   bool asleep(const Passed& p) const;
 
   std::vector<PlanarBody>& bodies_;
-  std::set<Pair> overlapping_;  ///< Of one group, since they came to be.
 };
 
 }  // namespace sunder::solver

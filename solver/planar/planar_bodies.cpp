@@ -33,7 +33,7 @@ std::uint32_t PlanarBodies::add(const BodyDesc& desc, const MadeShapes& made) {
   free_items_.pop_back();
   PlanarBody body;
   body.generation = items[slot].generation;
-  body.tag = desc.tag, body.group = desc.group, body.reports_load = desc.reports_load;
+  body.tag = desc.tag, body.reports_load = desc.reports_load;
   body.X_WB = {desc.X_WB.position, desc.X_WB.rotation.normalized()};
   body.com_R = desc.com_R;
   b2BodyDef def;

@@ -17,10 +17,8 @@ struct PlanarBody {
   b2Body* body = nullptr;  ///< Null: a free slot.
   std::uint32_t generation = 0;
   std::uint32_t tag = 0;
-  std::uint32_t group = 0;
   bool reports_load = false;
   bool frozen = false;                ///< Was not finite; static since.
-  bool fresh = true;                  ///< Not yet stepped.
   double mass_kg = 0;                 ///< 0: static.
   double inertia_kg_m2 = 0;           ///< About z.
   Pose X_WB;                          ///< When it was added: its z, and where its turns start.

@@ -270,7 +270,6 @@ void PlanarPhysics::step(float h_s, SolveReport& report) {
   world_.Step(h_s, kVelocityIterations, kPositionIterations);
   for (std::size_t i = 0; i < bodies_.items.size(); ++i) {
     PlanarBody& body = bodies_.items[i];
-    body.fresh = false;
     if (!body.dynamic()) continue;
     const bool now = body.body->IsAwake();
     if (awake[i] || now) {

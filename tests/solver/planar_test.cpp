@@ -220,23 +220,6 @@ TEST(Planar, EditsTakeSupportsAwayAndBringThem) {
   EXPECT_NEAR(world.state(box).X_WB.position.y(), -1, 5e-3);
 }
 
-TEST(Planar, SiblingsIgnoreEachOtherUntilTheyHaveParted) {
-  PlanarOptions options;
-  options.gravity_W = Vec3::Zero();
-  RigidWorld world(make_planar_physics(options));
-  BodyDesc left = W::box(Vec3(1, 1, 1), Vec3(0, 0, 0)),
-           right = W::box(Vec3(1, 1, 1), Vec3(0.8, 0, 0));
-  left.group = right.group = 1;
-  right.velocity_W = Vec3(1, 0, 0);
-  const BodyId a = world.add(left), b = world.add(right);
-  world.run(1, 1.0 / 60, 2);
-  EXPECT_EQ(world.state(a).velocity_W.x(), 0);
-  EXPECT_NEAR(world.state(b).X_WB.position.x(), 1.8, 1e-3);
-  world.physics().apply_impulse(b, Vec3(-2 * right.mass_kg, 0, 0), world.state(b).X_WB.position);
-  world.run(2, 1.0 / 60, 2);
-  EXPECT_LT(world.state(a).velocity_W.x(), -0.4);  // now they collide
-}
-
 TEST(Planar, ABallOfAThousandMetresASecondDoesNotPassThroughAWallOfOneCentimetre) {
   for (const bool is_static : {true, false}) {
     RigidWorld world = plane(0.1);

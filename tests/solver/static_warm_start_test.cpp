@@ -33,10 +33,8 @@ std::vector<BodyId> add_tower(RigidWorld& world) {
 /// Every brick becomes eight, each where it is, all in one step.
 void break_all(const std::vector<BodyId>& bricks, RigidWorld& world) {
   std::vector<BodyDesc> pieces;
-  std::uint32_t group = 0;
   for (const BodyId brick : bricks) {
     const BodyState parent = world.state(brick);
-    ++group;
     for (int i = 0; i < 8; ++i) {
       const Vec3 corner(i % 2 - 0.5, i / 2 % 2 - 0.5, i / 4 - 0.5);
       const Vec3 arm = parent.X_WB.rotation * Vec3(0.5 * corner);
@@ -44,7 +42,6 @@ void break_all(const std::vector<BodyId>& bricks, RigidWorld& world) {
       piece.X_WB.rotation = parent.X_WB.rotation;
       piece.velocity_W = parent.velocity_W + parent.angular_velocity_W.cross(arm);
       piece.angular_velocity_W = parent.angular_velocity_W;
-      piece.group = group;
       pieces.push_back(piece);
     }
   }

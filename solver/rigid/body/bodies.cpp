@@ -82,7 +82,6 @@ void Bodies::resize(std::uint32_t count) {
   is_new.resize(count);
   changed.resize(count);
   reports_load.resize(count);
-  group.resize(count);
   tag.resize(count);
   first_shape.resize(count, kNone);
 }
@@ -120,7 +119,6 @@ std::uint32_t Bodies::add(const BodyDesc& desc) {
   is_new[body] = 1;
   changed[body] = 1;
   reports_load[body] = desc.reports_load;
-  group[body] = desc.group;
   tag[body] = desc.tag;
   first_shape[body] = kNone;
   return body;

@@ -47,7 +47,6 @@ struct Bodies {
   std::vector<std::uint8_t> is_new;   ///< Not solved yet.
   std::vector<std::uint8_t> changed;  ///< Moved, pushed or new since the last collide.
   std::vector<std::uint8_t> reports_load;
-  std::vector<std::uint32_t> group;
   std::vector<std::uint32_t> tag;
   std::vector<std::uint32_t> first_shape;
   std::vector<std::uint32_t> free_slots;

@@ -76,7 +76,7 @@ FoundPair pair_of(std::uint32_t s, std::uint32_t t, const Shapes& shapes) {
   const bool swap = first.kind != second.kind ? first.kind == ShapeDesc::Kind::kSphere ||
                                                     second.kind == ShapeDesc::Kind::kHalfSpace
                                               : t < s;
-  return {swap ? t : s, swap ? s : t, false};
+  return {swap ? t : s, swap ? s : t};
 }
 
 }  // namespace
@@ -237,9 +237,7 @@ void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bod
     ++neighbours;
     if (theirs.body == mine.body || (moved_[other] && other < shape)) return;
     if (!mover && !bodies.dynamic(theirs.body)) return;
-    FoundPair pair = pair_of(shape, other, shapes);
-    pair.sibling =
-        bodies.group[mine.body] != 0 && bodies.group[mine.body] == bodies.group[theirs.body];
+    const FoundPair pair = pair_of(shape, other, shapes);
     if (!slot_of.contains(pair.key())) found.push_back(pair);
   };
   mover_tree_.overlaps(fat_[shape], consider);
@@ -278,7 +276,6 @@ void BroadPhase::update(const Shapes& shapes, const Bodies& bodies, const Vec3& 
       Pair pair;
       pair.shape_a = found.shape_a, pair.shape_b = found.shape_b;
       pair.body_a = shapes[pair.shape_a].body, pair.body_b = shapes[pair.shape_b].body;
-      pair.sibling = found.sibling;
       contacts.add(pair);
     }
   }

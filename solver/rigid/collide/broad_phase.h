@@ -16,7 +16,6 @@ namespace sunder::solver {
 /// Two shapes that came near: as in Pair, a is the half-space, or the hull, or the lesser slot.
 struct FoundPair {
   std::uint32_t shape_a, shape_b;
-  bool sibling;
 
   std::uint64_t key() const { return pair_key(shape_a, shape_b); }
 };

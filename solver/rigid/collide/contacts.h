@@ -29,10 +29,7 @@ struct Pair {
   double turned_m = 0;             ///< Of both bodies when last looked at closely.
   Vec3f offset_W = Vec3f::Zero();  ///< Of b's centre from a's then.
   Vec3f axis_A = Vec3f::Zero();    ///< Last axis that parted them, in A; zero if none.
-  /// Siblings of a break: overlap they were born with, not pushed apart. Negative: not known yet.
-  float slack_m = -1;
-  bool sibling = false;
-  bool fresh = true;  ///< Not looked at closely yet.
+  bool fresh = true;               ///< Not looked at closely yet.
 
   bool present() const { return shape_a != kNone; }
   bool touching() const { return manifold != kNone; }

@@ -162,11 +162,4 @@ void refresh_manifold(const Bodies& bodies, const PairMotion& motion, Manifold& 
   m.drift_W = motion.offset_W + m.friction_arm_B - m.friction_arm_A;
 }
 
-void forgive_overlap(Pair& pair, Manifold& m) {
-  if (!pair.sibling || m.count == 0) return;
-  const float overlap = std::max(0.f, -m.least_separation());
-  pair.slack_m = pair.slack_m < 0 ? overlap : std::min(pair.slack_m, overlap);
-  for (int i = 0; i < m.count; ++i) m.points[i].separation_m += pair.slack_m;
-}
-
 }  // namespace sunder::solver

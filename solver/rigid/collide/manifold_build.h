@@ -28,7 +28,5 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
 bool barely_moved(const Manifold& m, const Bodies& bodies, const PairMotion& motion);
 /// Points, normal and drift at today's poses.
 void refresh_manifold(const Bodies& bodies, const PairMotion& motion, Manifold& m);
-/// Siblings of a break are not pushed apart by the overlap they were born with.
-void forgive_overlap(Pair& pair, Manifold& m);
 
 }  // namespace sunder::solver

@@ -207,7 +207,6 @@ void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep
   pair.margin_m = reach.margin_m;
   if (m.count > 0 && m.reusable && barely_moved(m, bodies, motion)) {
     refresh_manifold(bodies, motion, m);
-    forgive_overlap(pair, m);
     return;
   }
   const Vec3f way_A = static_cast<float>(step.dt_s) *
@@ -226,7 +225,6 @@ void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep
   } else {
     make_contact(a, b, bodies, motion, reach, step.dt_s, pair, m, scratch);
   }
-  forgive_overlap(pair, m);
 }
 
 HullDistance distance_to_hull(const Hull& hull, const Vec3f& point) {
