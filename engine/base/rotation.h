@@ -5,7 +5,7 @@
 
 namespace sunder {
 
-/// The turn by a rotation vector.
+/// The rotation by a rotation vector, exact for any angle.
 Quat rotation_by(const Vec3& angle_W);
 
 }  // namespace sunder

@@ -218,8 +218,8 @@ void Dust::move(std::size_t puff, const Around& around, float dt_s, float ground
 
   const Vec3f axis = axis_of(rotation_WD_[puff]);
   const Vec3f own = (turbulence / (0.5f * cell_m)) * axis;
-  turn(rotation_WD_[puff],
-       own + rod_spin(axis, around.gradient.vorticity_s, around.gradient.strain_s), dt_s);
+  rotate(rotation_WD_[puff],
+         own + rod_spin(axis, around.gradient.vorticity_s, around.gradient.strain_s), dt_s);
 
   Vec3f drift = settling_m_s_[puff] * down_W_;
   if (around.cell != kOutside) drift += around.swirl.velocity(air.to_cells(position));

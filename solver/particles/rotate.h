@@ -7,8 +7,9 @@
 
 namespace sunder::solver {
 
-/// Turns by angular_velocity_W · dt_s; accurate for turns well below a radian.
-inline void turn(Quatf& rotation, const Vec3f& angular_velocity_W, float dt_s) {
+/// Turns by angular_velocity_W · dt_s; accurate for turns well below a radian. Not rotation_by():
+/// thousands of particles follow it a step, which need no sine.
+inline void rotate(Quatf& rotation, const Vec3f& angular_velocity_W, float dt_s) {
   const Vec3f half = 0.5f * dt_s * angular_velocity_W;
   const Quatf change = Quatf(0, half.x(), half.y(), half.z()) * rotation;
   rotation.coeffs() += change.coeffs();

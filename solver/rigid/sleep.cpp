@@ -44,11 +44,6 @@ bool asleep(const Bodies& bodies, std::uint32_t body) {
 
 }  // namespace
 
-std::uint32_t Sleep::root(std::uint32_t body) {
-  while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
-  return body;
-}
-
 void Sleep::note_rest(const FroudeScale& froude, double dt_s, Bodies& bodies) {
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     if (!bodies.awake(i)) continue;
@@ -83,7 +78,7 @@ void Sleep::keep_joined_awake(const Bodies& bodies, const Joints& joints) {
   }
 }
 
-void Sleep::hold_by_joints(const Bodies& bodies, const Joints& joints) {
+void Sleep::anchor_by_joints(const Bodies& bodies, const Joints& joints, DisjointSets& groups) {
   for (const Joint& joint : joints.all()) {
     if (!joint.holds()) continue;
     const auto rests = [&](std::uint32_t body) {
@@ -93,9 +88,9 @@ void Sleep::hold_by_joints(const Bodies& bodies, const Joints& joints) {
       return body == kNone || !bodies.dynamic(body);
     };
     const std::uint32_t a = joint.body_a, b = joint.body_b;
-    if (rests(a) && rests(b)) parent_[std::max(root(a), root(b))] = std::min(root(a), root(b));
-    if (rests(a) && immovable(b)) held_[a] = 1;
-    if (rests(b) && immovable(a)) held_[b] = 1;
+    if (rests(a) && rests(b)) groups.join(a, b);
+    if (rests(a) && immovable(b)) anchored_[a] = 1;
+    if (rests(b) && immovable(a)) anchored_[b] = 1;
   }
 }
 
@@ -113,28 +108,26 @@ Vec3 Sleep::put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, const J
   }
   if (!any) return Vec3::Zero();
   keep_joined_awake(bodies, joints);
-  parent_.resize(n);
-  for (std::uint32_t i = 0; i < n; ++i) parent_[i] = i;
-  held_.assign(n, gravity_W.isZero(0));
+  DisjointSets groups(n);  // of what rests on each other
+  anchored_.assign(n, gravity_W.isZero(0));
   auto rests = [&](std::uint32_t body) { return candidate_[body] || asleep(bodies, body); };
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0 || m.normal_impulse() <= 0) continue;
     const bool a = rests(m.body_a), b = rests(m.body_b);
     if (a && b) {
-      const std::uint32_t x = root(m.body_a), y = root(m.body_b);
-      parent_[std::max(x, y)] = std::min(x, y);
+      groups.join(m.body_a, m.body_b);
     } else if (a && !bodies.dynamic(m.body_b)) {
-      held_[m.body_a] = 1;
+      anchored_[m.body_a] = 1;
     } else if (b && !bodies.dynamic(m.body_a)) {
-      held_[m.body_b] = 1;
+      anchored_[m.body_b] = 1;
     }
   }
-  hold_by_joints(bodies, joints);
+  anchor_by_joints(bodies, joints, groups);
   for (std::uint32_t i = 0; i < n; ++i)
-    if (held_[i] && rests(i)) held_[root(i)] = 1;
+    if (anchored_[i] && rests(i)) anchored_[groups.root(i)] = 1;
   Vec3 taken = Vec3::Zero();
   for (std::uint32_t i = 0; i < n; ++i) {
-    candidate_[i] = candidate_[i] && held_[root(i)];
+    candidate_[i] = candidate_[i] && anchored_[groups.root(i)];
     if (!candidate_[i]) continue;
     taken -= bodies.mass_kg[i] * bodies.velocity[i];
     bodies.motion[i] = Motion::kAsleep;

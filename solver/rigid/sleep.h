@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/disjoint_sets.h"
 #include "engine/base/froude.h"
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/collide/contacts.h"
@@ -33,15 +34,13 @@ class Sleep {
 
  private:
   void note_rest(const FroudeScale& froude, double dt_s, Bodies& bodies);
-  void hold_by_joints(const Bodies& bodies, const Joints& joints);
+  void anchor_by_joints(const Bodies& bodies, const Joints& joints, DisjointSets& groups);
   void keep_joined_awake(const Bodies& bodies, const Joints& joints);
-  std::uint32_t root(std::uint32_t body);
   /// Wakes the seeds and all sleepers that stand on them, by sleepers between.
   void wake_above(std::vector<std::uint32_t> seeds, const Vec3& gravity_W, const Contacts& contacts,
                   Bodies& bodies);
 
-  std::vector<std::uint32_t> parent_;
-  std::vector<std::uint8_t> candidate_, held_;
+  std::vector<std::uint8_t> candidate_, anchored_;
   std::vector<float> change_N_, support_N_;  ///< By body, since it fell asleep.
   std::vector<std::uint32_t> first_, above_;
 };

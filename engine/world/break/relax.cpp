@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
+#include "engine/base/nncg.h"
 #include "engine/world/break/complementarity.h"
 
 namespace sunder {
@@ -72,21 +73,21 @@ void Group::sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns
   }
 }
 
-/// Nonlinear conjugate gradients over sweeps (Silcowitz-Hansen, Niebe and Erleben 2010).
+/// Conjugate gradients over sweeps: see nncg.h.
 std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyVelocity>& v) const {
   const std::size_t n = rows_.size();
   std::vector<double> impulses_Ns(n, 0), change(n, 0), direction(n, 0);
-  double last = 0;
+  Nncg nncg;
   for (int round = 0; round < kMostRounds; ++round) {
     sweep(v, impulses_Ns, change);
-    double size = 0, worst = 0;
+    double square = 0, worst = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const double scaled = change[i] * change[i] * rows_[i]->inverse_mass;
-      size += scaled;
+      square += scaled;
       worst = std::max(worst, scaled * rows_[i]->inverse_mass);
     }
     if (worst <= kConverged * kConverged * fastest_m_s * fastest_m_s) return impulses_Ns;
-    const double beta = last > 0 && size <= last ? size / last : 0;
+    const double beta = nncg.beta(square);
     for (std::size_t i = 0; i < n; ++i) {
       direction[i] *= beta;
       if (direction[i] != 0) {
@@ -95,7 +96,6 @@ std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyV
       }
       direction[i] += change[i];
     }
-    last = size;
   }
   sweep(v, impulses_Ns, change);
   return impulses_Ns;

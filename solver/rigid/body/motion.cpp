@@ -20,7 +20,8 @@ struct Spin {
   Vec3 w_B;
 };
 
-/// One midpoint step: w1 = w0 + h I⁻¹((I wm) × wm), wm = (w0 + w1)/2, then R1 = R0 Cay(h wm).
+/// One midpoint step: w1 = w0 + h I⁻¹((I wm) × wm), wm = (w0 + w1)/2, then R1 = R0 Cay(h wm). The
+/// rule keeps angular momentum for Cayley's map alone, so this is no place for rotation_by().
 void midpoint_step(const Mat3& inertia_B, const Mat3& inverse_B, double h, Quat& rotation,
                    Vec3& w_B) {
   const Vec3 w0 = w_B;

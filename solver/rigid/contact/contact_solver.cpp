@@ -251,15 +251,12 @@ std::vector<Stage> ContactSolver::plan(int substeps) const {
   return stages;
 }
 
-/// How far to go on along the way so far: by how much the energy of the changes has fallen. Where
-/// it has risen, the way begins anew.
+/// How far to go on along the way so far, by the energy of the changes.
 void ContactSolver::choose_beta(bool first) {
   double energy = 0;
   for (const float of_manifold : energy_) energy += double{of_manifold};
-  beta_ = first || energy > last_energy_ || last_energy_ <= 0
-              ? 0
-              : static_cast<float>(energy / last_energy_);
-  last_energy_ = energy;
+  if (first) nncg_ = {};
+  beta_ = static_cast<float>(nncg_.beta(energy));
 }
 
 void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contacts) {

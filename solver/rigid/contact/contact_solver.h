@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/nncg.h"
 #include "solver/base/stage_runner.h"
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/collide/contacts.h"
@@ -25,8 +26,7 @@ struct ContactSolveReport {
 /// How contacts are solved.
 struct ContactSolverOptions {
   int sweeps = 1;  ///< Of either kind in a substep.
-  /// Sweeps are steps of nonlinear conjugate gradients (NNCG, Silcowitz-Hansen, Niebe, Erleben
-  /// 2010): the same solution in far fewer. Plain where bodies are split.
+  /// Sweeps are steps of conjugate gradients (nncg.h). Plain where bodies are split.
   bool accelerated = false;
   int lanes = 0;  ///< Most to be used; 0: what the processor has. The same bits for any.
 };
@@ -71,7 +71,7 @@ class ContactSolver {
   void choose_beta(bool first);
   bool accelerated_ = false;   ///< In this step.
   std::vector<float> energy_;  ///< Of the last sweep's changes, by manifold.
-  double last_energy_ = 0;
+  Nncg nncg_;
   float beta_ = 0;
   double last_h_s_ = 0;
 

@@ -1,11 +1,12 @@
-// Read first: StaticWarmStart::seed(). The loads are found by nonsmooth nonlinear conjugate
-// gradients (Silcowitz, Niebe, Erleben 2010) over the sweeps of the solver itself.
+// Read first: StaticWarmStart::seed(). The loads are found by conjugate gradients over the sweeps
+// of the solver itself: see nncg.h.
 #include "solver/rigid/contact/static_warm_start.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "engine/base/nncg.h"
 #include "solver/rigid/contact/load_path.h"
 #include "solver/rigid/contact/prepare.h"
 #include "solver/rigid/contact/sweep.h"
@@ -262,7 +263,8 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
   step_.assign(blocks_.size(), {});
   direction_.assign(blocks_.size(), {});
   square_.resize(blocks_.size());
-  float lever = 0;
+  Nncg nncg;
+  float beta = 0;
   auto work = [&](int kind, std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t i = first; i < end; ++i) {
       SeedBlock& c = blocks_[i];
@@ -275,10 +277,10 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
         step_[i] = sum(loads_of(c), -1, before);
         square_[i] = {square_of(c, step_[i]), square_of(c, before)};
       } else {
-        set_loads(sum({}, lever, direction_[i]), c);
+        set_loads(sum({}, beta, direction_[i]), c);
         warm_start(c, step.rows);
-        set_loads(sum(before, lever, direction_[i]), c);
-        direction_[i] = sum(step_[i], lever, direction_[i]);
+        set_loads(sum(before, beta, direction_[i]), c);
+        direction_[i] = sum(step_[i], beta, direction_[i]);
       }
     }
   };
@@ -288,7 +290,7 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
   };
   run(kPrepare);
   run(kWarmStart);
-  double last = 0, last_seen = 0;
+  double last_seen = 0;
   std::size_t last_held = 0;
   int look = kFirstLook;
   for (int round = 0; round < rounds; ++round) {
@@ -306,8 +308,7 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
       last_seen = seen, last_held = held;
       look *= 2;
     }
-    lever = last > 0 && square <= last ? static_cast<float>(square / last) : 0.f;
-    last = square;
+    beta = static_cast<float>(nncg.beta(square));
     run(kLeap);
   }
 }
