@@ -47,8 +47,8 @@ void check_shape(const ShapeDesc& shape, const Subject& subject) {
 void check_body(const BodyDesc& body) {
   const Subject subject{"body " + std::to_string(body.tag)};
   subject.require(finite(body.X_WB.position) && finite(body.com_R), "is at a place not finite");
-  const Eigen::Vector4d turn = body.X_WB.rotation.coeffs();
-  subject.require(turn.allFinite() && turn.norm() > 0, "has a rotation that is none");
+  const Eigen::Vector4d rotation = body.X_WB.rotation.coeffs();
+  subject.require(rotation.allFinite() && rotation.norm() > 0, "has a rotation that is none");
   if (!body.is_static) {
     subject.require(finite(body.velocity_W) && finite(body.angular_velocity_W),
                     "has a velocity that is not finite");

@@ -53,7 +53,7 @@ class Air {
   void advance(double dt_s, const Vec3& gravity_W, const Obstacles& obstacles);
 
   /// Whether the grid reaches there; beyond it the air is still.
-  bool holds(const Vec3f& point_W) const {
+  bool contains(const Vec3f& point_W) const {
     const Vec3f at = to_cells(point_W);
     return (at.array() >= -0.01f).all() &&
            (at.array() < grid_.lattice.counts.cast<float>().array()).all();

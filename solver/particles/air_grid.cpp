@@ -104,7 +104,7 @@ void Air::carry(const Grid& grid, std::array<Field, 3>& into) const {
 }
 
 Vec3f Air::velocity(const Vec3f& point_W) const {
-  if (!holds(point_W)) return Vec3f::Zero();
+  if (!contains(point_W)) return Vec3f::Zero();
   const Vec3f cells = to_cells(point_W);
   Vec3f velocity;
   for (int axis = 0; axis < 3; ++axis) {

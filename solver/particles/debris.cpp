@@ -65,7 +65,7 @@ void Debris::add(const DebrisBirth& birth) {
     ignore();
     return;
   }
-  ++books_.emitted;
+  ++ledger_.emitted;
   position_W_.push_back(birth.position_W);
   velocity_W_.push_back(birth.velocity_W);
   angular_velocity_W_.push_back(birth.angular_velocity_W);
@@ -351,7 +351,7 @@ void Debris::remove(std::uint32_t chip) {
   };
   drop(position_W_, velocity_W_, angular_velocity_W_, rotation_WD_, radius_m_, drawn_radius_m_,
        still_s_, variant_, material_, state_, support_, rest_);
-  ++books_.gone;
+  ++ledger_.gone;
   listed_ = false;
 }
 
@@ -379,11 +379,11 @@ DebrisView Debris::view() const {
   return {position_W_, rotation_WD_, drawn_radius_m_, variant_, material_};
 }
 
-ParticleBooks Debris::books() const {
-  ParticleBooks books = books_;
-  books.alive = static_cast<std::uint32_t>(position_W_.size());
-  books.awake = static_cast<std::uint32_t>(awake_.size());
-  return books;
+ParticleBooks Debris::ledger() const {
+  ParticleBooks ledger = ledger_;
+  ledger.alive = static_cast<std::uint32_t>(position_W_.size());
+  ledger.awake = static_cast<std::uint32_t>(awake_.size());
+  return ledger;
 }
 
 }  // namespace sunder::solver

@@ -43,7 +43,7 @@ void Dust::add(const DustBirth& birth) {
     ignore();
     return;
   }
-  ++books_.emitted;
+  ++ledger_.emitted;
   position_W_.push_back(birth.position_W);
   slip_W_.push_back(birth.velocity_W);
   rotation_WD_.push_back(birth.rotation_WD);
@@ -153,7 +153,7 @@ void Dust::sort_into_cells() {
   for_chunks(cell_.size(), kPuffs, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t puff = begin; puff < end; ++puff) {
       cell_[puff] = kOutside;
-      if (!air.holds(position_W_[puff])) continue;
+      if (!air.contains(position_W_[puff])) continue;
       const Vec3i at = air.cell_at(position_W_[puff]);
       cell_[puff] = static_cast<std::uint32_t>(air.grid().lattice.index(at.x(), at.y(), at.z()));
     }
@@ -166,17 +166,17 @@ void Dust::sort_into_cells() {
 /// Tells the air what it carries, and gathers the vortices: two things, for a thread each.
 void Dust::load_air() {
   const auto end = std::ranges::find(order_, kOutside, [&](std::uint32_t p) { return cell_[p]; });
-  const std::span held(order_.begin(), end);
+  const std::span inside(order_.begin(), end);
   const auto load = [&](Air& air) {
     air.clear_loads();
-    for (const std::uint32_t puff : held) {
+    for (const std::uint32_t puff : inside) {
       air.add_dust(cell_[puff], mass_kg_[puff]);
       if (age_s_[puff] == 0) air.add_momentum(cell_[puff], mass_kg_[puff], slip_W_[puff]);
     }
   };
   const auto gather = [&](Swirl& swirl) {
     swirl.clear();
-    for (const std::uint32_t puff : held) {
+    for (const std::uint32_t puff : inside) {
       swirl.add(cell_[puff], flow_->air.to_cells(position_W_[puff]), axis_of(rotation_WD_[puff]),
                 turbulence_m_s_[puff]);
     }
@@ -263,7 +263,7 @@ void Dust::remove_settled() {
          first_radius_m_, radius_m_, opacity_, age_s_, settled_s_, material_);
     ++kept;
   }
-  books_.gone += position_W_.size() - kept;
+  ledger_.gone += position_W_.size() - kept;
   const auto cut = [&](auto&... arrays) { (arrays.resize(kept), ...); };
   cut(position_W_, slip_W_, rotation_WD_, mass_kg_, settling_m_s_, turbulence_m_s_, first_radius_m_,
       radius_m_, opacity_, age_s_, settled_s_, material_);
@@ -273,10 +273,10 @@ DustView Dust::view() const {
   return {position_W_, rotation_WD_, radius_m_, opacity_, age_s_, material_};
 }
 
-ParticleBooks Dust::books() const {
-  ParticleBooks books = books_;
-  books.alive = books.awake = static_cast<std::uint32_t>(position_W_.size());
-  return books;
+ParticleBooks Dust::ledger() const {
+  ParticleBooks ledger = ledger_;
+  ledger.alive = ledger.awake = static_cast<std::uint32_t>(position_W_.size());
+  return ledger;
 }
 
 }  // namespace sunder::solver

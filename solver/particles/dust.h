@@ -29,12 +29,12 @@ class Dust {
 
   /// Ignored, and counted so, at the limit.
   void add(const DustBirth& birth);
-  void ignore() { ++books_.ignored; }
+  void ignore() { ++ledger_.ignored; }
   /// How many more fit.
   std::uint32_t room() const { return limit_ - static_cast<std::uint32_t>(position_W_.size()); }
   void advance(double dt_s, const Obstacles& obstacles);
   DustView view() const;
-  ParticleBooks books() const;
+  ParticleBooks ledger() const;
   /// Null without dust.
   const Air* air() const { return flow_ ? &flow_->air : nullptr; }
 
@@ -71,7 +71,7 @@ class Dust {
   Vec3f down_W_;
   Vec3i air_cells_;              ///< At most.
   Vec3i worth_ = Vec3i::Zero();  ///< As many as so many puffs are worth, whatever their cloud.
-  ParticleBooks books_;
+  ParticleBooks ledger_;
   std::optional<Flow> flow_;
   std::vector<float> sorted_m_;
   std::vector<std::uint32_t> cell_;   ///< Of the air that holds a puff, or kOutside.

@@ -87,15 +87,15 @@ void ObstacleGrid::place(std::size_t begin, std::size_t end, Which which) {
     box.min = center - half;
     box.max = center + half;
     if (!body.moves) continue;
-    const double turning_m_s = body.angular_velocity_W.norm() * reach;
-    if (which == Which::kMoving && body.velocity_W.norm() + turning_m_s < kCreep_m_s) {
+    const double spin_m_s = body.angular_velocity_W.norm() * reach;
+    if (which == Which::kMoving && body.velocity_W.norm() + spin_m_s < kCreep_m_s) {
       box = Box();
       continue;
     }
     // Its pose is that at the end of the step: it comes from behind.
-    const Vec3 way = dt_s_ * body.velocity_W, turning = Vec3::Constant(dt_s_ * turning_m_s);
-    box.min -= way.cwiseMax(0) + turning;
-    box.max -= way.cwiseMin(0) - turning;
+    const Vec3 way = dt_s_ * body.velocity_W, spin = Vec3::Constant(dt_s_ * spin_m_s);
+    box.min -= way.cwiseMax(0) + spin;
+    box.max -= way.cwiseMin(0) - spin;
   }
 }
 

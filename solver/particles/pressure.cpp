@@ -236,7 +236,7 @@ double PressureSolver::dot(const Field& x, const Field& y) {
 }
 
 /// direction = correction + beta · direction.
-void PressureSolver::turn(float beta) {
+void PressureSolver::update_direction(float beta) {
   const Lattice& lattice = levels_[0].lattice;
   for_rows(lattice, [&](int j, int k) {
     const std::size_t at = lattice.index(1, j, k);
@@ -270,9 +270,9 @@ float PressureSolver::step(float alpha) {
 }
 
 /// As far as is best along a direction whose product with what is left is known.
-float PressureSolver::go(double along) {
+float PressureSolver::descend(double slope) {
   const double curvature = apply_and_dot();
-  return step(curvature > 0 ? static_cast<float>(along / curvature) : 0);
+  return step(curvature > 0 ? static_cast<float>(slope / curvature) : 0);
 }
 
 int PressureSolver::solve(float tolerance) {
@@ -284,15 +284,15 @@ int PressureSolver::solve(float tolerance) {
   // The pressure of last time is the first direction.
   std::swap(direction_, pressure_);
   std::fill(pressure_.begin(), pressure_.end(), 0.0f);
-  float largest = go(dot(levels_[0].rest, direction_));
+  float largest = descend(dot(levels_[0].rest, direction_));
   double before = 0;
   int iterations = 0;
   for (; largest > tolerance && iterations < kMostIterations; ++iterations) {
     cycle(0);
     const double now = dot(levels_[0].rest, levels_[0].correction);
-    turn(before > 0 ? static_cast<float>(now / before) : 0);
+    update_direction(before > 0 ? static_cast<float>(now / before) : 0);
     before = now;
-    largest = go(now);
+    largest = descend(now);
   }
   return iterations;
 }

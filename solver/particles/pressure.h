@@ -49,8 +49,8 @@ class PressureSolver {
   void cycle(std::size_t level);
   double apply_and_dot();
   double dot(const Field& x, const Field& y);
-  float go(double along);
-  void turn(float beta);
+  float descend(double slope);
+  void update_direction(float beta);
   float step(float alpha);
 
   std::vector<Level> levels_;

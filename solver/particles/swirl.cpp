@@ -27,7 +27,7 @@ void Swirl::add(std::size_t cell, const Vec3f& at, const Vec3f& axis, float spee
   }
   Vortex& vortex = vortices_[static_cast<std::size_t>(index)];
   vortex.at += at;
-  vortex.turn += speed_m_s * axis;
+  vortex.spin += speed_m_s * axis;
   vortex.energy += speed_m_s * speed_m_s;
   ++vortex.count;
 }
@@ -35,19 +35,19 @@ void Swirl::add(std::size_t cell, const Vec3f& at, const Vec3f& axis, float spee
 void Swirl::finish() {
   for (Vortex& vortex : vortices_) {
     vortex.at /= vortex.count;
-    const float length = vortex.turn.norm();
+    const float length = vortex.spin.norm();
     // Of three directions the vortex moves the air in two.
     const float speed = std::sqrt(2.0f / 3 * vortex.energy / vortex.count);
-    if (length > 0) vortex.turn *= speed / length;
+    if (length > 0) vortex.spin *= speed / length;
   }
 }
 
 void Swirl::find(std::size_t cell, Near& near) const {
   near.count_ = 0;
-  const auto add = [&](const Vec3f& at, const Vec3f& turn) {
+  const auto add = [&](const Vec3f& at, const Vec3f& spin) {
     for (int axis = 0; axis < 3; ++axis) {
       near.at_[axis][near.count_] = at[axis];
-      near.turn_[axis][near.count_] = turn[axis];
+      near.spin_[axis][near.count_] = spin[axis];
     }
     ++near.count_;
   };
@@ -59,7 +59,7 @@ void Swirl::find(std::size_t cell, Near& near) const {
         const std::int32_t index = vortex_of_cell_[static_cast<std::size_t>(c)];
         if (index < 0) continue;
         const Vortex& vortex = vortices_[static_cast<std::size_t>(index)];
-        add(vortex.at, vortex.turn);
+        add(vortex.at, vortex.spin);
       }
     }
   }
@@ -72,8 +72,8 @@ Vec3f Swirl::Near::velocity(const Vec3f& at) const {
     const Wide3 arm = {at.x() - load(&at_[0][i]), at.y() - load(&at_[1][i]),
                        at.z() - load(&at_[2][i])};
     const Wide inside = max(1 - dot(arm, arm), Wide{});
-    const Wide3 turn = {load(&turn_[0][i]), load(&turn_[1][i]), load(&turn_[2][i])};
-    sum = sum + cross(turn, arm) * (kProfile * inside * inside);
+    const Wide3 spin = {load(&spin_[0][i]), load(&spin_[1][i]), load(&spin_[2][i])};
+    sum = sum + cross(spin, arm) * (kProfile * inside * inside);
   }
   Vec3f velocity = Vec3f::Zero();
   for (std::uint32_t lane = 0; lane < kLanes; ++lane) {

@@ -36,7 +36,7 @@ class Swirl {
     friend Swirl;
     static constexpr std::size_t kMost = 32;
     std::size_t count_ = 0;  ///< A multiple of kLanes; the last may be nowhere.
-    alignas(Wide) float at_[3][kMost], turn_[3][kMost];
+    alignas(Wide) float at_[3][kMost], spin_[3][kMost];
   };
   void find(std::size_t cell, Near& near) const;
 
@@ -44,7 +44,7 @@ class Swirl {
   struct Vortex {
     std::size_t cell = 0;
     Vec3f at = Vec3f::Zero();    ///< Sum, then mean.
-    Vec3f turn = Vec3f::Zero();  ///< Sum, then the axis times the speed at the vortex' rim.
+    Vec3f spin = Vec3f::Zero();  ///< Sum, then the axis times the speed at the vortex' rim.
     float energy = 0;            ///< Sum of squared speeds.
     float count = 0;
   };

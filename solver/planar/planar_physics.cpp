@@ -128,15 +128,16 @@ const std::vector<Nearby>& PlanarPhysics::nearby() {
 }
 
 Vec3 PlanarPhysics::velocity_at(const PlanarBody& body, const Vec3& point_W) const {
-  const Vec3 turn(0, 0, static_cast<double>(body.body->GetAngularVelocity()));
-  return plane_.metres(body.body->GetLinearVelocity()) + turn.cross(point_W - center_W(body));
+  const Vec3 angular_velocity_W(0, 0, static_cast<double>(body.body->GetAngularVelocity()));
+  return plane_.metres(body.body->GetLinearVelocity()) +
+         angular_velocity_W.cross(point_W - center_W(body));
 }
 
 double PlanarPhysics::inverse_mass(const PlanarBody& body, const Vec3& arm_W,
                                    const Vec3& normal_W) const {
   if (!body.dynamic()) return 0;
-  const double lever = arm_W.cross(normal_W).z();
-  return 1 / body.mass_kg + lever * lever / body.inertia_kg_m2;
+  const double arm = arm_W.cross(normal_W).z();
+  return 1 / body.mass_kg + arm * arm / body.inertia_kg_m2;
 }
 
 std::vector<Approach> PlanarPhysics::approaches() {
@@ -207,9 +208,9 @@ std::vector<Touch> PlanarPhysics::touches(std::span<const BodyId> bodies) {
 void PlanarPhysics::set_state(BodyId id, const BodyState& state) {
   PlanarBody& body = at(id);
   if (!body.dynamic()) return;
-  const Quat turn = state.X_WB.rotation * body.X_WB.rotation.conjugate();
+  const Quat rotation = state.X_WB.rotation * body.X_WB.rotation.conjugate();
   body.body->SetTransform(plane_.units(state.X_WB.position),
-                          static_cast<float>(2 * arc_tangent(turn.z(), turn.w())));
+                          static_cast<float>(2 * arc_tangent(rotation.z(), rotation.w())));
   body.body->SetLinearVelocity(plane_.units(state.velocity_W));
   body.body->SetAngularVelocity(static_cast<float>(state.angular_velocity_W.z()));
   body.body->SetAwake(true);

@@ -14,8 +14,8 @@ float way_of(const b2Fixture& fixture, float dt_s) {
   b2AABB box;
   fixture.GetShape()->ComputeAABB(&box, body.GetTransform(), 0);
   const float reach = (box.GetCenter() - body.GetPosition()).Length() + box.GetExtents().Length();
-  const float turn = std::min(1.f, dt_s * std::abs(body.GetAngularVelocity()));
-  return dt_s * body.GetLinearVelocity().Length() + turn * reach;
+  const float angle = std::min(1.f, dt_s * std::abs(body.GetAngularVelocity()));
+  return dt_s * body.GetLinearVelocity().Length() + angle * reach;
 }
 
 struct FindFixtures final : b2QueryCallback {

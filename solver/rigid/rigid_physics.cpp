@@ -107,13 +107,13 @@ std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
 void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
   std::vector<std::uint32_t> shapes;
   for (const BodyId id : ids) {
-    SUNDER_CHECK(bodies_.holds(id));
+    SUNDER_CHECK(bodies_.contains(id));
     const std::vector<std::uint32_t> of_body = shapes_.of_body(id.slot, bodies_);
     shapes.insert(shapes.end(), of_body.begin(), of_body.end());
   }
   remove_shapes(shapes);
   for (const BodyId id : ids) {
-    SUNDER_CHECK(bodies_.holds(id));  // each once
+    SUNDER_CHECK(bodies_.contains(id));  // each once
     if (!joints_.empty()) joints_.lose(id.slot, bodies_);
     bodies_.remove(id.slot);
     contacts_.body_colors[id.slot] = 0;
@@ -134,7 +134,7 @@ void RigidPhysics::remove_shapes(std::span<const std::uint32_t> shapes) {
 }
 
 void RigidPhysics::edit(const BodyEdit& edit) {
-  SUNDER_CHECK(bodies_.holds(edit.body) && bodies_.motion[edit.body.slot] == Motion::kStatic);
+  SUNDER_CHECK(bodies_.contains(edit.body) && bodies_.motion[edit.body.slot] == Motion::kStatic);
   check_shapes(edit.added, bodies_.tag[edit.body.slot]);
   std::vector<std::uint32_t> removed;
   for (const std::uint32_t tag : edit.removed_tags)
@@ -160,9 +160,9 @@ void RigidPhysics::collide(double dt_s) {
 void RigidPhysics::find_reaches(double dt_s) {
   reach_.resize(bodies_.size());
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    const double turn = std::min(1.0, dt_s * bodies_.angular_velocity[i].norm());
+    const double angle = std::min(1.0, dt_s * bodies_.angular_velocity[i].norm());
     reach_[i] = {(dt_s * bodies_.velocity[i]).cast<float>(),
-                 static_cast<float>(turn * bodies_.reach_m[i]) * 1.00001f};
+                 static_cast<float>(angle * bodies_.reach_m[i]) * 1.00001f};
   }
 }
 
@@ -235,19 +235,20 @@ std::vector<Touch> RigidPhysics::touches(std::span<const BodyId> bodies) {
   if (contacts_of_bodies_.empty()) contacts_of_bodies_ = ContactsOfBodies(contacts_, bodies_);
   std::vector<std::uint32_t> slots;
   for (const BodyId id : bodies) {
-    SUNDER_CHECK(bodies_.holds(id));
+    SUNDER_CHECK(bodies_.contains(id));
     slots.push_back(id.slot);
   }
   return find_touches(contacts_, bodies_, shapes_, contacts_of_bodies_, slots);
 }
 
 void RigidPhysics::set_state(BodyId id, const BodyState& state) {
-  SUNDER_CHECK(bodies_.holds(id));
+  SUNDER_CHECK(bodies_.contains(id));
   const std::uint32_t body = id.slot;
   if (!bodies_.dynamic(body)) return;
   bodies_.wake(body);
-  const Quat turn = bodies_.rotation[body].conjugate() * state.X_WB.rotation;
-  bodies_.turned_m[body] += 3.2 * turn.vec().norm() * bodies_.reach_m[body];  // angle <= pi * sine
+  const Quat rotation = bodies_.rotation[body].conjugate() * state.X_WB.rotation;
+  bodies_.turned_m[body] +=
+      3.2 * rotation.vec().norm() * bodies_.reach_m[body];  // angle <= pi * sine
   bodies_.place(body, state.X_WB.position, state.X_WB.rotation);
   bodies_.velocity[body] = state.velocity_W;
   bodies_.angular_velocity[body] = state.angular_velocity_W;
@@ -256,14 +257,15 @@ void RigidPhysics::set_state(BodyId id, const BodyState& state) {
 }
 
 void RigidPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) {
-  SUNDER_CHECK(bodies_.holds(id));
+  SUNDER_CHECK(bodies_.contains(id));
   const std::uint32_t body = id.slot;
   if (!bodies_.dynamic(body)) return;
   bodies_.wake(body);
   const Quat& q = bodies_.rotation[body];
-  const Vec3 turn_B = q.conjugate() * (point_W - bodies_.position[body]).cross(impulse_W);
+  const Vec3 angular_impulse_B =
+      q.conjugate() * (point_W - bodies_.position[body]).cross(impulse_W);
   bodies_.velocity[body] += impulse_W / bodies_.mass_kg[body];
-  bodies_.angular_velocity[body] += q * Vec3(bodies_.inertia_B[body].inverse() * turn_B);
+  bodies_.angular_velocity[body] += q * Vec3(bodies_.inertia_B[body].inverse() * angular_impulse_B);
   bodies_.changed[body] = 1;
   bodies_.slow_s[body] = 0;
 }
@@ -282,7 +284,7 @@ JointId RigidPhysics::join(const JointDesc& joint) {
   look_again(id);
   // StaticWarmStart knows of contacts only: it would let them bear what hangs in joints.
   for (const BodyId end : {joint.a, joint.b})
-    if (bodies_.holds(end)) bodies_.is_new[end.slot] = 0;
+    if (bodies_.contains(end)) bodies_.is_new[end.slot] = 0;
   return id;
 }
 
@@ -295,7 +297,7 @@ void RigidPhysics::cut(JointId id) { joints_.cut(id, bodies_); }
 
 void RigidPhysics::pause(std::span<const BodyId> bodies) {
   for (const BodyId id : bodies) {
-    SUNDER_CHECK(bodies_.holds(id));
+    SUNDER_CHECK(bodies_.contains(id));
     if (bodies_.awake(id.slot)) paused_.add(id.slot);
   }
 }
@@ -313,8 +315,8 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     awake_mass += bodies_.mass_kg[body];
     bodies_.changed[body] = 1;
   }
-  static_warm_start_.seed(options_.gravity_W, dt_s, substeps, contact_solver_.last_h_s(),
-                          options_.static_warm_start, bodies_, contacts_);
+  static_warm_start_.apply(options_.gravity_W, dt_s, substeps, contact_solver_.last_h_s(),
+                           options_.static_warm_start, bodies_, contacts_);
   std::fill(bodies_.is_new.begin(), bodies_.is_new.end(), std::uint8_t{0});
   const ContactSolveReport solved =
       contact_solver_.solve(dt_s, substeps, options_.gravity_W, bodies_, contacts_, joints_);
@@ -339,7 +341,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
 }
 
 BodyState RigidPhysics::state(BodyId id) const {
-  SUNDER_CHECK(bodies_.holds(id));
+  SUNDER_CHECK(bodies_.contains(id));
   return {{bodies_.position[id.slot], bodies_.rotation[id.slot]},
           bodies_.velocity[id.slot],
           bodies_.angular_velocity[id.slot],

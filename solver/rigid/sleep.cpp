@@ -49,9 +49,9 @@ void Sleep::note_rest(const FroudeScale& froude, double dt_s, Bodies& bodies) {
     if (!bodies.awake(i)) continue;
     const double reach = bodies.reach_m[i];
     const double speed = bodies.velocity[i].norm() + bodies.angular_velocity[i].norm() * reach;
-    const Quat turn = bodies.rest_rotation[i].conjugate() * bodies.rotation[i];
+    const Quat rotation = bodies.rest_rotation[i].conjugate() * bodies.rotation[i];
     const double drift =
-        (bodies.position[i] - bodies.rest_position[i]).norm() + 2 * turn.vec().norm() * reach;
+        (bodies.position[i] - bodies.rest_position[i]).norm() + 2 * rotation.vec().norm() * reach;
     if (speed < speed_m_s(kSlow, froude, dt_s, reach) && drift < kDrift * reach) {
       bodies.slow_s[i] += static_cast<float>(dt_s);
     } else {
@@ -189,23 +189,23 @@ void Sleep::wake_changed(const Vec3& gravity_W, double h_s, const Contacts& cont
 
 void Sleep::wake_left(std::span<const std::uint32_t> manifolds, const Vec3& gravity_W,
                       const Contacts& contacts, Bodies& bodies) {
-  std::vector<std::uint32_t> seeds;
+  std::vector<std::uint32_t> lowest;
   for (const std::uint32_t slot : manifolds) {
     const Manifold& m = contacts.manifolds[slot];
     for (const std::uint32_t body : {m.body_a, m.body_b}) {
       if (!asleep(bodies, body)) continue;
       const bool carried = m.rest_force_W.norm() > kChange * weight_N(bodies, body, gravity_W);
-      if (carried) seeds.push_back(body);
+      if (carried) lowest.push_back(body);
     }
   }
-  std::sort(seeds.begin(), seeds.end());
-  seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
-  wake_above(std::move(seeds), gravity_W, contacts, bodies);
+  std::sort(lowest.begin(), lowest.end());
+  lowest.erase(std::unique(lowest.begin(), lowest.end()), lowest.end());
+  wake_above(std::move(lowest), gravity_W, contacts, bodies);
 }
 
-void Sleep::wake_above(std::vector<std::uint32_t> seeds, const Vec3& gravity_W,
+void Sleep::wake_above(std::vector<std::uint32_t> lowest, const Vec3& gravity_W,
                        const Contacts& contacts, Bodies& bodies) {
-  if (seeds.empty()) return;
+  if (lowest.empty()) return;
   const Vec3f up_W = up(gravity_W);
   // What stands on what, both asleep: a counting sort of edges by the lower body.
   auto for_each_edge = [&](const auto& visit) {
@@ -222,14 +222,14 @@ void Sleep::wake_above(std::vector<std::uint32_t> seeds, const Vec3& gravity_W,
   for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
   above_.resize(first_.back());
   for_each_edge([&](std::uint32_t low, std::uint32_t high) { above_[first_[low + 1]++] = high; });
-  for (const std::uint32_t body : seeds) bodies.wake(body);
-  while (!seeds.empty()) {
-    const std::uint32_t low = seeds.back();
-    seeds.pop_back();
+  for (const std::uint32_t body : lowest) bodies.wake(body);
+  while (!lowest.empty()) {
+    const std::uint32_t low = lowest.back();
+    lowest.pop_back();
     for (std::uint32_t i = first_[low]; i < first_[low + 1]; ++i) {
       if (!asleep(bodies, above_[i])) continue;
       bodies.wake(above_[i]);
-      seeds.push_back(above_[i]);
+      lowest.push_back(above_[i]);
     }
   }
 }

@@ -1,7 +1,7 @@
 // Bodies fall asleep and wake one by one, not by islands: what rests may sleep beside what moves.
 //
 // A sleeper keeps its true mass in the contacts of its neighbours, so that those stay as soft as
-// they were, but takes no impulse. It holds as long as what presses on it stays what it was.
+// they were, but takes no impulse. It sleeps as long as what presses on it stays what it was.
 #pragma once
 
 #include <span>
@@ -36,9 +36,9 @@ class Sleep {
   void note_rest(const FroudeScale& froude, double dt_s, Bodies& bodies);
   void anchor_by_joints(const Bodies& bodies, const Joints& joints, DisjointSets& groups);
   void keep_joined_awake(const Bodies& bodies, const Joints& joints);
-  /// Wakes the seeds and all sleepers that stand on them, by sleepers between.
-  void wake_above(std::vector<std::uint32_t> seeds, const Vec3& gravity_W, const Contacts& contacts,
-                  Bodies& bodies);
+  /// Wakes these and all sleepers that stand on them, by sleepers between.
+  void wake_above(std::vector<std::uint32_t> lowest, const Vec3& gravity_W,
+                  const Contacts& contacts, Bodies& bodies);
 
   std::vector<std::uint8_t> candidate_, anchored_;
   std::vector<float> change_N_, support_N_;  ///< By body, since it fell asleep.

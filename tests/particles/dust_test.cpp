@@ -32,13 +32,13 @@ TEST(Dust, SettlesUnderGravityAtItsSpeedAndThenIsGone) {
     dust.add(puff_at(Vec3f(0.3f * float(i % 7), 0.8f, 0.3f * float(i / 7))));
   }
   for (int step = 0; step < 60; ++step) dust.advance(kDt, obstacles.view());
-  ASSERT_EQ(dust.books().alive, 50u);
+  ASSERT_EQ(dust.ledger().alive, 50u);
   for (const Vec3f& at : dust.view().position_W) EXPECT_NEAR(at.y(), 0.6, 0.03);
   for (int step = 0; step < 120; ++step) dust.advance(kDt, obstacles.view());
   for (const Vec3f& at : dust.view().position_W) EXPECT_NEAR(at.y(), 0.2, 0.05);
   for (int step = 0; step < 300; ++step) dust.advance(kDt, obstacles.view());
-  EXPECT_EQ(dust.books().alive, 0u);
-  EXPECT_EQ(dust.books().gone, 50u);
+  EXPECT_EQ(dust.ledger().alive, 0u);
+  EXPECT_EQ(dust.ledger().gone, 50u);
 }
 
 TEST(Dust, WithoutAnyHasNoGrid) {
@@ -50,7 +50,7 @@ TEST(Dust, WithoutAnyHasNoGrid) {
   dust.advance(kDt, obstacles.view());
   EXPECT_NE(dust.air(), nullptr);
   for (int step = 0; step < 200; ++step) dust.advance(kDt, obstacles.view());
-  EXPECT_EQ(dust.books().alive, 0u);
+  EXPECT_EQ(dust.ledger().alive, 0u);
   EXPECT_EQ(dust.air(), nullptr);
 }
 
@@ -92,7 +92,7 @@ TEST(Dust, KeepsItsAirFineThoughAFewPuffsFlyFar) {
     for (int i = 0; i < 400; ++i) dust.add(puff_at(Vec3f(0.1f * float(i % 20), 1, 0)));
     for (int i = 0; i < strays; ++i) dust.add(puff_at(Vec3f(100, 1, float(i))));
     dust.advance(kDt, TestObstacles().view());
-    EXPECT_FALSE(strays > 0 && dust.air()->holds(Vec3f(100, 1, 0)));
+    EXPECT_FALSE(strays > 0 && dust.air()->contains(Vec3f(100, 1, 0)));
     EXPECT_EQ(dust.air()->velocity(Vec3f(100, 1, 0)), Vec3f::Zero());
     return dust.air()->grid().cell_m;
   };
@@ -129,10 +129,10 @@ TEST(Dust, OverItsLimitIsIgnoredAndCounted) {
   Dust dust(64, kGravity, kCounts);
   const TestObstacles obstacles;
   for (int i = 0; i < 100; ++i) dust.add(puff_at(Vec3f(0, 1, 0)));
-  EXPECT_EQ(dust.books().alive, 64u);
-  EXPECT_EQ(dust.books().ignored, 36u);
+  EXPECT_EQ(dust.ledger().alive, 64u);
+  EXPECT_EQ(dust.ledger().ignored, 36u);
   for (int step = 0; step < 60; ++step) dust.advance(kDt, obstacles.view());
-  EXPECT_LE(dust.books().alive, 60u) << "the oldest made room";
+  EXPECT_LE(dust.ledger().alive, 60u) << "the oldest made room";
 }
 
 Vec3f velocity_in(const Swirl& swirl, std::size_t cell, const Vec3f& at) {

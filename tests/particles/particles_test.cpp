@@ -76,8 +76,8 @@ std::uint64_t hash_of_a_run(int thread_count) {
     obstacles.advance(kDt);
     particles->advance(kDt, obstacles.view());
     hash = combine(hash, hash_of(*particles));
-    const ParticleBooks books = particles->report().debris;
-    asleep = std::max(asleep, books.alive - books.awake);
+    const ParticleBooks ledger = particles->report().debris;
+    asleep = std::max(asleep, ledger.alive - ledger.awake);
   }
   const ParticleReport report = particles->report();
   EXPECT_GT(asleep, 500u);

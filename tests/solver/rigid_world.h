@@ -1,4 +1,4 @@
-// Bodies for solver tests, made in one line each, and the books of momentum and energy.
+// Bodies for solver tests, made in one line each, and the ledger of momentum and energy.
 #pragma once
 
 #include <algorithm>

@@ -74,19 +74,19 @@ Aftermath break_at_rest(int substeps, double part) {
 TEST(StaticWarmStart, ATowerWhoseBricksAllBreakInOneStepHardlyMoves) {
   for (const int substeps : {4, 8}) {
     const double cold_J = break_at_rest(substeps, 0).peak_kinetic_J;
-    const double seeded_J = break_at_rest(substeps, 1).peak_kinetic_J;
+    const double warm_J = break_at_rest(substeps, 1).peak_kinetic_J;
     std::printf("10 bricks into 8, %d substeps: peak kinetic energy %.3g J, cold %.3g J\n",
-                substeps, seeded_J, cold_J);
-    EXPECT_LT(seeded_J, 0.01 * cold_J);
+                substeps, warm_J, cold_J);
+    EXPECT_LT(warm_J, 0.01 * cold_J);
   }
 }
 
-TEST(StaticWarmStart, ABreakAtRestGainsNoEnergyAndTwiceTheSeedWouldBeCaught) {
+TEST(StaticWarmStart, ABreakAtRestGainsNoEnergyAndTwiceTheLoadWouldBeCaught) {
   constexpr double kMost = 1e-6;
   for (const int substeps : {4, 8}) {
     const double gain = break_at_rest(substeps, 1).most_gain;
     const double twice = break_at_rest(substeps, 2).most_gain;
-    std::printf("energy gained by a break, %d substeps: %.2g of it; seeded twice as much %.2g\n",
+    std::printf("energy gained by a break, %d substeps: %.2g of it; with twice the load %.2g\n",
                 substeps, gain, twice);
     EXPECT_LT(gain, kMost);
     EXPECT_GT(twice, 100 * kMost);

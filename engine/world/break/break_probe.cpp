@@ -43,20 +43,20 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   give_ = kGive * least;
 }
 
-RelaxRow BreakProbe::make_row(const ProbeContact& c) const {
+ContactRow BreakProbe::make_row(const ProbeContact& c) const {
   const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
-  RelaxRow row;
+  ContactRow row;
   row.a = c.a, row.b = c.b;
   row.moves_a = a.inverse_mass > 0, row.moves_b = b.inverse_mass > 0;
   row.normal = c.normal_W;
-  row.lever_a = c.arm_a_W.cross(c.normal_W);
-  row.lever_b = c.arm_b_W.cross(c.normal_W);
+  row.angular_a = c.arm_a_W.cross(c.normal_W);
+  row.angular_b = c.arm_b_W.cross(c.normal_W);
   row.push_a = a.inverse_mass * c.normal_W;
   row.push_b = b.inverse_mass * c.normal_W;
-  row.turn_a = a.inverse_inertia_W * row.lever_a;
-  row.turn_b = b.inverse_inertia_W * row.lever_b;
-  row.inverse_mass =
-      a.inverse_mass + b.inverse_mass + row.lever_a.dot(row.turn_a) + row.lever_b.dot(row.turn_b);
+  row.spin_a = a.inverse_inertia_W * row.angular_a;
+  row.spin_b = b.inverse_inertia_W * row.angular_b;
+  row.inverse_mass = a.inverse_mass + b.inverse_mass + row.angular_a.dot(row.spin_a) +
+                     row.angular_b.dot(row.spin_b);
   return row;
 }
 
@@ -111,12 +111,12 @@ double BreakProbe::closing_energy_J() const {
 }
 
 /// The closed contacts solved, those of `removed` bodies left out.
-Relaxed BreakProbe::relax(const std::vector<std::uint8_t>& removed) const {
+ClusterMotion BreakProbe::solve(const std::vector<std::uint8_t>& removed) const {
   std::vector<std::uint32_t> in_way;  // of closed_
   for (std::uint32_t i = 0; i < closed_.size(); ++i) {
     if (!rows_[closed_[i]].touches(removed)) in_way.push_back(i);
   }
-  return relax_contacts(rows_, closed_, in_way, give_, fastest_m_s_, velocities_);
+  return solve_cluster(rows_, closed_, in_way, give_, fastest_m_s_, velocities_);
 }
 
 /// The undecided body that a contact's work counts for: the weaker, if both are.
@@ -127,7 +127,7 @@ std::uint32_t BreakProbe::charged(const ProbeContact& c) const {
   return std::pair(a.least_J, a.key) < std::pair(b.least_J, b.key) ? c.a : c.b;
 }
 
-std::vector<ProbeLoad> BreakProbe::loads(const Relaxed& without) const {
+std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
   std::vector<ProbeLoad> all(bodies_.size());
   std::vector<double> most(bodies_.size(), 0);
   for (std::uint32_t b = 0; b < all.size(); ++b) all[b].body = b;
@@ -135,7 +135,7 @@ std::vector<ProbeLoad> BreakProbe::loads(const Relaxed& without) const {
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const ProbeContact& c = contacts_[closed_[i]];
     const double impulse = with_->impulses_Ns[i];
-    const RelaxRow& row = rows_[closed_[i]];
+    const ContactRow& row = rows_[closed_[i]];
     if (impulse <= 0 || !row.touches(undecided_)) continue;
     const std::uint32_t body = charged(c);
     ProbeLoad& load = all[body];
@@ -179,10 +179,10 @@ std::vector<ProbeLoad> BreakProbe::next() {
       if (!advance_to_event()) return {};
       if (closing_energy_J() < least_J_) continue;
       for (std::size_t b = 0; b < bodies_.size(); ++b) undecided_[b] = bodies_[b].breakable;
-      with_ = relax(std::vector<std::uint8_t>(bodies_.size(), 0));
+      with_ = solve(std::vector<std::uint8_t>(bodies_.size(), 0));
     }
     if (may_load()) {
-      loads_ = loads(relax(undecided_));
+      loads_ = loads(solve(undecided_));
       if (!loads_.empty()) return loads_;
     }
     velocities_ = with_->velocities;
@@ -196,10 +196,10 @@ void BreakProbe::hold() {
 
 /// The kinetic energy of v₁ + s·(v₀ − v₁), v₁ with and v₀ without something in the way, is that of
 /// v₁ and as² + bs more. (Were v₁ exact, b would be 0.)
-BreakProbe::Release BreakProbe::released(const Relaxed& without) const {
+BreakProbe::Release BreakProbe::released(const ClusterMotion& without) const {
   Release release;
   for (std::size_t i = 0; i < closed_.size(); ++i) {
-    const RelaxRow& row = rows_[closed_[i]];
+    const ContactRow& row = rows_[closed_[i]];
     const double impulse = with_->impulses_Ns[i] - without.impulses_Ns[i];
     const double u0 = row.speed(without.velocities), u1 = row.speed(with_->velocities);
     release.a_J += 0.5 * impulse * (u0 - u1);
@@ -224,7 +224,7 @@ std::vector<std::uint32_t> BreakProbe::release(std::span<const ProbeBreak> wante
       removed[loads_[wish.load].body] = 1;
       energy += wish.energy_J;
     }
-    const Relaxed without = relax(removed);
+    const ClusterMotion without = solve(removed);
     const Release release = released(without);
     if (release.a_J > 0 && release.a_J + release.b_J > energy) {
       finish(without, release.share(energy));
@@ -241,7 +241,7 @@ std::vector<std::uint32_t> BreakProbe::release(std::span<const ProbeBreak> wante
   return {};
 }
 
-void BreakProbe::finish(const Relaxed& without, double share) {
+void BreakProbe::finish(const ClusterMotion& without, double share) {
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const BodyVelocity &with = with_->velocities[b], &v0 = without.velocities[b];

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/base/types.h"
-#include "engine/world/break/relax.h"
+#include "engine/world/break/cluster_solve.h"
 
 namespace sunder {
 
@@ -96,7 +96,7 @@ class BreakProbe {
     double share(double energy_J) const;
   };
 
-  RelaxRow make_row(const ProbeContact& c) const;
+  ContactRow make_row(const ProbeContact& c) const;
   double gap_m(std::size_t contact) const {
     return contacts_[contact].separation_m - rows_[contact].speed(way_);
   }
@@ -104,11 +104,11 @@ class BreakProbe {
   bool advance_to_event();
   double closing_energy_J() const;
   bool may_load() const;
-  Relaxed relax(const std::vector<std::uint8_t>& removed) const;
+  ClusterMotion solve(const std::vector<std::uint8_t>& removed) const;
   std::uint32_t charged(const ProbeContact& c) const;
-  std::vector<ProbeLoad> loads(const Relaxed& without) const;
-  Release released(const Relaxed& without) const;
-  void finish(const Relaxed& without, double share);
+  std::vector<ProbeLoad> loads(const ClusterMotion& without) const;
+  Release released(const ClusterMotion& without) const;
+  void finish(const ClusterMotion& without, double share);
 
   std::vector<ProbeBody> bodies_;
   std::vector<ProbeContact> contacts_;
@@ -121,11 +121,11 @@ class BreakProbe {
   std::vector<BodyVelocity> velocities_;  ///< Now.
   std::vector<BodyVelocity> way_;         ///< Displacement and turn since the start of the step.
   std::vector<std::uint32_t> closed_;     ///< Contacts, ascending.
-  std::vector<RelaxRow> rows_;            ///< Per contact.
+  std::vector<ContactRow> rows_;          ///< Per contact.
   double fastest_m_s_ = 0;                ///< Of the contacts that closed at this event.
   std::vector<std::uint8_t> undecided_;   ///< Per body, of this event.
   std::vector<ProbeLoad> loads_;          ///< Of this event.
-  std::optional<Relaxed> with_;           ///< Nothing removed; empty between events.
+  std::optional<ClusterMotion> with_;     ///< Nothing removed; empty between events.
   std::vector<ProbeMotion> motions_;
 };
 

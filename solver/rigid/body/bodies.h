@@ -57,7 +57,7 @@ struct Bodies {
   bool dynamic(std::uint32_t body) const {
     return motion[body] == Motion::kAwake || motion[body] == Motion::kAsleep;
   }
-  bool holds(BodyId id) const {
+  bool contains(BodyId id) const {
     return id.slot < size() && generation[id.slot] == id.generation &&
            motion[id.slot] != Motion::kAbsent;
   }

@@ -8,7 +8,7 @@ namespace sunder::solver {
 /// A body within a step. Lanes: linear 0 to 2, angular (root space) 3 to 5.
 struct alignas(64) BodyRow {
   Wide velocity;
-  Wide position;  ///< Way and turn since the step began.
+  Wide position;  ///< Way and rotation since the step began.
   Wide base;      ///< Velocity of the substep before any contact acted.
   Wide start;     ///< Velocity when the step began.
 };

@@ -10,9 +10,9 @@ namespace sunder::solver {
 namespace {
 
 // Rad in a step; slower, the term is left out. What it does adds up over turns, not over steps.
-constexpr double kGyroscopicTurn = 1e-4;
-constexpr double kLargestTurn = 0.1;  // rad in one midpoint step
-constexpr double kFastestTurn = 100;  // rad in a step; faster, no rule follows it
+constexpr double kGyroscopicAngle = 1e-4;
+constexpr double kLargestAngle = 0.1;  // rad in one midpoint step
+constexpr double kFastestAngle = 100;  // rad in a step; faster, no rule follows it
 constexpr int kMidpointRounds = 12;
 
 struct Spin {
@@ -41,8 +41,8 @@ void midpoint_step(const Mat3& inertia_B, const Mat3& inverse_B, double h, Quat&
 Spin spun_freely(const Bodies& bodies, std::uint32_t body, double dt_s) {
   Spin spin{bodies.rotation[body],
             bodies.rotation[body].conjugate() * bodies.angular_velocity[body]};
-  const double turn = spin.w_B.norm() * dt_s;
-  const int parts = std::max(1, static_cast<int>(std::ceil(turn / kLargestTurn)));
+  const double angle = spin.w_B.norm() * dt_s;
+  const int parts = std::max(1, static_cast<int>(std::ceil(angle / kLargestAngle)));
   const Mat3& inertia_B = bodies.inertia_B[body];
   const Mat3 inverse_B = inertia_B.inverse();
   for (int i = 0; i < parts; ++i)
@@ -51,8 +51,8 @@ Spin spun_freely(const Bodies& bodies, std::uint32_t body, double dt_s) {
 }
 
 bool wobbles(const Bodies& bodies, std::uint32_t body, double dt_s) {
-  const double turn = bodies.angular_velocity[body].norm() * dt_s;
-  return bodies.spins_freely[body] != 0 && turn >= kGyroscopicTurn && turn < kFastestTurn;
+  const double angle = bodies.angular_velocity[body].norm() * dt_s;
+  return bodies.spins_freely[body] != 0 && angle >= kGyroscopicAngle && angle < kFastestAngle;
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ struct StepTime {
 double inverse_effective_mass(const Bodies& bodies, std::uint32_t body, const Vec3f& arm_W,
                               const Vec3f& normal_W) {
   if (!bodies.dynamic(body)) return 0;
-  const Vec3f turn_B = bodies.rotation_f[body].transpose() * arm_W.cross(normal_W);
+  const Vec3f angular_B = bodies.rotation_f[body].transpose() * arm_W.cross(normal_W);
   return static_cast<double>(bodies.inverse_mass[body] +
-                             (bodies.root_B[body].transpose() * turn_B).squaredNorm());
+                             (bodies.root_B[body].transpose() * angular_B).squaredNorm());
 }
 
 /// Middle of the points that close within the step; false if none does.

@@ -51,8 +51,8 @@ FloatBox swept_box(const Shape& shape, const Bodies& bodies, const Vec3& gravity
     const Vec3f shift = (bodies.velocity[body] * dt_s + gravity_W * (dt_s * dt_s)).cast<float>();
     box.min += shift.cwiseMin(0.f);
     box.max += shift.cwiseMax(0.f);
-    const double turn = std::min(2.0, bodies.angular_velocity[body].norm() * dt_s);
-    grow += static_cast<float>(turn) * shape.reach_m;
+    const double angle = std::min(2.0, bodies.angular_velocity[body].norm() * dt_s);
+    grow += static_cast<float>(angle) * shape.reach_m;
   }
   const Vec3f at = bodies.position[body].cast<float>();
   grow += 4e-7f * (at.cwiseAbs().maxCoeff() + shape.reach_m);

@@ -58,7 +58,7 @@ struct Manifold {
   bool cold = false;         ///< Came with a new body: gets its load before the next solve.
   float friction = 0;
   float restitution = 0;
-  float ease = 1;                   ///< How soft its springs are; less where it bears much.
+  float compliance_scale = 1;       ///< How soft its springs are; less where it bears much.
   float size_m = 0;                 ///< Yardstick: inner radius of the smaller shape.
   Vec3f normal_W = Vec3f::UnitY();  ///< From a to b.
   Vec3f normal_body = Vec3f::UnitY();
@@ -69,7 +69,7 @@ struct Manifold {
   Vec3f drift_W = Vec3f::Zero();  ///< Of the friction anchors, b from a, since they were set.
   Vec3f friction_impulse_W = Vec3f::Zero();
   float twist_impulse = 0;
-  float rolling_m = 0;  ///< Lever of resistance to rolling.
+  float rolling_m = 0;  ///< Arm of resistance to rolling.
   Vec3f roll_impulse_W = Vec3f::Zero();
   Vec3f step_impulse_W = Vec3f::Zero();  ///< On b over the last step, if a or b bears load.
   Vec3f rest_force_W = Vec3f::Zero();    ///< On b, N, when a body of the two last fell asleep.

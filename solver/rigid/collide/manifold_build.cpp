@@ -7,8 +7,8 @@
 namespace sunder::solver {
 namespace {
 
-constexpr float kReuseMove = 0.03f;   // of the smaller inner radius
-constexpr float kReuseTurn = 0.005f;  // half-angle, rad
+constexpr float kReuseMove = 0.03f;       // of the smaller inner radius
+constexpr float kReuseRotation = 0.005f;  // half-angle, rad
 constexpr float kMatchDistance = 0.5f;
 constexpr float kKeepSlide = 0.05f;  // of the smaller inner radius: an old point slid away
 constexpr float kKeepApart = 0.1f;   // of it: nearer to a new one, an old one tells nothing new
@@ -137,8 +137,8 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
 bool barely_moved(const Manifold& m, const Bodies& bodies, const PairMotion& motion) {
   const float limit = kReuseMove * m.size_m;
   if ((motion.pose.p - m.built_position).squaredNorm() > limit * limit) return false;
-  const Quatf turn = m.built_rotation.conjugate() * relative_rotation(m, bodies);
-  return turn.vec().squaredNorm() < kReuseTurn * kReuseTurn;
+  const Quatf rotation = m.built_rotation.conjugate() * relative_rotation(m, bodies);
+  return rotation.vec().squaredNorm() < kReuseRotation * kReuseRotation;
 }
 
 void refresh_manifold(const Bodies& bodies, const PairMotion& motion, Manifold& m) {

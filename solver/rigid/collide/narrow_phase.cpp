@@ -113,12 +113,12 @@ void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const 
 Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
                const PairMotion& motion, const NarrowStep& step, float size_m) {
   const auto dt = static_cast<float>(step.dt_s);
-  auto turn = [&](std::uint32_t body, float reach_m) {
+  auto spin_reach = [&](std::uint32_t body, float reach_m) {
     const auto spin = static_cast<float>(bodies.angular_velocity[body].norm());
     return std::min(1.f, spin * dt) * reach_m;
   };
   return {kMargin * size_m + step.fall_m,
-          turn(pair.body_a, a.reach_m) + turn(pair.body_b, b.reach_m),
+          spin_reach(pair.body_a, a.reach_m) + spin_reach(pair.body_b, b.reach_m),
           dt * motion.velocity_W.norm()};
 }
 
@@ -193,7 +193,7 @@ bool same_as_before(const Bodies& bodies, std::span<const StepReach> reach, cons
                               : std::max(0.f, -way_W.dot(bodies.rotation_f[a] * pair.axis_A));
   const float blur_m = kRounding * offset_W.norm();
   return pair.clearance_m - moved_m - blur_m >
-         pair.margin_m + closing_m + reach[a].turn_m + reach[b].turn_m;
+         pair.margin_m + closing_m + reach[a].spin_m + reach[b].spin_m;
 }
 
 void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep& step, Pair& pair,

@@ -24,7 +24,7 @@ struct NarrowStep {
 /// How far a body may come within the step.
 struct StepReach {
   Vec3f way_W;
-  float turn_m;  ///< Of any of its points about its centre.
+  float spin_m;  ///< Of any of its points about its centre.
 };
 
 /// Whether a pair needs no look: it touches (`m` is given) and its bodies have not moved against

@@ -21,10 +21,10 @@ namespace sunder::solver {
 /// What a sweep reads and writes of a point.
 template <std::uint32_t lanes>
 struct PointLanes {
-  Wide3Of<lanes> turn_a, turn_b;  ///< Angular Jacobians along the normal.
-  WideOf<lanes> separation;       ///< When the step began.
-  WideOf<lanes> mass;             ///< Effective; 0 where the lane has no manifold.
-  WideOf<lanes> arm;              ///< From the friction point: the lever of twist.
+  Wide3Of<lanes> angular_a, angular_b;  ///< Angular Jacobians along the normal.
+  WideOf<lanes> separation;             ///< When the step began.
+  WideOf<lanes> mass;                   ///< Effective; 0 where the lane has no manifold.
+  WideOf<lanes> arm;                    ///< From the friction point: the arm of twist.
   WideOf<lanes> impulse;
 };
 
@@ -43,16 +43,16 @@ struct SplitLanes {
   WideOf<lanes> share_a, share_b;  ///< Of a part in its body: 1 / n.
   WideOf<lanes> root_a, root_b;    ///< Its square root.
   /// How much softer the parts are than the bodies, along the normal by point, and sliding.
-  std::array<WideOf<lanes>, 4> press_ease;
-  WideOf<lanes> slide_ease;
+  std::array<WideOf<lanes>, 4> press_split_scale;
+  WideOf<lanes> slide_split_scale;
 };
 
-/// What only resistance to rolling needs: turns about the two tangents.
+/// What only resistance to rolling needs: angular Jacobians about the two tangents.
 template <std::uint32_t lanes>
 struct RollLanes {
-  Wide3Of<lanes> turn_1_a, turn_1_b, turn_2_a, turn_2_b;
+  Wide3Of<lanes> angular_1_a, angular_1_b, angular_2_a, angular_2_b;
   WideOf<lanes> mass_11, mass_12, mass_22;
-  WideOf<lanes> lever;  ///< Of the load; 0: none.
+  WideOf<lanes> arm;  ///< Of the load; 0: none.
   WideOf<lanes> impulse_1, impulse_2;
 };
 

@@ -56,8 +56,8 @@ class BlocksOf final : public ContactBlocks {
   void sum_impulses(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::sum_impulses(blocks_[i]);
   }
-  void ease(std::uint32_t begin, std::uint32_t end, const float* share_of_row) override {
-    for (std::uint32_t i = begin; i < end; ++i) solver::ease(blocks_[i], share_of_row);
+  void scale_impulses(std::uint32_t begin, std::uint32_t end, const float* share_of_row) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::scale_impulses(blocks_[i], share_of_row);
   }
   void mark(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::mark(blocks_[i], search_[i]);

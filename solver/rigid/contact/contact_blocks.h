@@ -30,7 +30,8 @@ class ContactBlocks {
   /// To be called once a substep, after the last sweep.
   virtual void sum_impulses(std::uint32_t begin, std::uint32_t end) = 0;
   /// To be called after it: see sweep.h.
-  virtual void ease(std::uint32_t begin, std::uint32_t end, const float* share_of_row) = 0;
+  virtual void scale_impulses(std::uint32_t begin, std::uint32_t end,
+                              const float* share_of_row) = 0;
   /// Makes room for what conjugate gradients remember, once all blocks are added.
   virtual void remember() = 0;
   // Conjugate gradients, of blocks that are not split (see sweep.h). `energy` is by manifold.

@@ -27,8 +27,8 @@ enum StageKind {
   kLastRelaxed,
   kWeigh,
   kJudge,
-  kEaseBody,
-  kEase,
+  kScaleBody,
+  kScaleImpulses,
   kBounce,
   kStore,
   kFinish,
@@ -40,10 +40,10 @@ enum StageKind {
   kJointBegin,
   kJointWarmStart,
   kJointPush,
-  kJointTurn,
+  kJointRefresh,
   kJointRelax,
   kJointTest,
-  kJointEase
+  kJointScale
 };
 
 Vec3f linear(Wide v) { return {v[0], v[1], v[2]}; }
@@ -78,7 +78,7 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
                    {rows, parts_.data()},
                    soft_step(h, FroudeScale(gravity_W))};
   step.deep_contacts = deep_contacts_;
-  step.bears_on = bears_on_;
+  step.loaded_contacts = loaded_contacts_;
   step.gravity_W = gravity_W.cast<float>();
   step.impulse_scale = last_h_s_ > 0 ? static_cast<float>(h / last_h_s_) : 1.f;
   step.bounce_speed_m_s = static_cast<float>(2 * gravity_W.norm() * dt_s);
@@ -113,7 +113,7 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
         return join_parts(body);
       case kWeigh:
         return energy_guard_.weigh(body, bodies.inverse_mass[body], row);
-      case kEaseBody:
+      case kScaleBody:
         if (energy_guard_.objects())
           row.velocity =
               row.base + energy_guard_.share_of_row()[body + 1] * (row.velocity - row.base);
@@ -134,15 +134,15 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
         return joint_solver_.warm_start(i, joint_step, rows);
       case kJointPush:
         return joint_solver_.push(i, joint_step, rows);
-      case kJointTurn:
-        return joint_solver_.turn(i, rows);
+      case kJointRefresh:
+        return joint_solver_.refresh(i, rows);
       case kJointRelax:
         return joint_solver_.relax(i, joint_step, rows);
       case kJointTest:
         return joint_solver_.test(i, joint_step, rows);
-      case kJointEase:
+      case kJointScale:
         if (energy_guard_.objects())
-          joint_solver_.ease(i, joint_step, energy_guard_.share_of_row(), rows);
+          joint_solver_.scale_impulses(i, joint_step, energy_guard_.share_of_row(), rows);
         return;
     }
   };
@@ -161,8 +161,9 @@ ContactSolveReport ContactSolver::solve(double dt_s, int substeps, const Vec3& g
         return blocks_->sum_impulses(begin, end);
       case kJudge:
         return energy_guard_.judge(active_);
-      case kEase:
-        if (energy_guard_.objects()) blocks_->ease(begin, end, energy_guard_.share_of_row());
+      case kScaleImpulses:
+        if (energy_guard_.objects())
+          blocks_->scale_impulses(begin, end, energy_guard_.share_of_row());
         return;
       case kBounce:
         return blocks_->bounce(begin, end, step);
@@ -233,16 +234,16 @@ std::vector<Stage> ContactSolver::plan(int substeps) const {
     if (s == 0) each_color(kWarmStart), join();
     sweep(kJointPush, kBiased, kBiased);
     all_bodies(kJoinAndMove);
-    joint_solver_.each_color(kJointTurn, stages);
+    joint_solver_.each_color(kJointRefresh, stages);
     sweep(kJointRelax, kRelaxed, kLastRelaxed);
     if (joints || guarded || s + 1 == substeps) join();
     joint_solver_.each_color(kJointTest, stages);
     if (!guarded) continue;
     all_bodies(kWeigh);
     stages.push_back({kJudge, 0, 1, 1});
-    all_bodies(kEaseBody);
-    all_blocks(kEase);
-    joint_solver_.each_color(kJointEase, stages);
+    all_bodies(kScaleBody);
+    all_blocks(kScaleImpulses);
+    joint_solver_.each_color(kJointScale, stages);
   }
   each_color(kBounce);
   join();
@@ -262,7 +263,7 @@ void ContactSolver::choose_beta(bool first) {
 void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contacts) {
   std::uint32_t start[kSweepKeys + 1] = {};
   in_contact_.assign(bodies.size(), 0);
-  bears_on_.assign(bodies.size(), 0);
+  loaded_contacts_.assign(bodies.size(), 0);
   points_ = 0;
   deep_contacts_.clear();
   auto for_each = [&](const auto& visit) {
@@ -276,7 +277,7 @@ void ContactSolver::collect_blocks(const Bodies& bodies, const Contacts& contact
     in_contact_[m.body_a] = in_contact_[m.body_b] = 1;
     if (m.normal_impulse() > 0)
       for (const std::uint32_t body : {m.body_a, m.body_b})
-        bears_on_[body] = std::min<std::uint8_t>(bears_on_[body] + 1, kPinched);
+        loaded_contacts_[body] = std::min<std::uint8_t>(loaded_contacts_[body] + 1, kPinched);
     points_ += m.count;
     if (!m.deep) return;
     deep_contacts_.resize(bodies.size());
@@ -369,11 +370,11 @@ void ContactSolver::finish_body(std::uint32_t body, Bodies& bodies) const {
   bodies.angular_velocity[body] += (root_W_[body] * angular(change)).cast<double>();
   const Vec3f way = linear(row.position);
   const Vec3f angle = root_W_[body] * angular(row.position);
-  const Quat turn = rotation_by(angle.cast<double>());
+  const Quat rotation = rotation_by(angle.cast<double>());
   // Energy is that of the velocity as an uneven body sees it, so it turns with the body.
   if (bodies.spins_freely[body])
-    bodies.angular_velocity[body] = turn * bodies.angular_velocity[body];
-  bodies.place(body, bodies.position[body] + way.cast<double>(), turn * bodies.rotation[body]);
+    bodies.angular_velocity[body] = rotation * bodies.angular_velocity[body];
+  bodies.place(body, bodies.position[body] + way.cast<double>(), rotation * bodies.rotation[body]);
   bodies.turned_m[body] += 1.1 * double{angle.norm()} * bodies.reach_m[body];
 }
 

@@ -40,7 +40,7 @@ class ContactSolver {
   ContactSolveReport solve(double dt_s, int substeps, const Vec3& gravity_W, Bodies& bodies,
                            Contacts& contacts, Joints& joints);
 
-  /// Substep of the impulses that manifolds hold; 0: none solved yet.
+  /// Substep of the impulses that manifolds keep; 0: none solved yet.
   double last_h_s() const { return last_h_s_; }
 
  private:
@@ -61,10 +61,10 @@ class ContactSolver {
   std::vector<std::uint32_t> active_;    ///< Awake bodies in contact.
   std::vector<std::uint32_t> flying_;    ///< Awake bodies that touch nothing.
   std::vector<std::uint8_t> in_contact_;
-  std::vector<std::uint8_t> jointed_;         ///< By body slot: held by a joint.
-  std::vector<std::uint8_t> bears_on_;        ///< Loaded manifolds by body slot, at most 3.
-  std::vector<std::uint32_t> deep_contacts_;  ///< By body slot; empty if there are none.
-  std::vector<BodyRow> rows_;                 ///< By body slot + 1; row 0 stays still.
+  std::vector<std::uint8_t> jointed_;          ///< By body slot: held by a joint.
+  std::vector<std::uint8_t> loaded_contacts_;  ///< Loaded manifolds by body slot, at most 3.
+  std::vector<std::uint32_t> deep_contacts_;   ///< By body slot; empty if there are none.
+  std::vector<BodyRow> rows_;                  ///< By body slot + 1; row 0 stays still.
   std::vector<Mat3f> root_W_;
   std::uint32_t points_ = 0;
 

@@ -41,8 +41,8 @@ SUNDER_INLINE void split_bodies(GatheredBlock<lanes>& g, ConstraintBlock<lanes>&
 
 /// Response of bodies over that of their parts.
 template <std::uint32_t lanes>
-SUNDER_INLINE WideOf<lanes> ease(const ConstraintBlock<lanes>& c,
-                                 const Response<WideOf<lanes>>& parts) {
+SUNDER_INLINE WideOf<lanes> split_scale(const ConstraintBlock<lanes>& c,
+                                        const Response<WideOf<lanes>>& parts) {
   return (parts.a * c.parts.share_a + parts.b * c.parts.share_b) * reciprocal(parts.all());
 }
 
@@ -66,16 +66,17 @@ SUNDER_INLINE void derive_friction(const GatheredBlock<lanes>& g, ConstraintBloc
   c.slide_2_a = to_root(g.root_a, cross(g.friction_arm_a, c.tangent_2));
   c.slide_2_b = to_root(g.root_b, cross(g.friction_arm_b, c.tangent_2));
   const V inverse_mass = c.inverse_mass_a + c.inverse_mass_b;
-  const Response<V> turn_1 = {dot(c.slide_1_a, c.slide_1_a), dot(c.slide_1_b, c.slide_1_b)};
-  const Response<V> turn_2 = {dot(c.slide_2_a, c.slide_2_a), dot(c.slide_2_b, c.slide_2_b)};
-  const V k11 = inverse_mass + turn_1.a + turn_1.b;
-  const V k22 = inverse_mass + turn_2.a + turn_2.b;
+  const Response<V> angular_1 = {dot(c.slide_1_a, c.slide_1_a), dot(c.slide_1_b, c.slide_1_b)};
+  const Response<V> angular_2 = {dot(c.slide_2_a, c.slide_2_a), dot(c.slide_2_b, c.slide_2_b)};
+  const V k11 = inverse_mass + angular_1.a + angular_1.b;
+  const V k22 = inverse_mass + angular_2.a + angular_2.b;
   const V k12 = dot(c.slide_1_a, c.slide_2_a) + dot(c.slide_1_b, c.slide_2_b);
   const V scale = reciprocal(k11 * k22 - k12 * k12);
   c.slide_11 = k22 * scale, c.slide_12 = -k12 * scale, c.slide_22 = k11 * scale;
   if (c.split)
-    c.parts.slide_ease = ease(c, {c.inverse_mass_a + c.inverse_mass_a + turn_1.a + turn_2.a,
-                                  c.inverse_mass_b + c.inverse_mass_b + turn_1.b + turn_2.b});
+    c.parts.slide_split_scale =
+        split_scale(c, {c.inverse_mass_a + c.inverse_mass_a + angular_1.a + angular_2.a,
+                        c.inverse_mass_b + c.inverse_mass_b + angular_1.b + angular_2.b});
   c.twist_a = to_root(g.root_a, c.normal);
   c.twist_b = to_root(g.root_b, c.normal);
   c.twist_mass = reciprocal(dot(c.twist_a, c.twist_a) + dot(c.twist_b, c.twist_b));
@@ -88,11 +89,11 @@ template <std::uint32_t lanes>
 SUNDER_INLINE void derive_roll(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
   RollLanes<lanes>& r = c.roll;
-  r.turn_1_a = to_root(g.root_a, c.tangent_1), r.turn_1_b = to_root(g.root_b, c.tangent_1);
-  r.turn_2_a = to_root(g.root_a, c.tangent_2), r.turn_2_b = to_root(g.root_b, c.tangent_2);
-  const V k11 = dot(r.turn_1_a, r.turn_1_a) + dot(r.turn_1_b, r.turn_1_b);
-  const V k22 = dot(r.turn_2_a, r.turn_2_a) + dot(r.turn_2_b, r.turn_2_b);
-  const V k12 = dot(r.turn_1_a, r.turn_2_a) + dot(r.turn_1_b, r.turn_2_b);
+  r.angular_1_a = to_root(g.root_a, c.tangent_1), r.angular_1_b = to_root(g.root_b, c.tangent_1);
+  r.angular_2_a = to_root(g.root_a, c.tangent_2), r.angular_2_b = to_root(g.root_b, c.tangent_2);
+  const V k11 = dot(r.angular_1_a, r.angular_1_a) + dot(r.angular_1_b, r.angular_1_b);
+  const V k22 = dot(r.angular_2_a, r.angular_2_a) + dot(r.angular_2_b, r.angular_2_b);
+  const V k12 = dot(r.angular_1_a, r.angular_2_a) + dot(r.angular_1_b, r.angular_2_b);
   const V scale = reciprocal(k11 * k22 - k12 * k12);
   r.mass_11 = k22 * scale, r.mass_12 = -k12 * scale, r.mass_22 = k11 * scale;
   r.impulse_1 = dot(g.roll_impulse, c.tangent_1);
@@ -119,25 +120,27 @@ SUNDER_INLINE void derive_points(const GatheredBlock<lanes>& g, ConstraintBlock<
   const V inverse_mass = c.inverse_mass_a + c.inverse_mass_b;
   for (std::uint32_t i = 0; i < c.points; ++i) {
     PointLanes<lanes>& p = c.point[i];
-    p.turn_a = to_root(g.root_a, cross(g.arm_a[i], c.normal));
-    p.turn_b = to_root(g.root_b, cross(g.arm_b[i], c.normal));
-    const Response<V> turn = {dot(p.turn_a, p.turn_a), dot(p.turn_b, p.turn_b)};
-    p.mass = reciprocal(inverse_mass + turn.a + turn.b);
+    p.angular_a = to_root(g.root_a, cross(g.arm_a[i], c.normal));
+    p.angular_b = to_root(g.root_b, cross(g.arm_b[i], c.normal));
+    const Response<V> angular = {dot(p.angular_a, p.angular_a), dot(p.angular_b, p.angular_b)};
+    p.mass = reciprocal(inverse_mass + angular.a + angular.b);
     if (c.split)
-      c.parts.press_ease[i] = ease(c, {c.inverse_mass_a + turn.a, c.inverse_mass_b + turn.b});
+      c.parts.press_split_scale[i] =
+          split_scale(c, {c.inverse_mass_a + angular.a, c.inverse_mass_b + angular.b});
     const Wide3Of<lanes> off = g.arm_b[i] - g.friction_arm_b;
-    const Wide3Of<lanes> lever = off - c.normal * dot(off, c.normal);
-    p.arm = sqrt(dot(lever, lever));
+    const Wide3Of<lanes> arm = off - c.normal * dot(off, c.normal);
+    p.arm = sqrt(dot(arm, arm));
   }
 }
 
 template <std::uint32_t lanes>
 SUNDER_INLINE void derive_springs(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
-  const V mass = splat<V>(g.press.mass_scale), give = g.ease * splat<V>(g.press.impulse_scale);
+  const V mass = splat<V>(g.press.mass_scale),
+          give = g.compliance_scale * splat<V>(g.press.impulse_scale);
   c.press_mass = mass / (mass + give), c.press_give = give / (mass + give);
   if (!c.split) return;
-  for (std::uint32_t i = 0; i < c.points; ++i) c.parts.press_ease[i] *= g.ease;
+  for (std::uint32_t i = 0; i < c.points; ++i) c.parts.press_split_scale[i] *= g.compliance_scale;
 }
 
 template <bool kSplit, std::uint32_t lanes>
@@ -146,22 +149,22 @@ SUNDER_INLINE void derive_rebounds(const GatheredBlock<lanes>& g, const SolverRo
   const Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
   for (std::uint32_t i = 0; i < c.points; ++i) {
     const PointLanes<lanes>& p = c.point[i];
-    c.rebound[i].speed = rebound_of(g, c, p, v.along(c.normal, p.turn_a, p.turn_b));
+    c.rebound[i].speed = rebound_of(g, c, p, v.along(c.normal, p.angular_a, p.angular_b));
     c.bouncy = c.bouncy || any(c.rebound[i].speed > WideOf<lanes>{});
   }
 }
 
 /// Sleepers stay where they are: no response to any impulse.
 template <std::uint32_t lanes>
-SUNDER_INLINE void hold_sleepers(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+SUNDER_INLINE void fix_sleepers(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
   c.inverse_mass_a *= g.awake_a, c.inverse_mass_b *= g.awake_b;
-  auto hold = [&](Wide3Of<lanes>& a, Wide3Of<lanes>& b) { a = a * g.awake_a, b = b * g.awake_b; };
-  hold(c.slide_1_a, c.slide_1_b);
-  hold(c.slide_2_a, c.slide_2_b);
-  hold(c.twist_a, c.twist_b);
-  hold(c.roll.turn_1_a, c.roll.turn_1_b);
-  hold(c.roll.turn_2_a, c.roll.turn_2_b);
-  for (std::uint32_t i = 0; i < c.points; ++i) hold(c.point[i].turn_a, c.point[i].turn_b);
+  auto fix = [&](Wide3Of<lanes>& a, Wide3Of<lanes>& b) { a = a * g.awake_a, b = b * g.awake_b; };
+  fix(c.slide_1_a, c.slide_1_b);
+  fix(c.slide_2_a, c.slide_2_b);
+  fix(c.twist_a, c.twist_b);
+  fix(c.roll.angular_1_a, c.roll.angular_1_b);
+  fix(c.roll.angular_2_a, c.roll.angular_2_b);
+  for (std::uint32_t i = 0; i < c.points; ++i) fix(c.point[i].angular_a, c.point[i].angular_b);
 }
 
 template <std::uint32_t lanes>
@@ -174,7 +177,7 @@ void derive(GatheredBlock<lanes>& g, const SolverRows& bodies, ConstraintBlock<l
   derive_springs(g, c);
   if (any(g.restitution > WideOf<lanes>{}))
     c.split ? derive_rebounds<true>(g, bodies, c) : derive_rebounds<false>(g, bodies, c);
-  if (g.sleepers) hold_sleepers(g, c);
+  if (g.sleepers) fix_sleepers(g, c);
 }
 
 /// Compiles all kernels for so many lanes.
@@ -184,7 +187,7 @@ void derive(GatheredBlock<lanes>& g, const SolverRows& bodies, ConstraintBlock<l
   template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);     \
   template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);    \
   template void sum_impulses(ConstraintBlock<lanes>&);                                         \
-  template void ease(ConstraintBlock<lanes>&, const float*);                                   \
+  template void scale_impulses(ConstraintBlock<lanes>&, const float*);                         \
   template void mark(const ConstraintBlock<lanes>&, SearchLanes<lanes>&);                      \
   template void measure(const ConstraintBlock<lanes>&, const SearchLanes<lanes>&, float*);     \
   template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float); \

@@ -22,8 +22,8 @@ void EnergyGuard::collect(std::span<const std::uint32_t> manifolds,
                           std::span<const std::uint32_t> active, std::span<const Pair> joined,
                           double slow_m_s, const Bodies& bodies, const Contacts& contacts) {
   watches_ = std::ranges::any_of(active, [&](std::uint32_t body) {
-    const double turn_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
-    return bodies.velocity[body].norm() + turn_m_s > slow_m_s;
+    const double spin_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
+    return bodies.velocity[body].norm() + spin_m_s > slow_m_s;
   });
   if (!watches_) return;
   DisjointSets groups(bodies.size());

@@ -42,10 +42,10 @@ struct Share {
   float vertical = 0;
 };
 
-/// Impulses along the vertical at the shares that bear `weight` with the moment `turn` (about the
+/// Impulses along the vertical at the shares that bear `weight` with this `moment` (about the
 /// two axes across): the least in squares, those that would pull left out.
-void bear(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float weight,
-          const Vec3f& turn, std::vector<Share>& shares) {
+void carry(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float weight,
+           const Vec3f& moment, std::vector<Share>& shares) {
   float longest = 0;  // arms are measured by it
   for (const Share& s : shares) longest = std::max(longest, s.arm.norm());
   const float inverse = longest > 0 ? 1 / longest : 0;
@@ -53,8 +53,8 @@ void bear(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float w
     return Vec3f(1, inverse * s.arm.dot(across_1), inverse * s.arm.dot(across_2));
   };
   // A push along `up` at x·across_1 + y·across_2 turns by x·(across_1 × up) + y·(across_2 × up).
-  const Vec3f wanted(weight, inverse * turn.dot(across_1.cross(up)),
-                     inverse * turn.dot(across_2.cross(up)));
+  const Vec3f wanted(weight, inverse * moment.dot(across_1.cross(up)),
+                     inverse * moment.dot(across_2.cross(up)));
   Mat3f normal = Mat3f::Zero();
   for (const Share& s : shares) normal += row(s) * row(s).transpose();
   const float arms = normal(1, 1) + normal(2, 2);
@@ -77,7 +77,7 @@ void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifold
   const std::vector<Support> supports = find_supports(up_W, manifolds, bodies, contacts);
   for (std::size_t i = supports.size(); i-- > 0;) {
     const Support& s = supports[i];
-    if (!bodies.awake(s.below) || loads[s.below].held) loads[s.body].held = true;
+    if (!bodies.awake(s.below) || loads[s.below].supported) loads[s.body].supported = true;
   }
   std::vector<Share> shares;
   for (std::size_t begin = 0, end = 0; begin < supports.size(); begin = end) {
@@ -85,7 +85,7 @@ void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifold
     shares.clear();
     for (; end < supports.size() && supports[end].body == body; ++end) {
       const Support& s = supports[end];
-      if (bodies.awake(s.below) && !loads[s.below].held) continue;
+      if (bodies.awake(s.below) && !loads[s.below].supported) continue;
       Manifold& m = contacts.manifolds[s.manifold];
       const bool on_b = m.body_b == body;
       for (std::size_t i = 0; i < m.count; ++i) {
@@ -96,12 +96,12 @@ void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifold
     }
     const float weight = -loads[body].impulse_W.dot(up);
     if (shares.empty() || weight <= 0) continue;
-    bear(up, across_1, across_2, weight, -loads[body].turn_W, shares);
+    carry(up, across_1, across_2, weight, -loads[body].angular_impulse_W, shares);
     for (const Share& s : shares) {
       const float slope = std::abs(s.manifold->normal_W.dot(up));
       s.manifold->points[s.point].impulse_Ns = stored_scale * s.vertical / slope;
       loads[s.below].impulse_W -= s.vertical * up;
-      loads[s.below].turn_W -= s.arm_below.cross(s.vertical * up);
+      loads[s.below].angular_impulse_W -= s.arm_below.cross(s.vertical * up);
     }
   }
 }
@@ -113,7 +113,7 @@ void release_above(const Vec3& gravity_W, std::span<const std::uint32_t> manifol
       find_supports(-gravity_W.normalized(), manifolds, bodies, contacts);
   for (std::size_t i = supports.size(); i-- > 0;) {
     const Support& s = supports[i];
-    if (bodies.awake(s.below) && !loads[s.below].held) loads[s.body].held = false;
+    if (bodies.awake(s.below) && !loads[s.below].supported) loads[s.body].supported = false;
   }
 }
 

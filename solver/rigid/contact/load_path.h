@@ -15,17 +15,17 @@ namespace sunder::solver {
 /// What a body has to hand down.
 struct BodyLoad {
   Vec3f impulse_W = Vec3f::Zero();
-  Vec3f turn_W = Vec3f::Zero();  ///< About its centre.
-  bool held = false;             ///< Stands on something that holds it.
+  Vec3f angular_impulse_W = Vec3f::Zero();  ///< About its centre.
+  bool supported = false;                   ///< By what cannot move, through others or not.
 };
 
 /// Gives the points of `manifolds` the impulses (times `stored_scale`) that hand `loads` (by body
-/// slot) down to what cannot move. What nothing holds hands down nothing.
+/// slot) down to what cannot move. What nothing supports hands down nothing.
 void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
                   float stored_scale, const Bodies& bodies, std::vector<BodyLoad>& loads,
                   Contacts& contacts);
 
-/// Bodies that stand on one that is not held are not held either.
+/// Bodies that stand on one that is not supported are not supported either.
 void release_above(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
                    const Bodies& bodies, const Contacts& contacts, std::vector<BodyLoad>& loads);
 

@@ -12,10 +12,10 @@ namespace {
 // share of its size. What gives way by more than this share of it gets stiffer
 // (docs/decisions/031); slowly, or an impact would be thrown back by a spring that hardened while
 // it was compressed.
-constexpr float kMostGive = 0.01f;  // of the inner radius of the smaller shape
-constexpr float kLeastEase = 0.1f;  // beyond, sweeps do not keep up
+constexpr float kMostGive = 0.01f;        // of the inner radius of the smaller shape
+constexpr float kLeastCompliance = 0.1f;  // beyond, sweeps do not keep up
 constexpr float kLeastProp = 0.5f;  // of what is not pinched: what stands on it bounces at 0.3
-constexpr float kEaseStep = 0.97f;  // a step
+constexpr float kComplianceStep = 0.97f;  // a step
 
 template <class V>
 void set_lane(Triple<V>& v, std::uint32_t lane, const Vec3f& value) {
@@ -86,11 +86,11 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
   set_lane(g.friction_arm_b, lane, m.friction_arm_B);
   c.twist_impulse[lane] = step.impulse_scale * m.twist_impulse;
   c.friction[lane] = m.friction;
-  c.roll.lever[lane] = m.rolling_m;
+  c.roll.arm[lane] = m.rolling_m;
   c.rolls = c.rolls || m.rolling_m > 0;
   set_lane(g.roll_impulse, lane, step.impulse_scale * m.roll_impulse_W);
   g.restitution[lane] = m.restitution;
-  g.ease[lane] = m.ease;
+  g.compliance_scale[lane] = m.compliance_scale;
   c.push_m_s[lane] = push_m_s(step, m);
   const float most_overlap = most_overlap_m(step, m);
   for (std::size_t i = 0; i < m.count; ++i) {
@@ -130,19 +130,20 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c) {
 
 /// How soft a contact should be for the load it bears, approached from how soft it was.
 template <std::uint32_t lanes>
-float ease_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
-               const Manifold& m) {
+float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
+                     const Manifold& m) {
   const float yield_s = step.soft.press[c.points - 1].yield_s, most_m = kMostGive * m.size_m;
   float give_m = 0;
   for (std::uint32_t i = 0; i < c.points; ++i) {
-    const float mass = c.point[i].mass[lane], seated_m = std::abs(m.points[i].rest_m);
-    if (mass > 0) give_m = std::max(give_m, yield_s * c.point[i].impulse[lane] / mass - seated_m);
+    const float mass = c.point[i].mass[lane], rest_m = std::abs(m.points[i].rest_m);
+    if (mass > 0) give_m = std::max(give_m, yield_s * c.point[i].impulse[lane] / mass - rest_m);
   }
   const bool a_is_lighter = step.bodies.inverse_mass[m.body_a] > step.bodies.inverse_mass[m.body_b];
-  const bool pinched = step.bears_on[a_is_lighter ? m.body_a : m.body_b] >= kPinched;
+  const bool pinched = step.loaded_contacts[a_is_lighter ? m.body_a : m.body_b] >= kPinched;
   const float least =
-      give_m > most_m ? std::max(pinched ? kLeastEase : kLeastProp, most_m / give_m) : 1;
-  return std::clamp(least, kEaseStep * m.ease, std::min(1.f, m.ease / kEaseStep));
+      give_m > most_m ? std::max(pinched ? kLeastCompliance : kLeastProp, most_m / give_m) : 1;
+  return std::clamp(least, kComplianceStep * m.compliance_scale,
+                    std::min(1.f, m.compliance_scale / kComplianceStep));
 }
 
 template <std::uint32_t lanes>
@@ -163,7 +164,7 @@ void store_block(const ContactStep& step, const ConstraintBlock<lanes>& c) {
     if (c.rolls)
       m.roll_impulse_W = c.roll.impulse_1[lane] * lane_of(c.tangent_1, lane) +
                          c.roll.impulse_2[lane] * lane_of(c.tangent_2, lane);
-    m.ease = ease_now(step, c, lane, m);
+    m.compliance_scale = compliance_now(step, c, lane, m);
     m.step_impulse_W = lane_of(c.total, lane);
     const float limit = c.friction[lane] * 0.999f;
     if (s1 * s1 + s2 * s2 >= limit * limit * normal * normal) m.sticking = false;

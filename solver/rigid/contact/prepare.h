@@ -34,7 +34,8 @@ struct ContactStep {
   float impulse_scale = 1;                            ///< Substep over that of the last step.
   float bounce_speed_m_s = 0;                         ///< Slower impacts do not bounce.
   std::span<const std::uint32_t> deep_contacts = {};  ///< By body slot; empty: there are none.
-  std::span<const std::uint8_t> bears_on = {};  ///< Loaded manifolds by body slot, up to kPinched.
+  std::span<const std::uint8_t> loaded_contacts =
+      {};  ///< Loaded manifolds by body slot, up to kPinched.
 };
 
 /// With more deep contacts on a body than these, each is pushed apart at a share of the fastest,

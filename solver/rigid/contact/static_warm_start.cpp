@@ -1,4 +1,4 @@
-// Read first: StaticWarmStart::seed(). The loads are found by conjugate gradients over the sweeps
+// Read first: StaticWarmStart::apply(). The loads are found by conjugate gradients over the sweeps
 // of the solver itself: see nncg.h.
 #include "solver/rigid/contact/static_warm_start.h"
 
@@ -18,7 +18,7 @@ constexpr std::uint32_t kGrain = 8;
 constexpr double kWork = 2e5;  // points swept at most, unless there are too many for it
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
 constexpr int kFirstLook = 32;        // whenever as many rounds again are over: are more in vain?
-constexpr double kNearlyDone = 1e-7;  // of the loads' squares: what is not held by then will not be
+constexpr double kNearlyDone = 1e-7;  // of the loads' squares: what falls by then will fall
 constexpr double kDone = 1e-12;       // of the loads' squares, a step's
 constexpr double kMostLeft = 0.01;    // of the energy of a substep of free fall
 // Of the inner radius: what is deeper is not at rest, and what is as far apart bears nothing.
@@ -26,11 +26,11 @@ constexpr float kMostOverlap = 0.04f;
 constexpr float kMostRest = 0.1f;  // of it
 constexpr float kNoGap = 1e-4f;    // of it: rounding, or what would hardly be seen
 
-Vec3f lane_of(const Wide3Of<kSeedLanes>& v, std::uint32_t lane) {
+Vec3f lane_of(const Wide3Of<kStaticLanes>& v, std::uint32_t lane) {
   return {v.x[lane], v.y[lane], v.z[lane]};
 }
 
-BlockLoads loads_of(const SeedBlock& c) {
+BlockLoads loads_of(const StaticBlock& c) {
   BlockLoads loads;
   for (std::size_t i = 0; i < 4; ++i) loads.press[i] = c.point[i].impulse;
   loads.slide_1 = c.slide_impulse_1, loads.slide_2 = c.slide_impulse_2;
@@ -38,7 +38,7 @@ BlockLoads loads_of(const SeedBlock& c) {
   return loads;
 }
 
-void set_loads(const BlockLoads& loads, SeedBlock& c) {
+void set_loads(const BlockLoads& loads, StaticBlock& c) {
   for (std::size_t i = 0; i < 4; ++i) c.point[i].impulse = loads.press[i];
   c.slide_impulse_1 = loads.slide_1, c.slide_impulse_2 = loads.slide_2;
   c.twist_impulse = loads.twist;
@@ -54,14 +54,14 @@ BlockLoads sum(const BlockLoads& a, float s, const BlockLoads& b) {
   return loads;
 }
 
-/// Twist counts at the lever of the first point.
-double square_of(const SeedBlock& c, const BlockLoads& a) {
-  const Wide4 zero = {}, lever = c.point[0].arm;
-  const Wide4 twist = lever > zero ? a.twist / (lever > zero ? lever : splat<Wide4>(1)) : zero;
+/// Twist counts at the arm of the first point.
+double square_of(const StaticBlock& c, const BlockLoads& a) {
+  const Wide4 zero = {}, arm = c.point[0].arm;
+  const Wide4 twist = arm > zero ? a.twist / (arm > zero ? arm : splat<Wide4>(1)) : zero;
   Wide4 square = a.slide_1 * a.slide_1 + a.slide_2 * a.slide_2 + twist * twist;
   for (int i = 0; i < 4; ++i) square += a.press[i] * a.press[i];
   double all = 0;
-  for (std::uint32_t lane = 0; lane < kSeedLanes; ++lane) all += double{square[lane]};
+  for (std::uint32_t lane = 0; lane < kStaticLanes; ++lane) all += double{square[lane]};
   return all;
 }
 
@@ -77,7 +77,7 @@ double greatest_speed(const Manifold& m, const Bodies& bodies) {
 }
 
 /// What touches but for rounding bears as if it did, however short the substep.
-void close_gaps(const ContactStep& step, SeedBlock& c) {
+void close_gaps(const ContactStep& step, StaticBlock& c) {
   for (std::uint32_t lane = 0; lane < c.count; ++lane) {
     const float none_m = kNoGap * step.contacts.manifolds[step.manifolds[c.first + lane]].size_m;
     for (std::uint32_t i = 0; i < c.points; ++i) {
@@ -88,18 +88,18 @@ void close_gaps(const ContactStep& step, SeedBlock& c) {
 }
 
 /// How deep a point gives way under its load.
-float seat_m(const SeedBlock& c, std::uint32_t lane, std::size_t point, float yield_s) {
+float yield_m(const StaticBlock& c, std::uint32_t lane, std::size_t point, float yield_s) {
   const float mass = c.point[point].mass[lane];
   return mass > 0 ? yield_s * c.point[point].impulse[lane] / mass : 0;
 }
 
 /// Impulses of the points, and the separations at which they bear them.
-void seat_points(const SeedBlock& c, std::uint32_t lane, float yield_s, float stored_scale,
-                 float factor, Manifold& m) {
+void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float stored_scale,
+                  float factor, Manifold& m) {
   float depth[4] = {}, deepest = 0;
   for (std::size_t i = 0; i < m.count; ++i) {
     m.points[i].impulse_Ns = stored_scale * factor * c.point[i].impulse[lane];
-    depth[i] = factor * seat_m(c, lane, i, yield_s);
+    depth[i] = factor * yield_m(c, lane, i, yield_s);
     deepest = std::max(deepest, depth[i]);
   }
   // An overlap that this load explains is as much at rest as none.
@@ -111,8 +111,8 @@ void seat_points(const SeedBlock& c, std::uint32_t lane, float yield_s, float st
 }
 
 /// Impulses of friction, and the drift of its anchors that bears them.
-void seat_friction(const SeedBlock& c, std::uint32_t lane, float yield_s, float stored_scale,
-                   float factor, Manifold& m) {
+void store_friction(const StaticBlock& c, std::uint32_t lane, float yield_s, float stored_scale,
+                    float factor, Manifold& m) {
   const float s1 = factor * c.slide_impulse_1[lane], s2 = factor * c.slide_impulse_2[lane];
   const Vec3f t1 = lane_of(c.tangent_1, lane), t2 = lane_of(c.tangent_2, lane);
   m.friction_impulse_W = stored_scale * (s1 * t1 + s2 * t2);
@@ -130,8 +130,8 @@ void seat_friction(const SeedBlock& c, std::uint32_t lane, float yield_s, float 
 
 }  // namespace
 
-void StaticWarmStart::seed(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s,
-                           double factor, const Bodies& bodies, Contacts& contacts) {
+void StaticWarmStart::apply(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s,
+                            double factor, const Bodies& bodies, Contacts& contacts) {
   if (!collect(gravity_W, dt_s, bodies, contacts) || !(factor > 0)) return;
   const double h_s = dt_s / substeps;
   const double scale = stored_h_s > 0 ? h_s / stored_h_s : 1;
@@ -144,7 +144,7 @@ void StaticWarmStart::seed(const Vec3& gravity_W, double dt_s, int substeps, dou
   step.bounce_speed_m_s = 1e30f;
   const double kick_m_s = h_s * gravity_W.norm();
   find_loads(step, kick_m_s);
-  find_held(kick_m_s, bodies);
+  find_supported(kick_m_s, bodies);
   release_overloaded(gravity_W, step.soft, bodies, contacts);
   store(step.soft, static_cast<float>(1 / scale), static_cast<float>(factor), bodies, contacts);
 }
@@ -156,7 +156,7 @@ bool StaticWarmStart::collect(const Vec3& gravity_W, double dt_s, const Bodies& 
   return !manifolds_.empty();
 }
 
-/// Lists what is to be seeded by colour and number of points.
+/// Lists what is to get its load, by colour and number of points.
 void StaticWarmStart::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
                                    Contacts& contacts) {
   std::uint32_t start[kSweepKeys + 1] = {};
@@ -180,15 +180,15 @@ void StaticWarmStart::find_resting(const Vec3& gravity_W, double dt_s, const Bod
 
 void StaticWarmStart::make_blocks(const Contacts& contacts) {
   blocks_.clear();
-  blocks_.reserve(manifolds_.size() / kSeedLanes + kMaxColors);
+  blocks_.reserve(manifolds_.size() / kStaticLanes + kMaxColors);
   colors_.clear();
   for (std::uint32_t i = 0; i < manifolds_.size();) {
     const Manifold& m = contacts.manifolds[manifolds_[i]];
     // What found no colour may share bodies: one at a time.
-    const std::uint32_t width = m.color < kMaxColors ? kSeedLanes : 1;
+    const std::uint32_t width = m.color < kMaxColors ? kStaticLanes : 1;
     if (i == 0 || contacts.manifolds[manifolds_[i - 1]].color != m.color)
       colors_.push_back({0, static_cast<std::uint32_t>(blocks_.size()), 0, kGrain});
-    SeedBlock& block = blocks_.emplace_back();
+    StaticBlock& block = blocks_.emplace_back();
     block.first = i, block.points = m.count;
     for (; i < manifolds_.size() && block.count < width; ++i, ++block.count) {
       const Manifold& next = contacts.manifolds[manifolds_[i]];
@@ -217,9 +217,9 @@ void StaticWarmStart::begin(const Vec3& gravity_W, float impulse_scale, double h
       root_W_[body] = bodies.rotation_f[body] * bodies.root_B[body];
     }
   }
-  auto push = [&](std::uint32_t body, const Vec3f& impulse, const Vec3f& turn) {
+  auto push = [&](std::uint32_t body, const Vec3f& impulse, const Vec3f& angular) {
     if (!concerned_[body]) return;
-    const Vec3f v = bodies.inverse_mass[body] * impulse, w = root_W_[body].transpose() * turn;
+    const Vec3f v = bodies.inverse_mass[body] * impulse, w = root_W_[body].transpose() * angular;
     rows_[body + 1].velocity += Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
   };
   for (const Manifold& m : contacts.manifolds) {
@@ -233,9 +233,9 @@ void StaticWarmStart::begin(const Vec3& gravity_W, float impulse_scale, double h
       press(impulse_scale * p.impulse_Ns * m.normal_W, p.arm_A, p.arm_B);
     }
     press(impulse_scale * m.friction_impulse_W, m.friction_arm_A, m.friction_arm_B);
-    const Vec3f turn = impulse_scale * m.twist_impulse * m.normal_W;
-    push(m.body_a, Vec3f::Zero(), -turn);
-    push(m.body_b, Vec3f::Zero(), turn);
+    const Vec3f angular = impulse_scale * m.twist_impulse * m.normal_W;
+    push(m.body_a, Vec3f::Zero(), -angular);
+    push(m.body_b, Vec3f::Zero(), angular);
   }
 }
 
@@ -249,8 +249,8 @@ void StaticWarmStart::estimate(const Vec3& gravity_W, double h_s, float stored_s
     const Wide& v = rows_[body + 1].velocity;
     const Vec3f velocity(v[0], v[1], v[2]), spin(v[3], v[4], v[5]);
     loads_[body].impulse_W = velocity / bodies.inverse_mass[body];
-    loads_[body].turn_W = root_W_[body].transpose().inverse() * spin;
-    loads_[body].held = velocity.dot(kick) < 0.5f * kick.squaredNorm();
+    loads_[body].angular_impulse_W = root_W_[body].transpose().inverse() * spin;
+    loads_[body].supported = velocity.dot(kick) < 0.5f * kick.squaredNorm();
   }
   follow_loads(gravity_W, manifolds_, stored_scale, bodies, loads_, contacts);
 }
@@ -258,7 +258,7 @@ void StaticWarmStart::estimate(const Vec3& gravity_W, double h_s, float stored_s
 void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
   enum { kPrepare, kWarmStart, kSweep, kLeap };
   double points = 0;
-  for (const SeedBlock& c : blocks_) points += c.points * static_cast<double>(c.count);
+  for (const StaticBlock& c : blocks_) points += c.points * static_cast<double>(c.count);
   const int rounds = std::clamp(static_cast<int>(kWork / points), kLeastRounds, kMostRounds);
   step_.assign(blocks_.size(), {});
   direction_.assign(blocks_.size(), {});
@@ -267,7 +267,7 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
   float beta = 0;
   auto work = [&](int kind, std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t i = first; i < end; ++i) {
-      SeedBlock& c = blocks_[i];
+      StaticBlock& c = blocks_[i];
       if (kind == kPrepare) prepare_block(step, c), close_gaps(step, c);
       if (kind == kWarmStart) warm_start(c, step.rows);
       if (kind < kSweep) continue;
@@ -291,7 +291,7 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
   run(kPrepare);
   run(kWarmStart);
   double last_seen = 0;
-  std::size_t last_held = 0;
+  std::size_t last_supported = 0;
   int look = kFirstLook;
   for (int round = 0; round < rounds; ++round) {
     run(kSweep);
@@ -301,11 +301,11 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
     if (round == look) {
       // Rounding or sliding contacts may keep the loads from ever coming to rest.
       const double seen = square / loads;
-      const std::size_t held = find_held(kick_m_s, step.bodies);
+      const std::size_t supported = find_supported(kick_m_s, step.bodies);
       const bool stuck = seen > 0.5 * last_seen;
-      const bool all = held == concerned_bodies_.size();
-      if (seen < kNearlyDone && held <= last_held && (stuck || !all)) return;
-      last_seen = seen, last_held = held;
+      const bool all = supported == concerned_bodies_.size();
+      if (seen < kNearlyDone && supported <= last_supported && (stuck || !all)) return;
+      last_seen = seen, last_supported = supported;
       look *= 2;
     }
     beta = static_cast<float>(nncg.beta(square));
@@ -313,35 +313,35 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
   }
 }
 
-/// A body that its loads would leave with more energy than gravity gave it is not held: the rounds
-/// were too few, or nothing can hold it. Answers how many are.
-std::size_t StaticWarmStart::find_held(double kick_m_s, const Bodies& bodies) {
-  std::size_t held = 0;
+/// A body that its loads would leave with more energy than gravity gave it is not supported: the
+/// rounds were too few, or nothing can support it. Answers how many are.
+std::size_t StaticWarmStart::find_supported(double kick_m_s, const Bodies& bodies) {
+  std::size_t supported = 0;
   for (const std::uint32_t body : concerned_bodies_) {
     const Wide& v = rows_[body + 1].velocity;
     const Vec3f velocity(v[0], v[1], v[2]), spin(v[3], v[4], v[5]);  // of unit inertia
     const double energy =
         double{velocity.squaredNorm()} + double{bodies.inverse_mass[body] * spin.squaredNorm()};
-    loads_[body].held = energy <= kMostLeft * kick_m_s * kick_m_s;
-    held += loads_[body].held;
+    loads_[body].supported = energy <= kMostLeft * kick_m_s * kick_m_s;
+    supported += loads_[body].supported;
   }
-  return held;
+  return supported;
 }
 
-/// What would have to give way further than contacts can be seated is not held, nor what stands on
-/// it: it will fall, and seats are springs under load, which would give it their energy.
+/// What would have to give way further than points may rest is not supported, nor what stands on
+/// it: it will fall, and points at rest are springs under load, which would give it their energy.
 void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& soft,
                                          const Bodies& bodies, const Contacts& contacts) {
   bool any = false;
-  for (const SeedBlock& c : blocks_) {
+  for (const StaticBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       const Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
       float deepest = 0;
       for (std::size_t i = 0; i < m.count; ++i)
-        deepest = std::max(deepest, seat_m(c, lane, i, soft.press[c.points - 1].yield_s));
+        deepest = std::max(deepest, yield_m(c, lane, i, soft.press[c.points - 1].yield_s));
       if (deepest <= kMostRest * m.size_m) continue;
       any = true;
-      for (const std::uint32_t body : {m.body_a, m.body_b}) loads_[body].held = false;
+      for (const std::uint32_t body : {m.body_a, m.body_b}) loads_[body].supported = false;
     }
   }
   if (any) release_above(gravity_W, manifolds_, bodies, contacts, loads_);
@@ -349,13 +349,15 @@ void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& 
 
 void StaticWarmStart::store(const SoftStep& soft, float stored_scale, float factor,
                             const Bodies& bodies, Contacts& contacts) const {
-  for (const SeedBlock& c : blocks_) {
+  for (const StaticBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
-      auto held = [&](std::uint32_t body) { return !concerned_[body] || loads_[body].held; };
-      const float part = held(m.body_a) && held(m.body_b) ? factor : 0;
-      seat_points(c, lane, soft.press[c.points - 1].yield_s, stored_scale, part, m);
-      seat_friction(c, lane, soft.slide[c.points - 1].yield_s, stored_scale, part, m);
+      auto supported = [&](std::uint32_t body) {
+        return !concerned_[body] || loads_[body].supported;
+      };
+      const float part = supported(m.body_a) && supported(m.body_b) ? factor : 0;
+      store_points(c, lane, soft.press[c.points - 1].yield_s, stored_scale, part, m);
+      store_friction(c, lane, soft.slide[c.points - 1].yield_s, stored_scale, part, m);
       m.friction_anchor_B = bodies.rotation_f[m.body_b].transpose() * m.friction_arm_B;
     }
   }

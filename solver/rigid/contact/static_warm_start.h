@@ -1,8 +1,8 @@
 // A contact that comes into being at rest, as thousands do when a scene starts or a wall breaks,
 // knows nothing of the load it is to bear. Soft contacts learn it by sinking, and meanwhile what
 // stands on them moves. So contacts that come with new bodies are given, before their first solve,
-// the impulses that would hold all at rest, and a rest separation at which they bear them without
-// sinking. What is not held by anything gets nothing: bodies that fall together do not press.
+// the impulses that would keep all at rest, and a rest separation at which they bear them without
+// sinking. What nothing supports gets nothing: bodies that fall together do not press.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@
 namespace sunder::solver {
 
 /// Four lanes are what every processor has, and bits must not follow the lanes.
-inline constexpr std::uint32_t kSeedLanes = 4;
-using Wide4 = WideOf<kSeedLanes>;
-using SeedBlock = ConstraintBlock<kSeedLanes>;
+inline constexpr std::uint32_t kStaticLanes = 4;
+using Wide4 = WideOf<kStaticLanes>;
+using StaticBlock = ConstraintBlock<kStaticLanes>;
 
 /// Loads of one block's contacts, or a change of them.
 struct BlockLoads {
@@ -30,11 +30,11 @@ struct BlockLoads {
 
 class StaticWarmStart {
  public:
-  /// Seeds what is cold and hardly moves: what moves is under no load that could be known
-  /// before. The impulses that manifolds hold are of substeps of `stored_h_s`. `factor`: 1; 0 for
-  /// none; tests seed too much by it.
-  void seed(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s, double factor,
-            const Bodies& bodies, Contacts& contacts);
+  /// Loads what is cold and hardly moves: what moves is under no load that could be known
+  /// before. The impulses that manifolds keep are of substeps of `stored_h_s`. `factor`: 1; 0 for
+  /// none; tests load too much by it.
+  void apply(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s, double factor,
+             const Bodies& bodies, Contacts& contacts);
 
  private:
   bool collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies, Contacts& contacts);
@@ -45,14 +45,14 @@ class StaticWarmStart {
   void estimate(const Vec3& gravity_W, double h_s, float stored_scale, const Bodies& bodies,
                 Contacts& contacts);
   void find_loads(const ContactStep& step, double kick_m_s);
-  std::size_t find_held(double kick_m_s, const Bodies& bodies);
+  std::size_t find_supported(double kick_m_s, const Bodies& bodies);
   void release_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
                           const Contacts& contacts);
   void store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
              Contacts& contacts) const;
 
   std::vector<std::uint32_t> manifolds_;  ///< By colour and number of points.
-  std::vector<SeedBlock> blocks_;
+  std::vector<StaticBlock> blocks_;
   std::vector<Stage> colors_;  ///< The blocks of each; the overflow last.
   std::vector<BlockLoads> step_, direction_;
   std::vector<std::pair<double, double>> square_;  ///< Of each block's step, and of its loads.

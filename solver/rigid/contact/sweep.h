@@ -21,8 +21,8 @@ struct alignas(64) GatheredBlock {
   Wide3Of<lanes> arm_a[4] = {}, arm_b[4] = {};
   Wide3Of<lanes> gravity = {};  ///< Acceleration of b from a.
   WideOf<lanes> restitution = {};
-  Softness press;           ///< By the number of points.
-  WideOf<lanes> ease = {};  ///< Of the springs that press.
+  Softness press;                       ///< By the number of points.
+  WideOf<lanes> compliance_scale = {};  ///< Of the springs that press.
   WideOf<lanes> awake_a = {}, awake_b = {};
   WideOf<lanes> parts_a = {}, parts_b = {};  ///< Into which a split block cuts its bodies.
   float bounce_speed_m_s = 0;                ///< Slower impacts do not bounce.
@@ -48,13 +48,13 @@ void sum_impulses(ConstraintBlock<lanes>& block);
 /// Takes impulses of the substep back but for the shares of their bodies, by row. To be called
 /// after their sum.
 template <std::uint32_t lanes>
-void ease(ConstraintBlock<lanes>& block, const float* share_of_row);
+void scale_impulses(ConstraintBlock<lanes>& block, const float* share_of_row);
 /// What conjugate gradients remember of a block, by impulse: those of its points, of sliding, of
 /// twist.
 template <std::uint32_t lanes>
 struct alignas(64) SearchLanes {
   alignas(4 * lanes) WideOf<lanes> start[7] = {};  ///< Before the sweep.
-  WideOf<lanes> way[7] = {};                       ///< Where they went before that.
+  WideOf<lanes> direction[7] = {};                 ///< Where they went before that.
 };
 /// Notes the impulses before a sweep.
 template <std::uint32_t lanes>

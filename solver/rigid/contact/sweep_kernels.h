@@ -29,15 +29,16 @@ struct Pairs {
       row[i] = reinterpret_cast<const float*>(&(rows[index[i]].*member));
     return load_rows<V>(row);
   }
-  SUNDER_INLINE V along(const V3& direction, const V3& turn_a, const V3& turn_b) const {
-    return dot(direction, b.linear - a.linear) + dot(turn_b, b.angular) - dot(turn_a, a.angular);
+  SUNDER_INLINE V along(const V3& direction, const V3& angular_a, const V3& angular_b) const {
+    return dot(direction, b.linear - a.linear) + dot(angular_b, b.angular) -
+           dot(angular_a, a.angular);
   }
-  SUNDER_INLINE void push(const ConstraintBlock<lanes>& c, const V3& direction, const V3& turn_a,
-                          const V3& turn_b, V impulse) {
+  SUNDER_INLINE void push(const ConstraintBlock<lanes>& c, const V3& direction, const V3& angular_a,
+                          const V3& angular_b, V impulse) {
     a.linear = a.linear - direction * (impulse * c.inverse_mass_a);
     b.linear = b.linear + direction * (impulse * c.inverse_mass_b);
-    a.angular = a.angular - turn_a * impulse;
-    b.angular = b.angular + turn_b * impulse;
+    a.angular = a.angular - angular_a * impulse;
+    b.angular = b.angular + angular_b * impulse;
   }
   SUNDER_INLINE void twist(const ConstraintBlock<lanes>& c, V impulse) {
     a.angular = a.angular - c.twist_a * impulse;
@@ -95,17 +96,17 @@ SUNDER_INLINE WideOf<lanes> total_impulse(const ConstraintBlock<lanes>& c) {
   return sum;
 }
 
-/// Mass and impulse scale of a spring. Parts of bodies are softer than bodies: `ease` keeps the
-/// spring between them what it was, so that splitting changes the way to the solution and not the
-/// solution.
+/// Mass and impulse scale of a spring. Parts of bodies are softer than bodies: `split_scale` keeps
+/// the spring between them what it was, so that splitting changes the way to the solution and not
+/// the solution.
 template <class V>
 struct Spring {
   V mass_scale, impulse_scale;
 
   template <bool kSplit>
-  SUNDER_INLINE static Spring of(const Softness& soft, V ease) {
+  SUNDER_INLINE static Spring of(const Softness& soft, V split_scale) {
     if constexpr (kSplit) {
-      const V impulse = ease * soft.impulse_scale;
+      const V impulse = split_scale * soft.impulse_scale;
       const V scale = soft.mass_scale + impulse;
       return {soft.mass_scale / scale, impulse / scale};
     } else {
@@ -129,7 +130,7 @@ SUNDER_INLINE void slide(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
   }
   V d1 = -(c.slide_11 * u1 + c.slide_12 * u2), d2 = -(c.slide_12 * u1 + c.slide_22 * u2);
   if constexpr (kBiased) {
-    const auto spring = Spring<V>::template of<kSplit>(stick, c.parts.slide_ease);
+    const auto spring = Spring<V>::template of<kSplit>(stick, c.parts.slide_split_scale);
     d1 = d1 * spring.mass_scale - c.slide_impulse_1 * spring.impulse_scale;
     d2 = d2 * spring.mass_scale - c.slide_impulse_2 * spring.impulse_scale;
   }
@@ -148,9 +149,9 @@ SUNDER_INLINE void slide(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
 template <std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void twist(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   using V = WideOf<lanes>;
-  V lever = c.point[0].impulse * c.point[0].arm;
-  for (std::uint32_t i = 1; i < c.points; ++i) lever += c.point[i].impulse * c.point[i].arm;
-  const V limit = c.friction * lever;
+  V moment = c.point[0].impulse * c.point[0].arm;
+  for (std::uint32_t i = 1; i < c.points; ++i) moment += c.point[i].impulse * c.point[i].arm;
+  const V limit = c.friction * moment;
   const V u = dot(c.twist_b, v.b.angular) - dot(c.twist_a, v.a.angular);
   const V next = max(-limit, min(limit, c.twist_impulse - c.twist_mass * u));
   v.twist(c, next - c.twist_impulse);
@@ -162,18 +163,18 @@ template <std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void roll_by(const ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
                            WideOf<lanes> impulse_1, WideOf<lanes> impulse_2) {
   const RollLanes<lanes>& r = c.roll;
-  v.a.angular = v.a.angular - r.turn_1_a * impulse_1 - r.turn_2_a * impulse_2;
-  v.b.angular = v.b.angular + r.turn_1_b * impulse_1 + r.turn_2_b * impulse_2;
+  v.a.angular = v.a.angular - r.angular_1_a * impulse_1 - r.angular_2_a * impulse_2;
+  v.b.angular = v.b.angular + r.angular_1_b * impulse_1 + r.angular_2_b * impulse_2;
 }
 
-/// Resistance to rolling: a torque about the tangents of at most lever times load.
+/// Resistance to rolling: a torque about the tangents of at most its arm times the load.
 template <std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void roll(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   using V = WideOf<lanes>;
   RollLanes<lanes>& r = c.roll;
-  const V limit = r.lever * total_impulse(c);
-  const V u1 = dot(r.turn_1_b, v.b.angular) - dot(r.turn_1_a, v.a.angular);
-  const V u2 = dot(r.turn_2_b, v.b.angular) - dot(r.turn_2_a, v.a.angular);
+  const V limit = r.arm * total_impulse(c);
+  const V u1 = dot(r.angular_1_b, v.b.angular) - dot(r.angular_1_a, v.a.angular);
+  const V u2 = dot(r.angular_2_b, v.b.angular) - dot(r.angular_2_a, v.a.angular);
   V new_1 = r.impulse_1 - (r.mass_11 * u1 + r.mass_12 * u2);
   V new_2 = r.impulse_2 - (r.mass_12 * u1 + r.mass_22 * u2);
   const V square = new_1 * new_1 + new_2 * new_2;
@@ -192,15 +193,16 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
   const Softness& press = soft.press[c.points - 1];
   for (std::uint32_t i = 0; i < c.points; ++i) {
     PointLanes<lanes>& p = c.point[i];
-    const V s = p.separation + x.along(c.normal, p.turn_a, p.turn_b);
+    const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
     const auto apart = s > zero;
-    V u = v.along(c.normal, p.turn_a, p.turn_b);
+    V u = v.along(c.normal, p.angular_a, p.angular_b);
     V change;
     if constexpr (kBiased) {
       const V free = u;
       u += s * (apart ? splat<V>(soft.inverse_h) : splat<V>(press.rate));
       Spring<V> spring{c.press_mass, c.press_give};
-      if constexpr (kSplit) spring = Spring<V>::template of<true>(press, c.parts.press_ease[i]);
+      if constexpr (kSplit)
+        spring = Spring<V>::template of<true>(press, c.parts.press_split_scale[i]);
       const V mass_scale = apart ? one : spring.mass_scale;
       const V impulse_scale = apart ? zero : spring.impulse_scale;
       change = -p.mass * mass_scale * u - impulse_scale * p.impulse;
@@ -212,7 +214,7 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
       change = -p.mass * u;
     }
     const V next = max(zero, p.impulse + change);
-    v.push(c, c.normal, p.turn_a, p.turn_b, next - p.impulse);
+    v.push(c, c.normal, p.angular_a, p.angular_b, next - p.impulse);
     p.impulse = next;
   }
 }
@@ -254,7 +256,7 @@ void sum_impulses(ConstraintBlock<lanes>& c) {
 }
 
 template <std::uint32_t lanes>
-void ease(ConstraintBlock<lanes>& c, const float* share_of_row) {
+void scale_impulses(ConstraintBlock<lanes>& c, const float* share_of_row) {
   using V = WideOf<lanes>;
   V share = {};
   for (std::uint32_t lane = 0; lane < lanes; ++lane)
@@ -277,7 +279,7 @@ SUNDER_INLINE void warm_start_as(ConstraintBlock<lanes>& c, const SolverRows& bo
   v.twist(c, c.twist_impulse);
   if (c.rolls) roll_by(c, v, c.roll.impulse_1, c.roll.impulse_2);
   for (std::uint32_t i = 0; i < c.points; ++i)
-    v.push(c, c.normal, c.point[i].turn_a, c.point[i].turn_b, c.point[i].impulse);
+    v.push(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, c.point[i].impulse);
   store(c, v, bodies);
 }
 
@@ -321,8 +323,8 @@ void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRo
   using V = WideOf<lanes>;
   V step[7] = {};
   for_impulses(c, [&](std::uint32_t slot, V& impulse, const V&) {
-    step[slot] = beta * search.way[slot];
-    search.way[slot] = step[slot] + (impulse - search.start[slot]);
+    step[slot] = beta * search.direction[slot];
+    search.direction[slot] = step[slot] + (impulse - search.start[slot]);
     impulse += step[slot];
   });
   Pairs<lanes, false> v(c, bodies, &BodyRow::velocity);
@@ -330,7 +332,7 @@ void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRo
   v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, step[5]);
   v.twist(c, step[6]);
   for (std::uint32_t i = 0; i < c.points; ++i)
-    v.push(c, c.normal, c.point[i].turn_a, c.point[i].turn_b, step[i]);
+    v.push(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, step[i]);
   store(c, v, bodies);
 }
 
@@ -343,10 +345,10 @@ SUNDER_INLINE void bounce_as(ConstraintBlock<lanes>& c, const SolverRows& bodies
   for (std::uint32_t i = 0; i < c.points; ++i) {
     const PointLanes<lanes>& p = c.point[i];
     const ReboundLanes<lanes>& r = c.rebound[i];
-    const V u = v.along(c.normal, p.turn_a, p.turn_b);
+    const V u = v.along(c.normal, p.angular_a, p.angular_b);
     const auto leaves = (r.speed > zero) & (r.most_impulse > zero);
     const V change = leaves ? max(zero, p.mass * (r.speed - u)) : zero;
-    v.push(c, c.normal, p.turn_a, p.turn_b, change);
+    v.push(c, c.normal, p.angular_a, p.angular_b, change);
     c.total = c.total + c.normal * change;
     for (std::uint32_t lane = 0; lane < lanes; ++lane) active[lane] |= change[lane] > 0;
   }
@@ -368,7 +370,7 @@ void separations_now(const ConstraintBlock<lanes>& c, const SolverRows& bodies,
   auto write = [&](const auto& x) {
     for (std::uint32_t i = 0; i < c.points; ++i) {
       const PointLanes<lanes>& p = c.point[i];
-      const WideOf<lanes> s = p.separation + x.along(c.normal, p.turn_a, p.turn_b);
+      const WideOf<lanes> s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
       for (std::uint32_t lane = 0; lane < lanes; ++lane) separation[i][lane] = s[lane];
     }
   };

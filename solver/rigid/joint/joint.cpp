@@ -12,7 +12,7 @@ std::uint64_t body_pair(std::uint32_t a, std::uint32_t b) {
 
 std::uint32_t slot_of(BodyId id, const Bodies& bodies) {
   if (id.none()) return kNone;
-  SUNDER_CHECK(bodies.holds(id));
+  SUNDER_CHECK(bodies.contains(id));
   return id.slot;
 }
 

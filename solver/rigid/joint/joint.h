@@ -12,7 +12,7 @@
 
 namespace sunder::solver {
 
-/// Rows of a joint at most: three of place, three of turn.
+/// Rows of a joint at most: three of place, three of rotation.
 inline constexpr int kMostJointRows = 6;
 
 struct Joint {

@@ -16,13 +16,13 @@ double response(const JointWork& m, const JointRow& i, const JointWork& n, const
   const double pushes = double{i.push.dot(j.push)};
   double sum = 0;
   if (m.row_a != 0 && m.row_a == n.row_a)
-    sum += double{m.inverse_mass_a} * pushes + double{i.turn_a.dot(j.turn_a)};
+    sum += double{m.inverse_mass_a} * pushes + double{i.angular_a.dot(j.angular_a)};
   if (m.row_b != 0 && m.row_b == n.row_b)
-    sum += double{m.inverse_mass_b} * pushes + double{i.turn_b.dot(j.turn_b)};
+    sum += double{m.inverse_mass_b} * pushes + double{i.angular_b.dot(j.angular_b)};
   if (m.row_a != 0 && m.row_a == n.row_b)
-    sum -= double{m.inverse_mass_a} * pushes + double{i.turn_a.dot(j.turn_b)};
+    sum -= double{m.inverse_mass_a} * pushes + double{i.angular_a.dot(j.angular_b)};
   if (m.row_b != 0 && m.row_b == n.row_a)
-    sum -= double{m.inverse_mass_b} * pushes + double{i.turn_b.dot(j.turn_a)};
+    sum -= double{m.inverse_mass_b} * pushes + double{i.angular_b.dot(j.angular_a)};
   return sum;
 }
 
@@ -176,7 +176,7 @@ void solve_group(JointGroup& group, std::span<JointWork> works, const JointStep&
   }
 }
 
-void turn_group(JointGroup& group, std::span<JointWork> works, const BodyRow* rows) {
+void refresh_group(JointGroup& group, std::span<JointWork> works, const BodyRow* rows) {
   for (JointWork& work : works) {
     if (work.broken) continue;
     const JointPush before = work.sum(work.impulse);
@@ -186,8 +186,8 @@ void turn_group(JointGroup& group, std::span<JointWork> works, const BodyRow* ro
   fill(group, works);
 }
 
-void ease_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
-                const float* share_of_row, BodyRow* rows) {
+void scale_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
+                 const float* share_of_row, BodyRow* rows) {
   const auto share_of = [&](const JointWork& work) {
     return share_of_row[work.row_b != 0 ? work.row_b : work.row_a];
   };
@@ -197,7 +197,7 @@ void ease_group(JointGroup& group, std::span<JointWork> works, const JointStep& 
     const float share = share_of(work);
     work.total_W -= push_of(work);
     for (double& impulse : work.impulse) impulse *= double{share};
-    work.owed = {share * work.owed.push, share * work.owed.turn_a, share * work.owed.turn_b};
+    work.owed = {share * work.owed.push, share * work.owed.angular_a, share * work.owed.angular_b};
   }
   solve_group(group, works, step, false, rows);
   for (JointWork& work : works) work.total_W += push_of(work);
@@ -209,13 +209,13 @@ void test_group(JointGroup& group, std::span<JointWork> works, const JointStep& 
   for (JointWork& work : works) {
     if (work.broken) continue;
     const Vec3 push = push_of(work);
-    double turn = 0;
+    double square = 0;
     for (int i = work.place_rows; i < work.rows; ++i) {
       const double impulse = work.impulse[static_cast<std::size_t>(i)];
-      turn += impulse * impulse;
+      square += impulse * impulse;
     }
     if (push.norm() <= step.h_s * work.breaking_N &&
-        std::sqrt(turn) <= step.h_s * work.breaking_Nm) {
+        std::sqrt(square) <= step.h_s * work.breaking_Nm) {
       work.total_W += push;
       continue;
     }

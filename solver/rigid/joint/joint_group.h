@@ -50,14 +50,14 @@ void warm_start_group(std::span<JointWork> works, const JointStep& step, BodyRow
 void solve_group(JointGroup& group, std::span<JointWork> works, const JointStep& step, bool biased,
                  BodyRow* rows);
 /// After bodies moved: new rows.
-void turn_group(JointGroup& group, std::span<JointWork> works, const BodyRow* rows);
+void refresh_group(JointGroup& group, std::span<JointWork> works, const BodyRow* rows);
 /// After a substep: joints that would have had to bear too much bear nothing from here on.
 void test_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
                 BodyRow* rows);
 
 /// Bodies have kept a share of the substep's impulses, by row: joints keep it too, and then hold
 /// again, which takes energy as any joint does.
-void ease_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
-                const float* share_of_row, BodyRow* rows);
+void scale_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
+                 const float* share_of_row, BodyRow* rows);
 
 }  // namespace sunder::solver

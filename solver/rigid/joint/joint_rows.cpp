@@ -25,7 +25,7 @@ End end_of(std::uint32_t body, const Vec3& anchor_R, const Vec3& axis_R, const B
 }
 
 /// How far a body has turned since the step began.
-Quat turn_of(const Mat3f& root, const BodyRow& row) {
+Quat rotation_of(const Mat3f& root, const BodyRow& row) {
   return rotation_by((root * angular(row.position)).cast<double>());
 }
 
@@ -33,17 +33,17 @@ void place_row(JointWork& w, const Vec3& arm_a, const Vec3& arm_b, const Vec3& d
                double error) {
   JointRow& row = w.row[static_cast<std::size_t>(w.rows++)];
   row.push = direction.cast<float>();
-  row.turn_a = w.root_a.transpose() * arm_a.cross(direction).cast<float>();
-  row.turn_b = w.root_b.transpose() * arm_b.cross(direction).cast<float>();
+  row.angular_a = w.root_a.transpose() * arm_a.cross(direction).cast<float>();
+  row.angular_b = w.root_b.transpose() * arm_b.cross(direction).cast<float>();
   row.error = error;
   ++w.place_rows;
 }
 
-void turn_row(JointWork& w, const Vec3& direction, double error) {
+void angular_row(JointWork& w, const Vec3& direction, double error) {
   JointRow& row = w.row[static_cast<std::size_t>(w.rows++)];
   row.push.setZero();
-  row.turn_a = w.root_a.transpose() * direction.cast<float>();
-  row.turn_b = w.root_b.transpose() * direction.cast<float>();
+  row.angular_a = w.root_a.transpose() * direction.cast<float>();
+  row.angular_b = w.root_b.transpose() * direction.cast<float>();
   row.error = error;
 }
 
@@ -57,8 +57,8 @@ Vec3 across(const Vec3& axis) {
 double JointWork::speed(int i, const BodyRow* body_rows) const {
   const JointRow& r = row[static_cast<std::size_t>(i)];
   const Wide &a = body_rows[row_a].velocity, &b = body_rows[row_b].velocity;
-  return double{r.push.dot(linear(b) - linear(a))} + double{r.turn_b.dot(angular(b))} -
-         double{r.turn_a.dot(angular(a))};
+  return double{r.push.dot(linear(b) - linear(a))} + double{r.angular_b.dot(angular(b))} -
+         double{r.angular_a.dot(angular(a))};
 }
 
 JointPush JointWork::sum(std::span<const double> by) const {
@@ -66,8 +66,8 @@ JointPush JointWork::sum(std::span<const double> by) const {
   for (std::size_t i = 0; i < static_cast<std::size_t>(rows); ++i) {
     const auto impulse_f = static_cast<float>(by[i]);
     sum.push += impulse_f * row[i].push;
-    sum.turn_a += impulse_f * row[i].turn_a;
-    sum.turn_b += impulse_f * row[i].turn_b;
+    sum.angular_a += impulse_f * row[i].angular_a;
+    sum.angular_b += impulse_f * row[i].angular_b;
   }
   return sum;
 }
@@ -76,8 +76,8 @@ void JointWork::apply(const JointPush& p, BodyRow* body_rows) const {
   const auto add = [](const Vec3f& v, const Vec3f& w, Wide& velocity) {
     velocity += Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
   };
-  if (row_a != 0) add(-inverse_mass_a * p.push, -p.turn_a, body_rows[row_a].velocity);
-  if (row_b != 0) add(inverse_mass_b * p.push, p.turn_b, body_rows[row_b].velocity);
+  if (row_a != 0) add(-inverse_mass_a * p.push, -p.angular_a, body_rows[row_a].velocity);
+  if (row_b != 0) add(inverse_mass_b * p.push, p.angular_b, body_rows[row_b].velocity);
 }
 
 JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bodies,
@@ -109,8 +109,9 @@ JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bod
 }
 
 void refresh_rows(JointWork& w, const BodyRow* rows) {
-  const Quat turn_a = turn_of(w.root_a, rows[w.row_a]), turn_b = turn_of(w.root_b, rows[w.row_b]);
-  const Vec3 arm_a = turn_a * w.arm_a, arm_b = turn_b * w.arm_b;
+  const Quat rotation_a = rotation_of(w.root_a, rows[w.row_a]),
+             rotation_b = rotation_of(w.root_b, rows[w.row_b]);
+  const Vec3 arm_a = rotation_a * w.arm_a, arm_b = rotation_b * w.arm_b;
   const Vec3 way = (linear(rows[w.row_b].position) - linear(rows[w.row_a].position)).cast<double>();
   const Vec3 gap = w.gap + way + (arm_b - w.arm_b) - (arm_a - w.arm_a);
   w.rows = w.place_rows = 0;
@@ -122,14 +123,14 @@ void refresh_rows(JointWork& w, const BodyRow* rows) {
   }
   for (int i = 0; i < 3; ++i) place_row(w, arm_a, arm_b, Vec3::Unit(i), gap[i]);
   if (w.kind == Kind::kHinge) {
-    const Vec3 axis = turn_a * w.axis_a, lean = axis.cross(turn_b * w.axis_b);
-    const Vec3 side = turn_a * w.side_a, other = axis.cross(side);
-    turn_row(w, side, side.dot(lean));
-    turn_row(w, other, other.dot(lean));
+    const Vec3 axis = rotation_a * w.axis_a, lean = axis.cross(rotation_b * w.axis_b);
+    const Vec3 side = rotation_a * w.side_a, other = axis.cross(side);
+    angular_row(w, side, side.dot(lean));
+    angular_row(w, other, other.dot(lean));
   } else if (w.kind == Kind::kFixed) {
-    const Quat twist = turn_b * w.twist * turn_a.conjugate();
+    const Quat twist = rotation_b * w.twist * rotation_a.conjugate();
     const Vec3 angle = (twist.w() < 0 ? -2.0 : 2.0) * twist.vec();
-    for (int i = 0; i < 3; ++i) turn_row(w, Vec3::Unit(i), angle[i]);
+    for (int i = 0; i < 3; ++i) angular_row(w, Vec3::Unit(i), angle[i]);
   }
 }
 

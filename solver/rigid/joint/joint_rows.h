@@ -14,17 +14,17 @@
 namespace sunder::solver {
 
 struct JointRow {
-  Vec3f push = Vec3f::Zero();                            ///< On b; linear.
-  Vec3f turn_a = Vec3f::Zero(), turn_b = Vec3f::Zero();  ///< Root space.
-  double error = 0;                                      ///< m or rad.
+  Vec3f push = Vec3f::Zero();                                  ///< On b; linear.
+  Vec3f angular_a = Vec3f::Zero(), angular_b = Vec3f::Zero();  ///< Root space.
+  double error = 0;                                            ///< m or rad.
 };
 
 /// An impulse on b and its counterpart on a.
 struct JointPush {
-  Vec3f push = Vec3f::Zero(), turn_a = Vec3f::Zero(), turn_b = Vec3f::Zero();
+  Vec3f push = Vec3f::Zero(), angular_a = Vec3f::Zero(), angular_b = Vec3f::Zero();
 
   JointPush operator-(const JointPush& o) const {
-    return {push - o.push, turn_a - o.turn_a, turn_b - o.turn_b};
+    return {push - o.push, angular_a - o.angular_a, angular_b - o.angular_b};
   }
 };
 
@@ -34,7 +34,7 @@ struct JointWork {
   JointDesc::Kind kind = JointDesc::Kind::kBall;
   bool broken = false;
   int rows = 0;
-  int place_rows = 0;                  ///< The first of them; the others turn.
+  int place_rows = 0;                  ///< The first of them; the others are angular.
   std::uint32_t row_a = 0, row_b = 0;  ///< In BodyRow; 0: immovable.
   float inverse_mass_a = 0, inverse_mass_b = 0;
   Mat3f root_a = Mat3f::Zero(), root_b = Mat3f::Zero();  ///< In W, frozen for the step.

@@ -32,8 +32,8 @@ class JointSolver {
   void push(std::uint32_t i, const JointStep& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, true, rows);
   }
-  void turn(std::uint32_t i, const BodyRow* rows) {
-    turn_group(groups_[i], works(groups_[i]), rows);
+  void refresh(std::uint32_t i, const BodyRow* rows) {
+    refresh_group(groups_[i], works(groups_[i]), rows);
   }
   void relax(std::uint32_t i, const JointStep& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, false, rows);
@@ -43,8 +43,9 @@ class JointSolver {
     test_group(groups_[i], works(groups_[i]), step, rows);
   }
   /// Bodies keep this share of a substep's impulses, by row: so do joints, which then hold again.
-  void ease(std::uint32_t i, const JointStep& step, const float* share_of_row, BodyRow* rows) {
-    ease_group(groups_[i], works(groups_[i]), step, share_of_row, rows);
+  void scale_impulses(std::uint32_t i, const JointStep& step, const float* share_of_row,
+                      BodyRow* rows) {
+    scale_group(groups_[i], works(groups_[i]), step, share_of_row, rows);
   }
   /// What hangs together and may move, a joint at a time: a joint to the world twice the same body.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& joined() const { return joined_; }

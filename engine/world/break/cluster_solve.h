@@ -15,32 +15,33 @@ struct BodyVelocity {
 };
 
 /// A point of contact between two bodies, as a solve sees it.
-struct RelaxRow {
+struct ContactRow {
   std::uint32_t a = 0, b = 0;             ///< Bodies, by index.
-  bool moves_a = false, moves_b = false;  ///< Or it is held by the world.
-  Vec3 normal = Vec3::Zero(), lever_a = Vec3::Zero(), lever_b = Vec3::Zero();
+  bool moves_a = false, moves_b = false;  ///< Or it is fixed.
+  Vec3 normal = Vec3::Zero();             ///< Jacobian: linear, and angular.
+  Vec3 angular_a = Vec3::Zero(), angular_b = Vec3::Zero();
   Vec3 push_a = Vec3::Zero(), push_b = Vec3::Zero();  ///< Change of velocity per impulse,
-  Vec3 turn_a = Vec3::Zero(), turn_b = Vec3::Zero();  ///< and of angular velocity.
+  Vec3 spin_a = Vec3::Zero(), spin_b = Vec3::Zero();  ///< and of angular velocity.
   double inverse_mass = 0;                            ///< Of the pair along the normal.
 
   /// At which it closes.
   double speed(const std::vector<BodyVelocity>& v) const {
-    return normal.dot(v[a].linear - v[b].linear) + lever_a.dot(v[a].angular) -
-           lever_b.dot(v[b].angular);
+    return normal.dot(v[a].linear - v[b].linear) + angular_a.dot(v[a].angular) -
+           angular_b.dot(v[b].angular);
   }
   void push(std::vector<BodyVelocity>& v, double impulse_Ns) const {
     v[a].linear -= impulse_Ns * push_a;
-    v[a].angular -= impulse_Ns * turn_a;
+    v[a].angular -= impulse_Ns * spin_a;
     v[b].linear += impulse_Ns * push_b;
-    v[b].angular += impulse_Ns * turn_b;
+    v[b].angular += impulse_Ns * spin_b;
   }
   /// The change of speed per impulse of another row.
-  double coupling(const RelaxRow& other) const;
+  double coupling(const ContactRow& other) const;
   bool touches(const std::vector<std::uint8_t>& bodies) const { return bodies[a] || bodies[b]; }
 };
 
 /// What contacts make of velocities.
-struct Relaxed {
+struct ClusterMotion {
   std::vector<BodyVelocity> velocities;  ///< Per body.
   std::vector<double> impulses_Ns;       ///< Per closed contact.
 };
@@ -48,8 +49,9 @@ struct Relaxed {
 /// Solves those of the `closed` rows that are listed in `in_way` (by place in `closed`), each group
 /// that hangs together through moving bodies on its own: exactly, or by sweeps if it is large.
 /// `give`: speed per impulse. What closes with less than a thousandth of `fastest_m_s` is at rest.
-Relaxed relax_contacts(const std::vector<RelaxRow>& rows, std::span<const std::uint32_t> closed,
-                       std::span<const std::uint32_t> in_way, double give, double fastest_m_s,
-                       const std::vector<BodyVelocity>& velocities);
+ClusterMotion solve_cluster(const std::vector<ContactRow>& rows,
+                            std::span<const std::uint32_t> closed,
+                            std::span<const std::uint32_t> in_way, double give, double fastest_m_s,
+                            const std::vector<BodyVelocity>& velocities);
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-#include "engine/world/break/relax.h"
+#include "engine/world/break/cluster_solve.h"
 
 #include <algorithm>
 #include <utility>
@@ -17,11 +17,11 @@ constexpr double kConverged = 1e-3;  // of the greatest closing speed
 /// Contacts that hang together.
 class Group {
  public:
-  Group(std::vector<const RelaxRow*> rows, double give) : rows_(std::move(rows)), give_(give) {}
+  Group(std::vector<const ContactRow*> rows, double give) : rows_(std::move(rows)), give_(give) {}
 
   /// Impulses per row, which are added to the velocities.
   std::vector<double> solve(double fastest_m_s, std::vector<BodyVelocity>& v) const {
-    const auto closes = [&](const RelaxRow* row) {
+    const auto closes = [&](const ContactRow* row) {
       return row->speed(v) > kConverged * fastest_m_s;
     };
     if (std::ranges::none_of(rows_, closes)) return std::vector<double>(rows_.size(), 0);
@@ -34,7 +34,7 @@ class Group {
   void sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns,
              std::vector<double>& change) const;
 
-  std::vector<const RelaxRow*> rows_;
+  std::vector<const ContactRow*> rows_;
   double give_;
 };
 
@@ -42,7 +42,7 @@ std::vector<double> Group::solve_exactly(std::vector<BodyVelocity>& v) const {
   const auto n = static_cast<Eigen::Index>(rows_.size());
   Eigen::MatrixXd A(n, n);
   Eigen::VectorXd closing(n);
-  const auto row = [&](Eigen::Index i) -> const RelaxRow& {
+  const auto row = [&](Eigen::Index i) -> const ContactRow& {
     return *rows_[static_cast<std::size_t>(i)];
   };
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -62,7 +62,7 @@ void Group::sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns
   std::fill(change.begin(), change.end(), 0.0);
   for (std::size_t k = 0; k < 2 * n; ++k) {
     const std::size_t i = k < n ? k : 2 * n - 1 - k;
-    const RelaxRow& row = *rows_[i];
+    const ContactRow& row = *rows_[i];
     double& sum = impulses_Ns[i];
     const double wanted = (row.speed(v) - give_ * sum) / (row.inverse_mass + give_);
     const double impulse = std::max(sum + wanted, 0.0) - sum;
@@ -103,43 +103,44 @@ std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyV
 
 }  // namespace
 
-double RelaxRow::coupling(const RelaxRow& other) const {
+double ContactRow::coupling(const ContactRow& other) const {
   double sum = 0;
-  if (other.a == a) sum += normal.dot(other.push_a) + lever_a.dot(other.turn_a);
-  if (other.a == b) sum -= normal.dot(other.push_a) + lever_b.dot(other.turn_a);
-  if (other.b == a) sum -= normal.dot(other.push_b) + lever_a.dot(other.turn_b);
-  if (other.b == b) sum += normal.dot(other.push_b) + lever_b.dot(other.turn_b);
+  if (other.a == a) sum += normal.dot(other.push_a) + angular_a.dot(other.spin_a);
+  if (other.a == b) sum -= normal.dot(other.push_a) + angular_b.dot(other.spin_a);
+  if (other.b == a) sum -= normal.dot(other.push_b) + angular_a.dot(other.spin_b);
+  if (other.b == b) sum += normal.dot(other.push_b) + angular_b.dot(other.spin_b);
   return sum;
 }
 
-Relaxed relax_contacts(const std::vector<RelaxRow>& rows, std::span<const std::uint32_t> closed,
-                       std::span<const std::uint32_t> in_way, double give, double fastest_m_s,
-                       const std::vector<BodyVelocity>& velocities) {
+ClusterMotion solve_cluster(const std::vector<ContactRow>& rows,
+                            std::span<const std::uint32_t> closed,
+                            std::span<const std::uint32_t> in_way, double give, double fastest_m_s,
+                            const std::vector<BodyVelocity>& velocities) {
   DisjointSets bodies(velocities.size());
   for (const std::uint32_t i : in_way) {
-    const RelaxRow& row = rows[closed[i]];
+    const ContactRow& row = rows[closed[i]];
     if (row.moves_a && row.moves_b) bodies.join(row.a, row.b);
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> grouped;  // by group
   grouped.reserve(in_way.size());
   for (const std::uint32_t i : in_way) {
-    const RelaxRow& row = rows[closed[i]];
+    const ContactRow& row = rows[closed[i]];
     grouped.emplace_back(bodies.root(row.moves_a ? row.a : row.b), i);
   }
   std::ranges::sort(grouped);
-  Relaxed relaxed{velocities, std::vector<double>(closed.size(), 0)};
+  ClusterMotion solved{velocities, std::vector<double>(closed.size(), 0)};
   for (std::size_t begin = 0, end = 0; begin < grouped.size(); begin = end) {
-    std::vector<const RelaxRow*> group;
+    std::vector<const ContactRow*> group;
     for (; end < grouped.size() && grouped[end].first == grouped[begin].first; ++end) {
       group.push_back(&rows[closed[grouped[end].second]]);
     }
     const std::vector<double> impulses_Ns =
-        Group(std::move(group), give).solve(fastest_m_s, relaxed.velocities);
+        Group(std::move(group), give).solve(fastest_m_s, solved.velocities);
     for (std::size_t i = begin; i < end; ++i) {
-      relaxed.impulses_Ns[grouped[i].second] = impulses_Ns[i - begin];
+      solved.impulses_Ns[grouped[i].second] = impulses_Ns[i - begin];
     }
   }
-  return relaxed;
+  return solved;
 }
 
 }  // namespace sunder
