@@ -4,20 +4,20 @@
 // have arrived, so that a thread that lost its processor holds up nobody unless it holds a block).
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <thread>
+#include <vector>
 
 #include "engine/base/parallel.h"
 
 namespace sunder::solver {
 
-/// `count` items starting at `first`, handed out `grain` at a time. What a grain is does not depend
-/// on the number of threads.
-struct Stage {
-  int kind = 0;
+/// What a stage works on: `count` items starting at `first`, handed out `grain` at a time. What a
+/// grain is does not depend on the number of threads.
+struct StageItems {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
   std::uint32_t grain = 1;
@@ -28,15 +28,15 @@ struct Stage {
 /// Below so many grains in the widest stage, one thread is as fast as many.
 inline constexpr std::uint32_t kLeastParallelGrains = 16;
 
-/// Calls work(kind, begin, end) for every grain of every stage, stage after stage. `work` must not
-/// throw.
-template <class Work>
-void run_stages(std::span<const Stage> stages, const Work& work) {
+/// Calls work(stage, begin, end) for every grain of every stage, stage after stage. A `Stage` is
+/// StageItems, and maybe what to do with them. `work` must not throw.
+template <class Stage, class Work>
+void run_stages(const std::vector<Stage>& stages, const Work& work) {
   std::uint32_t widest = 0;
   for (const Stage& stage : stages) widest = std::max(widest, stage.blocks());
   auto run = [&](const Stage& stage, std::uint32_t block) {
     const std::uint32_t begin = block * stage.grain;
-    work(stage.kind, stage.first + begin, stage.first + std::min(stage.count, begin + stage.grain));
+    work(stage, stage.first + begin, stage.first + std::min(stage.count, begin + stage.grain));
   };
   if (widest < kLeastParallelGrains || !may_share_work()) {
     for (const Stage& stage : stages)

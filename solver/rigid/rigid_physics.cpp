@@ -10,6 +10,7 @@
 #include "solver/base/check_bodies.h"
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/body/paused.h"
+#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/approach.h"
 #include "solver/rigid/collide/broad_phase.h"
 #include "solver/rigid/collide/contacts.h"
@@ -30,8 +31,8 @@ class RigidPhysics final : public Physics {
  public:
   explicit RigidPhysics(const RigidOptions& options)
       : options_(options),
-        contact_solver_(
-            {options.sweeps, options.sweeps >= options.accelerate_from, options.lanes}) {
+        contact_solver_({options.sweeps, options.sweeps >= options.accelerate_from, options.lanes}),
+        step_(options.gravity_W, 0) {
     SUNDER_CHECK(options.max_colors >= 0 && options.max_colors <= kMaxColors);
     SUNDER_CHECK(options.sweeps > 0 && options.lanes >= 0);
     contacts_.colors = static_cast<std::uint8_t>(options.max_colors);
@@ -61,8 +62,8 @@ class RigidPhysics final : public Physics {
  private:
   void remove_bodies(std::span<const BodyId> ids);
   void remove_shapes(std::span<const std::uint32_t> shapes);
-  void update_contacts(double dt_s);
-  void find_reaches(double dt_s);
+  void update_contacts();
+  void find_reaches();
   Vec3 freeze_broken();
   void look_again(JointId joint);
 
@@ -79,7 +80,8 @@ class RigidPhysics final : public Physics {
   StaticWarmStart static_warm_start_;
   ContactsOfBodies contacts_of_bodies_;
   Paused paused_;
-  double dt_s_ = 0;               ///< Of the last collide.
+  StepContext step_;              ///< Of the last collide.
+  double last_h_s_ = 0;           ///< Of the impulses that contacts and joints keep; 0: none.
   std::uint32_t frozen_ = 0;      ///< Since the last solve began.
   std::vector<StepReach> reach_;  ///< By body slot.
   std::vector<std::pair<const char*, double>> timings_ms_ = {
@@ -148,16 +150,17 @@ void RigidPhysics::edit(const BodyEdit& edit) {
 void RigidPhysics::collide(double dt_s) {
   Stopwatch watch;
   freeze_broken();
-  broad_phase_.update(shapes_, bodies_, options_.gravity_W, dt_s, contacts_);
+  step_ = StepContext(options_.gravity_W, dt_s);
+  broad_phase_.update(step_, shapes_, bodies_, contacts_);
   timings_ms_[0].second += watch.lap_ms();
-  update_contacts(dt_s);
-  sleep_.wake_hit(contacts_, options_.gravity_W, dt_s, bodies_);
+  update_contacts();
+  sleep_.wake_hit(step_, contacts_, bodies_);
   contacts_of_bodies_.clear();
-  dt_s_ = dt_s;
   timings_ms_[1].second += watch.lap_ms();
 }
 
-void RigidPhysics::find_reaches(double dt_s) {
+void RigidPhysics::find_reaches() {
+  const double dt_s = step_.dt_s;
   reach_.resize(bodies_.size());
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
     const double angle = std::min(1.0, dt_s * bodies_.angular_velocity[i].norm());
@@ -168,15 +171,14 @@ void RigidPhysics::find_reaches(double dt_s) {
 
 /// Narrow phase over pairs of which a body changed; then, in order of slots, what came to touch
 /// gets a manifold and what drifted apart goes.
-void RigidPhysics::update_contacts(double dt_s) {
+void RigidPhysics::update_contacts() {
   constexpr std::size_t kChunk = 1024;
   auto& pairs = contacts_.pairs;
   const std::size_t chunks = (pairs.size() + kChunk - 1) / kChunk;
   changes_.resize(std::max(changes_.size(), chunks));
   const auto changes = std::span(changes_).first(chunks);
   for (ContactChanges& chunk : changes) chunk.clear();
-  const NarrowStep step{dt_s, static_cast<float>(options_.gravity_W.norm() * dt_s * dt_s)};
-  find_reaches(dt_s);
+  find_reaches();
   for_chunks(pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
     NarrowScratch scratch;
     Manifold fresh;
@@ -190,7 +192,7 @@ void RigidPhysics::update_contacts(double dt_s) {
       const bool apart = joints_.apart(pair.body_a, pair.body_b);
       pair.fresh = apart;  // looked at again when they cease to ignore each other
       const bool near = !apart && broad_phase_.near(pair);
-      if (near) update_contact(shapes_, bodies_, step, pair, m, scratch);
+      if (near) update_contact(step_, shapes_, bodies_, pair, m, scratch);
       m.deep = m.count > 0 && m.least_separation() < -kDeep * m.size_m;
       if (m.deep) changes[c].deep.push_back(i);
       if (touched && (!near || m.count == 0)) changes[c].parted.push_back(i);
@@ -228,7 +230,7 @@ Vec3 RigidPhysics::freeze_broken() {
 }
 
 std::vector<Approach> RigidPhysics::approaches() {
-  return find_approaches(contacts_, bodies_, shapes_, dt_s_, FroudeScale(options_.gravity_W));
+  return find_approaches(contacts_, bodies_, shapes_, step_);
 }
 
 std::vector<Touch> RigidPhysics::touches(std::span<const BodyId> bodies) {
@@ -305,6 +307,7 @@ void RigidPhysics::pause(std::span<const BodyId> bodies) {
 SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   SUNDER_CHECK(dt_s > 0 && substeps > 0);
   Stopwatch watch;
+  const StepContext step(options_.gravity_W, dt_s, substeps, last_h_s_);
   SolveReport report;
   report.external_impulse_Ns = freeze_broken();
   joints_.wake(bodies_);
@@ -315,19 +318,16 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     awake_mass += bodies_.mass_kg[body];
     bodies_.changed[body] = 1;
   }
-  static_warm_start_.apply(options_.gravity_W, dt_s, substeps, contact_solver_.last_h_s(),
-                           options_.static_warm_start, bodies_, contacts_);
+  static_warm_start_.apply(step, options_.static_warm_start, bodies_, contacts_);
   std::fill(bodies_.is_new.begin(), bodies_.is_new.end(), std::uint8_t{0});
-  const ContactSolveReport solved =
-      contact_solver_.solve(dt_s, substeps, options_.gravity_W, bodies_, contacts_, joints_);
+  const ContactSolveReport solved = contact_solver_.solve(step, bodies_, contacts_, joints_);
+  last_h_s_ = step.h_s;
   report.external_impulse_Ns += solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
   timings_ms_[2].second += watch.lap_ms();
   if (options_.sleeping) {
-    const double h_s = dt_s / substeps;
-    sleep_.wake_changed(options_.gravity_W, h_s, contacts_, bodies_);
-    report.external_impulse_Ns +=
-        sleep_.put_to_sleep(options_.gravity_W, dt_s, h_s, joints_, bodies_, contacts_);
+    sleep_.wake_changed(step, contacts_, bodies_);
+    report.external_impulse_Ns += sleep_.put_to_sleep(step, joints_, bodies_, contacts_);
   }
   paused_.release(bodies_);
   timings_ms_[3].second += watch.lap_ms();

@@ -29,8 +29,8 @@ float weight_N(const Bodies& bodies, std::uint32_t body, const Vec3& gravity_W) 
 }
 
 /// So many speeds of falling of a piece, or what gravity does in a step, if that is more.
-double speed_m_s(double speeds, const FroudeScale& froude, double dt_s, double reach_m) {
-  return std::max(speeds * froude.speed_m_s(reach_m), froude.gravity_m_s2() * dt_s);
+double speed_m_s(double speeds, const StepContext& step, double reach_m) {
+  return std::max(speeds * step.froude.speed_m_s(reach_m), step.froude.gravity_m_s2() * step.dt_s);
 }
 
 Vec3f up(const Vec3& gravity_W) {
@@ -44,7 +44,7 @@ bool asleep(const Bodies& bodies, std::uint32_t body) {
 
 }  // namespace
 
-void Sleep::note_rest(const FroudeScale& froude, double dt_s, Bodies& bodies) {
+void Sleep::note_rest(const StepContext& step, Bodies& bodies) {
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     if (!bodies.awake(i)) continue;
     const double reach = bodies.reach_m[i];
@@ -52,8 +52,8 @@ void Sleep::note_rest(const FroudeScale& froude, double dt_s, Bodies& bodies) {
     const Quat rotation = bodies.rest_rotation[i].conjugate() * bodies.rotation[i];
     const double drift =
         (bodies.position[i] - bodies.rest_position[i]).norm() + 2 * rotation.vec().norm() * reach;
-    if (speed < speed_m_s(kSlow, froude, dt_s, reach) && drift < kDrift * reach) {
-      bodies.slow_s[i] += static_cast<float>(dt_s);
+    if (speed < speed_m_s(kSlow, step, reach) && drift < kDrift * reach) {
+      bodies.slow_s[i] += static_cast<float>(step.dt_s);
     } else {
       bodies.slow_s[i] = 0;
       bodies.rest_position[i] = bodies.position[i];
@@ -94,22 +94,22 @@ void Sleep::anchor_by_joints(const Bodies& bodies, const Joints& joints, Disjoin
   }
 }
 
-Vec3 Sleep::put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, const Joints& joints,
-                         Bodies& bodies, Contacts& contacts) {
-  const FroudeScale froude(gravity_W);
-  note_rest(froude, dt_s, bodies);
+Vec3 Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
+                         Contacts& contacts) {
+  note_rest(step, bodies);
   const std::uint32_t n = bodies.size();
   candidate_.assign(n, 0);
   bool any = false;
   for (std::uint32_t i = 0; i < n; ++i) {
-    const double rest_s = std::max(kRestTime * froude.time_s(bodies.reach_m[i]), kRestSteps * dt_s);
+    const double rest_s =
+        std::max(kRestTime * step.froude.time_s(bodies.reach_m[i]), kRestSteps * step.dt_s);
     candidate_[i] = bodies.awake(i) && double{bodies.slow_s[i]} >= rest_s;
     any = any || candidate_[i];
   }
   if (!any) return Vec3::Zero();
   keep_joined_awake(bodies, joints);
   DisjointSets groups(n);  // of what rests on each other
-  anchored_.assign(n, gravity_W.isZero(0));
+  anchored_.assign(n, step.gravity_W.isZero(0));
   auto rests = [&](std::uint32_t body) { return candidate_[body] || asleep(bodies, body); };
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0 || m.normal_impulse() <= 0) continue;
@@ -134,26 +134,23 @@ Vec3 Sleep::put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, const J
     bodies.velocity[i].setZero();
     bodies.angular_velocity[i].setZero();
   }
-  const auto inverse_h = static_cast<float>(1 / h_s);
   for (Manifold& m : contacts.manifolds)
     if (m.count > 0 && (candidate_[m.body_a] || candidate_[m.body_b]))
-      m.rest_force_W = inverse_h * m.impulse_W();
+      m.rest_force_W = step.inverse_h * m.impulse_W();
   return taken;
 }
 
-void Sleep::wake_hit(const Contacts& contacts, const Vec3& gravity_W, double dt_s,
-                     Bodies& bodies) const {
-  const FroudeScale froude(gravity_W);
+void Sleep::wake_hit(const StepContext& step, const Contacts& contacts, Bodies& bodies) const {
   std::vector<std::uint32_t> woken;
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0) continue;
     const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
-    const double hit_m_s = speed_m_s(kHit, froude, dt_s, bodies.reach_m[a ? m.body_a : m.body_b]);
+    const double hit_m_s = speed_m_s(kHit, step, bodies.reach_m[a ? m.body_a : m.body_b]);
     for (std::size_t i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
       const double speed = closing_speed(m, bodies, p.arm_A, p.arm_B);
-      if (speed < hit_m_s || double{p.separation_m} > dt_s * speed) continue;
+      if (speed < hit_m_s || double{p.separation_m} > step.dt_s * speed) continue;
       woken.push_back(a ? m.body_a : m.body_b);
       break;
     }
@@ -161,30 +158,28 @@ void Sleep::wake_hit(const Contacts& contacts, const Vec3& gravity_W, double dt_
   for (const std::uint32_t body : woken) bodies.wake(body);
 }
 
-void Sleep::wake_changed(const Vec3& gravity_W, double h_s, const Contacts& contacts,
-                         Bodies& bodies) {
+void Sleep::wake_changed(const StepContext& step, const Contacts& contacts, Bodies& bodies) {
   change_N_.assign(bodies.size(), 0);
   support_N_.assign(bodies.size(), 0);
-  const Vec3f up_W = up(gravity_W);
-  const auto inverse_h = static_cast<float>(1 / h_s);
+  const Vec3f up_W = up(step.gravity_W);
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0) continue;
     const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
     const std::uint32_t body = a ? m.body_a : m.body_b;
-    const Vec3f change = inverse_h * m.impulse_W() - m.rest_force_W;
+    const Vec3f change = step.inverse_h * m.impulse_W() - m.rest_force_W;
     change_N_[body] += std::max(0.f, change.norm() - kLoadChange * m.rest_force_W.norm());
     support_N_[body] += (a ? -1.f : 1.f) * change.dot(up_W);
   }
   std::vector<std::uint32_t> woken, left;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     if (!asleep(bodies, i)) continue;
-    const float weight = weight_N(bodies, i, gravity_W);
+    const float weight = weight_N(bodies, i, step.gravity_W);
     if (change_N_[i] <= kChange * weight) continue;
     (support_N_[i] < -kChange * weight ? left : woken).push_back(i);
   }
   for (const std::uint32_t body : woken) bodies.wake(body);
-  wake_above(std::move(left), gravity_W, contacts, bodies);
+  wake_above(std::move(left), step.gravity_W, contacts, bodies);
 }
 
 void Sleep::wake_left(std::span<const std::uint32_t> manifolds, const Vec3& gravity_W,

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/base/disjoint_sets.h"
-#include "engine/base/froude.h"
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/joint/joint.h"
 
@@ -19,21 +19,20 @@ class Sleep {
  public:
   /// Puts bodies to sleep that have been at rest for longer than they would take to tip, and stand
   /// on something, by loaded contacts or joints through other sleepers, that cannot move; what is
-  /// joined, only together. `h_s` is the last substep. The answer is the momentum that was taken
-  /// away.
-  Vec3 put_to_sleep(const Vec3& gravity_W, double dt_s, double h_s, const Joints& joints,
-                    Bodies& bodies, Contacts& contacts);
+  /// joined, only together. The answer is the momentum that was taken away.
+  Vec3 put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
+                    Contacts& contacts);
   /// Wakes sleepers that something awake is about to hit.
-  void wake_hit(const Contacts& contacts, const Vec3& gravity_W, double dt_s, Bodies& bodies) const;
+  void wake_hit(const StepContext& step, const Contacts& contacts, Bodies& bodies) const;
   /// Wakes sleepers on which the load has changed in the last solve, and what stood on them if it
   /// was their support that went.
-  void wake_changed(const Vec3& gravity_W, double h_s, const Contacts& contacts, Bodies& bodies);
+  void wake_changed(const StepContext& step, const Contacts& contacts, Bodies& bodies);
   /// Wakes both bodies of manifolds that are about to go, and what stood on them.
   void wake_left(std::span<const std::uint32_t> manifolds, const Vec3& gravity_W,
                  const Contacts& contacts, Bodies& bodies);
 
  private:
-  void note_rest(const FroudeScale& froude, double dt_s, Bodies& bodies);
+  void note_rest(const StepContext& step, Bodies& bodies);
   void anchor_by_joints(const Bodies& bodies, const Joints& joints, DisjointSets& groups);
   void keep_joined_awake(const Bodies& bodies, const Joints& joints);
   /// Wakes these and all sleepers that stand on them, by sleepers between.

@@ -57,9 +57,10 @@ bool wobbles(const Bodies& bodies, std::uint32_t body, double dt_s) {
 
 }  // namespace
 
-void fly(Bodies& bodies, std::uint32_t body, const Vec3& gravity_W, double dt_s) {
-  const Vec3 way = dt_s * (bodies.velocity[body] + 0.5 * dt_s * gravity_W);
-  bodies.velocity[body] += dt_s * gravity_W;
+void fly(const StepContext& step, std::uint32_t body, Bodies& bodies) {
+  const double dt_s = step.dt_s;
+  const Vec3 way = dt_s * (bodies.velocity[body] + 0.5 * dt_s * step.gravity_W);
+  bodies.velocity[body] += dt_s * step.gravity_W;
   const Vec3 angle_W = dt_s * bodies.angular_velocity[body];
   Quat rotation;
   if (wobbles(bodies, body, dt_s)) {

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/step_context.h"
 
 namespace sunder::solver {
 
 /// Moves a body that touches nothing: the parabola exactly, and rotation that keeps energy and
 /// angular momentum (implicit midpoint on the group; both are quadratic invariants of it).
-void fly(Bodies& bodies, std::uint32_t body, const Vec3& gravity_W, double dt_s);
+void fly(const StepContext& step, std::uint32_t body, Bodies& bodies);
 
 /// What free rotation over dt_s adds to the angular velocity of an uneven body as the body sees it
 /// (the gyroscopic term, given in W at today's rotation); zero where it is too slow to matter. It

@@ -9,11 +9,6 @@
 namespace sunder::solver {
 namespace {
 
-struct StepTime {
-  double dt_s;
-  double still_m_s;  ///< What closes more slowly rests.
-};
-
 double inverse_effective_mass(const Bodies& bodies, std::uint32_t body, const Vec3f& arm_W,
                               const Vec3f& normal_W) {
   if (!bodies.dynamic(body)) return 0;
@@ -23,7 +18,7 @@ double inverse_effective_mass(const Bodies& bodies, std::uint32_t body, const Ve
 }
 
 /// Middle of the points that close within the step; false if none does.
-bool closing_middle(const Manifold& m, const Bodies& bodies, const StepTime& step, Vec3f& arm_A,
+bool closing_middle(const Manifold& m, const Bodies& bodies, const StepContext& step, Vec3f& arm_A,
                     Vec3f& arm_B, float& separation_m) {
   int closing = 0;
   arm_A.setZero(), arm_B.setZero();
@@ -42,7 +37,7 @@ bool closing_middle(const Manifold& m, const Bodies& bodies, const StepTime& ste
 }
 
 bool make_approach(const Pair& pair, const Manifold& m, const Bodies& bodies, const Shapes& shapes,
-                   const StepTime& step, Approach& approach) {
+                   const StepContext& step, Approach& approach) {
   Vec3f arm_A, arm_B;
   float separation = 0;
   if (!closing_middle(m, bodies, step, arm_A, arm_B, separation)) return false;
@@ -76,10 +71,8 @@ double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A
 }
 
 std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
-                                      const Shapes& shapes, double dt_s,
-                                      const FroudeScale& froude) {
+                                      const Shapes& shapes, const StepContext& step) {
   constexpr std::size_t kChunk = 4096;
-  const StepTime step{dt_s, froude.still_m_s(dt_s)};
   using Keyed = std::pair<std::uint64_t, Approach>;
   std::vector<std::vector<Keyed>> found((contacts.manifolds.size() + kChunk - 1) / kChunk);
   for_chunks(contacts.manifolds.size(), kChunk,

@@ -5,15 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/froude.h"
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
 
 namespace sunder::solver {
 
-/// One approach for each manifold that closes, or would within dt_s; in order of pair keys.
+/// One approach for each manifold that closes, or would within the step; in order of pair keys.
 std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
-                                      const Shapes& shapes, double dt_s, const FroudeScale& froude);
+                                      const Shapes& shapes, const StepContext& step);
 
 /// The manifolds of each body that can move.
 class ContactsOfBodies {

@@ -37,7 +37,7 @@ FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
   return {low, high};
 }
 
-FloatBox swept_box(const Shape& shape, const Bodies& bodies, const Vec3& gravity_W, double dt_s) {
+FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bodies) {
   const std::uint32_t body = shape.body;
   FloatBox box;
   if (shape.kind == ShapeDesc::Kind::kHull) {
@@ -48,7 +48,9 @@ FloatBox swept_box(const Shape& shape, const Bodies& bodies, const Vec3& gravity
   }
   float grow = 0.05f * shape.inner_radius_m;
   if (bodies.awake(body)) {
-    const Vec3f shift = (bodies.velocity[body] * dt_s + gravity_W * (dt_s * dt_s)).cast<float>();
+    const double dt_s = step.dt_s;
+    const Vec3f shift =
+        (bodies.velocity[body] * dt_s + step.gravity_W * (dt_s * dt_s)).cast<float>();
     box.min += shift.cwiseMin(0.f);
     box.max += shift.cwiseMax(0.f);
     const double angle = std::min(2.0, bodies.angular_velocity[body].norm() * dt_s);
@@ -60,10 +62,11 @@ FloatBox swept_box(const Shape& shape, const Bodies& bodies, const Vec3& gravity
 }
 
 /// Room for a few steps of the same motion.
-FloatBox fattened(const FloatBox& swept, const Shape& shape, const Bodies& bodies, double dt_s) {
+FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& shape,
+                  const Bodies& bodies) {
   FloatBox box = swept;
   if (!bodies.dynamic(shape.body)) return box;
-  const Vec3f shift = (2 * dt_s * bodies.velocity[shape.body]).cast<float>();
+  const Vec3f shift = (2 * step.dt_s * bodies.velocity[shape.body]).cast<float>();
   const Vec3f grow = Vec3f::Constant(0.15f * shape.inner_radius_m);
   box.min += shift.cwiseMin(0.f) - grow;
   box.max += shift.cwiseMax(0.f) + grow;
@@ -134,8 +137,7 @@ void BroadPhase::remove_half_space(std::uint32_t s) {
   half_space_of_[s] = -1;
 }
 
-void BroadPhase::update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,
-                              double dt_s) {
+void BroadPhase::update_boxes(const StepContext& step, const Shapes& shapes, const Bodies& bodies) {
   for (const std::uint32_t s : moved_list_) moved_[s] = 0;
   moved_list_.clear();
   if (movers_changed_) {
@@ -149,9 +151,9 @@ void BroadPhase::update_boxes(const Shapes& shapes, const Bodies& bodies, const 
       const Shape& shape = shapes.items[s];
       moved_[s] = look_again_ || crowded_[s];
       if (!bodies.changed[shape.body]) continue;
-      swept_[s] = swept_box(shape, bodies, gravity_W, dt_s);
+      swept_[s] = swept_box(step, shape, bodies);
       if (fat_[s].contains(swept_[s])) continue;
-      fat_[s] = fattened(swept_[s], shape, bodies, dt_s);
+      fat_[s] = fattened(step, swept_[s], shape, bodies);
       moved_[s] = 1;
     }
   });
@@ -161,7 +163,7 @@ void BroadPhase::update_boxes(const Shapes& shapes, const Bodies& bodies, const 
   for_chunks(new_statics_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t s = new_statics_[i];
-      fat_[s] = swept_[s] = swept_box(shapes.items[s], bodies, gravity_W, dt_s);
+      fat_[s] = swept_[s] = swept_box(step, shapes.items[s], bodies);
       moved_[s] = 1;
     }
   });
@@ -257,9 +259,9 @@ void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bod
   order();
 }
 
-void BroadPhase::update(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W,
-                        double dt_s, Contacts& contacts) {
-  update_boxes(shapes, bodies, gravity_W, dt_s);
+void BroadPhase::update(const StepContext& step, const Shapes& shapes, const Bodies& bodies,
+                        Contacts& contacts) {
+  update_boxes(step, shapes, bodies);
   update_trees();
   const std::size_t chunks = (moved_list_.size() + kChunk - 1) / kChunk;
   if (found_.size() < chunks) found_.resize(chunks);

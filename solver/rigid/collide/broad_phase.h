@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/box_forest.h"
 #include "solver/rigid/collide/box_tree.h"
 #include "solver/rigid/collide/contacts.h"
@@ -30,9 +31,9 @@ class BroadPhase {
                                         const KeyMap& slot_of) const;
   /// Takes shapes out.
   void remove(std::span<const std::uint32_t> removed);
-  /// Boxes of what changed, swept over dt_s; adds pairs that came near, in the same order for any
-  /// number of threads.
-  void update(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W, double dt_s,
+  /// Boxes of what changed, swept over the step; adds pairs that came near, in the same order for
+  /// any number of threads.
+  void update(const StepContext& step, const Shapes& shapes, const Bodies& bodies,
               Contacts& contacts);
   /// Whether the pair's shapes may touch within the step.
   bool near(const Pair& pair) const;
@@ -48,7 +49,7 @@ class BroadPhase {
   };
   void add_half_space(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies);
   void remove_half_space(std::uint32_t shape);
-  void update_boxes(const Shapes& shapes, const Bodies& bodies, const Vec3& gravity_W, double dt_s);
+  void update_boxes(const StepContext& step, const Shapes& shapes, const Bodies& bodies);
   void update_trees();
   void find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
                   const KeyMap& slot_of, std::vector<FoundPair>& found);

@@ -111,7 +111,7 @@ void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const 
 }
 
 Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
-               const PairMotion& motion, const NarrowStep& step, float size_m) {
+               const PairMotion& motion, const StepContext& step, float size_m) {
   const auto dt = static_cast<float>(step.dt_s);
   auto spin_reach = [&](std::uint32_t body, float reach_m) {
     const auto spin = static_cast<float>(bodies.angular_velocity[body].norm());
@@ -196,7 +196,7 @@ bool same_as_before(const Bodies& bodies, std::span<const StepReach> reach, cons
          pair.margin_m + closing_m + reach[a].spin_m + reach[b].spin_m;
 }
 
-void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep& step, Pair& pair,
+void update_contact(const StepContext& step, const Shapes& shapes, const Bodies& bodies, Pair& pair,
                     Manifold& m, NarrowScratch& scratch) {
   const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
   const PairMotion motion = pair_motion(pair, bodies);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/collide/manifold_build.h"
 
@@ -14,11 +15,6 @@ struct NarrowScratch {
   HullScratch hulls;
   PatchScratch patch;
   std::vector<PatchPoint> points;
-};
-
-struct NarrowStep {
-  double dt_s = 0;
-  float fall_m = 0;  ///< What gravity adds to a body's way within the step.
 };
 
 /// How far a body may come within the step.
@@ -36,7 +32,7 @@ bool same_as_before(const Bodies& bodies, std::span<const StepReach> reach, cons
 /// Brings the manifold of a pair up to date: carried along while the pair barely moves, otherwise
 /// made anew. Pairs that close fast are moved to the time of impact first, so that the normal is
 /// that of the feature that will be hit.
-void update_contact(const Shapes& shapes, const Bodies& bodies, const NarrowStep& step, Pair& pair,
+void update_contact(const StepContext& step, const Shapes& shapes, const Bodies& bodies, Pair& pair,
                     Manifold& m, NarrowScratch& scratch);
 
 /// The point of the hull's surface closest to `point` (hull frame): `normal` away from the hull,

@@ -8,6 +8,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr double kRounding = 1e-6;  // of the energy that moved to and fro
+constexpr double kSlowFalls = 4;    // in what gravity does to a speed within the step
 
 double lanes_sum(const Wide& a, const Wide& b, double linear) {
   double sum = 0;
@@ -18,9 +19,10 @@ double lanes_sum(const Wide& a, const Wide& b, double linear) {
 
 }  // namespace
 
-void EnergyGuard::collect(std::span<const std::uint32_t> manifolds,
+void EnergyGuard::collect(const StepContext& step, std::span<const std::uint32_t> manifolds,
                           std::span<const std::uint32_t> active, std::span<const Pair> joined,
-                          double slow_m_s, const Bodies& bodies, const Contacts& contacts) {
+                          const Bodies& bodies, const Contacts& contacts) {
+  const double slow_m_s = kSlowFalls * step.fall_m_s;
   watches_ = std::ranges::any_of(active, [&](std::uint32_t body) {
     const double spin_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
     return bodies.velocity[body].norm() + spin_m_s > slow_m_s;

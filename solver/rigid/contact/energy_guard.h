@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/contact/constraint_block.h"
 
@@ -19,9 +20,9 @@ class EnergyGuard {
 
   /// Groups the awake bodies of these manifolds, and of these pairs in joints. What hangs in joints
   /// and touches nothing is left alone; where nothing moves fast, all are.
-  void collect(std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> active,
-               std::span<const Pair> joined, double slow_m_s, const Bodies& bodies,
-               const Contacts& contacts);
+  void collect(const StepContext& step, std::span<const std::uint32_t> manifolds,
+               std::span<const std::uint32_t> active, std::span<const Pair> joined,
+               const Bodies& bodies, const Contacts& contacts);
   /// Whether any group is watched in this step.
   bool watches() const { return watches_; }
 

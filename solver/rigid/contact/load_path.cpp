@@ -67,9 +67,8 @@ void carry(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float 
 
 }  // namespace
 
-void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
-                  float stored_scale, const Bodies& bodies, std::vector<BodyLoad>& loads,
-                  Contacts& contacts) {
+void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds, float kept_scale,
+                  const Bodies& bodies, std::vector<BodyLoad>& loads, Contacts& contacts) {
   if (gravity_W.isZero(0)) return;
   const Vec3 up_W = -gravity_W.normalized();
   const Vec3f up = up_W.cast<float>();
@@ -99,7 +98,7 @@ void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifold
     carry(up, across_1, across_2, weight, -loads[body].angular_impulse_W, shares);
     for (const Share& s : shares) {
       const float slope = std::abs(s.manifold->normal_W.dot(up));
-      s.manifold->points[s.point].impulse_Ns = stored_scale * s.vertical / slope;
+      s.manifold->points[s.point].impulse_Ns = kept_scale * s.vertical / slope;
       loads[s.below].impulse_W -= s.vertical * up;
       loads[s.below].angular_impulse_W -= s.arm_below.cross(s.vertical * up);
     }

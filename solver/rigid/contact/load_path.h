@@ -19,11 +19,10 @@ struct BodyLoad {
   bool supported = false;                   ///< By what cannot move, through others or not.
 };
 
-/// Gives the points of `manifolds` the impulses (times `stored_scale`) that hand `loads` (by body
+/// Gives the points of `manifolds` the impulses (times `kept_scale`) that hand `loads` (by body
 /// slot) down to what cannot move. What nothing supports hands down nothing.
-void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
-                  float stored_scale, const Bodies& bodies, std::vector<BodyLoad>& loads,
-                  Contacts& contacts);
+void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds, float kept_scale,
+                  const Bodies& bodies, std::vector<BodyLoad>& loads, Contacts& contacts);
 
 /// Bodies that stand on one that is not supported are not supported either.
 void release_above(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,

@@ -57,7 +57,8 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
     set_columns(g.root_b, lane, b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
   c.summed = c.summed || !a || !b || bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b];
   c.outside_sign[lane] = (a ? 0.f : 1.f) - (b ? 0.f : 1.f);
-  set_lane(g.gravity, lane, ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.gravity_W);
+  set_lane(g.gravity, lane,
+           ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }
 
 float push_m_s(const ContactStep& step, const Manifold& m) {
@@ -81,14 +82,14 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
                     ConstraintBlock<lanes>& c, GatheredBlock<lanes>& g) {
   set_lane(c.normal, lane, m.normal_W);
   set_lane(g.drift, lane, m.drift_W);
-  set_lane(g.slide_impulse, lane, step.impulse_scale * m.friction_impulse_W);
+  set_lane(g.slide_impulse, lane, step.context.impulse_scale * m.friction_impulse_W);
   set_lane(g.friction_arm_a, lane, m.friction_arm_A);
   set_lane(g.friction_arm_b, lane, m.friction_arm_B);
-  c.twist_impulse[lane] = step.impulse_scale * m.twist_impulse;
+  c.twist_impulse[lane] = step.context.impulse_scale * m.twist_impulse;
   c.friction[lane] = m.friction;
   c.roll.arm[lane] = m.rolling_m;
   c.rolls = c.rolls || m.rolling_m > 0;
-  set_lane(g.roll_impulse, lane, step.impulse_scale * m.roll_impulse_W);
+  set_lane(g.roll_impulse, lane, step.context.impulse_scale * m.roll_impulse_W);
   g.restitution[lane] = m.restitution;
   g.compliance_scale[lane] = m.compliance_scale;
   c.push_m_s[lane] = push_m_s(step, m);
@@ -98,7 +99,7 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
     set_lane(g.arm_a[i], lane, p.arm_A);
     set_lane(g.arm_b[i], lane, p.arm_B);
     c.point[i].separation[lane] = std::max(p.separation_m - p.rest_m, -most_overlap);
-    c.point[i].impulse[lane] = step.impulse_scale * p.impulse_Ns;
+    c.point[i].impulse[lane] = step.context.impulse_scale * p.impulse_Ns;
   }
 }
 

@@ -5,34 +5,26 @@
 #include <vector>
 
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
+#include "solver/rigid/contact/mass_splitting.h"
 #include "solver/rigid/contact/sweep.h"
+#include "solver/rigid/contact/sweep_order.h"
 
 namespace sunder::solver {
 
-/// Where a split manifold's changes of its bodies go, and into how many parts those are cut.
-struct SplitSides {
-  std::uint32_t part_a = 0, part_b = 0;
-  std::uint32_t parts_a = 1, parts_b = 1;
-};
-
-/// From so many loaded manifolds on a piece is pinched; a pebble under a column, held by two, would
-/// bounce off contacts that get much stiffer.
-inline constexpr std::uint8_t kPinched = 3;
-
 /// What the blocks of a step are made from, and what they work on.
 struct ContactStep {
+  const StepContext& context;
   const Bodies& bodies;
   Contacts& contacts;
   std::span<const std::uint32_t> manifolds;  ///< To solve, in the order of blocks.
-  std::uint32_t first_split = 0;             ///< Manifolds from here on are split,
+  std::uint32_t first_split;                 ///< Manifolds from here on are split,
   std::span<const SplitSides> split;         ///< as this says of each.
   std::span<const Mat3f> root_W;             ///< By body slot, of those awake.
   SolverRows rows;
   SoftStep soft;
-  Vec3f gravity_W = Vec3f::Zero();
-  float impulse_scale = 1;                            ///< Substep over that of the last step.
-  float bounce_speed_m_s = 0;                         ///< Slower impacts do not bounce.
+  float bounce_speed_m_s;                             ///< Slower impacts do not bounce.
   std::span<const std::uint32_t> deep_contacts = {};  ///< By body slot; empty: there are none.
   std::span<const std::uint8_t> loaded_contacts =
       {};  ///< Loaded manifolds by body slot, up to kPinched.

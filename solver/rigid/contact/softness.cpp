@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "solver/rigid/body/step_context.h"
+
 namespace sunder::solver {
 namespace {
 
@@ -25,15 +27,15 @@ Softness softness(double stiffness, double h) {
 
 }  // namespace
 
-SoftStep soft_step(double h_s, const FroudeScale& froude) {
-  SoftStep step;
+SoftStep soft_step(const StepContext& step) {
+  SoftStep soft;
   for (int i = 0; i < 4; ++i) {
-    step.press[i] = softness(kPressStiffness[i], h_s);
-    step.slide[i] = softness(kSlideStiffness[i], h_s);
+    soft.press[i] = softness(kPressStiffness[i], step.h_s);
+    soft.slide[i] = softness(kSlideStiffness[i], step.h_s);
   }
-  step.inverse_h = static_cast<float>(1 / h_s);
-  step.push = static_cast<float>(kPush * froude.speed_m_s(1));
-  return step;
+  soft.inverse_h = step.inverse_h;
+  soft.push = static_cast<float>(kPush * step.froude.speed_m_s(1));
+  return soft;
 }
 
 }  // namespace sunder::solver

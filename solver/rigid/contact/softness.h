@@ -1,9 +1,9 @@
 // How soft contacts are, from the length of a substep.
 #pragma once
 
-#include "engine/base/froude.h"
-
 namespace sunder::solver {
+
+struct StepContext;
 
 /// A spring and damper in the form of a soft constraint (Catto 2011, "Soft Constraints").
 struct Softness {
@@ -23,7 +23,7 @@ struct SoftStep {
   float push = 0;
 };
 
-/// Of a substep of h_s.
-SoftStep soft_step(double h_s, const FroudeScale& froude);
+/// Of the substeps of a step.
+SoftStep soft_step(const StepContext& step);
 
 }  // namespace sunder::solver

@@ -23,8 +23,9 @@ constexpr double kDone = 1e-12;       // of the loads' squares, a step's
 constexpr double kMostLeft = 0.01;    // of the energy of a substep of free fall
 // Of the inner radius: what is deeper is not at rest, and what is as far apart bears nothing.
 constexpr float kMostOverlap = 0.04f;
-constexpr float kMostRest = 0.1f;  // of it
-constexpr float kNoGap = 1e-4f;    // of it: rounding, or what would hardly be seen
+constexpr float kMostRest = 0.1f;   // of it
+constexpr float kNoBounce = 1e30f;  // m/s: nothing is as fast
+constexpr float kNoGap = 1e-4f;     // of it: rounding, or what would hardly be seen
 
 Vec3f lane_of(const Wide3Of<kStaticLanes>& v, std::uint32_t lane) {
   return {v.x[lane], v.y[lane], v.z[lane]};
@@ -94,11 +95,11 @@ float yield_m(const StaticBlock& c, std::uint32_t lane, std::size_t point, float
 }
 
 /// Impulses of the points, and the separations at which they bear them.
-void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float stored_scale,
+void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float kept_scale,
                   float factor, Manifold& m) {
   float depth[4] = {}, deepest = 0;
   for (std::size_t i = 0; i < m.count; ++i) {
-    m.points[i].impulse_Ns = stored_scale * factor * c.point[i].impulse[lane];
+    m.points[i].impulse_Ns = kept_scale * factor * c.point[i].impulse[lane];
     depth[i] = factor * yield_m(c, lane, i, yield_s);
     deepest = std::max(deepest, depth[i]);
   }
@@ -111,12 +112,12 @@ void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float
 }
 
 /// Impulses of friction, and the drift of its anchors that bears them.
-void store_friction(const StaticBlock& c, std::uint32_t lane, float yield_s, float stored_scale,
+void store_friction(const StaticBlock& c, std::uint32_t lane, float yield_s, float kept_scale,
                     float factor, Manifold& m) {
   const float s1 = factor * c.slide_impulse_1[lane], s2 = factor * c.slide_impulse_2[lane];
   const Vec3f t1 = lane_of(c.tangent_1, lane), t2 = lane_of(c.tangent_2, lane);
-  m.friction_impulse_W = stored_scale * (s1 * t1 + s2 * t2);
-  m.twist_impulse = stored_scale * factor * c.twist_impulse[lane];
+  m.friction_impulse_W = kept_scale * (s1 * t1 + s2 * t2);
+  m.twist_impulse = kept_scale * factor * c.twist_impulse[lane];
   const float m11 = c.slide_11[lane], m12 = c.slide_12[lane], m22 = c.slide_22[lane];
   const float det = m11 * m22 - m12 * m12;
   if (!(det > 0)) return;
@@ -130,39 +131,34 @@ void store_friction(const StaticBlock& c, std::uint32_t lane, float yield_s, flo
 
 }  // namespace
 
-void StaticWarmStart::apply(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s,
-                            double factor, const Bodies& bodies, Contacts& contacts) {
-  if (!collect(gravity_W, dt_s, bodies, contacts) || !(factor > 0)) return;
-  const double h_s = dt_s / substeps;
-  const double scale = stored_h_s > 0 ? h_s / stored_h_s : 1;
-  begin(gravity_W, static_cast<float>(scale), h_s, bodies, contacts);
-  estimate(gravity_W, h_s, static_cast<float>(1 / scale), bodies, contacts);
+void StaticWarmStart::apply(const StepContext& context, double factor, const Bodies& bodies,
+                            Contacts& contacts) {
+  if (!collect(context, bodies, contacts) || !(factor > 0)) return;
+  begin(context, bodies, contacts);
+  estimate(context, bodies, contacts);
   const auto first_split = static_cast<std::uint32_t>(manifolds_.size());
-  ContactStep step{bodies, contacts, manifolds_,     first_split,
-                   {},     root_W_,  {rows_.data()}, soft_step(h_s, FroudeScale(gravity_W))};
-  step.impulse_scale = static_cast<float>(scale);
-  step.bounce_speed_m_s = 1e30f;
-  const double kick_m_s = h_s * gravity_W.norm();
+  const ContactStep step{context, bodies,  contacts,       manifolds_,         first_split,
+                         {},      root_W_, {rows_.data()}, soft_step(context), kNoBounce};
+  const double kick_m_s = context.h_s * context.gravity_W.norm();
   find_loads(step, kick_m_s);
   find_supported(kick_m_s, bodies);
-  release_overloaded(gravity_W, step.soft, bodies, contacts);
-  store(step.soft, static_cast<float>(1 / scale), static_cast<float>(factor), bodies, contacts);
+  release_overloaded(context.gravity_W, step.soft, bodies, contacts);
+  store(step.soft, context.kept_scale, static_cast<float>(factor), bodies, contacts);
 }
 
-bool StaticWarmStart::collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
-                              Contacts& contacts) {
-  find_resting(gravity_W, dt_s, bodies, contacts);
+bool StaticWarmStart::collect(const StepContext& step, const Bodies& bodies, Contacts& contacts) {
+  find_resting(step, bodies, contacts);
   make_blocks(contacts);
   return !manifolds_.empty();
 }
 
 /// Lists what is to get its load, by colour and number of points.
-void StaticWarmStart::find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bodies,
+void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies,
                                    Contacts& contacts) {
   std::uint32_t start[kSweepKeys + 1] = {};
   std::vector<std::pair<std::uint32_t, std::uint32_t>> resting;  // key, manifold
   resting.reserve(contacts.cold.size());
-  const double slow_m_s = 2 * dt_s * gravity_W.norm();
+  const double slow_m_s = 2 * step.fall_m_s;
   for (const std::uint32_t i : std::exchange(contacts.cold, {})) {
     Manifold& m = contacts.manifolds[i];
     if (!m.cold) continue;  // gone, or here for the second time
@@ -187,7 +183,7 @@ void StaticWarmStart::make_blocks(const Contacts& contacts) {
     // What found no colour may share bodies: one at a time.
     const std::uint32_t width = m.color < kMaxColors ? kStaticLanes : 1;
     if (i == 0 || contacts.manifolds[manifolds_[i - 1]].color != m.color)
-      colors_.push_back({0, static_cast<std::uint32_t>(blocks_.size()), 0, kGrain});
+      colors_.push_back({static_cast<std::uint32_t>(blocks_.size()), 0, kGrain});
     StaticBlock& block = blocks_.emplace_back();
     block.first = i, block.points = m.count;
     for (; i < manifolds_.size() && block.count < width; ++i, ++block.count) {
@@ -199,9 +195,10 @@ void StaticWarmStart::make_blocks(const Contacts& contacts) {
   }
 }
 
-void StaticWarmStart::begin(const Vec3& gravity_W, float impulse_scale, double h_s,
-                            const Bodies& bodies, const Contacts& contacts) {
-  const Vec3f kick = (h_s * gravity_W).cast<float>();
+void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
+                            const Contacts& contacts) {
+  const Vec3f& kick = step.kick_W;
+  const float scale = step.impulse_scale;
   rows_.resize(bodies.size() + 1);
   rows_[0] = BodyRow{};
   root_W_.resize(bodies.size());
@@ -230,20 +227,19 @@ void StaticWarmStart::begin(const Vec3& gravity_W, float impulse_scale, double h
     };
     for (std::size_t i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
-      press(impulse_scale * p.impulse_Ns * m.normal_W, p.arm_A, p.arm_B);
+      press(scale * p.impulse_Ns * m.normal_W, p.arm_A, p.arm_B);
     }
-    press(impulse_scale * m.friction_impulse_W, m.friction_arm_A, m.friction_arm_B);
-    const Vec3f angular = impulse_scale * m.twist_impulse * m.normal_W;
+    press(scale * m.friction_impulse_W, m.friction_arm_A, m.friction_arm_B);
+    const Vec3f angular = scale * m.twist_impulse * m.normal_W;
     push(m.body_a, Vec3f::Zero(), -angular);
     push(m.body_b, Vec3f::Zero(), angular);
   }
 }
 
 /// A first guess, from which few rounds lead to the loads.
-void StaticWarmStart::estimate(const Vec3& gravity_W, double h_s, float stored_scale,
-                               const Bodies& bodies, Contacts& contacts) {
+void StaticWarmStart::estimate(const StepContext& step, const Bodies& bodies, Contacts& contacts) {
   loads_.assign(bodies.size(), {});
-  const Vec3f kick = (h_s * gravity_W).cast<float>();
+  const Vec3f& kick = step.kick_W;
   for (std::uint32_t body = 0; body < bodies.size(); ++body) {
     if (!concerned_[body]) continue;
     const Wide& v = rows_[body + 1].velocity;
@@ -252,51 +248,45 @@ void StaticWarmStart::estimate(const Vec3& gravity_W, double h_s, float stored_s
     loads_[body].angular_impulse_W = root_W_[body].transpose().inverse() * spin;
     loads_[body].supported = velocity.dot(kick) < 0.5f * kick.squaredNorm();
   }
-  follow_loads(gravity_W, manifolds_, stored_scale, bodies, loads_, contacts);
+  follow_loads(step.gravity_W, manifolds_, step.kept_scale, bodies, loads_, contacts);
 }
 
 void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
-  enum { kPrepare, kWarmStart, kSweep, kLeap };
   double points = 0;
   for (const StaticBlock& c : blocks_) points += c.points * static_cast<double>(c.count);
   const int rounds = std::clamp(static_cast<int>(kWork / points), kLeastRounds, kMostRounds);
-  step_.assign(blocks_.size(), {});
+  change_.assign(blocks_.size(), {});
   direction_.assign(blocks_.size(), {});
   square_.resize(blocks_.size());
   Nncg nncg;
   float beta = 0;
-  auto work = [&](int kind, std::uint32_t first, std::uint32_t end) {
-    for (std::uint32_t i = first; i < end; ++i) {
-      StaticBlock& c = blocks_[i];
-      if (kind == kPrepare) prepare_block(step, c), close_gaps(step, c);
-      if (kind == kWarmStart) warm_start(c, step.rows);
-      if (kind < kSweep) continue;
-      const BlockLoads before = loads_of(c);
-      if (kind == kSweep) {
-        sweep_relaxed(c, step.rows, step.soft);
-        step_[i] = sum(loads_of(c), -1, before);
-        square_[i] = {square_of(c, step_[i]), square_of(c, before)};
-      } else {
-        set_loads(sum({}, beta, direction_[i]), c);
-        warm_start(c, step.rows);
-        set_loads(sum(before, beta, direction_[i]), c);
-        direction_[i] = sum(step_[i], beta, direction_[i]);
-      }
-    }
+  const auto run = [&](const auto& work) {  // on every block
+    run_stages(colors_, [&](const StageItems&, std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) work(blocks_[i], i);
+    });
   };
-  auto run = [&](int kind) {
-    for (Stage& stage : colors_) stage.kind = kind;
-    run_stages(colors_, work);
+  const auto sweep = [&](StaticBlock& c, std::uint32_t i) {
+    const BlockLoads before = loads_of(c);
+    sweep_relaxed(c, step.rows, step.soft);
+    change_[i] = sum(loads_of(c), -1, before);
+    square_[i] = {square_of(c, change_[i]), square_of(c, before)};
   };
-  run(kPrepare);
-  run(kWarmStart);
+  const auto go_on = [&](StaticBlock& c, std::uint32_t i) {
+    const BlockLoads before = loads_of(c);
+    set_loads(sum({}, beta, direction_[i]), c);
+    warm_start(c, step.rows);
+    set_loads(sum(before, beta, direction_[i]), c);
+    direction_[i] = sum(change_[i], beta, direction_[i]);
+  };
+  run([&](StaticBlock& c, std::uint32_t) { prepare_block(step, c), close_gaps(step, c); });
+  run([&](StaticBlock& c, std::uint32_t) { warm_start(c, step.rows); });
   double last_seen = 0;
   std::size_t last_supported = 0;
   int look = kFirstLook;
   for (int round = 0; round < rounds; ++round) {
-    run(kSweep);
+    run(sweep);
     double square = 0, loads = 0;
-    for (const auto& [of_step, of_loads] : square_) square += of_step, loads += of_loads;
+    for (const auto& [of_change, of_loads] : square_) square += of_change, loads += of_loads;
     if (square <= kDone * std::max(square, loads) || round + 1 == rounds) return;
     if (round == look) {
       // Rounding or sliding contacts may keep the loads from ever coming to rest.
@@ -309,7 +299,7 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
       look *= 2;
     }
     beta = static_cast<float>(nncg.beta(square));
-    run(kLeap);
+    run(go_on);
   }
 }
 
@@ -347,7 +337,7 @@ void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& 
   if (any) release_above(gravity_W, manifolds_, bodies, contacts, loads_);
 }
 
-void StaticWarmStart::store(const SoftStep& soft, float stored_scale, float factor,
+void StaticWarmStart::store(const SoftStep& soft, float kept_scale, float factor,
                             const Bodies& bodies, Contacts& contacts) const {
   for (const StaticBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
@@ -356,8 +346,8 @@ void StaticWarmStart::store(const SoftStep& soft, float stored_scale, float fact
         return !concerned_[body] || loads_[body].supported;
       };
       const float part = supported(m.body_a) && supported(m.body_b) ? factor : 0;
-      store_points(c, lane, soft.press[c.points - 1].yield_s, stored_scale, part, m);
-      store_friction(c, lane, soft.slide[c.points - 1].yield_s, stored_scale, part, m);
+      store_points(c, lane, soft.press[c.points - 1].yield_s, kept_scale, part, m);
+      store_friction(c, lane, soft.slide[c.points - 1].yield_s, kept_scale, part, m);
       m.friction_anchor_B = bodies.rotation_f[m.body_b].transpose() * m.friction_arm_B;
     }
   }

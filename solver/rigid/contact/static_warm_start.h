@@ -11,6 +11,7 @@
 
 #include "solver/base/stage_runner.h"
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/contact/load_path.h"
 #include "solver/rigid/contact/prepare.h"
@@ -31,19 +32,15 @@ struct BlockLoads {
 class StaticWarmStart {
  public:
   /// Loads what is cold and hardly moves: what moves is under no load that could be known
-  /// before. The impulses that manifolds keep are of substeps of `stored_h_s`. `factor`: 1; 0 for
-  /// none; tests load too much by it.
-  void apply(const Vec3& gravity_W, double dt_s, int substeps, double stored_h_s, double factor,
-             const Bodies& bodies, Contacts& contacts);
+  /// before. `factor`: 1; 0 for none; tests load too much by it.
+  void apply(const StepContext& step, double factor, const Bodies& bodies, Contacts& contacts);
 
  private:
-  bool collect(const Vec3& gravity_W, double dt_s, const Bodies& bodies, Contacts& contacts);
-  void find_resting(const Vec3& gravity_W, double dt_s, const Bodies& bodies, Contacts& contacts);
+  bool collect(const StepContext& step, const Bodies& bodies, Contacts& contacts);
+  void find_resting(const StepContext& step, const Bodies& bodies, Contacts& contacts);
   void make_blocks(const Contacts& contacts);
-  void begin(const Vec3& gravity_W, float impulse_scale, double h_s, const Bodies& bodies,
-             const Contacts& contacts);
-  void estimate(const Vec3& gravity_W, double h_s, float stored_scale, const Bodies& bodies,
-                Contacts& contacts);
+  void begin(const StepContext& step, const Bodies& bodies, const Contacts& contacts);
+  void estimate(const StepContext& step, const Bodies& bodies, Contacts& contacts);
   void find_loads(const ContactStep& step, double kick_m_s);
   std::size_t find_supported(double kick_m_s, const Bodies& bodies);
   void release_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
@@ -53,9 +50,9 @@ class StaticWarmStart {
 
   std::vector<std::uint32_t> manifolds_;  ///< By colour and number of points.
   std::vector<StaticBlock> blocks_;
-  std::vector<Stage> colors_;  ///< The blocks of each; the overflow last.
-  std::vector<BlockLoads> step_, direction_;
-  std::vector<std::pair<double, double>> square_;  ///< Of each block's step, and of its loads.
+  std::vector<StageItems> colors_;  ///< The blocks of each; the overflow last.
+  std::vector<BlockLoads> change_, direction_;
+  std::vector<std::pair<double, double>> square_;  ///< Of each block's change, and of its loads.
   std::vector<BodyRow> rows_;                      ///< By body slot + 1; row 0 stays still.
   std::vector<std::uint8_t> concerned_;            ///< By body slot.
   std::vector<std::uint32_t> concerned_bodies_;

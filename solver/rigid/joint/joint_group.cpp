@@ -85,7 +85,7 @@ void fill(JointGroup& group, std::span<const JointWork> works) {
 }
 
 /// What the correction of an error asks for, as a speed.
-double bias(const JointWork& work, int i, const JointStep& step, bool biased) {
+double bias(const JointWork& work, int i, const StepContext& step, bool biased) {
   const double error = work.row[static_cast<std::size_t>(i)].error;
   const double apart = work.kind == JointDesc::Kind::kRope ? std::min(0.0, error) : 0;
   if (apart < 0) return apart / step.h_s;  // a slack rope may run out
@@ -143,15 +143,15 @@ void begin_group(JointGroup& group, std::span<JointWork> works, const BodyRow* r
   fill(group, works);
 }
 
-void warm_start_group(std::span<JointWork> works, const JointStep& step, BodyRow* rows) {
+void warm_start_group(std::span<JointWork> works, const StepContext& step, BodyRow* rows) {
   for (JointWork& work : works) {
-    for (double& impulse : work.impulse) impulse *= step.impulse_scale;
+    for (double& impulse : work.impulse) impulse *= double{step.impulse_scale};
     work.apply(work.sum(work.impulse), rows);
   }
 }
 
-void solve_group(JointGroup& group, std::span<JointWork> works, const JointStep& step, bool biased,
-                 BodyRow* rows) {
+void solve_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                 bool biased, BodyRow* rows) {
   if (biased) {
     for (JointWork& work : works) work.apply(std::exchange(work.owed, {}), rows);
   }
@@ -186,7 +186,7 @@ void refresh_group(JointGroup& group, std::span<JointWork> works, const BodyRow*
   fill(group, works);
 }
 
-void scale_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
+void scale_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  const float* share_of_row, BodyRow* rows) {
   const auto share_of = [&](const JointWork& work) {
     return share_of_row[work.row_b != 0 ? work.row_b : work.row_a];
@@ -203,7 +203,7 @@ void scale_group(JointGroup& group, std::span<JointWork> works, const JointStep&
   for (JointWork& work : works) work.total_W += push_of(work);
 }
 
-void test_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
+void test_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                 BodyRow* rows) {
   bool any = false;
   for (JointWork& work : works) {

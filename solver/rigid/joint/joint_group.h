@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/froude.h"
+#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/joint/joint_rows.h"
 
 namespace sunder::solver {
@@ -35,29 +35,22 @@ struct JointGroup {
   std::vector<double> change;    ///< Scratch.
 };
 
-/// How joints answer to errors in a substep.
-struct JointStep {
-  double h_s = 0;
-  double impulse_scale = 1;  ///< Substep over that of the last step.
-  FroudeScale froude;
-};
-
 /// Rows for the bodies as the step begins.
 void begin_group(JointGroup& group, std::span<JointWork> works, const BodyRow* rows);
 /// Applies last step's impulses.
-void warm_start_group(std::span<JointWork> works, const JointStep& step, BodyRow* rows);
+void warm_start_group(std::span<JointWork> works, const StepContext& step, BodyRow* rows);
 /// One pass, with the correction of errors or without.
-void solve_group(JointGroup& group, std::span<JointWork> works, const JointStep& step, bool biased,
-                 BodyRow* rows);
+void solve_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                 bool biased, BodyRow* rows);
 /// After bodies moved: new rows.
 void refresh_group(JointGroup& group, std::span<JointWork> works, const BodyRow* rows);
 /// After a substep: joints that would have had to bear too much bear nothing from here on.
-void test_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
+void test_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                 BodyRow* rows);
 
 /// Bodies have kept a share of the substep's impulses, by row: joints keep it too, and then hold
 /// again, which takes energy as any joint does.
-void scale_group(JointGroup& group, std::span<JointWork> works, const JointStep& step,
+void scale_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  const float* share_of_row, BodyRow* rows);
 
 }  // namespace sunder::solver

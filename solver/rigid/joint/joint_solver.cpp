@@ -111,16 +111,9 @@ void JointSolver::color_groups(const Bodies& bodies, const Joints& joints) {
   }
   std::ranges::stable_sort(groups_, {}, &JointGroup::color);
   for (std::uint32_t i = 0; i < groups_.size(); ++i) {
-    if (i == 0 || groups_[i].color != groups_[i - 1].color) colors_.push_back({0, i, 0, 1});
+    if (i == 0 || groups_[i].color != groups_[i - 1].color) colors_.push_back({i, 0, 1});
     ++colors_.back().count;
     if (groups_[i].color == kMostColors) colors_.back().grain = colors_.back().count;
-  }
-}
-
-void JointSolver::each_color(int kind, std::vector<Stage>& stages) const {
-  for (Stage color : colors_) {
-    color.kind = kind;
-    stages.push_back(color);
   }
 }
 

@@ -21,29 +21,29 @@ class JointSolver {
   /// Groups the joints that hold something awake, and marks their bodies in `in_contact`, by slot.
   void collect(const Bodies& bodies, const Joints& joints, std::span<std::uint8_t> in_contact);
   bool empty() const { return groups_.empty(); }
-  /// Stages over all groups of a kind of work, colour by colour.
-  void each_color(int kind, std::vector<Stage>& stages) const;
+  /// The groups of each colour: one after another, those of one in parallel.
+  const std::vector<StageItems>& colors() const { return colors_; }
   /// The work on group i; `rows` and `root_W` are those of the step.
   void begin(std::uint32_t i, const Bodies& bodies, const Joints& joints,
              std::span<const Mat3f> root_W, const BodyRow* rows);
-  void warm_start(std::uint32_t i, const JointStep& step, BodyRow* rows) {
+  void warm_start(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     warm_start_group(works(groups_[i]), step, rows);
   }
-  void push(std::uint32_t i, const JointStep& step, BodyRow* rows) {
+  void push(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, true, rows);
   }
   void refresh(std::uint32_t i, const BodyRow* rows) {
     refresh_group(groups_[i], works(groups_[i]), rows);
   }
-  void relax(std::uint32_t i, const JointStep& step, BodyRow* rows) {
+  void relax(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, false, rows);
   }
   /// Once all contacts have had their say in a substep.
-  void test(std::uint32_t i, const JointStep& step, BodyRow* rows) {
+  void test(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     test_group(groups_[i], works(groups_[i]), step, rows);
   }
   /// Bodies keep this share of a substep's impulses, by row: so do joints, which then hold again.
-  void scale_impulses(std::uint32_t i, const JointStep& step, const float* share_of_row,
+  void scale_impulses(std::uint32_t i, const StepContext& step, const float* share_of_row,
                       BodyRow* rows) {
     scale_group(groups_[i], works(groups_[i]), step, share_of_row, rows);
   }
@@ -63,7 +63,7 @@ class JointSolver {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_;
   std::vector<std::uint32_t> active_;  ///< Joints, island by island, ascending within one.
   std::vector<JointGroup> groups_;     ///< By colour.
-  std::vector<Stage> colors_;
+  std::vector<StageItems> colors_;
   std::vector<JointWork> works_;  ///< As `active_`.
 };
 
