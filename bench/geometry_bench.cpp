@@ -8,8 +8,10 @@
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/bvh.h"
+#include "engine/geometry/clip.h"
 #include "engine/geometry/clip_mesh.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/hull.h"
 #include "engine/geometry/mesh_islands.h"
 #include "engine/geometry/split_mesh.h"
 

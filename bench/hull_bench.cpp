@@ -8,6 +8,7 @@
 
 #include "engine/base/random.h"
 #include "engine/geometry/approximate_hull.h"
+#include "engine/geometry/hull.h"
 #include "engine/io/mesh/mesh_reader.h"
 
 namespace sunder {

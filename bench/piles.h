@@ -9,6 +9,7 @@
 
 #include "engine/base/random.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/hull.h"
 #include "engine/model/physics.h"
 
 namespace sunder::bench {

@@ -7,6 +7,7 @@
 
 #include "engine/base/random.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/hull.h"
 #include "engine/model/compound.h"
 #include "engine/model/piece_mesh.h"
 #include "render/renderer.h"

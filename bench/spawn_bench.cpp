@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/piles.h"
+#include "engine/geometry/hull.h"
 #include "solver/rigid/body/hull.h"
 #include "solver/rigid/rigid_physics.h"
 

@@ -8,6 +8,7 @@
 #include "engine/base/check.h"
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
+#include "engine/geometry/hull.h"
 #include "fracture/adjacency/compound_builder.h"
 #include "fracture/pattern/pattern.h"
 #include "fracture/pattern/voronoi.h"

@@ -7,6 +7,9 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/geometry/clip.h"
+#include "engine/geometry/farthest.h"
+
 namespace sunder {
 namespace {
 
@@ -16,19 +19,6 @@ constexpr double kNothing = 1e-13;
 constexpr double kCoplanar = 1e-2;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
-
-template <class Measure>
-std::uint32_t farthest(std::span<const Vec3> points, const Measure& measure) {
-  std::uint32_t best = 0;
-  double most = -1e300;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (const double m = measure(points[i]); m > most) {
-      best = i;
-      most = m;
-    }
-  }
-  return best;
-}
 
 /// The first four vertices of algorithm 1, the last above the triangle of the others.
 std::array<std::uint32_t, 4> first_tetrahedron(std::span<const Vec3> points) {

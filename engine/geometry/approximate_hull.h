@@ -29,6 +29,7 @@ struct Fit {
 std::string name_of(const Fit& fit);
 /// The fit of that name; none if there is no such.
 std::optional<Fit> parse_fit(std::string_view name);
+/// Of a hull to fit.
 inline constexpr std::uint32_t kMostFitVertices = 1000;
 /// The names that there are, for messages.
 inline constexpr std::string_view kFitNames = "aabb | 14dop | 26dop | hull:N, N from 4 to 1000";

@@ -5,7 +5,7 @@
 
 namespace sunder {
 
-/// Zero within.
+/// From a box to a point, in m²; zero within.
 inline double squared_distance(const Box& box, const Vec3& point) {
   return (point - point.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
 }

@@ -110,8 +110,8 @@ void Bvh::build(std::span<const Box> boxes, std::size_t first, std::size_t count
 }
 
 template <class Touches>
-void Bvh::collect(const Touches& touches, std::vector<std::uint32_t>& hits) const {
-  const auto before = static_cast<std::ptrdiff_t>(hits.size());
+void Bvh::collect(const Touches& touches, std::vector<std::uint32_t>& found) const {
+  const auto before = static_cast<std::ptrdiff_t>(found.size());
   for (std::size_t n = 0; n < nodes_.size();) {
     const Node& node = nodes_[n];
     if (!touches(node.box)) {
@@ -119,20 +119,20 @@ void Bvh::collect(const Touches& touches, std::vector<std::uint32_t>& hits) cons
       continue;
     }
     for (std::size_t i = node.first; i < node.first + node.count; ++i) {
-      if (touches(boxes_[i])) hits.push_back(items_[i]);
+      if (touches(boxes_[i])) found.push_back(items_[i]);
     }
     ++n;
   }
-  std::sort(hits.begin() + before, hits.end());
+  std::sort(found.begin() + before, found.end());
 }
 
-void Bvh::overlaps(const Box& query, std::vector<std::uint32_t>& hits) const {
-  collect([&](const Box& box) { return box.overlaps(query); }, hits);
+void Bvh::overlaps(const Box& query, std::vector<std::uint32_t>& found) const {
+  collect([&](const Box& box) { return box.overlaps(query); }, found);
 }
 
-void Bvh::within(const Vec3& center, double radius_m, std::vector<std::uint32_t>& hits) const {
+void Bvh::within(const Vec3& center, double radius_m, std::vector<std::uint32_t>& found) const {
   const double reach = radius_m * radius_m;
-  collect([&](const Box& box) { return squared_distance(box, center) <= reach; }, hits);
+  collect([&](const Box& box) { return squared_distance(box, center) <= reach; }, found);
 }
 
 }  // namespace sunder

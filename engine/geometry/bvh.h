@@ -13,12 +13,13 @@ namespace sunder {
 class Bvh {
  public:
   Bvh() = default;
+  /// Over boxes, named by their place.
   explicit Bvh(std::span<const Box> boxes);
 
-  /// Appends the indices of the boxes overlapping `query` to `hits`, ascending.
-  void overlaps(const Box& query, std::vector<std::uint32_t>& hits) const;
+  /// Appends the indices of the boxes overlapping `query` to `found`, ascending.
+  void overlaps(const Box& query, std::vector<std::uint32_t>& found) const;
   /// Appends the indices of the boxes that come within `radius_m` of `center`, ascending.
-  void within(const Vec3& center, double radius_m, std::vector<std::uint32_t>& hits) const;
+  void within(const Vec3& center, double radius_m, std::vector<std::uint32_t>& found) const;
   bool empty() const { return nodes_.empty(); }
 
  private:
@@ -30,7 +31,7 @@ class Bvh {
   };
   void build(std::span<const Box> boxes, std::size_t first, std::size_t count);
   template <class Touches>
-  void collect(const Touches& touches, std::vector<std::uint32_t>& hits) const;
+  void collect(const Touches& touches, std::vector<std::uint32_t>& found) const;
 
   std::vector<Node> nodes_;  ///< Depth first.
   std::vector<std::uint32_t> items_;

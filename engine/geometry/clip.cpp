@@ -5,13 +5,14 @@
 // Vertices on the plane are reused. Where rounding has left slivers about as thin as the tolerance,
 // that may fail to give one sphere; then the cut is made again with no vertex on the plane, which
 // always closes: each new vertex has one cap edge in and one out.
+#include "engine/geometry/clip.h"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "engine/base/check.h"
-#include "engine/geometry/convex_polyhedron.h"
-#include "engine/geometry/cut_edge.h"
+#include "engine/base/disjoint_sets.h"
 
 namespace sunder {
 namespace {
@@ -47,19 +48,11 @@ double cone_volume6(const ConvexPolyhedron& convex, std::size_t face, const Vec3
 
 /// Of several closed parts, all but one slivers that rounding cut off, keeps the largest.
 void keep_largest_part(ConvexPolyhedron& solid) {
-  std::vector<std::uint32_t> part(solid.vertices.size());  // of a vertex: the lowest one joined
-  std::iota(part.begin(), part.end(), 0u);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t f = 0; f < solid.faces.size(); ++f) {
-      std::uint32_t lowest = kNone;
-      for (const std::uint32_t v : solid.face_corners(f)) lowest = std::min(lowest, part[v]);
-      for (const std::uint32_t v : solid.face_corners(f)) {
-        changed = changed || part[v] != lowest;
-        part[v] = lowest;
-      }
-    }
+  DisjointSets parts(solid.vertices.size());
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    for (const std::uint32_t v : solid.face_corners(f)) parts.join(solid.face_corners(f)[0], v);
   }
+  const std::vector<std::uint32_t> part = parts.roots();
   std::vector<double> volume(solid.vertices.size());
   for (std::uint32_t v = 0; v < volume.size(); ++v) {
     volume[v] = part[v] == v ? 0 : std::numeric_limits<double>::lowest();
@@ -109,7 +102,7 @@ class Cut {
   void keep_face(const ConvexPolyhedron::Face& face);
   void close_face(const ConvexPolyhedron::Face& face, std::uint32_t end_corner);
   std::uint32_t on_vertex(std::uint32_t old);
-  const ClipScratch::Crossing& crossing(std::uint32_t inside, std::uint32_t outside);
+  const EdgeCrossing& crossing(std::uint32_t inside, std::uint32_t outside);
   void link(const Corner& from, const Corner& to);
   void add_cap_edge(std::uint32_t from, std::uint32_t to);
   void add_unmatched_on_edges();
@@ -149,9 +142,8 @@ void Cut::place_vertices(const SideOf& side_of) {
   result_.corner_normals.resize(3 * corners);
   scratch_.sides.resize(vertices);
   scratch_.new_of_old.assign(vertices, kNone);
-  scratch_.first_crossing.assign(vertices, kNone);
   scratch_.cap_next.assign(vertices + corners / 2, kNone);
-  scratch_.crossings.clear();
+  scratch_.crossings.restart(vertices);
   scratch_.on_edges.clear();
   for (std::size_t v = 0; v < vertices; ++v) {
     const Side side = side_of(scratch_.distances[v]);
@@ -206,7 +198,7 @@ void Cut::cut_face(const ConvexPolyhedron::Face& face) {
     const int side = scratch_.sides[corner[i]];
     if ((side | side_before) == (kIn | kOut)) {
       const std::uint32_t inside = side == kIn ? i : before, outside = side == kIn ? before : i;
-      const ClipScratch::Crossing& cut = crossing(corner[inside], corner[outside]);
+      const EdgeCrossing& cut = crossing(corner[inside], corner[outside]);
       const Vec3f& start = normal[cut.inside_first ? inside : outside];
       const Vec3f& end = normal[cut.inside_first ? outside : inside];
       emit({cut.vertex, Place::kCrossing}, blend(start, end, cut.t, face.plane.normal));
@@ -236,11 +228,9 @@ std::uint32_t Cut::on_vertex(std::uint32_t old) {
   return vertex;
 }
 
-const ClipScratch::Crossing& Cut::crossing(std::uint32_t inside, std::uint32_t outside) {
-  std::uint32_t& head = scratch_.first_crossing[inside];
-  for (std::uint32_t c = head; c != kNone; c = scratch_.crossings[c].next) {
-    if (scratch_.crossings[c].outside == outside) return scratch_.crossings[c];
-  }
+const EdgeCrossing& Cut::crossing(std::uint32_t inside, std::uint32_t outside) {
+  const std::uint32_t known = scratch_.crossings.find(inside, outside);
+  if (known != EdgeCrossings::kNone) return scratch_.crossings[known];
   // From the end that comes first, so that whoever shares the edge gets the same bits.
   const bool inside_first =
       lexicographically_less(convex_.vertices[inside], convex_.vertices[outside]);
@@ -249,9 +239,8 @@ const ClipScratch::Crossing& Cut::crossing(std::uint32_t inside, std::uint32_t o
   const double t = distance_a / (distance_a - scratch_.distances[b]);
   const Vec3& start = convex_.vertices[a];
   result_.vertices[vertex_count_] = start + t * (convex_.vertices[b] - start);
-  scratch_.crossings.push_back({outside, vertex_count_++, head, t, inside_first});
-  head = static_cast<std::uint32_t>(scratch_.crossings.size() - 1);
-  return scratch_.crossings.back();
+  return scratch_
+      .crossings[scratch_.crossings.add(inside, outside, vertex_count_++, t, inside_first)];
 }
 
 /// Two corners in a row on the plane: an edge of the cap, unless a kept face lies beyond it. That
@@ -317,7 +306,7 @@ PlaneSide clip(const ConvexPolyhedron& convex, const Plane& plane, PlaneId id, d
     highest = std::max(highest, distance);
   }
   const bool none_outside = highest <= tolerance_m, none_inside = lowest >= -tolerance_m;
-  const Side tie = id.value & 1 ? kOut : kIn;  // turns round with the plane
+  const Side tie = id.value & 1 ? kOut : kIn;  // flips with the plane
   if (none_outside && none_inside) {
     const double balance = std::accumulate(scratch.distances.begin(), scratch.distances.end(), 0.0);
     const bool inside = balance != 0 ? balance < 0 : tie == kIn;

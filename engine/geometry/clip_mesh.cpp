@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "engine/base/check.h"
-#include "engine/geometry/cut_edge.h"
 
 namespace sunder {
 namespace {
@@ -27,7 +26,6 @@ class MeshCut {
 
  private:
   using Run = MeshClipScratch::Run;
-  using Crossing = MeshClipScratch::Crossing;
 
   enum class Sides { kInside, kOutside, kBoth };
 
@@ -66,8 +64,7 @@ void MeshCut::make(PlaneId id) {
   result_.corners.reserve(mesh_.corners.size());
   result_.corner_normals.reserve(mesh_.corners.size());
   scratch_.new_of_old.assign(mesh_.vertices.size(), kUnset);
-  scratch_.first_crossing.assign(mesh_.vertices.size(), kUnset);
-  scratch_.crossings.clear();
+  scratch_.crossings.restart(mesh_.vertices.size());
   scratch_.cap_next.clear();
   for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
     if (scratch_.outside[v]) continue;
@@ -242,7 +239,7 @@ void MeshCut::add_run(const Run& run, const PolygonMesh::Face& face) {
 
 void MeshCut::add_crossing_corner(const PolygonMesh::Face& face, std::uint32_t crossing,
                                   std::uint32_t inside, std::uint32_t outside) {
-  const Crossing& cut = scratch_.crossings[crossing];
+  const EdgeCrossing& cut = scratch_.crossings[crossing];
   const std::uint32_t a = cut.inside_first ? inside : outside;
   const std::uint32_t b = cut.inside_first ? outside : inside;
   result_.corners.push_back(cut.vertex);
@@ -254,10 +251,8 @@ void MeshCut::add_crossing_corner(const PolygonMesh::Face& face, std::uint32_t c
 }
 
 std::uint32_t MeshCut::crossing(std::uint32_t inside, std::uint32_t outside) {
-  std::uint32_t& head = scratch_.first_crossing[inside];
-  for (std::uint32_t c = head; c != kUnset; c = scratch_.crossings[c].next) {
-    if (scratch_.crossings[c].outside == outside) return c;
-  }
+  const std::uint32_t known = scratch_.crossings.find(inside, outside);
+  if (known != EdgeCrossings::kNone) return known;
   const bool inside_first = lexicographically_less(mesh_.vertices[inside], mesh_.vertices[outside]);
   const std::uint32_t a = inside_first ? inside : outside, b = inside_first ? outside : inside;
   const double distance_a = scratch_.distances[a], distance_b = scratch_.distances[b];
@@ -268,11 +263,8 @@ std::uint32_t MeshCut::crossing(std::uint32_t inside, std::uint32_t outside) {
   const Vec3 start = mesh_.vertices[a], end = mesh_.vertices[b];
   const auto vertex = static_cast<std::uint32_t>(result_.vertices.size());
   result_.vertices.push_back(t == 1 ? end : Vec3(start + t * (end - start)));
-  const auto index = static_cast<std::uint32_t>(scratch_.crossings.size());
-  scratch_.crossings.push_back({outside, vertex, head, t, inside_first});
   scratch_.cap_next.push_back(kUnset);
-  head = index;
-  return index;
+  return scratch_.crossings.add(inside, outside, vertex, t, inside_first);
 }
 
 void MeshCut::add_cap(PlaneId id) {

@@ -5,20 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "engine/geometry/cut_edge.h"
+#include "engine/geometry/plane.h"
 #include "engine/geometry/polygon_mesh.h"
 
 namespace sunder {
 
 /// Reused memory of clip(); one per thread.
 struct MeshClipScratch {
-  /// Where an edge is cut.
-  struct Crossing {
-    std::uint32_t outside;  ///< The edge's vertex that is cut off.
-    std::uint32_t vertex;   ///< In the result.
-    std::uint32_t next;     ///< Of the same inside vertex.
-    double t;               ///< Place along the edge, from its lexicographically first end.
-    bool inside_first;      ///< Which end that is.
-  };
   /// Corners in a row that stay, between the two edges where the contour crosses the plane.
   struct Run {
     std::uint32_t contour;
@@ -27,10 +21,9 @@ struct MeshClipScratch {
     std::uint32_t after;         ///< The run that the cut leads on to.
   };
   std::vector<double> distances;
-  std::vector<std::uint8_t> outside;          ///< Per vertex.
-  std::vector<std::uint32_t> new_of_old;      ///< Per vertex.
-  std::vector<std::uint32_t> first_crossing;  ///< Per vertex, heads of lists.
-  std::vector<Crossing> crossings;
+  std::vector<std::uint8_t> outside;      ///< Per vertex.
+  std::vector<std::uint32_t> new_of_old;  ///< Per vertex.
+  EdgeCrossings crossings;
   std::vector<std::uint32_t> cap_next;                  ///< Per crossing: the cap's edges.
   std::vector<Run> runs;                                ///< Of one face.
   std::vector<std::pair<double, std::uint32_t>> along;  ///< Places of crossings on the cut line.

@@ -6,21 +6,11 @@
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/geometry/double_area.h"
 #include "engine/geometry/moments.h"
 
 namespace sunder {
 namespace {
-
-/// The face's area times its normal, twice.
-Vec3 double_area(const ConvexPolyhedron& convex, std::size_t face) {
-  const auto corners = convex.face_corners(face);
-  const Vec3& apex = convex.vertices[corners[0]];
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    sum += (convex.vertices[corners[i - 1]] - apex).cross(convex.vertices[corners[i]] - apex);
-  }
-  return sum;
-}
 
 /// Shades the n sides of a prism, its faces 2.., as one round surface.
 void round_sides(ConvexPolyhedron& prism, std::uint32_t n) {
@@ -42,7 +32,7 @@ void add_face(ConvexPolyhedron& convex, std::span<const std::uint32_t> corners) 
   face.first_corner = static_cast<std::uint32_t>(convex.corners.size());
   face.corner_count = static_cast<std::uint32_t>(corners.size());
   convex.corners.insert(convex.corners.end(), corners.begin(), corners.end());
-  const Vec3 normal = double_area(convex, convex.faces.size() - 1).normalized();
+  const Vec3 normal = double_area(convex.vertices, corners).normalized();
   double offset = 0;
   for (const std::uint32_t v : corners) offset += normal.dot(convex.vertices[v]);
   face.plane = {normal, -offset / static_cast<double>(corners.size())};
@@ -56,7 +46,7 @@ Box bounds(const ConvexPolyhedron& convex) {
 }
 
 double face_area(const ConvexPolyhedron& convex, std::size_t face) {
-  return 0.5 * double_area(convex, face).norm();
+  return 0.5 * double_area(convex.vertices, convex.face_corners(face)).norm();
 }
 
 MassProperties mass_properties(const ConvexPolyhedron& convex) {
@@ -106,7 +96,7 @@ ConvexPolyhedron make_prism(std::span<const Vec2> polygon_xz, double bottom, dou
   std::vector<std::uint32_t> cap(n);
   std::iota(cap.begin(), cap.end(), n);
   add_face(prism, cap);
-  SUNDER_CHECK(prism.faces[0].plane.normal.y() > 0);  // the polygon turns the right way
+  SUNDER_CHECK(prism.faces[0].plane.normal.y() > 0);  // the polygon runs the right way
   for (std::uint32_t i = 0; i < n; ++i) cap[i] = n - 1 - i;
   add_face(prism, cap);
   for (std::uint32_t i = 0; i < n; ++i) {

@@ -1,12 +1,11 @@
 // Convex polyhedra: polygons on named planes, with one normal per corner for shading (paper 3.1).
 //
-// Read first: ConvexPolyhedron, then clip(). Everything is in the rest frame R of the solid that
-// the convex was cut from, and stays there through every generation of fracture.
+// Read first: ConvexPolyhedron, then clip() (clip.h). Everything is in the rest frame R of the
+// solid that the convex was cut from, and stays there through every generation of fracture.
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -41,8 +40,11 @@ struct ConvexPolyhedron {
   }
 };
 
+/// The least box around it.
 Box bounds(const ConvexPolyhedron& convex);
+/// Of the solid; all zero if it is empty.
 MassProperties mass_properties(const ConvexPolyhedron& convex);
+/// In m².
 double face_area(const ConvexPolyhedron& convex, std::size_t face);
 
 /// Appends a flat-shaded surface face on the plane that fits the corners best; no id.
@@ -53,43 +55,8 @@ ConvexPolyhedron make_box(const Vec3& min, const Vec3& max);
 /// along y; `smooth` shades the sides round (for columns).
 ConvexPolyhedron make_prism(std::span<const Vec2> polygon_xz, double bottom, double top,
                             bool smooth);
-/// The convex hull of points in general or degenerate position (coplanar faces merged),
-/// flat-shaded. Empty if the points span no volume. For preparation, not for run time: clipping
-/// knows the topology already.
-ConvexPolyhedron make_hull(std::span<const Vec3> points);
 /// The same solid moved rigidly; plane ids are kept.
 ConvexPolyhedron transformed(const ConvexPolyhedron& convex, const Pose& X_RQ);
-
-/// Where a convex lies relative to a plane.
-enum class PlaneSide { kInside, kOutside, kCut };
-
-/// Reused memory of clip(); one per thread.
-struct ClipScratch {
-  struct Crossing {
-    std::uint32_t outside;  ///< The edge's vertex that is cut off.
-    std::uint32_t vertex;   ///< Where it is cut, in the result.
-    std::uint32_t next;     ///< Of the same inside vertex.
-    double t;               ///< Place along the edge, from its lexicographically first end.
-    bool inside_first;      ///< Which end that is.
-  };
-  std::vector<double> distances;
-  std::vector<std::uint8_t> sides;            ///< Per vertex.
-  std::vector<std::uint32_t> new_of_old;      ///< Per vertex.
-  std::vector<std::uint32_t> first_crossing;  ///< Per inside vertex, heads of lists.
-  std::vector<Crossing> crossings;
-  std::vector<std::uint32_t> cap_next;  ///< Per new vertex: the cap's edges.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> on_edges;  ///< Kept, both ends on.
-};
-
-/// Keeps the part of a closed `convex` with plane.distance <= 0 in `result` (unspecified unless the
-/// answer is kCut). The new face, the last, gets `id` and kInterior (where a sliver as thin as the
-/// rounding is cut, it may be several faces or none). Topology follows from the vertices'
-/// signs alone (distances within `tolerance_m` of the plane count as on it), so the result is
-/// closed whatever the rounding; normals are interpolated along cut edges. A cut edge gives the
-/// same bits from either side of the plane and in every convex that has the edge. A convex wholly
-/// within tolerance is inside for exactly one of (plane, id) and (plane.flipped(), id.opposite()).
-PlaneSide clip(const ConvexPolyhedron& convex, const Plane& plane, PlaneId id, double tolerance_m,
-               ConvexPolyhedron& result, ClipScratch& scratch);
 
 /// Whether every directed edge has its opposite exactly once and V − E + F = 2.
 bool is_closed(const ConvexPolyhedron& convex);

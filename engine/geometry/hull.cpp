@@ -2,12 +2,15 @@
 // their half-spaces' intersection, and clip() intersects half-spaces closed whatever the rounding.
 // Coplanar points, collinear points and duplicates are planes through existing vertices, which
 // clip() handles exactly like any other case. The hull's corners are the given points themselves.
+#include "engine/geometry/hull.h"
+
 #include <algorithm>
 #include <array>
 #include <numeric>
 #include <optional>
 
-#include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/clip.h"
+#include "engine/geometry/farthest.h"
 
 namespace sunder {
 namespace {
@@ -27,19 +30,6 @@ Eigen::Matrix<double, 3, 4> regular_tetrahedron() {
   Eigen::Matrix<double, 3, 4> r;
   r << 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1, 1;
   return r;
-}
-
-template <class Measure>
-std::uint32_t farthest(std::span<const Vec3> points, const Measure& measure) {
-  std::uint32_t best = 0;
-  double most = -1;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (const double m = measure(points[i]); m > most) {
-      best = i;
-      most = m;
-    }
-  }
-  return best;
 }
 
 /// Four points that span about as much as any four, as left-handed as regular_tetrahedron(); none

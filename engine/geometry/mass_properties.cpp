@@ -1,7 +1,5 @@
 #include "engine/geometry/mass_properties.h"
 
-#include "engine/geometry/moments.h"
-
 namespace sunder {
 
 MassProperties operator+(const MassProperties& a, const MassProperties& b) {
@@ -14,21 +12,6 @@ MassProperties operator+(const MassProperties& a, const MassProperties& b) {
   sum.second_moment =
       a.second_moment + b.second_moment + (a.volume_m3 * share) * (apart * apart.transpose());
   return sum;
-}
-
-MassProperties Moments::sum() const {
-  MassProperties solid;
-  solid.volume_m3 = volume6_ / 6;
-  const Vec3 offset = volume6_ > 0 ? Vec3(first24_ / (4 * volume6_)) : Vec3::Zero();
-  solid.centroid = origin_ + offset;
-  for (int row = 0; row < 3; ++row) {
-    for (int col = 0; col <= row; ++col) {
-      const double about_centroid =
-          second120_(row, col) / 120 - solid.volume_m3 * offset[row] * offset[col];
-      solid.second_moment(row, col) = solid.second_moment(col, row) = about_centroid;
-    }
-  }
-  return solid;
 }
 
 }  // namespace sunder

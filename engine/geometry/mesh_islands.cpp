@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
+#include "engine/geometry/double_area.h"
 
 namespace sunder {
 namespace {
@@ -18,14 +19,8 @@ int passes(double from_u, double from_v, double to_u, double to_v) {
 }
 
 /// Twice the area of a contour seen along its face's normal; negative for a hole.
-double double_area(const PolygonMesh& mesh, std::uint32_t contour, const Vec3& normal) {
-  const auto corners = mesh.contour_corners(contour);
-  const Vec3& apex = mesh.vertices[corners[0]];
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    sum += (mesh.vertices[corners[i - 1]] - apex).cross(mesh.vertices[corners[i]] - apex);
-  }
-  return sum.dot(normal);
+double area_along(const PolygonMesh& mesh, std::uint32_t contour, const Vec3& normal) {
+  return double_area(mesh.vertices, mesh.contour_corners(contour)).dot(normal);
 }
 
 /// Whether a point of a face's plane lies within a contour of the face.
@@ -95,7 +90,7 @@ void join_holes(const PolygonMesh& mesh, const PolygonMesh::Face& face, Disjoint
   const std::uint32_t begin = face.first_contour, end = begin + face.contour_count;
   std::vector<double> area;
   for (std::uint32_t k = begin; k < end; ++k) {
-    area.push_back(double_area(mesh, k, face.plane.normal));
+    area.push_back(area_along(mesh, k, face.plane.normal));
   }
   for (std::uint32_t hole = begin; hole < end; ++hole) {
     if (area[hole - begin] > 0) continue;

@@ -25,6 +25,7 @@ class Moments {
     }
   }
 
+  /// What the triangles given so far enclose; meaningful once they close.
   MassProperties sum() const;
 
  private:

@@ -13,7 +13,9 @@ struct Plane {
   Vec3 normal = Vec3::UnitY();
   double d = 0;
 
+  /// Signed, in metres: positive outside.
   double distance(const Vec3& point) const { return normal.dot(point) + d; }
+  /// The other half-space.
   Plane flipped() const { return {-normal, -d}; }
   static Plane through(const Vec3& point, const Vec3& unit_normal) {
     return {unit_normal, -unit_normal.dot(point)};
@@ -29,5 +31,8 @@ struct PlaneId {
   constexpr bool none() const { return value == 0; }
   constexpr auto operator<=>(const PlaneId&) const = default;
 };
+
+/// Where a solid lies relative to a plane.
+enum class PlaneSide { kInside, kOutside, kCut };
 
 }  // namespace sunder

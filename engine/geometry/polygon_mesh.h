@@ -49,11 +49,13 @@ struct PolygonMesh {
 
 /// The first of the caps, or the number of faces if there are none.
 std::size_t first_cap(const PolygonMesh& mesh);
+/// In m²; holes do not count.
 double face_area(const PolygonMesh& mesh, std::size_t face);
 /// The surface of a convex.
 PolygonMesh polygon_mesh(const ConvexPolyhedron& convex);
 /// Texture coordinates along a plane's two flattest axes, in metres of the rest frame.
 Vec2f planar_uv(const Vec3& point, const Vec3& normal);
+/// The least box around it.
 Box bounds(const PolygonMesh& mesh);
 /// Of the enclosed solid (divergence theorem); meaningful only if the mesh is watertight.
 MassProperties mass_properties(const PolygonMesh& mesh);

@@ -8,6 +8,7 @@
 
 namespace sunder {
 
+/// A plane and its name.
 struct NamedPlane {
   Plane plane;
   PlaneId id;

@@ -91,15 +91,15 @@ class EarClipper {
   }
 
  private:
-  double turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  double orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const Vec2 ab = flat_[b] - flat_[a], ac = flat_[c] - flat_[a];
     return ab.x() * ac.y() - ab.y() * ac.x();
   }
   bool is_ear(const Triangle& ear) const {
-    if (!(turn(ear[0], ear[1], ear[2]) > 0)) return false;
+    if (!(orientation(ear[0], ear[1], ear[2]) > 0)) return false;
     return std::none_of(left_.begin(), left_.end(), [&](std::uint32_t v) {
-      return v != ear[0] && v != ear[1] && v != ear[2] && turn(ear[0], ear[1], v) >= 0 &&
-             turn(ear[1], ear[2], v) >= 0 && turn(ear[2], ear[0], v) >= 0;
+      return v != ear[0] && v != ear[1] && v != ear[2] && orientation(ear[0], ear[1], v) >= 0 &&
+             orientation(ear[1], ear[2], v) >= 0 && orientation(ear[2], ear[0], v) >= 0;
     });
   }
 

@@ -10,6 +10,7 @@
 
 namespace sunder {
 
+/// Three indices, counter-clockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// Triangles (indices into `contour`) with the contour's sense, always contour.size() - 2 of them.

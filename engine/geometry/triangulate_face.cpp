@@ -102,13 +102,14 @@ class FaceTriangulator {
   std::size_t visible(const Loop& loop, std::size_t edge, const Vec2& from, double x) const {
     const std::size_t next = (edge + 1) % loop.size();
     std::size_t best = at(loop[edge]).x() > at(loop[next]).x() ? edge : next;
-    const Vec2 hit(x, from.y()), end = at(loop[best]);
+    const Vec2 opposite(x, from.y()), end = at(loop[best]);
     const bool above = end.y() > from.y();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Vec2& p = at(loop[i]);
       if (p.x() < from.x() || p == end) continue;
-      if (!(above ? in_triangle(p, from, hit, end) : in_triangle(p, from, end, hit))) continue;
+      if (!(above ? in_triangle(p, from, opposite, end) : in_triangle(p, from, end, opposite)))
+        continue;
       const double slope = std::abs(p.y() - from.y()) / std::max(p.x() - from.x(), 1e-300);
       if (slope >= least || !is_reflex(loop, i)) continue;
       least = slope;

@@ -6,6 +6,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/geometry/bvh.h"
+#include "engine/geometry/clip.h"
 
 namespace sunder::fracture {
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/geometry/clip.h"
 #include "engine/geometry/split_mesh.h"
 #include "fracture/cut/cell_part.h"
 #include "fracture/pattern/align.h"

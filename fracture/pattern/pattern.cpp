@@ -4,6 +4,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/random.h"
+#include "engine/geometry/clip.h"
 
 namespace sunder::fracture {
 

@@ -7,6 +7,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/geometry/bvh.h"
+#include "engine/geometry/clip.h"
 #include "fracture/pattern/pattern.h"
 
 namespace sunder::fracture {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/geometry/clip.h"
 #include "engine/geometry/clip_mesh.h"
 #include "engine/geometry/mesh_islands.h"
 

@@ -5,6 +5,7 @@
 
 #include "engine/base/random.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/hull.h"
 #include "render/gl/objects.h"
 #include "render/passes/units.h"
 #include "render/shaders/shader_sources.h"

@@ -1,4 +1,6 @@
 // sunder hull: an approximate convex hull of a mesh (paper 4.2, figure 13).
+#include "engine/geometry/hull.h"
+
 #include <cstdio>
 
 #include "engine/base/check.h"

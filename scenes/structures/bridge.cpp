@@ -8,6 +8,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
+#include "engine/geometry/hull.h"
 #include "scenes/structures/structure.h"
 
 namespace sunder::scenes {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/base/trigonometry.h"
+#include "engine/geometry/hull.h"
 #include "scenes/structures/structure.h"
 
 namespace sunder::scenes {

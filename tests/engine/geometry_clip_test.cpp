@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "engine/geometry/clip.h"
 #include "tests/engine/geometry_fixtures.h"
 
 namespace sunder {

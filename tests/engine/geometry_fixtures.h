@@ -5,7 +5,9 @@
 
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
+#include "engine/geometry/clip.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/hull.h"
 
 namespace sunder::test {
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "engine/geometry/hull.h"
 #include "tests/engine/geometry_fixtures.h"
 
 namespace sunder {

@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "engine/base/parallel.h"
+#include "engine/geometry/clip.h"
 #include "engine/geometry/clip_mesh.h"
 #include "engine/geometry/split_mesh.h"
 #include "tests/engine/geometry_mesh_fixtures.h"

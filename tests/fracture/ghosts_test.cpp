@@ -7,6 +7,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "engine/geometry/hull.h"
 #include "fracture/adjacency/islands.h"
 #include "fracture/adjacency/overlap.h"
 #include "fracture/pattern_breaker.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
+#include "engine/geometry/hull.h"
 #include "fracture/pattern_breaker.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"

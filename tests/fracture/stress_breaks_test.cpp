@@ -1,4 +1,5 @@
 // What a steady load breaks, and what it leaves alone.
+#include "engine/geometry/hull.h"
 #include "fracture/stress/stress_breaks.h"
 
 #include <cmath>

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
+#include "engine/geometry/hull.h"
 #include "fracture/fracture.h"
 #include "fracture/pattern/pattern.h"
 #include "tests/fracture/frames.h"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/geometry/clip.h"
 #include "engine/geometry/convex_polyhedron.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/planes.h"

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/random.h"
+#include "engine/geometry/hull.h"
 #include "engine/io/mesh/mesh_reader.h"
 #include "tests/mesh/meshes.h"
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/hull.h"
 #include "engine/model/compound.h"
 #include "engine/model/piece_mesh.h"
 

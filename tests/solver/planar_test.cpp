@@ -4,6 +4,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trigonometry.h"
+#include "engine/geometry/hull.h"
 #include "engine/geometry/prism.h"
 #include "solver/planar/planar_physics.h"
 #include "tests/solver/rigid_world.h"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
+#include "engine/geometry/hull.h"
 #include "tests/solver/rigid_world.h"
 
 namespace sunder::solver {

@@ -13,6 +13,7 @@
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/geometry/hull.h"
 #include "solver/rigid/rigid_physics.h"
 
 namespace sunder::solver {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/geometry/hull.h"
 #include "solver/rigid/collide/patch.h"
 #include "tests/solver/rigid_world.h"
 

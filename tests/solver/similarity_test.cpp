@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/geometry/hull.h"
 #include "tests/solver/rigid_world.h"
 
 namespace sunder::solver {

@@ -9,6 +9,7 @@
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/hash.h"
 #include "engine/geometry/bvh.h"
+#include "engine/geometry/double_area.h"
 
 namespace sunder {
 namespace {
@@ -64,7 +65,7 @@ void trim(const RawMesh& mesh, std::vector<std::uint32_t>& corners) {
 /// A polygon by its vertices whatever their order, and the sense in which it runs through them.
 struct PolygonKey {
   std::vector<std::uint32_t> sorted;
-  bool turned = false;
+  bool flipped = false;
 };
 
 PolygonKey key_of(std::span<const std::uint32_t> vertices) {
@@ -72,20 +73,14 @@ PolygonKey key_of(std::span<const std::uint32_t> vertices) {
   std::sort(key.sorted.begin(), key.sorted.end());
   const auto least = std::min_element(vertices.begin(), vertices.end()) - vertices.begin();
   const std::size_t at = static_cast<std::size_t>(least), n = vertices.size();
-  key.turned = vertices[(at + 1) % n] > vertices[(at + n - 1) % n];
+  key.flipped = vertices[(at + 1) % n] > vertices[(at + n - 1) % n];
   return key;
 }
 
 }  // namespace
 
 Vec3 double_area(const RawMesh& mesh, std::size_t polygon) {
-  const auto corners = mesh.polygon_corners(polygon);
-  const Vec3& apex = mesh.vertices[corners[0]];
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    sum += (mesh.vertices[corners[i - 1]] - apex).cross(mesh.vertices[corners[i]] - apex);
-  }
-  return sum;
+  return double_area(mesh.vertices, mesh.polygon_corners(polygon));
 }
 
 void rewrite_polygons(
@@ -222,7 +217,7 @@ std::size_t drop_duplicates(RawMesh& mesh) {
       const PolygonKey other = key_of(mesh.polygon_corners(hashes[j].second));
       if (other.sorted != key.sorted) continue;
       Fate& fate = fates[hashes[i].second];
-      if (other.turned == key.turned) {
+      if (other.flipped == key.flipped) {
         fate = Fate::kSame;
         break;
       }
@@ -279,14 +274,14 @@ std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_
 
   const Bvh bvh(boxes);
   std::vector<Insertion> found;
-  std::vector<std::uint32_t> hits;
+  std::vector<std::uint32_t> near;
   std::size_t tried = 0;
   for (const std::uint32_t v : open_vertices) {
-    hits.clear();
-    bvh.within(mesh.vertices[v], tolerance_m, hits);
-    tried += hits.size();
+    near.clear();
+    bvh.within(mesh.vertices[v], tolerance_m, near);
+    tried += near.size();
     if (tried > kMostTried) return 0;  // a soup: nothing to gain
-    for (const std::uint32_t e : hits) {
+    for (const std::uint32_t e : near) {
       const std::uint32_t c = open_half_edges[e];
       const Vec3 a = mesh.vertices[mesh.corners[c]];
       const Vec3 ab = mesh.vertices[mesh.corners[next[c]]] - a, ap = mesh.vertices[v] - a;

@@ -21,6 +21,7 @@ void rewrite_polygons(
     const std::function<void(std::size_t polygon, std::vector<std::uint32_t>& corners)>& rewrite);
 /// Appends a polygon with the group of another, without attributes.
 void append_polygon(RawMesh& mesh, std::span<const std::uint32_t> vertices, std::uint32_t group);
+/// Turns its corners' order round, so that it faces the other way.
 void reverse_polygon(RawMesh& mesh, std::size_t polygon);
 /// Drops vertices that no polygon has.
 void drop_unused_vertices(RawMesh& mesh);

@@ -7,6 +7,7 @@
 
 namespace sunder {
 
+/// How many loops of open edges were closed, and how.
 struct ClosedHoles {
   std::size_t planar = 0;  ///< Closed by one polygon, or by triangles where it crosses itself.
   std::size_t curved = 0;  ///< Closed by triangles of least area.

@@ -8,8 +8,8 @@
 
 namespace sunder {
 
-/// A unit normal per corner: the file's where there is one, turned outward; else the mean, weighted
-/// by angle, of the faces around the vertex that no crease parts from the corner's own.
+/// A unit normal per corner: the file's where there is one, flipped outward; else the mean,
+/// weighted by angle, of the faces around the vertex that no crease parts from the corner's own.
 std::vector<Vec3f> shading_normals(const Surface& surface, double crease_cosine);
 
 }  // namespace sunder

@@ -1,8 +1,9 @@
 // From meshes as they come to solids that can be broken: repaired in tiers, each repair named.
 //
 // Read first: repair_mesh() in repair.cpp, which is the list of tiers. Vertices and faces are
-// cleaned (repair_clean), edges paired and faces oriented (repair_surface), holes closed
-// (repair_holes); what still encloses nothing is enclosed by a winding-number shell (repair_shell).
+// cleaned (clean.h), edges paired and faces oriented (surface.h), holes closed (holes.h); what
+// still encloses nothing is enclosed by a winding-number shell (shell.h). solids.h makes polygon
+// meshes of what is closed.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +16,7 @@
 
 namespace sunder {
 
+/// What may be done to a mesh.
 struct RepairOptions {
   bool repair = true;  ///< If not, a mesh that needs it is refused.
   /// Where the file gives no normals, edges are smooth whose faces' normals meet at this or more.
@@ -30,6 +32,7 @@ struct Repair {
   bool harmless = false;  ///< The same surface, written otherwise: done even where repair is off.
 };
 
+/// Solids that can be broken, and what was done to get them.
 struct RepairedMesh {
   std::vector<PolygonMesh> shells;  ///< Watertight, of positive volume; they may overlap.
   std::vector<Repair> repairs;      ///< In the order done; empty if the mesh was sound.

@@ -95,7 +95,7 @@ std::vector<std::uint32_t> shells_around(const Surface& surface, const Shells& s
   return around;
 }
 
-void turn(Surface& surface, const std::vector<std::uint8_t>& polygons) {
+void flip(Surface& surface, const std::vector<std::uint8_t>& polygons) {
   for (std::size_t p = 0; p < polygons.size(); ++p) {
     if (polygons[p]) reverse_polygon(surface.mesh, p);
   }
@@ -167,23 +167,23 @@ std::size_t triangulate_curved(RawMesh& mesh) {
 
 std::size_t face_outward(Surface& surface, std::vector<std::uint32_t>& solid,
                          std::uint32_t& count) {
-  std::size_t turned = 0;
+  std::size_t flipped = 0;
   Shells shells(surface);
   if (std::accumulate(shells.volume.begin(), shells.volume.end(), 0.0) < 0) {
-    turned += shells.count;  // the whole mesh is inside out
-    turn(surface, std::vector<std::uint8_t>(surface.mesh.polygons.size(), 1));
+    flipped += shells.count;  // the whole mesh is inside out
+    flip(surface, std::vector<std::uint8_t>(surface.mesh.polygons.size(), 1));
     shells = Shells(surface);
   }
   const std::vector<std::uint32_t> around = shells_around(surface, shells);
-  std::vector<std::uint8_t> to_turn(surface.mesh.polygons.size(), 0);
-  for (std::size_t p = 0; p < to_turn.size(); ++p) {
+  std::vector<std::uint8_t> to_flip(surface.mesh.polygons.size(), 0);
+  for (std::size_t p = 0; p < to_flip.size(); ++p) {
     const std::uint32_t s = shells.of_polygon[p];
-    to_turn[p] = shells.volume[s] < 0 && around[s] == Surface::kNone ? 1 : 0;
+    to_flip[p] = shells.volume[s] < 0 && around[s] == Surface::kNone ? 1 : 0;
   }
   for (std::uint32_t s = 0; s < shells.count; ++s) {
-    turned += shells.volume[s] < 0 && around[s] == Surface::kNone ? 1 : 0;
+    flipped += shells.volume[s] < 0 && around[s] == Surface::kNone ? 1 : 0;
   }
-  if (std::find(to_turn.begin(), to_turn.end(), 1) != to_turn.end()) turn(surface, to_turn);
+  if (std::find(to_flip.begin(), to_flip.end(), 1) != to_flip.end()) flip(surface, to_flip);
 
   std::vector<std::uint32_t> solid_of_shell(shells.count, 0);
   count = 0;
@@ -195,7 +195,7 @@ std::size_t face_outward(Surface& surface, std::vector<std::uint32_t>& solid,
   }
   solid.clear();
   for (const std::uint32_t s : shells.of_polygon) solid.push_back(solid_of_shell[s]);
-  return turned;
+  return flipped;
 }
 
 std::vector<PolygonMesh> polygon_meshes(const Surface& surface,

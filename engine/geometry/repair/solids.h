@@ -16,7 +16,7 @@ RawMesh extract(const RawMesh& mesh, const std::vector<std::uint8_t>& keep);
 void append(RawMesh& mesh, const RawMesh& other);
 /// Replaces polygons whose corners lie in no plane by triangles; returns how many.
 std::size_t triangulate_curved(RawMesh& mesh);
-/// Turns shells that face inward, save cavities in others; returns how many. `solid` becomes the
+/// Flips shells that face inward, save cavities in others; returns how many. `solid` becomes the
 /// number of each polygon's solid, a shell with its cavities; `count` how many solids there are.
 std::size_t face_outward(Surface& surface, std::vector<std::uint32_t>& solid, std::uint32_t& count);
 /// A mesh per solid, with shading normals.

@@ -163,31 +163,31 @@ std::size_t orient(RawMesh& mesh) {
     links[b].push_back({a, disagree});
   });
 
-  std::size_t turned = 0;
+  std::size_t flipped = 0;
   std::vector<std::int8_t> sense(mesh.polygons.size(), 0);
   std::vector<std::uint32_t> patch;
   for (std::uint32_t seed = 0; seed < mesh.polygons.size(); ++seed) {
     if (sense[seed] != 0) continue;
     sense[seed] = 1;
     patch.assign(1, seed);
-    double kept_area = 0, turned_area = 0;
+    double kept_area = 0, flipped_area = 0;
     for (std::size_t i = 0; i < patch.size(); ++i) {
       const std::int8_t mine = sense[patch[i]];
-      (mine > 0 ? kept_area : turned_area) += double_area(mesh, patch[i]).norm();
+      (mine > 0 ? kept_area : flipped_area) += double_area(mesh, patch[i]).norm();
       for (const Link& link : links[patch[i]]) {
         if (sense[link.polygon] != 0) continue;
         sense[link.polygon] = static_cast<std::int8_t>(link.disagree ? -mine : mine);
         patch.push_back(link.polygon);
       }
     }
-    const std::int8_t turn = turned_area > kept_area ? 1 : -1;
+    const std::int8_t flip = flipped_area > kept_area ? 1 : -1;
     for (const std::uint32_t p : patch) {
-      if (sense[p] != turn) continue;
+      if (sense[p] != flip) continue;
       reverse_polygon(mesh, p);
-      ++turned;
+      ++flipped;
     }
   }
-  return turned;
+  return flipped;
 }
 
 Surface pair_edges(RawMesh mesh) {

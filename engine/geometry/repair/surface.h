@@ -18,6 +18,7 @@ struct Surface {
   std::vector<std::uint32_t> polygon;  ///< Of each half-edge.
   std::vector<std::uint32_t> twin;     ///< The half-edge back, across the edge; kNone where open.
 
+  /// The half-edges after and before c around its polygon.
   std::uint32_t next(std::uint32_t c) const {
     const RawMesh::Polygon& p = mesh.polygons[polygon[c]];
     return c + 1 < p.first_corner + p.corner_count ? c + 1 : p.first_corner;
@@ -26,7 +27,9 @@ struct Surface {
     const RawMesh::Polygon& p = mesh.polygons[polygon[c]];
     return c > p.first_corner ? c - 1 : c + p.corner_count - 1;
   }
+  /// Where half-edge c starts.
   const Vec3& point(std::uint32_t c) const { return mesh.vertices[mesh.corners[c]]; }
+  /// Those without a twin, ascending.
   std::vector<std::uint32_t> open_half_edges() const;
 };
 
@@ -38,8 +41,9 @@ struct EdgeFaults {
   bool any() const { return open + crowded + inconsistent > 0; }
 };
 
+/// Of all edges of a mesh.
 EdgeFaults edge_faults(const RawMesh& mesh);
-/// Turns polygons so that neighbours agree, fewest (by area) of each patch; returns how many.
+/// Flips polygons so that neighbours agree, fewest (by area) of each patch; returns how many.
 std::size_t orient(RawMesh& mesh);
 /// Pairs the half-edges that run opposite ways along an edge. Where more than two meet, those are
 /// paired that bound solid between them, so that solids that touch come apart.

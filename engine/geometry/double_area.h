@@ -1,0 +1,22 @@
+// The area of polygons in space, with its direction.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/base/types.h"
+
+namespace sunder {
+
+/// Twice the area of a polygon times its normal (Newell), in m²: summed over the fan of its first
+/// corner. `corners` are indices of vertices, three at least.
+inline Vec3 double_area(std::span<const Vec3> vertices, std::span<const std::uint32_t> corners) {
+  const Vec3& apex = vertices[corners[0]];
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    sum += (vertices[corners[i - 1]] - apex).cross(vertices[corners[i]] - apex);
+  }
+  return sum;
+}
+
+}  // namespace sunder
