@@ -1,5 +1,31 @@
 // The seam between the world, which decides whether a solid breaks, and fracture, which decides
 // into what.
+//
+// By an impact, a structure breaks in three steps (engine/world/break/break_stage.cpp):
+//
+//   BreakCommand command = breaker.command(convex, material, hit, event, seed);
+//   BreakEdit edit = breaker.plan(structure, command);   // nothing has changed yet
+//   if (edit.changed && /* the energy is there */) structure.apply(edit);
+//
+// The command says all that matters besides the structure, so it may be kept, written to a file and
+// carried out again; the energy of the hit chooses the pattern, not whether it breaks. The plan is
+// weighed against the work the hit can do: `edit.loose.new_area_m2` is what the crack costs. Plans
+// that are dropped leave no trace, and any number are made at once. Of a plan that is carried out,
+// `edit.loose.pieces` are compounds of their own: each becomes a Structure, unless it is debris.
+//
+// By a steady load, it breaks in two (engine/world/load/load_stage.cpp), whenever load or bonds
+// have changed:
+//
+//   StressAnswer answer = breaker.stress(structure, {materials, loads, gravity_R, work, memory});
+//   structure.apply(answer.edit);                         // bonds may go where nothing comes off
+//   memory = answer.memory;
+//
+// and asks again in the next step until `answer.settled`: the work of one call is bounded. The
+// memory is what makes asking again cheap. It belongs with the structure, goes to each of its
+// pieces as it is, and may be dropped at any time: the answer then costs more, and is the same
+// within the tolerance of the solve.
+//
+// An edit is for the structure that it was asked of, as it was then, and is applied once.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +37,12 @@
 
 namespace sunder {
 
-/// An impact on a compound, in its rest frame R.
+/// An impact on a structure, in its rest frame R.
 struct Hit {
   Vec3 point_R = Vec3::Zero();
   Vec3 direction_R = Vec3::UnitY();  ///< Unit, the way the impact pushes (into the solid).
   std::uint32_t convex = 0;          ///< Slot of the one that was hit.
-  double energy_J = 0;
+  double energy_J = 0;               ///< That the solid would have to take up.
 };
 
 /// Everything a break depends on besides the compound: the same command gives the same pieces.
@@ -83,7 +109,7 @@ struct Load {
   Vec3 torque_Nm = Vec3::Zero();  ///< Besides that of the force.
 };
 
-/// What a breaker knows of a compound under load and wants back when it is asked again; only it
+/// What a breaker knows of a structure under load and wants back when it is asked again; only it
 /// knows what is inside. Never changed once made.
 class StressMemory {
  public:
@@ -91,17 +117,17 @@ class StressMemory {
 };
 using StressMemoryPtr = std::shared_ptr<const StressMemory>;
 
-/// What a compound bears, besides itself.
+/// The steady load on a structure.
 struct LoadCase {
-  std::span<const Material> materials;
-  std::span<const Load> loads;
+  std::span<const Material> materials;  ///< By MaterialIndex.
+  std::span<const Load> loads;          ///< Besides its own weight.
   Vec3 gravity_R = Vec3::Zero();
   /// To spend on the answer, in visits of bonds, about: a few iterations are made in any case.
   std::uint64_t most_work = 0;
-  StressMemoryPtr memory;  ///< Of this compound, or of what it was a piece of; null at first.
+  StressMemoryPtr memory;  ///< Of this structure, or of what it was a piece of; null at first.
 };
 
-/// What becomes of it.
+/// What becomes of a structure under a load.
 struct StressAnswer {
   BreakEdit edit;          ///< Bonds that were too weak are cut; what they held comes off.
   double worst = 0;        ///< Highest stress in what is left, in parts of the limit; <= 1.
@@ -110,17 +136,19 @@ struct StressAnswer {
   StressMemoryPtr memory;  ///< For the next time, of any of the pieces.
 };
 
-/// Pure and const: any thread may ask about any structure.
+/// Decides what breaks. Pure and const: any thread may ask about any structure.
 class Breaker {
  public:
   virtual ~Breaker() = default;
-  /// The command that an impact amounts to; `material` is that of the convex hit.
+  /// The command that an impact amounts to; `convex` is the one hit, `material` its own. `event` is
+  /// unique in a run and at least 1, and `seed` all that is random.
   virtual BreakCommand command(const Convex& convex, const Material& material, const Hit& hit,
                                std::uint64_t event, std::uint64_t seed) const = 0;
   /// Carries a command out, at a cost that depends on what it reaches; the structure stays as it
   /// is. A pattern that misses changes nothing.
   virtual BreakEdit plan(const Structure& structure, const BreakCommand& command) const = 0;
-  /// Which bonds of a structure a steady load breaks, judged by the stress that balances it.
+  /// Which bonds of a structure, that is not empty, a steady load breaks, judged by the stress that
+  /// balances it; spends about `load.most_work`.
   virtual StressAnswer stress(const Structure& structure, const LoadCase& load) const = 0;
 };
 

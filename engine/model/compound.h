@@ -56,8 +56,9 @@ struct Ghost {
 constexpr std::uint8_t anchor_side(int axis, bool high) {
   return static_cast<std::uint8_t>(1u << (2 * ((axis + 2) % 3) + (high ? 1 : 0)));
 }
+/// By every side.
 inline constexpr std::uint8_t kAnchoredAllRound = 0x3f;
-/// The sides of `parent` by which it is held that a part of it still reaches.
+/// The sides of `parent` by which the world holds it that a part of it still reaches.
 std::uint8_t inherited_anchors(std::uint8_t anchored, const Box& parent, const Box& part);
 
 /// Convexes that move as one, in the rest frame R of the solid they were cut from.
@@ -69,6 +70,7 @@ struct Compound {
   std::vector<Bond> bonds;    ///< Sorted by (a, b, face_a, face_b).
   std::vector<Ghost> ghosts;  ///< Sorted by `of`; empty where nothing overlaps.
 
+  /// Whether the world holds any of its convexes.
   bool is_anchored() const;
 };
 
@@ -78,9 +80,11 @@ struct Weight {
   Vec3 com_R = Vec3::Zero();
   Mat3 inertia_R = Mat3::Zero();  ///< kg·m²
 };
+/// Sums over the convexes, less what ghosts say is counted twice; `materials` by MaterialIndex.
 Weight weigh(const Compound& compound, std::span<const Material> materials);
-/// Of the union of the convexes.
+/// Of the union of the convexes, in m³.
 double volume(const Compound& compound);
+/// The least box around its convexes.
 Box bounds(const Compound& compound);
 /// How far a point is beyond the farthest of a convex's faces; 0 inside.
 double distance_outside(const Convex& convex, const Vec3& point_R);

@@ -74,18 +74,18 @@ void Structure::add_level(std::vector<std::uint32_t> slots) {
 }
 
 std::vector<std::uint32_t> Structure::within(const Vec3& center_R, double radius_m) const {
-  std::vector<std::uint32_t> found, hits;
+  std::vector<std::uint32_t> found, items;
   const bool is_all = radius_m == std::numeric_limits<double>::infinity();
   for (const Level& level : levels_) {
-    hits.clear();
+    items.clear();
     if (is_all) {
-      hits.resize(level.slots.size());
-      std::iota(hits.begin(), hits.end(), 0u);
+      items.resize(level.slots.size());
+      std::iota(items.begin(), items.end(), 0u);
     } else {
-      level.tree.within(center_R, radius_m, hits);
+      level.tree.within(center_R, radius_m, items);
     }
-    for (const std::uint32_t hit : hits) {
-      if (slots_[level.slots[hit]].convex) found.push_back(level.slots[hit]);
+    for (const std::uint32_t item : items) {
+      if (slots_[level.slots[item]].convex) found.push_back(level.slots[item]);
     }
   }
   std::sort(found.begin(), found.end());

@@ -24,24 +24,29 @@ struct Link {
   double area_m2 = 0;
 };
 
+/// Convexes, bonds and ghosts by slots and numbers; queried from any thread, changed by one.
 class Structure {
  public:
   Structure() = default;
   /// Of a compound that hangs together; parts that do not stay together until a break meets them.
   explicit Structure(const Compound& compound);
 
+  /// Slots ever used: those below have or had a convex.
   std::uint32_t slot_count() const { return static_cast<std::uint32_t>(slots_.size()); }
   /// Convexes that are there.
   std::uint32_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   /// Contacts that are there.
   std::size_t bond_count() const { return bonds_; }
+  /// Whether the world holds any of them.
   bool is_anchored() const { return anchored_ > 0; }
   /// Whether a slot is there and has a convex.
   bool has(std::uint32_t slot) const { return slot < slots_.size() && slots_[slot].convex; }
   /// Null where the convex is gone.
   const ConvexPtr& convex(std::uint32_t slot) const { return slots_[slot].convex; }
+  /// As in Compound.
   std::uint8_t anchored(std::uint32_t slot) const { return slots_[slot].anchored; }
+  /// The contacts of a convex, in no order.
   std::span<const Link> links(std::uint32_t slot) const { return slots_[slot].links; }
   /// The numbers of the ghosts of a convex; ascending.
   std::span<const std::uint32_t> ghosts_of(std::uint32_t slot) const { return slots_[slot].ghosts; }
@@ -95,6 +100,7 @@ class Structure {
   std::size_t bonds_ = 0;
 };
 
+/// The least box around its convexes.
 Box bounds(const Structure& structure);
 /// How far a point is from a structure, at least; 0 inside.
 double distance_outside(const Structure& structure, const Vec3& point_R);
