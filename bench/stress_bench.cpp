@@ -8,8 +8,8 @@
 
 #include "engine/base/parallel.h"
 #include "fracture/solids.h"
-#include "fracture/stress/stress.h"
 #include "fracture/stress/stress_breaks.h"
+#include "fracture/stress/stress_system.h"
 
 namespace sunder::fracture {
 namespace {

@@ -4,7 +4,7 @@
 //   intersect  (intersect.h)     convexes within reach are cut by its cells
 //   weld       (weld.h)          covered cells become one convex
 //   group      (fragments.h)     what lies in one cell, or colour, goes together; the rest stays
-//   islands    (connectivity.h)  what no longer touches parts company
+//   islands    (reassembly.h)    what no longer touches parts company
 //
 // Read first: break_structure(). Its cost depends on what the sphere touches alone.
 #pragma once

@@ -16,12 +16,12 @@ namespace {
 // A convex is a pane if its least width is below this share of the cube root of its volume.
 constexpr double kPane = 0.3;
 
-/// The rotation that takes y to `axis`, after a turn about y.
-Quat turned_onto(const Vec3& axis, double turn_rad) {
+/// The rotation that takes y to `axis`, after a rotation about y.
+Quat rotation_onto(const Vec3& axis, double about_y_rad) {
   const Vec3 y = axis.normalized();
   Vec3 x = y.cross(std::abs(y.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ()).normalized();
-  const SinCos turn = sin_cos(turn_rad);
-  x = turn.cos * x + turn.sin * y.cross(x);
+  const SinCos angle = sin_cos(about_y_rad);
+  x = angle.cos * x + angle.sin * y.cross(x);
   Mat3 rotation;
   rotation << x, y, x.cross(y);
   return Quat(rotation).normalized();
@@ -49,15 +49,15 @@ Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
 /// longest side of the convex, webs across a pane or the impact.
 Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direction_R,
                  Random& random) {
-  const double turn = random.uniform(0, 2 * std::numbers::pi);
+  const double about_y_rad = random.uniform(0, 2 * std::numbers::pi);
   int longest = 0;
   convex.box.extent().maxCoeff(&longest);
   switch (kind) {
     case PatternSpec::Kind::kVoronoi:
-      return turned_onto(random.direction(), turn);
+      return rotation_onto(random.direction(), about_y_rad);
     case PatternSpec::Kind::kWeb:
     case PatternSpec::Kind::kRadial:
-      return turned_onto(axis_across(convex, direction_R), turn);
+      return rotation_onto(axis_across(convex, direction_R), about_y_rad);
     case PatternSpec::Kind::kSlabs: {
       Mat3 rotation;
       rotation << Vec3::Unit(longest), Vec3::Unit((longest + 1) % 3), Vec3::Unit((longest + 2) % 3);
@@ -103,7 +103,7 @@ class PatternBreaker final : public Breaker {
   }
 
   StressAnswer stress(const Structure& structure, const LoadCase& load) const override {
-    return bear_load(structure, load);
+    return break_by_stress(structure, load);
   }
 
  private:

@@ -80,8 +80,8 @@ Compound grid_compound(int nx, int ny, int nz, const Vec3& size, bool anchored) 
       for (int z = 0; z < nz; ++z) {
         const Vec3 min = size.cwiseProduct(Vec3(x, y, z));
         const Vec3 max = size.cwiseProduct(Vec3(x + 1, y + 1, z + 1));
-        const bool held = anchored && y == 0;
-        parts.push_back({make_box(min, max), kMaterial, static_cast<std::uint8_t>(held)});
+        const bool is_anchored = anchored && y == 0;
+        parts.push_back({make_box(min, max), kMaterial, static_cast<std::uint8_t>(is_anchored)});
       }
     }
   }

@@ -19,9 +19,9 @@ Compound voronoi_compound(int count, std::uint64_t seed);
 Compound ring_compound(int segments, double inner, double outer, double height);
 
 /// The solid that a name stands for: box:X,Y,Z column:R,H torus:R,r grid:NX,NY,NZ voronoi:N
-/// hall:N, in metres; grids lie in [0, N], a hall (N columns that reach into their roof, held at
-/// the foot) stands at the origin, and the others lie around it. Throws InputError that says what
-/// is allowed.
+/// hall:N, in metres; grids lie in [0, N], a hall (N columns that reach into their roof, anchored
+/// at the foot) stands at the origin, and the others lie around it. Throws InputError that says
+/// what is allowed.
 Compound make_solid(const std::string& name);
 
 }  // namespace sunder::fracture

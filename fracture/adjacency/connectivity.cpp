@@ -1,8 +1,9 @@
 #include "fracture/adjacency/connectivity.h"
 
 #include <algorithm>
-#include <numeric>
 #include <unordered_map>
+
+#include "engine/base/disjoint_sets.h"
 
 namespace sunder::fracture {
 namespace {
@@ -15,22 +16,21 @@ class Searches {
         found_(seeds.size()),
         next_(seeds.size(), 0),
         merged_(seeds.size()) {
-    std::iota(merged_.begin(), merged_.end(), 0u);
     for (std::uint32_t s = 0; s < seeds.size(); ++s) reach(seeds[s], s);
   }
 
   Separation run() {
     std::vector<std::uint32_t> open;
-    for (std::uint32_t s = 0; s < merged_.size(); ++s) {
-      if (merged_[s] == s && !found_[s].empty()) open.push_back(s);
+    for (std::uint32_t s = 0; s < found_.size(); ++s) {
+      if (merged_.root(s) == s && !found_[s].empty()) open.push_back(s);
     }
     Separation result;
     while (open.size() > 1) {
       for (const std::uint32_t s : open) {
-        if (merged_[s] == s) expand(s);
+        if (merged_.root(s) == s) expand(s);
       }
       std::erase_if(open, [&](std::uint32_t s) {
-        if (merged_[s] != s) return true;
+        if (merged_.root(s) != s) return true;
         if (next_[s] < found_[s].size()) return false;
         std::sort(found_[s].begin(), found_[s].end());
         result.islands.push_back(std::move(found_[s]));
@@ -42,14 +42,9 @@ class Searches {
   }
 
  private:
-  std::uint32_t root(std::uint32_t s) {
-    while (merged_[s] != s) s = merged_[s] = merged_[merged_[s]];
-    return s;
-  }
-
   void expand(std::uint32_t s) {
     if (next_[s] == found_[s].size()) return;
-    neighbours_(found_[s][next_[s]++], [&](std::uint32_t node) { reach(node, root(s)); });
+    neighbours_(found_[s][next_[s]++], [&](std::uint32_t node) { reach(node, merged_.root(s)); });
   }
 
   /// Search `s` comes to a node: a new one, or another search's, which it then is one with.
@@ -59,7 +54,7 @@ class Searches {
       found_[s].push_back(node);
       return;
     }
-    const std::uint32_t other = root(it->second);
+    const std::uint32_t other = merged_.root(it->second);
     if (other == s) return;
     const std::uint32_t into = std::min(s, other), from = std::max(s, other);
     // What was expanded stays in front of what was not.
@@ -68,13 +63,13 @@ class Searches {
     next_[into] += next_[from];
     found_[from].clear();
     next_[from] = 0;
-    merged_[from] = into;
+    merged_.join(into, from);
   }
 
   const Neighbours& neighbours_;
   std::vector<std::vector<std::uint32_t>> found_;  ///< Per search; the first next_ are expanded.
   std::vector<std::size_t> next_;
-  std::vector<std::uint32_t> merged_;
+  DisjointSets merged_;  ///< Searches that met; the least number stands for all of them.
   std::unordered_map<std::uint32_t, std::uint32_t> owner_;
 };
 

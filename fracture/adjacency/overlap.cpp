@@ -131,11 +131,11 @@ PartPairs find_pairs(std::span<const Part> parts, double tolerance_m) {
   for (const Part& part : parts) boxes.push_back(grown(bounds(part.polyhedron), tolerance_m));
   const Bvh tree(boxes);
   PartPairs pairs;
-  std::vector<std::uint32_t> hits;
+  std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
-    hits.clear();
-    tree.overlaps(boxes[i], hits);
-    for (const std::uint32_t j : hits) {
+    found.clear();
+    tree.overlaps(boxes[i], found);
+    for (const std::uint32_t j : found) {
       if (j > i) pairs.emplace_back(i, j);
     }
   }

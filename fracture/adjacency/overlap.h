@@ -17,8 +17,9 @@ inline constexpr std::size_t kDeepestGhost = 4;
 /// keep the names of theirs.
 ConvexPolyhedron overlap(const ConvexPolyhedron& a, const ConvexPolyhedron& b, double tolerance_m);
 
-/// Pairs of parts (a < b, ascending) whose boxes come within `tolerance_m` of each other.
+/// Pairs of parts (a < b), ascending.
 using PartPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+/// Those whose boxes come within `tolerance_m` of each other.
 PartPairs find_pairs(std::span<const Part> parts, double tolerance_m);
 /// Those of `pairs` that overlap by more than the tolerance.
 PartPairs find_overlaps(std::span<const Part> parts, const PartPairs& pairs, double tolerance_m);

@@ -12,7 +12,7 @@ namespace sunder::fracture {
 struct Part {
   ConvexPolyhedron polyhedron;
   MaterialIndex material;
-  std::uint8_t anchored = 0;  ///< As in Compound: `true` is held from below.
+  std::uint8_t anchored = 0;  ///< As in Compound: `true` is anchored from below.
   std::shared_ptr<const PolygonMesh> visual = nullptr;  ///< As in Convex.
 };
 

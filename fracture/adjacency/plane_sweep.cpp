@@ -9,6 +9,7 @@
 #include "engine/base/hash.h"
 #include "engine/geometry/polygon_mesh.h"
 #include "fracture/adjacency/bucket_sort.h"
+#include "fracture/adjacency/polygon_overlap.h"
 
 namespace sunder::fracture {
 namespace {
@@ -26,7 +27,7 @@ class PlaneSweep {
   /// `plane` numbers the faces of one plane, either side.
   void run(std::span<const std::uint32_t> plane, std::vector<Bond>& bonds) {
     if (plane.size() < 2) return;
-    for (const std::uint32_t i : plane) turn(faces_[i], faces_[plane[0]].dropped);
+    for (const std::uint32_t i : plane) lay_again(faces_[i], faces_[plane[0]].dropped);
     if (plane.size() == 2) return match(faces_[plane[0]], faces_[plane[1]], bonds);
     spread_.clear();
     for (const std::uint32_t i : plane) {
@@ -61,12 +62,12 @@ class PlaneSweep {
   };
 
   /// Lays a face flat the other way: rounding may tell the sides of one plane apart.
-  void turn(FlatFace& face, std::uint8_t dropped) {
+  void lay_again(FlatFace& face, std::uint8_t dropped) {
     if (face.dropped == dropped) return;
     const ConvexPolyhedron& polyhedron = convexes_[face.convex]->polyhedron;
-    turned_.emplace_back();
-    lay_flat(*convexes_[face.convex], face.face, face.cap, dropped, turned_.back());
-    face.points = turned_.back().data();
+    laid_again_.emplace_back();
+    lay_flat(*convexes_[face.convex], face.face, face.cap, dropped, laid_again_.back());
+    face.points = laid_again_.back().data();
     face.dropped = dropped;
     face.scale = 1 / std::abs(polyhedron.faces[face.face].plane.normal[dropped]);
   }
@@ -126,7 +127,7 @@ class PlaneSweep {
   std::vector<FlatFace>& faces_;
   std::vector<Spread> spread_;
   std::vector<std::uint32_t> active_;
-  std::vector<std::vector<Vec2>> turned_;
+  std::vector<std::vector<Vec2>> laid_again_;
   std::vector<std::span<const Vec2>> contours_even_, contours_odd_;
   OverlapScratch scratch_;
 };

@@ -1,10 +1,10 @@
-// Flat polygons: how much two of them overlap, and how far a point is from a convex solid.
+// Convex polygons in a plane, and how much two of them overlap.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "engine/geometry/convex_polyhedron.h"
+#include "engine/base/types.h"
 
 namespace sunder::fracture {
 
@@ -17,15 +17,5 @@ struct OverlapScratch {
 };
 /// Area that two convex counter-clockwise polygons have in common (Sutherland and Hodgman 1974).
 double overlap_area(std::span<const Vec2> a, std::span<const Vec2> b, OverlapScratch& scratch);
-
-/// The outer contours of a polygon, counter-clockwise, and its holes, clockwise.
-using Contours = std::span<const std::span<const Vec2>>;
-/// Area that any two polygons have in common; contours of which every corner has one of the other
-/// within `near` are the same. It changes as little as the polygons do, even where edges coincide
-/// but for rounding.
-double overlap_area(Contours a, Contours b, double near);
-
-/// Distance from a point to a convex solid; 0 inside.
-double distance(const Vec3& point, const ConvexPolyhedron& convex);
 
 }  // namespace sunder::fracture

@@ -1,8 +1,12 @@
 // The overlap of any two polygons: between the heights of neighbouring corners, and of places where
 // edges cross, both are rows of trapezoids, whose middle lines say how much they overlap. Mostly
 // the polygons are one, seen from either side: then nothing needs to be swept.
+#include "fracture/adjacency/polygon_overlap.h"
+
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "fracture/adjacency/polygon.h"
 

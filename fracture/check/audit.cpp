@@ -113,11 +113,11 @@ void add_overlaps(std::span<const Compound> pieces, Audit& audit) {
   std::vector<double> overlap(boxes.size(), 0);
   std::vector<std::uint8_t> exact(boxes.size(), 1);
   for_chunks(boxes.size(), 16, [&](std::size_t begin, std::size_t end, std::size_t) {
-    std::vector<std::uint32_t> hits;
+    std::vector<std::uint32_t> found;
     for (std::size_t i = begin; i < end; ++i) {
-      hits.clear();
-      tree.overlaps(boxes[i], hits);
-      for (const std::uint32_t j : hits) {
+      found.clear();
+      tree.overlaps(boxes[i], found);
+      for (const std::uint32_t j : found) {
         if (j <= i || convexes[j].first == convexes[i].first) continue;
         bool sure = true;
         overlap[i] += common_volume(*convexes[i].second, *convexes[j].second, sure);

@@ -9,6 +9,7 @@
 
 namespace sunder::fracture {
 
+/// Figures of pieces.
 struct Audit {
   std::size_t pieces = 0;
   std::size_t convexes = 0;
@@ -23,8 +24,10 @@ struct Audit {
   bool overlap_is_exact = true;
 };
 
+/// Measures them. Parallel.
 Audit audit(std::span<const Compound> pieces);
 
+/// Volume that is counted more than once.
 struct DoubledVolume {
   double volume_m3 = 0;
   bool is_exact = true;  ///< Otherwise it is bounded from above.

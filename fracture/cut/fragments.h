@@ -9,6 +9,7 @@
 
 namespace sunder::fracture {
 
+/// What steps 2 and 3 leave.
 struct Fragments {
   std::vector<Fragment> all;
   std::vector<Ghost> ghosts;  ///< By nodes, as cut_ghosts() says.

@@ -170,13 +170,13 @@ void hold_overlaps(const std::vector<Ghost>& ghosts, std::uint32_t slot_count,
                    std::vector<Fragment>& fragments) {
   if (ghosts.empty()) return;
   DisjointSets sets(fragments.size());
-  std::vector<std::uint32_t> held;  // by a convex that is not cut
+  std::vector<std::uint32_t> kept;  // by a convex that is not cut
   for (const Ghost& ghost : ghosts) {
     const std::uint32_t last = ghost.of.back();
     if (last < slot_count) continue;
     for (const std::uint32_t node : ghost.of) {
       if (node < slot_count) {
-        held.push_back(last - slot_count);
+        kept.push_back(last - slot_count);
       } else {
         sets.join(node - slot_count, last - slot_count);
       }
@@ -187,7 +187,7 @@ void hold_overlaps(const std::vector<Ghost>& ghosts, std::uint32_t slot_count,
     std::uint32_t& of_root = group[sets.root(i)];
     of_root = std::min(of_root, fragments[i].group);
   }
-  for (const std::uint32_t i : held) group[sets.root(i)] = Fragment::kRest;
+  for (const std::uint32_t i : kept) group[sets.root(i)] = Fragment::kRest;
   for (std::uint32_t i = 0; i < fragments.size(); ++i) fragments[i].group = group[sets.root(i)];
 }
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "engine/geometry/box_distance.h"
-#include "fracture/adjacency/polygon.h"
+#include "fracture/cut/convex_distance.h"
 
 namespace sunder::fracture {
 

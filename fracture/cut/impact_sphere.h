@@ -8,12 +8,14 @@
 
 namespace sunder::fracture {
 
-/// Convexes outside stay as they are.
+/// What a break may change: convexes outside stay as they are.
 struct ImpactSphere {
   Vec3 center_R = Vec3::Zero();
   double radius_m = 1;  ///< Infinity: everything breaks.
 
+  /// Whether everything breaks.
   bool is_endless() const;
+  /// Whether a convex reaches into it.
   bool touches(const Convex& convex) const;
   /// Slots of a structure whose convexes it touches, ascending.
   std::vector<std::uint32_t> touched(const Structure& structure) const;

@@ -27,8 +27,8 @@ PlaneId AlignedPattern::name(PlaneId pattern_id) const {
   return {(key & ~std::uint64_t{1}) | (plane_flipped(pattern_id) ? 1 : 0)};
 }
 
-void AlignedPattern::overlapping(const Box& box_R, std::vector<std::uint32_t>& hits) const {
-  hits.clear();
+void AlignedPattern::overlapping(const Box& box_R, std::vector<std::uint32_t>& found) const {
+  found.clear();
   std::vector<std::uint32_t> indices;
   pattern->tree.overlaps(box_in_pattern(box_R, *this), indices);
   std::size_t at = 0;
@@ -36,7 +36,7 @@ void AlignedPattern::overlapping(const Box& box_R, std::vector<std::uint32_t>& h
     while (at < cells.size() && cells[at].index < index) ++at;
     if (at == cells.size()) break;
     if (cells[at].index == index && cells[at].box.overlaps(box_R)) {
-      hits.push_back(static_cast<std::uint32_t>(at));
+      found.push_back(static_cast<std::uint32_t>(at));
     }
   }
 }

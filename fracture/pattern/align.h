@@ -38,11 +38,12 @@ struct AlignedPattern {
   /// The plane of a cell's face, and its name for all time.
   Plane plane(PlaneId pattern_id) const;
   PlaneId name(PlaneId pattern_id) const;
+  /// The corners of a cell, in R.
   std::span<const Vec3> cell_vertices(const Cell& cell) const {
     return std::span(vertices).subspan(cell.first_vertex, cell.vertex_count);
   }
   /// Indices into `cells` of those whose box overlaps `box_R`, ascending.
-  void overlapping(const Box& box_R, std::vector<std::uint32_t>& hits) const;
+  void overlapping(const Box& box_R, std::vector<std::uint32_t>& found) const;
   /// The cell as a solid in R, named after the event.
   ConvexPolyhedron polyhedron(const Cell& cell) const;
 };

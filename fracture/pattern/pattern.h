@@ -1,7 +1,9 @@
 // Fracture patterns: space cut into convex cells around an impact at the origin (paper 3.1).
 //
 // Read first: Pattern. A pattern is made once in its own frame P, whose unit is the radius of the
-// impact sphere, and then aligned with any number of impacts (fracture/pattern/align.h).
+// impact sphere, and then aligned with any number of impacts (align.h). Each kind has a file:
+// voronoi_pattern, web_pattern, block_patterns (grid and bricks), slab_pattern (wood) and
+// file_pattern; pattern.cpp has what they are built with.
 #pragma once
 
 #include <cstdint>
@@ -42,6 +44,7 @@ struct Pattern {
 constexpr PlaneId pattern_plane(std::uint32_t index, bool flipped) {
   return {2 * std::uint64_t{index} + (flipped ? 1 : 0)};
 }
+/// Which plane a name is of, and of which side.
 constexpr std::uint32_t plane_index(PlaneId pattern_id) {
   return static_cast<std::uint32_t>(pattern_id.value >> 1);
 }

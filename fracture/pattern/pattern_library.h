@@ -18,6 +18,7 @@ class PatternLibrary {
   /// Variants of a pattern that are kept; the seed chooses among them.
   static constexpr std::uint64_t kVariants = 8;
 
+  /// As make_pattern() makes it; the seed counts modulo kVariants.
   std::shared_ptr<const Pattern> find(const PatternSpec& spec, const PatternScale& scale,
                                       std::uint64_t seed);
 

@@ -34,11 +34,11 @@ double power(double u, double exponent) {
 /// Evenly spread directions (Fibonacci spiral), with jitter.
 std::vector<Vec3> shell_sites(Random& random) {
   std::vector<Vec3> sites;
-  const double turn = std::numbers::pi * (3 - std::sqrt(5.0));
+  const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   for (int i = 0; i < kShellSites; ++i) {
     const double y = 1 - (2 * i + 1) / static_cast<double>(kShellSites);
     const double ring = std::sqrt(1 - y * y);
-    const SinCos angle = sin_cos(turn * i);
+    const SinCos angle = sin_cos(golden_angle * i);
     sites.push_back(kShellRadius * Vec3(ring * angle.cos, y, ring * angle.sin) +
                     kShellJitter * random.direction());
   }

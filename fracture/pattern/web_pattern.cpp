@@ -9,27 +9,28 @@
 namespace sunder::fracture {
 namespace {
 
-/// Where the web's threads cross: nodes[ring][spoke], rings from the inside out, in (x, z).
-std::vector<std::vector<Vec2>> place_nodes(int rings, int spokes, double jitter,
-                                           std::uint64_t seed) {
+/// Where the web's threads cross: crossings[ring][spoke], rings from the inside out, in (x, z).
+std::vector<std::vector<Vec2>> place_crossings(int rings, int spokes, double jitter,
+                                               std::uint64_t seed) {
   Random random(seed, 2);
-  const double turn = 2 * std::numbers::pi / spokes;
+  const double angle_of_spoke = 2 * std::numbers::pi / spokes;
   std::vector<Vec2> directions;
   for (int spoke = 0; spoke < spokes; ++spoke) {
-    const SinCos angle = sin_cos(turn * (spoke + 0.6 * jitter * random.uniform(-0.5, 0.5)));
+    const SinCos angle =
+        sin_cos(angle_of_spoke * (spoke + 0.6 * jitter * random.uniform(-0.5, 0.5)));
     directions.emplace_back(angle.cos, angle.sin);
   }
-  std::vector<std::vector<Vec2>> nodes(static_cast<std::size_t>(rings));
+  std::vector<std::vector<Vec2>> crossings(static_cast<std::size_t>(rings));
   for (int ring = 0; ring < rings; ++ring) {
     for (int spoke = 0; spoke < spokes; ++spoke) {
       const double place = ring + 1 + 0.8 * jitter * random.uniform(-0.5, 0.5);
       const double part = place / rings;  // rings widen outwards: part^1.5
       const double radius = std::min(1.1, part * std::sqrt(part));
-      nodes[static_cast<std::size_t>(ring)].push_back(radius *
-                                                      directions[static_cast<std::size_t>(spoke)]);
+      crossings[static_cast<std::size_t>(ring)].push_back(
+          radius * directions[static_cast<std::size_t>(spoke)]);
     }
   }
-  return nodes;
+  return crossings;
 }
 
 /// The plane parallel to y through two points, its normal to the right of the way from a to b.
@@ -41,18 +42,18 @@ Plane upright_plane(const Vec2& a, const Vec2& b) {
 }  // namespace
 
 Pattern web_pattern(int rings, int spokes, double jitter, std::uint64_t seed) {
-  const auto nodes = place_nodes(rings, spokes, jitter, seed);
+  const auto crossings = place_crossings(rings, spokes, jitter, seed);
   const auto ring_count = static_cast<std::uint32_t>(rings);
   const auto spoke_count = static_cast<std::uint32_t>(spokes);
   Pattern pattern;
   pattern.planes = box_planes();
   const std::uint32_t first_spoke = Pattern::kBoxPlanes, first_chord = first_spoke + spoke_count;
   for (std::uint32_t s = 0; s < spoke_count; ++s) {
-    pattern.planes.push_back(upright_plane(Vec2::Zero(), nodes[0][s]));
+    pattern.planes.push_back(upright_plane(Vec2::Zero(), crossings[0][s]));
   }
   for (std::uint32_t r = 0; r < ring_count; ++r) {
     for (std::uint32_t s = 0; s < spoke_count; ++s) {
-      pattern.planes.push_back(upright_plane(nodes[r][s], nodes[r][(s + 1) % spoke_count]));
+      pattern.planes.push_back(upright_plane(crossings[r][s], crossings[r][(s + 1) % spoke_count]));
     }
   }
   const auto chord = [&](std::uint32_t r, std::uint32_t s) {

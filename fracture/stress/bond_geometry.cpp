@@ -23,12 +23,12 @@ void cut_by_edge(const Vec3& p, const Vec3& q, const Vec3& normal, std::vector<V
   polygon.swap(kept);
 }
 
-using Contours = std::vector<std::vector<Vec3>>;
+using CapContours = std::vector<std::vector<Vec3>>;
 
 /// Calls `visit(area, a, b, c)` for triangles that make up the contours; areas have signs, so that
 /// sums are right for polygons of any shape, and holes count negative.
 template <class Visit>
-void for_triangles(const Contours& contours, const Vec3& normal, const Visit& visit) {
+void for_triangles(const CapContours& contours, const Vec3& normal, const Visit& visit) {
   for (const std::vector<Vec3>& corners : contours) {
     for (std::size_t i = 2; i < corners.size(); ++i) {
       const Vec3 &a = corners[0], &b = corners[i - 1], &c = corners[i];
@@ -38,7 +38,7 @@ void for_triangles(const Contours& contours, const Vec3& normal, const Visit& vi
 }
 
 /// Area, centroid and second moment as sums over triangles.
-void integrate(const Contours& contours, BondGeometry& bond) {
+void integrate(const CapContours& contours, BondGeometry& bond) {
   Vec3 moment = Vec3::Zero();
   for_triangles(contours, bond.normal_R,
                 [&](double area, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -64,8 +64,8 @@ void integrate(const Contours& contours, BondGeometry& bond) {
 }
 
 /// The cap of a convex's visual mesh in one of its faces; empty for an internal convex.
-Contours cap(const Convex& convex, std::uint32_t face) {
-  Contours contours;
+CapContours cap(const Convex& convex, std::uint32_t face) {
+  CapContours contours;
   if (convex.is_internal()) return contours;
   const PolygonMesh& mesh = *convex.visual;
   const PlaneId id = convex.polyhedron.faces[face].id;
@@ -81,7 +81,7 @@ Contours cap(const Convex& convex, std::uint32_t face) {
   return contours;
 }
 
-double area_of(const Contours& contours, const Vec3& normal) {
+double area_of(const CapContours& contours, const Vec3& normal) {
   double sum = 0;
   for_triangles(contours, normal,
                 [&](double area, const Vec3&, const Vec3&, const Vec3&) { sum += area; });
@@ -90,10 +90,10 @@ double area_of(const Contours& contours, const Vec3& normal) {
 
 /// The smaller of the caps of a bond's two convexes, seen against a's normal; empty if both are
 /// internal.
-Contours smaller_cap(const Compound& compound, const Bond& bond) {
+CapContours smaller_cap(const Compound& compound, const Bond& bond) {
   const Vec3& normal = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].plane.normal;
-  Contours a = cap(*compound.convexes[bond.a], bond.face_a);
-  Contours b = cap(*compound.convexes[bond.b], bond.face_b);
+  CapContours a = cap(*compound.convexes[bond.a], bond.face_a);
+  CapContours b = cap(*compound.convexes[bond.b], bond.face_b);
   for (std::vector<Vec3>& contour : b) std::reverse(contour.begin(), contour.end());
   if (a.empty()) return b;
   return b.empty() || area_of(a, normal) <= area_of(b, normal) ? a : b;
@@ -128,7 +128,7 @@ std::vector<Vec3> bond_corners(const Compound& compound, const Bond& bond) {
 BondGeometry bond_geometry(const Compound& compound, const Bond& bond) {
   BondGeometry result;
   result.normal_R = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].plane.normal;
-  const Contours contours = smaller_cap(compound, bond);
+  const CapContours contours = smaller_cap(compound, bond);
   if (contours.empty()) {
     integrate({common_polygon(compound, bond)}, result);
     return result;

@@ -18,8 +18,9 @@ struct BondGeometry {
   double reach_m = 0;                 ///< From the centroid to the farthest corner.
 };
 
+/// Of a bond of the compound; without area where the faces no longer overlap.
 BondGeometry bond_geometry(const Compound& compound, const Bond& bond);
-/// Its corners.
+/// The corners of that polygon, or of the smaller cap.
 std::vector<Vec3> bond_corners(const Compound& compound, const Bond& bond);
 
 }  // namespace sunder::fracture

@@ -44,12 +44,12 @@ void add(Real factor, const Nodal<Real>& y, Nodal<Real>& x) {
   });
 }
 
-/// x = y + factor · x
-void lengthen(double factor, const Nodal<double>& y, Nodal<double>& x) {
+/// x = y + beta · x
+void lengthen(double beta, const Nodal<double>& y, Nodal<double>& x) {
   for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
-      x[i].linear = y[i].linear + splat<double>(factor) * x[i].linear;
-      x[i].angular = y[i].angular + splat<double>(factor) * x[i].angular;
+      x[i].linear = y[i].linear + splat<double>(beta) * x[i].linear;
+      x[i].angular = y[i].angular + splat<double>(beta) * x[i].angular;
     }
   });
 }
@@ -86,23 +86,20 @@ Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
   to_units(springs);
   levels_.emplace_back(nodes, std::move(springs));
   while (levels_.back().size() > kDenseNodes) {
-    SpringLevel<float> coarse = levels_.back().coarsen(kGroup);
-    if (coarse.size() == levels_.back().size()) break;  // no two hang together
-    levels_.push_back(std::move(coarse));
+    SpringGroups groups(levels_.back(), kGroup);
+    if (groups.count() == levels_.back().size()) break;  // no two hang together
+    levels_.push_back(groups.coarsen(levels_.back()));
+    groups_.push_back(std::move(groups));
   }
   factorize();
 }
 
 Multigrid::Multigrid(const Multigrid& old, SpringEdit edit)
-    : springs_(old.springs_, edit), unit_N_m_(old.unit_N_m_) {
+    : springs_(old.springs_, edit), unit_N_m_(old.unit_N_m_), groups_(old.groups_) {
   to_units(edit.springs);
   levels_.emplace_back(old.levels_[0], edit);
-  for (std::size_t level = 1; level < old.levels_.size(); ++level) {
-    SpringLevel<float>& fine = levels_.back();
-    edit = fine.edit_of_groups(edit, old.levels_[level].size());
-    SpringLevel<float> coarse(old.levels_[level], edit);
-    fine.place_in(coarse);
-    levels_.push_back(std::move(coarse));
+  for (std::size_t level = 0; level < groups_.size(); ++level) {
+    levels_.push_back(groups_[level].coarsen(levels_[level], old.levels_[level + 1], edit));
   }
   factorize();
 }
@@ -110,7 +107,7 @@ Multigrid::Multigrid(const Multigrid& old, SpringEdit edit)
 void Multigrid::to_units(std::vector<Spring>& springs) const {
   for (Spring& spring : springs) {
     spring.stretch_N_m /= unit_N_m_;
-    spring.turn /= unit_N_m_;
+    spring.rotation_Nm /= unit_N_m_;
   }
 }
 
@@ -172,14 +169,14 @@ void Multigrid::cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,
   Scratch& s = scratch[level];
   here.relax(kDamping, r, z, false);
   here.residual(r, z, s.rest);
-  here.restrict_to(s.rest, s.coarse_r);
+  groups_[level].restrict_to(s.rest, s.coarse_r);
   cycle(level + 1, s.coarse_r, s.coarse_z, scratch);
   if (level + 2 < levels_.size()) {  // once more, for what is left
     levels_[level + 1].residual(s.coarse_r, s.coarse_z, s.coarse_rest);
     cycle(level + 1, s.coarse_rest, s.correction, scratch);
     add(1.0f, s.correction, s.coarse_z);
   }
-  here.prolong(kOvercorrection, s.coarse_z, z);
+  groups_[level].prolong(kOvercorrection, s.coarse_z, z);
   here.residual(r, z, s.rest);
   here.relax(kDamping, s.rest, z, true);
 }
@@ -216,13 +213,15 @@ SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double no
     result.error = energy > 0 ? std::sqrt(std::max(0.0, rz_new) / energy) : 1;
     result.converged = result.residual <= tolerance && result.error <= tolerance;
     if (result.converged || result.iterations >= most_iterations) break;
-    lengthen(result.iterations > 0 ? rz_new / rz : 0, z, p);
+    const double beta = result.iterations > 0 ? rz_new / rz : 0;
+    lengthen(beta, z, p);
     rz = rz_new;
     springs_.multiply(p, product);
     const double curvature = dot(p, product);
     if (!(curvature > 0)) break;  // nothing but rounding is left
-    add(rz / curvature, p, x);
-    add(-rz / curvature, product, r);
+    const double alpha = rz / curvature;
+    add(alpha, p, x);
+    add(-alpha, product, r);
   }
   return result;
 }

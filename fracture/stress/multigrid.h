@@ -1,6 +1,6 @@
-// Solves K x = f for the springs of a compound: conjugate gradients, preconditioned by a W-cycle
-// over coarser and coarser levels of springs. The cycle is in single precision: it decides how fast
-// the answer comes, not what it is.
+// Solves K x = f for the springs of a compound: conjugate gradients (Hestenes and Stiefel 1952),
+// preconditioned by a W-cycle over coarser and coarser levels of springs. The cycle is in single
+// precision: it decides how fast the answer comes, not what it is.
 //
 // Read first: Multigrid::solve(), then cycle().
 #pragma once
@@ -10,10 +10,12 @@
 
 #include <Eigen/Cholesky>
 
+#include "fracture/stress/spring_groups.h"
 #include "fracture/stress/spring_level.h"
 
 namespace sunder::fracture {
 
+/// How far a solve came.
 struct SolveResult {
   int iterations = 0;
   double residual = 0;  ///< Of forces and torques, relative to f.
@@ -21,6 +23,7 @@ struct SolveResult {
   bool converged = false;
 };
 
+/// The springs of a compound on all levels; any thread may solve.
 class Multigrid {
  public:
   /// Every node hangs on the world, by springs over other nodes perhaps.
@@ -29,6 +32,7 @@ class Multigrid {
   /// as they are, and what is new joins the groups beside it.
   Multigrid(const Multigrid& old, SpringEdit edit);
 
+  /// The finest level, in SI units.
   const SpringLevel<double>& springs() const { return springs_; }
   /// Improves x until residual and error are at most `tolerance`, what is left is rounding
   /// (`nothing_N`), or so many iterations are done.
@@ -52,6 +56,7 @@ class Multigrid {
   SpringLevel<double> springs_;
   double unit_N_m_;  ///< The levels' unit of stiffness: their numbers are about one.
   std::vector<SpringLevel<float>> levels_;  ///< The same springs, then coarser ones.
+  std::vector<SpringGroups> groups_;        ///< Of each level but the coarsest.
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
 };
 

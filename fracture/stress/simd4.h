@@ -14,24 +14,29 @@ struct Lanes {
 template <class Real>
 using Simd4 = typename Lanes<Real>::Simd4;
 
+/// The same number four times.
 template <class Real>
 Simd4<Real> splat(Real x) {
   return Simd4<Real>{x, x, x, x};
 }
+/// A vector, its fourth lane zero.
 template <class Real>
 Simd4<Real> simd4(const Vec3& v) {
   return Simd4<Real>{static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z()),
                      0};
 }
+/// The first three lanes.
 template <class Q>
 Vec3 vec3(Q q) {
   return {q[0], q[1], q[2]};
 }
+/// Of all lanes, from the first.
 template <class Q>
 double sum(Q q) {
   return q[0] + q[1] + q[2] + q[3];
 }
 
+/// The first three lanes rotated by one, and by two; the fourth stays.
 template <class Q>
 Q yzx(Q q) {
   return __builtin_shufflevector(q, q, 1, 2, 0, 3);
@@ -40,6 +45,7 @@ template <class Q>
 Q zxy(Q q) {
   return __builtin_shufflevector(q, q, 2, 0, 1, 3);
 }
+/// The cross product of the first three lanes; the fourth is zero if both are.
 template <class Q>
 Q cross(Q a, Q b) {
   return yzx(Q(a * yzx(b) - yzx(a) * b));
@@ -62,6 +68,7 @@ struct Six {
   Simd4<Real> linear{}, angular{};
 };
 
+/// The sum of products of both parts.
 template <class Real>
 double dot(const Six<Real>& x, const Six<Real>& y) {
   return sum(Simd4<Real>(x.linear * y.linear + x.angular * y.angular));

@@ -1,10 +1,10 @@
-// Groups of nodes as the nodes of a coarser level.
+#include "fracture/stress/spring_groups.h"
+
 #include <algorithm>
 #include <map>
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "fracture/stress/spring_level.h"
 #include "fracture/stress/spring_math.h"
 
 namespace sunder::fracture {
@@ -39,9 +39,9 @@ struct Couplings {
 };
 
 /// Groups of neighbouring nodes, each numbered by when it began.
-class Groups {
+class GrowingGroups {
  public:
-  Groups(const Couplings& couplings, std::size_t nodes)
+  GrowingGroups(const Couplings& couplings, std::size_t nodes)
       : couplings_(couplings), group_(nodes, kFree), pull_(nodes, 0) {}
 
   /// Every group grows by what its members hold strongest, to `size` nodes if it can.
@@ -125,9 +125,10 @@ std::vector<Spring> merge(std::vector<Spring> springs) {
       moment += springs[end].stretch_N_m * springs[end].place;
     }
     one.place = moment / one.stretch_N_m;
-    one.turn.setZero();
+    one.rotation_Nm.setZero();
     for (std::size_t i = begin; i < end; ++i) {
-      one.turn += springs[i].turn + springs[i].stretch_N_m * lever(springs[i].place - one.place);
+      one.rotation_Nm += springs[i].rotation_Nm +
+                         springs[i].stretch_N_m * parallel_axis(springs[i].place - one.place);
     }
     merged.push_back(one);
   }
@@ -136,25 +137,33 @@ std::vector<Spring> merge(std::vector<Spring> springs) {
 
 }  // namespace
 
-template <class Real>
-SpringLevel<Real> SpringLevel<Real>::coarsen(std::size_t group_size) {
-  const Couplings couplings(*this);
-  Groups growing(couplings, size());
-  const std::uint32_t groups =
-      growing.grow(group_size, [&](std::uint32_t node) { return has_springs(node); });
+SpringGroups::SpringGroups(const SpringLevel<float>& fine, std::size_t size) {
+  const Couplings couplings(fine);
+  GrowingGroups growing(couplings, fine.size());
+  count_ = growing.grow(size, [&](std::uint32_t node) { return fine.has_springs(node); });
   group_ = growing.take();
+}
+
+SpringLevel<float> SpringGroups::coarsen(const SpringLevel<float>& fine) {
   std::vector<Spring> between;
-  for_each_spring([&](const Spring& spring) {
+  fine.for_each_spring([&](const Spring& spring) {
     if (const std::optional<Spring> one = between_groups(spring)) between.push_back(*one);
   });
-  SpringLevel coarse(groups, merge(std::move(between)));
-  place_in(coarse);
+  SpringLevel<float> coarse(count_, merge(std::move(between)));
+  place_arms(fine, coarse);
+  return coarse;
+}
+
+SpringLevel<float> SpringGroups::coarsen(const SpringLevel<float>& fine,
+                                         const SpringLevel<float>& old_coarse, SpringEdit& edit) {
+  edit = edit_of_groups(fine, edit);
+  SpringLevel<float> coarse(old_coarse, edit);
+  place_arms(fine, coarse);
   return coarse;
 }
 
 /// The spring as its groups see it; none if it is within one.
-template <class Real>
-std::optional<Spring> SpringLevel<Real>::between_groups(Spring spring) const {
+std::optional<Spring> SpringGroups::between_groups(Spring spring) const {
   spring.a = spring.a == Spring::kWorld ? Spring::kWorld : group_[spring.a];
   spring.b = spring.b == Spring::kWorld ? Spring::kWorld : group_[spring.b];
   if (spring.a == spring.b) return std::nullopt;
@@ -162,53 +171,42 @@ std::optional<Spring> SpringLevel<Real>::between_groups(Spring spring) const {
   return spring;
 }
 
-template <class Real>
-void SpringLevel<Real>::place_in(const SpringLevel& coarse) {
-  arms_.resize(size());
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Vec3 way = places_[i] - coarse.places_[group_[i]];
-    arms_[i] = rounded<Real>(way, way.norm());
+/// Takes note of where the groups are.
+void SpringGroups::place_arms(const SpringLevel<float>& fine, const SpringLevel<float>& coarse) {
+  arms_.resize(group_.size());
+  for (std::size_t i = 0; i < group_.size(); ++i) {
+    const Vec3 way = fine.place(i) - coarse.place(group_[i]);
+    arms_[i] = rounded<float>(way, way.norm());
   }
 }
 
-template <class Real>
-SpringEdit SpringLevel<Real>::edit_of_groups(const SpringEdit& edit, std::size_t groups) {
+/// What an edit of the fine level does to the coarse one.
+SpringEdit SpringGroups::edit_of_groups(const SpringLevel<float>& fine, const SpringEdit& edit) {
   SpringEdit of_groups;
-  of_groups.changes.assign(groups, SpringEdit::Change::kNone);
+  of_groups.changes.assign(count_, SpringEdit::Change::kNone);
   const auto mark = [&] {
-    for (std::uint32_t i = 0; i < size(); ++i) {
+    for (std::uint32_t i = 0; i < group_.size(); ++i) {
       if (edit.is_at(i)) of_groups.changes[group_[i]] = SpringEdit::Change::kSprings;
     }
   };
   mark();
   join_groups(edit);
   mark();
-  std::vector<std::uint8_t> touched(runs_.size(), 0);
-  for (std::uint32_t i = 0; i < size(); ++i) {
-    if (of_groups.is_at(group_[i])) touched[i / kRun] = 1;
-  }
   std::vector<Spring> between;
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
-    if (!touched[r]) continue;
-    for (const Spring& spring : runs_[r]->springs) {
-      const std::optional<Spring> one = between_groups(spring);
-      if (!one || !of_groups.is_at(*one)) continue;
-      // Of the two runs that it may be in, the first that was looked at counts.
-      const std::uint32_t first = std::min(spring.a, spring.b) / kRun;
-      if (first != r && touched[first]) continue;
-      between.push_back(*one);
-    }
-  }
+  fine.for_springs_near([&](std::uint32_t node) { return of_groups.is_at(group_[node]); },
+                        [&](const Spring& spring) {
+                          const std::optional<Spring> one = between_groups(spring);
+                          if (one && of_groups.is_at(*one)) between.push_back(*one);
+                        });
   of_groups.springs = merge(std::move(between));
   return of_groups;
 }
 
 /// What is new goes to the group that holds it strongest.
-template <class Real>
-void SpringLevel<Real>::join_groups(const SpringEdit& edit) {
-  std::vector<std::uint8_t> homeless(size(), 0);
+void SpringGroups::join_groups(const SpringEdit& edit) {
+  std::vector<std::uint8_t> homeless(group_.size(), 0);
   std::size_t left = 0;
-  for (std::uint32_t i = 0; i < size(); ++i) {
+  for (std::uint32_t i = 0; i < group_.size(); ++i) {
     homeless[i] = edit.changes[i] == SpringEdit::Change::kNew;
     left += homeless[i];
   }
@@ -231,31 +229,23 @@ void SpringLevel<Real>::join_groups(const SpringEdit& edit) {
   }
 }
 
-template <class Real>
-void SpringLevel<Real>::restrict_to(const Nodal<Real>& forces, Nodal<Real>& sums) const {
-  std::fill(sums.begin(), sums.end(), Six<Real>{});
-  for (std::size_t i = 0; i < size(); ++i) {
-    Six<Real>& sum = sums[group_[i]];
+void SpringGroups::restrict_to(const Nodal<float>& forces, Nodal<float>& sums) const {
+  std::fill(sums.begin(), sums.end(), Six<float>{});
+  for (std::size_t i = 0; i < group_.size(); ++i) {
+    Six<float>& sum = sums[group_[i]];
     sum.linear += forces[i].linear;
     sum.angular += forces[i].angular + cross(arms_[i], forces[i].linear);
   }
 }
 
-template <class Real>
-void SpringLevel<Real>::prolong(Real factor, const Nodal<Real>& motions, Nodal<Real>& x) const {
-  for_chunks(size(), kRun, [&](std::size_t begin, std::size_t end, std::size_t) {
+void SpringGroups::prolong(float factor, const Nodal<float>& motions, Nodal<float>& x) const {
+  for_chunks(group_.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Six<Real>& motion = motions[group_[i]];
-      x[i].linear += splat<Real>(factor) * (motion.linear + cross(motion.angular, arms_[i]));
-      x[i].angular += splat<Real>(factor) * motion.angular;
+      const Six<float>& motion = motions[group_[i]];
+      x[i].linear += splat<float>(factor) * (motion.linear + cross(motion.angular, arms_[i]));
+      x[i].angular += splat<float>(factor) * motion.angular;
     }
   });
 }
-
-template SpringLevel<float> SpringLevel<float>::coarsen(std::size_t);
-template SpringEdit SpringLevel<float>::edit_of_groups(const SpringEdit&, std::size_t);
-template void SpringLevel<float>::place_in(const SpringLevel&);
-template void SpringLevel<float>::restrict_to(const Nodal<float>&, Nodal<float>&) const;
-template void SpringLevel<float>::prolong(float, const Nodal<float>&, Nodal<float>&) const;
 
 }  // namespace sunder::fracture

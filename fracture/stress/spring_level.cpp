@@ -11,7 +11,7 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kLeastTurn = 1e-9;  // of a block's eigenvalues, as part of their sum
+constexpr double kLeastRotation = 1e-9;  // of a block's eigenvalues, as part of their sum
 
 }  // namespace
 
@@ -122,32 +122,32 @@ typename SpringLevel<Real>::Link SpringLevel<Real>::link_of(const Spring& spring
   link.b = std::min(spring.b, nodes);
   link.arm_a = link.a < nodes ? arm(link.a) : Simd4<Real>{};
   link.arm_b = link.b < nodes ? arm(link.b) : Simd4<Real>{};
-  link.turn = rounded<Real>(spring.turn);
-  link.turn.diagonal[3] = static_cast<Real>(spring.stretch_N_m);
+  link.rotation = rounded<Real>(spring.rotation_Nm);
+  link.rotation.diagonal[3] = static_cast<Real>(spring.stretch_N_m);
   return link;
 }
 
 template <class Real>
 void SpringLevel<Real>::invert_blocks(const Run& run, const SpringEdit* edit) {
-  std::vector<double> push(run.end - run.begin, 0);
-  std::vector<Mat3> turn(run.end - run.begin, Mat3::Zero());
+  std::vector<double> stretch(run.end - run.begin, 0);
+  std::vector<Mat3> rotation(run.end - run.begin, Mat3::Zero());
   for (const Spring& spring : run.springs) {
     for (const std::uint32_t end : {spring.a, spring.b}) {
       if (end < run.begin || end >= run.end) continue;
-      push[end - run.begin] += spring.stretch_N_m;
-      turn[end - run.begin] +=
-          spring.turn + spring.stretch_N_m * lever(spring.place - places_[end]);
+      stretch[end - run.begin] += spring.stretch_N_m;
+      rotation[end - run.begin] +=
+          spring.rotation_Nm + spring.stretch_N_m * parallel_axis(spring.place - places_[end]);
     }
   }
   for (std::uint32_t i = run.begin; i < run.end; ++i) {
     if (edit && !edit->is_at(i)) continue;
     inverse_[i] = {};
-    if (!(push[i - run.begin] > 0)) continue;
-    // Slivers turn about their length almost freely.
-    Mat3& block = turn[i - run.begin];
-    block.diagonal().array() += kLeastTurn * block.trace();
+    if (!(stretch[i - run.begin] > 0)) continue;
+    // Slivers rotate about their length almost freely.
+    Mat3& block = rotation[i - run.begin];
+    block.diagonal().array() += kLeastRotation * block.trace();
     inverse_[i] = rounded<Real>(Mat3(block.inverse()));
-    inverse_[i].diagonal[3] = static_cast<Real>(1 / push[i - run.begin]);
+    inverse_[i].diagonal[3] = static_cast<Real>(1 / stretch[i - run.begin]);
   }
 }
 
@@ -161,11 +161,11 @@ void SpringLevel<Real>::apply(const Nodal<Real>& x, Nodal<Real>& y, Real sign,
     for (std::uint32_t i = run.begin; i < run.end; ++i) y[i] = start(i);
     for (const Link& link : run.links) {
       const Six<Real>&at_a = x[link.a], &at_b = x[link.b];
-      const Simd4<Real> turned = at_b.angular - at_a.angular;
+      const Simd4<Real> rotated = at_b.angular - at_a.angular;
       const Simd4<Real> shifted = at_b.linear - at_a.linear + cross(at_b.angular, link.arm_b) -
                                   cross(at_a.angular, link.arm_a);
-      const Simd4<Real> force = splat<Real>(sign * link.turn.diagonal[3]) * shifted;
-      const Simd4<Real> torque = splat<Real>(sign) * (link.turn * turned);
+      const Simd4<Real> force = splat<Real>(sign * link.rotation.diagonal[3]) * shifted;
+      const Simd4<Real> torque = splat<Real>(sign) * (link.rotation * rotated);
       if (link.a - run.begin < run.end - run.begin) {
         y[link.a].linear -= force;
         y[link.a].angular -= cross(link.arm_a, force) + torque;
@@ -194,10 +194,10 @@ void SpringLevel<Real>::relax(Real factor, const Nodal<Real>& r, Nodal<Real>& x,
   for_chunks(size(), kRun, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       const Symmetric<Real>& inverse = inverse_[i];
-      const Simd4<Real> push = splat<Real>(factor * inverse.diagonal[3]) * r[i].linear;
-      const Simd4<Real> turn = splat<Real>(factor) * (inverse * r[i].angular);
-      x[i].linear = add ? x[i].linear + push : push;
-      x[i].angular = add ? x[i].angular + turn : turn;
+      const Simd4<Real> linear = splat<Real>(factor * inverse.diagonal[3]) * r[i].linear;
+      const Simd4<Real> angular = splat<Real>(factor) * (inverse * r[i].angular);
+      x[i].linear = add ? x[i].linear + linear : linear;
+      x[i].angular = add ? x[i].angular + angular : angular;
     }
   });
 }

@@ -1,16 +1,15 @@
 // One level of the stress solve: nodes with six degrees of freedom, joined by springs that resist
 // displacement alike in all directions, and rotation.
 //
-// Two facts keep a level small. Where the springs of a node have their centre, a push does not turn
-// it: with its place there, the node's own block of the stiffness matrix is a number and a 3×3
-// matrix. And springs side by side between two rigid things are exactly one spring at their centre:
-// so a coarser level, whose nodes are groups that move as one, is a level of the same kind.
+// Two facts keep a level small. Where the springs of a node have their centre, a force does not
+// rotate it: with its place there, the node's own block of the stiffness matrix is a number and a
+// 3×3 matrix. And springs side by side between two rigid things are exactly one spring at their
+// centre: so a coarser level, whose nodes are groups that move as one, is a level of the same kind.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "fracture/stress/simd4.h"
@@ -21,9 +20,9 @@ namespace sunder::fracture {
 struct Spring {
   static constexpr std::uint32_t kWorld = 0xffffffff;
   std::uint32_t a = kWorld, b = kWorld;
-  Vec3 place = Vec3::Zero();  ///< Where it acts.
-  double stretch_N_m = 0;     ///< The same in all directions.
-  Mat3 turn = Mat3::Zero();   ///< N·m/rad, symmetric.
+  Vec3 place = Vec3::Zero();        ///< Where it acts.
+  double stretch_N_m = 0;           ///< The same in all directions.
+  Mat3 rotation_Nm = Mat3::Zero();  ///< Stiffness to rotation, N·m/rad; symmetric.
 };
 
 /// Per node, and one more for the world, which is zero.
@@ -47,7 +46,7 @@ struct SpringEdit {
   bool is_at(const Spring& spring) const { return is_at(spring.a) || is_at(spring.b); }
 };
 
-/// `Real` is float or double.
+/// Nodes and springs, and their stiffness matrix K; `Real` is float or double.
 template <class Real>
 class SpringLevel {
  public:
@@ -56,18 +55,26 @@ class SpringLevel {
   /// Another level after an edit, at a cost that depends on what that changes: the rest is shared.
   SpringLevel(const SpringLevel& old, const SpringEdit& edit);
 
+  /// Nodes.
   std::size_t size() const { return places_.size(); }
-  /// Calls `use` with each spring.
+  bool has_springs(std::uint32_t node) const { return inverse_[node].diagonal[3] > 0; }
+  /// Calls `use` with each spring once.
   template <class Use>
   void for_each_spring(const Use& use) const {
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-      for (const Spring& spring : runs_[r]->springs) {
-        if (std::min(spring.a, spring.b) / kRun == r) use(spring);
-      }
+    for_springs_in(std::vector<std::uint8_t>(runs_.size(), 1), use);
+  }
+  /// Calls `use` once with each spring at the nodes that `is_in`, and with others near them.
+  template <class IsIn, class Use>
+  void for_springs_near(const IsIn& is_in, const Use& use) const {
+    std::vector<std::uint8_t> looked_at(runs_.size(), 0);
+    for (std::uint32_t i = 0; i < size(); ++i) {
+      if (is_in(i)) looked_at[i / kRun] = 1;
     }
+    for_springs_in(looked_at, use);
   }
   /// The centre of a node's springs: its displacement and torque are about there.
   const Vec3& place(std::size_t node) const { return places_[node]; }
+  /// Of the level's size.
   Nodal<Real> zero() const { return Nodal<Real>(size() + 1); }
 
   /// y = K x
@@ -77,23 +84,12 @@ class SpringLevel {
   /// x = or += factor · D⁻¹ r, D the nodes' own blocks of K.
   void relax(Real factor, const Nodal<Real>& r, Nodal<Real>& x, bool add) const;
 
-  /// Groups of about `size` neighbouring nodes as the nodes of a coarser level, for the two below.
-  SpringLevel coarsen(std::size_t size);
-  /// What an edit that made this level does to the coarser one of the level before.
-  SpringEdit edit_of_groups(const SpringEdit& edit, std::size_t groups);
-  /// Takes note of where the groups are after that.
-  void place_in(const SpringLevel& coarse);
-  /// Forces on nodes as forces on groups.
-  void restrict_to(const Nodal<Real>& forces, Nodal<Real>& sums) const;
-  /// Adds `factor` times the groups' rigid motions to the nodes.
-  void prolong(Real factor, const Nodal<Real>& motions, Nodal<Real>& x) const;
-
  private:
-  /// A spring made ready to be multiplied. Its stretch is the fourth lane of turn.diagonal.
+  /// A spring made ready to be multiplied. Its stretch is the fourth lane of rotation.diagonal.
   struct Link {
     std::uint32_t a = 0, b = 0;  ///< The world is the greatest number.
     Simd4<Real> arm_a, arm_b;
-    Symmetric<Real> turn;
+    Symmetric<Real> rotation;
   };
   /// Springs that reach into one run of nodes; those between two runs are in both.
   struct Run {
@@ -105,23 +101,29 @@ class SpringLevel {
 
   static constexpr std::uint32_t kRun = 1024;  // nodes a thread takes at a time
 
-  bool has_springs(std::uint32_t node) const { return inverse_[node].diagonal[3] > 0; }
+  /// Calls `use` with each spring of some runs once: in the first of them that it is in.
+  template <class Use>
+  void for_springs_in(const std::vector<std::uint8_t>& runs, const Use& use) const {
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      if (!runs[r]) continue;
+      for (const Spring& spring : runs_[r]->springs) {
+        const std::uint32_t first = std::min(spring.a, spring.b) / kRun;
+        if (first == r || !runs[first]) use(spring);
+      }
+    }
+  }
   void put(const Spring& spring, std::vector<std::shared_ptr<Run>>& runs) const;
   void finish(std::vector<std::shared_ptr<Run>> runs, const SpringEdit* edit);
   void place_nodes(const Run& run, const SpringEdit* edit);
   void invert_blocks(const Run& run, const SpringEdit* edit);
   Link link_of(const Spring& spring) const;
-  std::optional<Spring> between_groups(Spring spring) const;
-  void join_groups(const SpringEdit& edit);
   template <class Start>
   void apply(const Nodal<Real>& x, Nodal<Real>& y, Real sign, const Start& start) const;
 
   std::vector<Vec3> places_;
   std::vector<std::shared_ptr<const Run>> runs_;
-  std::vector<Symmetric<Real>>
-      inverse_;                       ///< Of D's turns; the fourth lane of diagonal is of its push.
-  std::vector<Simd4<Real>> arms_;     ///< Per node: from the place of its group.
-  std::vector<std::uint32_t> group_;  ///< Per node: its node on the next coarser level.
+  /// Of D's blocks for rotations; the fourth lane of diagonal is of that for displacements.
+  std::vector<Symmetric<Real>> inverse_;
 };
 
 }  // namespace sunder::fracture

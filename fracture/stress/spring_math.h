@@ -1,5 +1,4 @@
-// What the stress solve's levels work out of springs. Internal to spring_level.cpp and
-// spring_groups.cpp.
+// Small pieces of arithmetic that the stress solve's parts share. Internal to fracture/stress.
 #pragma once
 
 #include <limits>
@@ -24,7 +23,9 @@ Symmetric<Real> rounded(const Mat3& m) {
   return result;
 }
 
-inline Mat3 lever(const Vec3& arm) {
+/// What a unit of stiffness or mass at `arm` adds to the tensor about the origin (parallel-axis
+/// theorem).
+inline Mat3 parallel_axis(const Vec3& arm) {
   return arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
 }
 

@@ -9,7 +9,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "fracture/adjacency/islands.h"
-#include "fracture/stress/stress.h"
+#include "fracture/stress/stress_system.h"
 
 namespace sunder::fracture {
 namespace {
@@ -97,9 +97,9 @@ StressOrigin origin_in(const Memory& old, const Compound& compound,
 }
 
 /// A structure while its bonds are cut.
-class Bearing {
+class StressBreaks {
  public:
-  Bearing(const Structure& structure, const LoadCase& load)
+  StressBreaks(const Structure& structure, const LoadCase& load)
       : compound_(structure.compound()), load_(load), memory_(std::make_shared<Memory>()) {
     structure.for_each([&](std::uint32_t slot, const Convex&) { slots_.push_back(slot); });
     loads_.assign(load.loads.begin(), load.loads.end());
@@ -291,7 +291,7 @@ class Bearing {
         *memory_->system, compound_, std::move(geometry), load_.materials, origin);
   }
 
-  /// The island that stays: the largest of those that are held, or of all.
+  /// The island that stays: the largest of those that are anchored, or of all.
   std::uint32_t staying(const std::vector<std::uint32_t>& island, std::uint32_t islands) const {
     std::vector<std::pair<bool, std::uint32_t>> rank(islands);
     for (std::uint32_t c = 0; c < island.size(); ++c) {
@@ -358,9 +358,9 @@ class Bearing {
 
 }  // namespace
 
-StressAnswer bear_load(const Structure& structure, const LoadCase& load) {
+StressAnswer break_by_stress(const Structure& structure, const LoadCase& load) {
   SUNDER_CHECK(!structure.empty());
-  return Bearing(structure, load).run();
+  return StressBreaks(structure, load).run();
 }
 
 }  // namespace sunder::fracture

@@ -2,14 +2,16 @@
 //
 // Stress is solved for; the worst bonds of every overloaded region are cut, and it is solved for
 // again, until nothing is overloaded. Only a converged stress cuts, and nothing is kept of one
-// besides a start for the next: a load that is borne once is borne for ever.
+// besides a start for the next: a load that
+// a structure withstands once it withstands for ever.
 #pragma once
 
 #include "engine/model/breaker.h"
 
 namespace sunder::fracture {
 
-/// See Breaker::bear().
-StressAnswer bear_load(const Structure& structure, const LoadCase& load);
+/// What Breaker::stress() answers: cuts the bonds that the load is too much for, and what comes
+/// off.
+StressAnswer break_by_stress(const Structure& structure, const LoadCase& load);
 
 }  // namespace sunder::fracture

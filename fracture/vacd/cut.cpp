@@ -45,7 +45,7 @@ struct Slice {
   double place = 0;
   std::array<double, kAround> reach;
   std::array<Vec3, kAround> points;
-  bool hit = false;
+  bool is_cut = false;
 
   explicit Slice(double at) : place(at) { reach.fill(-std::numeric_limits<double>::infinity()); }
   Vec3 middle() const {
@@ -177,7 +177,7 @@ void Sweeper::cut_edges(const Frame& frame) {
         const double t = (slice.place - places_[from]) / (places_[to] - places_[from]);
         const Vec3 p = wires_.points[from] + t * (wires_.points[to] - wires_.points[from]);
         const double u = frame.right.dot(p), v = frame.front.dot(p);
-        slice.hit = true;
+        slice.is_cut = true;
         for (std::size_t i = 0; i < kAround; ++i) {
           const double reach = kRing[i][0] * u + kRing[i][1] * v;
           if (reach <= slice.reach[i]) continue;
@@ -203,7 +203,7 @@ void Sweeper::sweep(Iterator begin, Iterator end, double sign, const Vec3& direc
     for (; tip != tips_.end() && sign * direction.dot(*tip) < sign * slice->place; ++tip) {
       hull_.add(*tip);
     }
-    if (slice->hit) {
+    if (slice->is_cut) {
       for (std::size_t i = 0; i < kAround; ++i) {
         if (i == 0 || slice->points[i] != slice->points[i - 1]) hull_.add(slice->points[i]);
       }
@@ -221,7 +221,7 @@ Candidate Sweeper::price(const Vec3& direction) {
   Candidate best;
   best.direction = direction;
   for (std::size_t s = 0; s < slices_.size(); ++s) {
-    if (!slices_[s].hit) continue;
+    if (!slices_[s].is_cut) continue;
     const double below = below_m3_[s], above = above_m3_[slices_.size() - 1 - s];
     const double price = below + above - whole + evenness_ * std::max(below, above);
     if (!(price < best.price)) continue;

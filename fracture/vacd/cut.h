@@ -17,6 +17,7 @@ struct Outline {
   std::vector<Vec3> points;  ///< The vertices that matter for it, each once.
   double hull_m3 = 0;        ///< Its volume; 0 where the mesh is flat.
 };
+/// Of a mesh.
 Outline outline_of(const PolygonMesh& mesh);
 
 /// A plane that leaves part of a mesh on either side, and the volume of both sides' hulls together,
@@ -25,6 +26,7 @@ struct Cut {
   Plane plane;
   double hull_volume_m3 = 0;
 };
+/// How many directions are tried, and how far the best is refined.
 enum class Effort { kLittle, kFull };
 
 /// The cut whose hulls are smallest; none for a mesh too flat to tell. `outline` is the mesh's.

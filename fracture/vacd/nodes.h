@@ -1,5 +1,5 @@
-// Where the Voronoi nodes of a decomposition go by themselves: the paper's are placed by hand and
-// its authors left the rest open (end of 4.1).
+// Where the nodes of a decomposition go by themselves: the sites of its Voronoi cells, which the
+// paper places by hand, leaving the rest open (end of 4.1).
 #pragma once
 
 #include <cstdint>

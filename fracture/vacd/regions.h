@@ -23,8 +23,11 @@ struct VacdPiece {
 /// Names planes that no other part of a compound has.
 class PlaneNames {
  public:
+  /// One more.
   PlaneId next() { return {2 * ++used_}; }
+  /// Takes note that so many have been given by others, from used() on.
   void use(std::uint64_t count) { used_ += count; }
+  /// How many there are so far.
   std::uint64_t used() const { return used_; }
 
  private:

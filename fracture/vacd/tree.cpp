@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "fracture/vacd/node.h"
+#include "fracture/vacd/branch.h"
 
 namespace sunder::fracture {
 namespace {
@@ -42,19 +42,19 @@ class Tree {
         leaves_(pieces.size()),
         most_(limits.convexes > 0 ? std::max<std::size_t>(limits.convexes, pieces.size())
                                   : ~std::size_t{0}) {
-    nodes_.resize(pieces.size());
+    branches_.resize(pieces.size());
     for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
-      nodes_[p] = make_node(std::move(pieces[p]));
+      branches_[p] = make_branch(std::move(pieces[p]));
     });
-    for (const VacdNode& node : nodes_) hull_m3_ += node.hull_m3;
+    for (const Branch& branch : branches_) hull_m3_ += branch.hull_m3;
   }
 
   void grow();
   std::vector<VacdPiece> pruned();
 
  private:
-  bool too_many_polygons(const VacdNode& node) const {
-    return node.piece.mesh.faces.size() > limits_.polygons;
+  bool too_many_polygons(const Branch& branch) const {
+    return branch.piece.mesh.faces.size() > limits_.polygons;
   }
   std::vector<std::uint32_t> loosest() const;
   std::vector<std::vector<double>> together(const std::vector<std::uint32_t>& children) const;
@@ -63,29 +63,31 @@ class Tree {
 
   const RefineLimits limits_;
   PlaneNames& names_;
-  std::vector<VacdNode> nodes_;
+  std::vector<Branch> branches_;
   const std::size_t roots_;
   std::size_t leaves_;
   const std::size_t most_;  ///< Pieces allowed.
   double hull_m3_ = 0;
-  /// Per node and number of leaves less one: the least volume of so many hulls below it.
+  /// Per branch and number of leaves less one: the least volume of so many hulls below it.
   std::vector<std::vector<double>> least_;
 };
 
 /// The leaves to be cut next.
 std::vector<std::uint32_t> Tree::loosest() const {
   std::vector<std::uint32_t> order;
-  for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-    const VacdNode& node = nodes_[n];
-    if (node.tried || !node.children.empty() || node.piece.is_internal()) continue;
+  for (std::uint32_t n = 0; n < branches_.size(); ++n) {
+    const Branch& branch = branches_[n];
+    if (branch.tried || !branch.children.empty() || branch.piece.is_internal()) continue;
     const bool loose =
-        limits_.convexes > 0 && node.slack() > kTightEnough * hull_m3_ / limits_.convexes;
-    if (loose || too_many_polygons(node)) order.push_back(n);
+        limits_.convexes > 0 && branch.slack() > kTightEnough * hull_m3_ / limits_.convexes;
+    if (loose || too_many_polygons(branch)) order.push_back(n);
   }
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const bool many_a = too_many_polygons(nodes_[a]), many_b = too_many_polygons(nodes_[b]);
+    const bool many_a = too_many_polygons(branches_[a]), many_b = too_many_polygons(branches_[b]);
     if (many_a != many_b) return many_a;
-    return nodes_[a].slack() != nodes_[b].slack() ? nodes_[a].slack() > nodes_[b].slack() : a < b;
+    return branches_[a].slack() != branches_[b].slack()
+               ? branches_[a].slack() > branches_[b].slack()
+               : a < b;
   });
   order.resize(std::min(order.size(), kAtOnce));
   return order;
@@ -99,17 +101,17 @@ void Tree::grow() {
     if (limits_.progress) limits_.progress(static_cast<double>(leaves_) / wanted);
     std::vector<PlaneId> ids;
     for (std::size_t i = 0; i < next.size(); ++i) ids.push_back(names_.next());
-    std::vector<std::vector<VacdNode>> parts(next.size());
+    std::vector<std::vector<Branch>> parts(next.size());
     for_chunks(next.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      parts[i] = cut_node(nodes_[next[i]], ids[i]);
+      parts[i] = cut_branch(branches_[next[i]], ids[i]);
     });
     for (std::size_t i = 0; i < next.size(); ++i) {
-      nodes_[next[i]].tried = true;
+      branches_[next[i]].tried = true;
       if (parts[i].empty()) continue;
       leaves_ += parts[i].size() - 1;
-      for (VacdNode& part : parts[i]) {
-        nodes_[next[i]].children.push_back(static_cast<std::uint32_t>(nodes_.size()));
-        nodes_.push_back(std::move(part));
+      for (Branch& part : parts[i]) {
+        branches_[next[i]].children.push_back(static_cast<std::uint32_t>(branches_.size()));
+        branches_.push_back(std::move(part));
       }
     }
   }
@@ -140,22 +142,22 @@ void Tree::harvest(const std::vector<std::uint32_t>& siblings, std::size_t count
     }
   }
   for (std::size_t c = 0; c < siblings.size(); ++c) {
-    VacdNode& node = nodes_[siblings[c]];
+    Branch& branch = branches_[siblings[c]];
     if (share[c] == 1) {
-      pieces.push_back(std::move(node.piece));
+      pieces.push_back(std::move(branch.piece));
     } else {
-      harvest(node.children, share[c], pieces);
+      harvest(branch.children, share[c], pieces);
     }
   }
 }
 
 std::vector<VacdPiece> Tree::pruned() {
-  least_.resize(nodes_.size());
-  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parent
-    const auto sums = together(nodes_[n].children);
+  least_.resize(branches_.size());
+  for (std::size_t n = branches_.size(); n-- > 0;) {  // children come after their parent
+    const auto sums = together(branches_[n].children);
     least_[n] = sums.empty() ? std::vector<double>(1) : sums.back();
-    const double rather_any_cut = too_many_polygons(nodes_[n]) ? 1e3 * hull_m3_ : 0;
-    least_[n][0] = nodes_[n].hull_m3 + rather_any_cut;
+    const double rather_any_cut = too_many_polygons(branches_[n]) ? 1e3 * hull_m3_ : 0;
+    least_[n][0] = branches_[n].hull_m3 + rather_any_cut;
   }
   std::vector<std::uint32_t> roots(roots_);
   std::iota(roots.begin(), roots.end(), 0u);

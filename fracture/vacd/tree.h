@@ -10,6 +10,7 @@
 
 namespace sunder::fracture {
 
+/// How far pieces are cut.
 struct RefineLimits {
   std::uint32_t convexes = 0;  ///< At most so many pieces; 0: cut only what has too many polygons.
   std::uint32_t polygons = 0;  ///< A piece with more is cut again, if `convexes` allows.

@@ -18,24 +18,27 @@
 
 namespace sunder::fracture {
 
+/// Voronoi nodes where nothing else is asked for.
 inline constexpr std::uint32_t kDefaultNodes = 12;
 inline constexpr std::uint32_t kMostNodes = 10000;        ///< Also of convexes.
 inline constexpr std::uint32_t kDefaultPolygons = 10000;  ///< Of a piece.
 
+/// How a mesh is decomposed.
 struct VacdOptions {
-  std::vector<Vec3> nodes;  ///< By hand, in the mesh's coordinates; empty: automatic.
+  std::vector<Vec3> nodes;  ///< Sites of Voronoi cells, by hand, in the mesh's coordinates; empty: automatic.
   /// Automatic nodes, shared among the shells; none by default where `convexes` is given.
   std::optional<std::uint32_t> node_count;
   /// At most so many convexes, and no fewer where more make tighter hulls; 0: what the nodes make.
   /// A convex owns one connected mesh, so there are never fewer than shells.
   std::uint32_t convexes = 0;
-  /// A piece with more is cut again, if `convexes` allows: what a hit costs grows with it.
+  /// A piece with more is cut again, if `convexes` allows: what an impact costs grows with it.
   std::uint32_t polygons = kDefaultPolygons;
   Fit fit{Fit::Kind::kHull, 24};
   MaterialIndex material;
   std::function<void(double)> progress{};  ///< Told of the share of the work done; may be empty.
 };
 
+/// What came of it.
 struct VacdFigures {
   double mesh_volume_m3 = 0;
   /// Of parts left out because they are inside out: the mesh passes through itself there.
@@ -49,6 +52,7 @@ struct VacdFigures {
   double hull_volume_ratio() const { return hull_volume_m3 / mesh_volume_m3; }
 };
 
+/// A decomposition.
 struct Vacd {
   Compound compound;
   VacdFigures figures;
@@ -63,7 +67,7 @@ struct Vacd {
 /// that are not finite.
 Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options = {});
 
-/// Nodes from a file: `x y z` a line, what follows a # is left out. Throws InputError naming `name`
+/// Voronoi nodes from a file: `x y z` a line, what follows a # is left out. Throws InputError naming `name`
 /// and the line.
 std::vector<Vec3> read_nodes(std::istream& in, const std::string& name);
 

@@ -47,7 +47,7 @@ struct LoadRun {
         [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
     physics = owned.get();
     auto breaker = std::make_unique<ScriptedBreaker>(1.0);
-    breaker->bearing = [this, answer](const Structure& structure, const LoadCase& load) {
+    breaker->stressed = [this, answer](const Structure& structure, const LoadCase& load) {
       ++asked;
       asked_force.setZero();
       for (const Load& one : load.loads) asked_force += one.force_N;

@@ -156,7 +156,7 @@ class ScriptedBreaker final : public Breaker {
     return edit;
   }
   StressAnswer stress(const Structure& structure, const LoadCase& load) const override {
-    return bearing ? bearing(structure, load) : StressAnswer{};
+    return stressed ? stressed(structure, load) : StressAnswer{};
   }
 
   /// Every convex comes off, if there are several.
@@ -171,7 +171,8 @@ class ScriptedBreaker final : public Breaker {
     return edit;
   }
 
-  std::function<StressAnswer(const Structure&, const LoadCase&)> bearing;  ///< What bear() answers.
+  std::function<StressAnswer(const Structure&, const LoadCase&)>
+      stressed;  ///< What stress() answers.
 
  private:
   double area_m2_;

@@ -6,6 +6,8 @@
 #include "engine/base/trigonometry.h"
 #include "fracture/adjacency/islands.h"
 #include "fracture/adjacency/polygon.h"
+#include "fracture/adjacency/polygon_overlap.h"
+#include "fracture/cut/convex_distance.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"
 

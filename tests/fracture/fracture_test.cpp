@@ -132,7 +132,7 @@ TEST(Fracture, joins_what_is_outside_the_sphere_into_one_compound) {
   EXPECT_GT(largest, 0.8 * volume(pane));
 }
 
-TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_hit) {
+TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_impact) {
   const auto breaker = make_pattern_breaker();
   const Compound pane = box_compound(Vec3(-1, -1, -.003), Vec3(1, 1, .003));
   Material glass;
@@ -144,15 +144,15 @@ TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_hit) {
   EXPECT_NEAR(std::abs(axis.z()), 1, 1e-12);
   const BreakPlan plan = break_compound(pane, command);
   ASSERT_GT(plan.pieces.size(), 50u);
-  int at_the_hit = 0;  // the innermost pieces meet at the impact
+  int at_the_impact = 0;  // the innermost pieces meet at the impact
   for (const Compound& piece : plan.pieces) {
     for (const ConvexPtr& convex : piece.convexes) {
       for (const Vec3& vertex : convex->polyhedron.vertices) {
-        if ((vertex - hit.point_R).norm() < 1e-9) ++at_the_hit;
+        if ((vertex - hit.point_R).norm() < 1e-9) ++at_the_impact;
       }
     }
   }
-  EXPECT_EQ(at_the_hit, 12);
+  EXPECT_EQ(at_the_impact, 12);
 }
 
 TEST(Fracture, uses_the_pattern_of_the_blows_strength) {
@@ -261,14 +261,14 @@ TEST(Fracture, reports_as_exposed_what_it_laid_bare) {
 TEST(Fracture, keeps_anchored_only_what_still_reaches_the_held_side) {
   const Compound block = box_compound(Vec3(-1, 0, -1), Vec3(1, 2, 1), 1);
   const BreakPlan plan = break_compound(block, impact(voronoi(40), Vec3(0, 1, 0), kEndless));
-  std::size_t held = 0;
+  std::size_t anchored = 0;
   for (const Compound& piece : plan.pieces) {
     const bool reaches = bounds(piece).min.y() < 1e-9;
     EXPECT_EQ(piece.is_anchored(), reaches);
-    held += reaches;
+    anchored += reaches;
   }
-  EXPECT_GT(held, 0u);
-  EXPECT_LT(held, plan.pieces.size());
+  EXPECT_GT(anchored, 0u);
+  EXPECT_LT(anchored, plan.pieces.size());
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 #include "engine/base/trigonometry.h"
 #include "fracture/adjacency/compound_builder.h"
-#include "fracture/stress/stress.h"
 #include "fracture/stress/stress_breaks.h"
+#include "fracture/stress/stress_system.h"
 
 namespace sunder::fracture {
 
@@ -39,7 +39,7 @@ inline void add_grid(const Vec3& low, const Vec3& high, int nx, int ny, int nz, 
   }
 }
 
-/// A bar along x from 0 to `length`, of square section `width`, in `along`·`across`² boxes, held
+/// A bar along x from 0 to `length`, of square section `width`, in `along`·`across`² boxes, fixed
 /// by one more layer before x = 0, and after the end as well if it is `held_twice`.
 inline Compound bar(double length, double width, int along, int across, bool held_twice = false) {
   std::vector<Part> parts;

@@ -188,17 +188,17 @@ TEST(Ghosts, hold_a_column_to_the_roof_that_the_blow_does_not_reach) {
   EXPECT_EQ(broken_truth(pair, plan), "");
   ASSERT_GT(plan.pieces.size(), 5u);
   const ConvexPtr& roof = pair.convexes[1];
-  int held = 0;
+  int kept = 0;
   for (const Compound& piece : plan.pieces) {
     const bool has_roof = std::count(piece.convexes.begin(), piece.convexes.end(), roof) > 0;
     EXPECT_EQ(piece.ghosts.empty(), !has_roof);
     for (const ConvexPtr& convex : piece.convexes) {
       const bool overlaps = !overlap(convex->polyhedron, roof->polyhedron, 1e-6).empty();
       EXPECT_EQ(overlaps && !has_roof, false);
-      held += overlaps && convex != roof;
+      kept += overlaps && convex != roof;
     }
   }
-  EXPECT_GT(held, 0);
+  EXPECT_GT(kept, 0);
 }
 
 TEST(Ghosts, are_welded_away_where_a_cell_is_full) {

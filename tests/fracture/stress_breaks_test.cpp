@@ -1,5 +1,4 @@
 // What a steady load breaks, and what it leaves alone.
-#include "engine/geometry/hull.h"
 #include "fracture/stress/stress_breaks.h"
 
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
+#include "engine/geometry/hull.h"
 #include "fracture/fracture.h"
 #include "fracture/solids.h"
 #include "tests/fracture/frames.h"
@@ -25,17 +25,18 @@ struct Outcome : StressAnswer {
   BreakPlan plan = {};
 };
 
-Outcome bear(const Compound& compound, const std::vector<Material>& materials,
-             std::vector<Load> loads = {}, StressMemoryPtr memory = nullptr,
-             std::uint64_t most_work = kPlenty) {
+Outcome loaded(const Compound& compound, const std::vector<Material>& materials,
+               std::vector<Load> loads = {}, StressMemoryPtr memory = nullptr,
+               std::uint64_t most_work = kPlenty) {
   Structure structure(compound);
-  Outcome outcome{bear_load(structure, {materials, loads, kDown, most_work, std::move(memory)})};
+  Outcome outcome{
+      break_by_stress(structure, {materials, loads, kDown, most_work, std::move(memory)})};
   outcome.cut = outcome.edit.cut.size();
   if (outcome.edit.changed || outcome.cut > 0) outcome.plan = as_pieces(structure, outcome.edit);
   return outcome;
 }
 
-// The root of a cantilever bears 6 F L / b h².
+// The stress at the root of a cantilever is 6 F L / b h².
 constexpr double kLength = 4, kWidth = 0.4, kRootStrength = 1e6;
 constexpr double kSnaps_N = kRootStrength * kWidth * kWidth * kWidth / (6 * kLength);
 
@@ -50,35 +51,35 @@ std::vector<Material> weightless(double tensile_Pa) {
   return materials;
 }
 
-/// What is held has lost the beam, but for crumbs beside the root.
+/// What is anchored has lost the beam, but for crumbs beside the root.
 void expect_snapped_at_root(const BreakPlan& plan) {
-  std::size_t all = 0, held = 0, longest = 0;
+  std::size_t all = 0, anchored = 0, longest = 0;
   for (const Compound& piece : plan.pieces) {
     const std::size_t count = piece.convexes.size();
     all += count;
-    if (piece.is_anchored()) held += count;
+    if (piece.is_anchored()) anchored += count;
     if (!piece.is_anchored()) longest = std::max(longest, count);
   }
   ASSERT_GT(plan.pieces.size(), 1u);
   const double layer = 16;  // convexes
-  EXPECT_LE(static_cast<double>(held), layer);
+  EXPECT_LE(static_cast<double>(anchored), layer);
   EXPECT_GE(static_cast<double>(longest), static_cast<double>(all) - 2 * layer);
   EXPECT_LE(plan.new_area_m2, 1.5 * kWidth * kWidth);
 }
 
-TEST(StressBreaks, ACantileverBearsNineTenthsOfItsLoadForEverAndSnapsAtElevenTenths) {
+TEST(StressBreaks, ACantileverWithstandsNineTenthsOfItsLoadForEverAndSnapsAtElevenTenths) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const std::vector<Material> materials = weightless(kRootStrength);
   StressMemoryPtr memory;
   for (int step = 0; step < 200; ++step) {
     // A load that trembles is solved for anew each time; nothing must add up.
     const double load_N = (0.9 + (step % 2 ? 0.01 : -0.01)) * kSnaps_N;
-    const Outcome answer = bear(compound, materials, at_tip(compound, load_N), memory);
+    const Outcome answer = loaded(compound, materials, at_tip(compound, load_N), memory);
     ASSERT_TRUE(answer.settled && answer.cut == 0 && answer.plan.pieces.empty()) << step;
     ASSERT_LE(answer.worst, 1);
     memory = answer.memory;
   }
-  const Outcome answer = bear(compound, materials, at_tip(compound, 1.1 * kSnaps_N), memory);
+  const Outcome answer = loaded(compound, materials, at_tip(compound, 1.1 * kSnaps_N), memory);
   EXPECT_TRUE(answer.settled);
   expect_snapped_at_root(answer.plan);
 }
@@ -86,15 +87,15 @@ TEST(StressBreaks, ACantileverBearsNineTenthsOfItsLoadForEverAndSnapsAtElevenTen
 TEST(StressBreaks, ACantileverThatIsTooLongSnapsUnderItsOwnWeightAtTheRoot) {
   // 3 ρ g L² / h
   const double length = std::sqrt(kRootStrength * kWidth / (3 * kDensity * kGravity));
-  EXPECT_EQ(bear(bar(0.95 * length, kWidth, 30, 4), stone(kRootStrength)).cut, 0u);
-  const Outcome answer = bear(bar(1.05 * length, kWidth, 30, 4), stone(kRootStrength));
+  EXPECT_EQ(loaded(bar(0.95 * length, kWidth, 30, 4), stone(kRootStrength)).cut, 0u);
+  const Outcome answer = loaded(bar(1.05 * length, kWidth, 30, 4), stone(kRootStrength));
   expect_snapped_at_root(answer.plan);
 }
 
 TEST(StressBreaks, TheSameLoadAgainCostsOneLookAndChangesNothing) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
-  const Outcome first = bear(compound, stone(1e9));
-  const Outcome second = bear(compound, stone(1e9), {}, first.memory);
+  const Outcome first = loaded(compound, stone(1e9));
+  const Outcome second = loaded(compound, stone(1e9), {}, first.memory);
   EXPECT_TRUE(second.settled);
   EXPECT_LT(second.work, first.work / 5);
   EXPECT_EQ(first.worst, second.worst);
@@ -110,7 +111,7 @@ TEST(StressBreaks, WorkPutOffIsNotLost) {
   std::size_t pieces = 1;
   int calls = 0;
   for (; pieces == 1 && calls < 1000; ++calls) {
-    Outcome answer = bear(left, materials, loads, memory, little);
+    Outcome answer = loaded(left, materials, loads, memory, little);
     EXPECT_LE(answer.work, 20 * compound.bonds.size());
     memory = answer.memory;
     pieces = std::max<std::size_t>(1, answer.plan.pieces.size());
@@ -135,16 +136,16 @@ Compound arch(bool keystone) {
         for (const double z : {0.0, 0.5}) corners.emplace_back(r * at.cos, r * at.sin, z);
       }
     }
-    const bool held = i < 0 || i == stones;
-    parts.push_back({make_hull(corners), MaterialIndex(held ? 1 : 0), held});
+    const bool anchored = i < 0 || i == stones;
+    parts.push_back({make_hull(corners), MaterialIndex(anchored ? 1 : 0), anchored});
   }
   return make_compound(std::move(parts));
 }
 
 TEST(StressBreaks, AnArchStandsByItsKeystone) {
   const std::vector<Material> weak_mortar = stone(1e5);
-  EXPECT_EQ(bear(arch(true), weak_mortar).cut, 0u);
-  const Outcome answer = bear(arch(false), weak_mortar);
+  EXPECT_EQ(loaded(arch(true), weak_mortar).cut, 0u);
+  const Outcome answer = loaded(arch(false), weak_mortar);
   EXPECT_TRUE(answer.settled);
   ASSERT_GE(answer.plan.pieces.size(), 4u);
   int falling = 0;
@@ -158,7 +159,7 @@ TEST(StressBreaks, WhatHangsOnNothingIsAPieceOfItsOwn) {
   std::vector<Part> parts;
   add_grid(Vec3(0, 0, 0), Vec3(1, 1, 1), 1, 2, 1, true, parts);
   add_grid(Vec3(0, 3, 0), Vec3(1, 4, 1), 2, 1, 1, false, parts);
-  const Outcome answer = bear(make_compound(std::move(parts)), stone(1e6));
+  const Outcome answer = loaded(make_compound(std::move(parts)), stone(1e6));
   ASSERT_EQ(answer.plan.pieces.size(), 2u);
   EXPECT_TRUE(answer.settled);
   EXPECT_EQ(answer.cut, 0u);
@@ -168,14 +169,14 @@ TEST(StressBreaks, WhatHangsOnNothingIsAPieceOfItsOwn) {
 
 TEST(StressBreaks, MaterialsWithoutLimitsNeverBreak) {
   const Compound compound = bar(kLength, kWidth, 20, 2);
-  EXPECT_EQ(bear(compound, stone(0), at_tip(compound, 1e12)).cut, 0u);
+  EXPECT_EQ(loaded(compound, stone(0), at_tip(compound, 1e12)).cut, 0u);
 }
 
 TEST(StressBreaks, AnyCompoundGivesPiecesThatAddUpAndTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed, 17);
     Compound compound = voronoi_compound(2 + static_cast<int>(random.below(120)), seed);
-    for (std::uint8_t& held : compound.anchored) held = random.uniform() < 0.05;
+    for (std::uint8_t& anchored : compound.anchored) anchored = random.uniform() < 0.05;
     std::vector<Load> loads;
     for (int i = 0; i < 5; ++i) {
       const auto convex = random.below(static_cast<std::uint32_t>(compound.convexes.size()));
@@ -189,11 +190,11 @@ TEST(StressBreaks, AnyCompoundGivesPiecesThatAddUpAndTheSameForAnyNumberOfThread
     std::vector<std::uint64_t> hashes;
     for (const int count : {1, 2, 4}) {
       set_threads(count);
-      Outcome answer = bear(compound, materials, loads);
+      Outcome answer = loaded(compound, materials, loads);
       for (int more = 0; !answer.settled && more < 50; ++more) {
         if (answer.plan.pieces.size() > 1) break;
         const Compound cracked = answer.plan.pieces[0];
-        answer = bear(cracked, materials, loads, answer.memory);
+        answer = loaded(cracked, materials, loads, answer.memory);
       }
       EXPECT_TRUE(answer.settled || answer.plan.pieces.size() > 1) << seed;
       EXPECT_TRUE(std::isfinite(answer.worst)) << seed;

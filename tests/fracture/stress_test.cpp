@@ -1,12 +1,11 @@
 // Stress on bonds against the theory of beams, frames and arches.
-#include "fracture/stress/stress.h"
-
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
 #include "engine/geometry/hull.h"
 #include "fracture/fracture.h"
 #include "fracture/pattern/pattern.h"
+#include "fracture/stress/stress_system.h"
 #include "tests/fracture/frames.h"
 
 namespace sunder::fracture {
@@ -43,7 +42,7 @@ TEST(Stress, AColumnIsOnlyPressedAndTheMoreTheLower) {
   EXPECT_LT(stress.tension_Pa, 1e-2 * base);
 }
 
-// Kleinlogel, Rahmenformeln: uniform load w on the beam of a portal held at both feet, h its
+// Kleinlogel, Rahmenformeln: uniform load w on the beam of a portal fixed at both feet, h its
 // height and L its span, all of one section: M = w L² / (6 (h/L + 2)) at the corners.
 TEST(Stress, APortalsCornersCarryWhatFrameTheorySays) {
   const double span = 6, height = 4, t = 0.2;  // between centre lines
@@ -71,14 +70,14 @@ TEST(Stress, APortalsCornersCarryWhatFrameTheorySays) {
   EXPECT_NEAR(worst_stress(compound, loads, Vec3::Zero()).tension_Pa / expected, 1, 0.1);
 }
 
-// A semicircular arch of radius R held at both ends, with a load P at the crown. The moment at
+// A semicircular arch of radius R fixed at both ends, with a load P at the crown. The moment at
 // angle θ from there is M = M₀ + H R (1 − cos θ) − ½ P R sin θ; that the crown neither turns nor
 // moves sideways, ∫ M dθ = 0 and ∫ M cos θ dθ = 0, gives H = P (4 − π) / (π² − 8) and M₀.
 TEST(Stress, AnArchCarriesWhatTheElasticCentreSays) {
   const double radius = 4, t = 0.2, load_N = 5000;
   const int around = 96, across = 4;
   std::vector<Part> parts;
-  const auto ring = [&](int k, double angle_0, double angle_1, bool held) {
+  const auto ring = [&](int k, double angle_0, double angle_1, bool fixed) {
     const double inner = radius - t / 2 + t * k / across, outer = inner + t / across;
     const SinCos from = sin_cos(angle_0), to = sin_cos(angle_1);
     std::vector<Vec3> corners;
@@ -87,7 +86,7 @@ TEST(Stress, AnArchCarriesWhatTheElasticCentreSays) {
         for (const double z : {0.0, t}) corners.emplace_back(r * at.cos, r * at.sin, z);
       }
     }
-    parts.push_back({make_hull(corners), MaterialIndex(held ? 1 : 0), held});
+    parts.push_back({make_hull(corners), MaterialIndex(fixed ? 1 : 0), fixed});
   };
   const double pi = 3.14159265358979323846, step = pi / around;
   for (int k = 0; k < across; ++k) {
@@ -124,8 +123,8 @@ Compound voronoi_bar(int cells, std::uint64_t seed) {
   std::vector<Part> cut;
   for (const Compound& piece : plan.pieces) {
     for (std::size_t c = 0; c < piece.convexes.size(); ++c) {
-      const bool held = piece.convexes[c]->box.max.x() < 1e-9;
-      cut.push_back({piece.convexes[c]->polyhedron, MaterialIndex(held ? 1 : 0), held});
+      const bool fixed = piece.convexes[c]->box.max.x() < 1e-9;
+      cut.push_back({piece.convexes[c]->polyhedron, MaterialIndex(fixed ? 1 : 0), fixed});
     }
   }
   return make_compound(std::move(cut), 1e-9);
@@ -203,7 +202,7 @@ TEST(Stress, IsTheSameToTheLastBitForAnyNumberOfThreads) {
   set_threads(0);
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
     EXPECT_EQ(results[0][c].shift_R, results[1][c].shift_R);
-    EXPECT_EQ(results[0][c].turn_R, results[2][c].turn_R);
+    EXPECT_EQ(results[0][c].rotation_R, results[2][c].rotation_R);
   }
 }
 

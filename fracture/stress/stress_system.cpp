@@ -1,11 +1,10 @@
-#include "fracture/stress/stress.h"
+#include "fracture/stress/stress_system.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <tuple>
-
-#include "fracture/adjacency/islands.h"
+#include <utility>
 
 namespace sunder::fracture {
 namespace {
@@ -34,14 +33,15 @@ std::vector<double> cell_sizes(const Compound& compound) {
 
 StressSystem::StressSystem(const Compound& compound, std::vector<BondGeometry> geometry,
                            std::span<const Material> materials, std::size_t spare_nodes)
-    : geometry_(std::move(geometry)), overlaps_(!compound.ghosts.empty()) {
-  weigh(compound, materials, nullptr);
-  for (const std::uint8_t held : find_held(compound)) {
-    node_of_convex_.push_back(held ? Spring::kWorld : static_cast<std::uint32_t>(nodes_++));
+    : geometry_(std::move(geometry)),
+      masses_(compound, materials),
+      overlaps_(!compound.ghosts.empty()) {
+  for (const std::uint8_t fixed : masses_.fixed()) {
+    node_of_convex_.push_back(fixed ? Spring::kWorld : static_cast<std::uint32_t>(nodes_++));
   }
-  make_joints(compound, materials, nullptr);
+  make_bonds(compound, materials, nullptr);
   std::vector<Spring> springs;
-  for (std::uint32_t i = 0; i < joints_.size(); ++i) {
+  for (std::uint32_t i = 0; i < bonds_.size(); ++i) {
     if (has_spring(i)) springs.push_back(spring_of(i));
   }
   add_overlaps(compound, materials, springs);
@@ -51,124 +51,83 @@ StressSystem::StressSystem(const Compound& compound, std::vector<BondGeometry> g
   multigrid_ = std::make_shared<const Multigrid>(nodes_, std::move(springs));
 }
 
-void StressSystem::weigh(const Compound& compound, std::span<const Material> materials,
-                         const Edited* edited) {
-  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-    if (edited && !overlaps_ && edited->origin.convexes[c] != StressOrigin::kNew) {
-      const std::uint32_t was = edited->origin.convexes[c];
-      centroids_.push_back(edited->old.centroids_[was]);
-      masses_kg_.push_back(edited->old.masses_kg_[was]);
-      inertias_.push_back(edited->old.inertias_[was]);
-      continue;
-    }
-    const Convex& convex = *compound.convexes[c];
-    const double density = materials[convex.material.value].density_kg_m3;
-    centroids_.push_back(convex.solid.centroid);
-    masses_kg_.push_back(density * convex.solid.volume_m3);
-    inertias_.push_back(density * convex.solid.inertia());
+StressSystem::StressSystem(const StressSystem& old, const Compound& compound,
+                           std::vector<BondGeometry> geometry, std::span<const Material> materials,
+                           const StressOrigin& origin)
+    : geometry_(std::move(geometry)),
+      masses_(compound, materials, &old.masses_, origin.convexes),
+      overlaps_(!compound.ghosts.empty()) {
+  const Edited edited{old, origin};
+  SpringEdit edit;
+  if (overlaps_ || old.overlaps_ || !old.multigrid_ || !number_nodes(edited, edit)) {
+    *this = StressSystem(compound, std::move(geometry_), materials, spare_nodes(compound));
+    return;
   }
-  for (const Ghost& ghost : compound.ghosts) {  // what is counted twice, shared
-    const Convex& common = *ghost.convex;
-    const double mass = materials[common.material.value].density_kg_m3 * common.solid.volume_m3;
-    for (const std::uint32_t c : ghost.of) {
-      masses_kg_[c] += ghost.sign * mass / static_cast<double>(ghost.of.size());
-    }
+  make_bonds(compound, materials, &edited);
+  mark_changes(edited, edit);
+  for (std::uint32_t i = 0; i < bonds_.size(); ++i) {
+    if (!has_spring(i)) continue;
+    ++springs_;
+    const std::uint32_t a = node_of_convex_[bonds_[i].a], b = node_of_convex_[bonds_[i].b];
+    if (edit.is_at(a) || edit.is_at(b)) edit.springs.push_back(spring_of(i));
   }
-}
-
-/// Convexes that do not move: anchored ones, and, of an island that nothing holds, the heaviest.
-std::vector<std::uint8_t> StressSystem::find_held(const Compound& compound) {
-  const std::vector<std::uint32_t> island = find_islands(compound);
-  std::vector<std::vector<std::uint32_t>> members;
-  for (std::uint32_t c = 0; c < island.size(); ++c) {
-    if (island[c] == members.size()) members.emplace_back();
-    members[island[c]].push_back(c);
-  }
-  std::vector<std::uint8_t> held(compound.anchored.begin(), compound.anchored.end());
-  for (std::vector<std::uint32_t>& convexes : members) {
-    if (std::any_of(convexes.begin(), convexes.end(), [&](auto c) { return held[c] != 0; })) {
-      continue;
-    }
-    const auto heaviest = std::max_element(convexes.begin(), convexes.end(), [&](auto x, auto y) {
-      return masses_kg_[x] < masses_kg_[y];
-    });
-    held[*heaviest] = 1;
-    add_loose(std::move(convexes));
-  }
-  return held;
-}
-
-void StressSystem::add_loose(std::vector<std::uint32_t> convexes) {
-  Loose loose;
-  Mat3 inertia = Mat3::Zero();
-  for (const std::uint32_t c : convexes) {
-    loose.mass_kg += masses_kg_[c];
-    loose.com_R += masses_kg_[c] * centroids_[c];
-  }
-  loose.com_R /= loose.mass_kg;
-  for (const std::uint32_t c : convexes) {
-    const Vec3 arm = centroids_[c] - loose.com_R;
-    inertia += inertias_[c] +
-               masses_kg_[c] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
-  }
-  loose.inverse_inertia = inertia.inverse();
-  loose.convexes = std::move(convexes);
-  loose_.push_back(std::move(loose));
+  multigrid_ = std::make_shared<const Multigrid>(*old.multigrid_, std::move(edit));
 }
 
 bool StressSystem::has_spring(std::uint32_t bond) const {
-  const Joint& joint = joints_[bond];
-  return joint.stiffness_Pa_m > 0 &&
-         (node_of_convex_[joint.a] != Spring::kWorld || node_of_convex_[joint.b] != Spring::kWorld);
+  const ElasticBond& elastic = bonds_[bond];
+  return elastic.stiffness_Pa_m > 0 && (node_of_convex_[elastic.a] != Spring::kWorld ||
+                                        node_of_convex_[elastic.b] != Spring::kWorld);
 }
 
 Spring StressSystem::spring_of(std::uint32_t bond) const {
-  const Joint& joint = joints_[bond];
+  const ElasticBond& elastic = bonds_[bond];
   const BondGeometry& g = geometry_[bond];
   const Mat3 moment = g.second_moment.trace() * Mat3::Identity() - g.second_moment;
-  return {node_of_convex_[joint.a], node_of_convex_[joint.b], g.centroid_R,
-          joint.stiffness_Pa_m * g.area_m2, joint.stiffness_Pa_m * moment};
+  return {node_of_convex_[elastic.a], node_of_convex_[elastic.b], g.centroid_R,
+          elastic.stiffness_Pa_m * g.area_m2, elastic.stiffness_Pa_m * moment};
 }
 
-StressSystem::Joint StressSystem::make_joint(const Compound& compound, std::uint32_t number,
-                                             std::span<const Material> materials) const {
+StressSystem::ElasticBond StressSystem::make_bond(const Compound& compound, std::uint32_t number,
+                                                  std::span<const Material> materials) const {
   const Bond& bond = compound.bonds[number];
   const BondGeometry& g = geometry_[number];
   const auto stiffness = [&](std::uint32_t c) {
     return materials[compound.convexes[c]->material.value].youngs_Pa;
   };
-  Joint joint;
-  joint.plane = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].id.value >> 1;
-  if (!(g.area_m2 > 0)) return joint;
-  const double distance = std::max(g.normal_R.dot(centroids_[bond.b] - centroids_[bond.a]),
-                                   kLeastDistance * std::sqrt(g.area_m2));
+  ElasticBond elastic;
+  elastic.plane = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].id.value >> 1;
+  if (!(g.area_m2 > 0)) return elastic;
+  const double distance =
+      std::max(g.normal_R.dot(masses_.centroid(bond.b) - masses_.centroid(bond.a)),
+               kLeastDistance * std::sqrt(g.area_m2));
   const double e_a = stiffness(bond.a), e_b = stiffness(bond.b);
-  joint.stiffness_Pa_m = 2 * e_a * e_b / (e_a + e_b) / distance;
-  return joint;
+  elastic.stiffness_Pa_m = 2 * e_a * e_b / (e_a + e_b) / distance;
+  return elastic;
 }
 
-void StressSystem::make_joints(const Compound& compound, std::span<const Material> materials,
-                               const Edited* edited) {
+void StressSystem::make_bonds(const Compound& compound, std::span<const Material> materials,
+                              const Edited* edited) {
   const std::vector<double> cell_m = cell_sizes(compound);
   std::vector<std::uint32_t> fresh,
-      new_of_old(edited ? edited->old.joints_.size() : 0, StressOrigin::kNew);
+      new_of_old(edited ? edited->old.bonds_.size() : 0, StressOrigin::kNew);
   for (std::uint32_t i = 0; i < compound.bonds.size(); ++i) {
     const Bond& bond = compound.bonds[i];
     const std::uint32_t was = edited ? edited->origin.bonds[i] : StressOrigin::kNew;
     if (was == StressOrigin::kNew) {
-      joints_.push_back(make_joint(compound, i, materials));
+      bonds_.push_back(make_bond(compound, i, materials));
       fresh.push_back(i);
     } else {
-      joints_.push_back(edited->old.joints_[was]);
+      bonds_.push_back(edited->old.bonds_[was]);
       new_of_old[was] = i;
     }
-    Joint& joint = joints_.back();
-    joint.a = bond.a;
-    joint.b = bond.b;
-    joint.window_m = kWindowCells * std::max(cell_m[bond.a], cell_m[bond.b]);
+    ElasticBond& elastic = bonds_.back();
+    elastic.a = bond.a;
+    elastic.b = bond.b;
+    elastic.window_m = kWindowCells * std::max(cell_m[bond.a], cell_m[bond.b]);
   }
   const auto by_plane = [&](std::uint32_t x, std::uint32_t y) {
-    return std::tie(joints_[x].plane, x) < std::tie(joints_[y].plane, y);
+    return std::tie(bonds_[x].plane, x) < std::tie(bonds_[y].plane, y);
   };
   std::sort(fresh.begin(), fresh.end(), by_plane);
   std::vector<std::uint32_t> kept;  // in order still, as numbers keep theirs
@@ -180,7 +139,7 @@ void StressSystem::make_joints(const Compound& compound, std::span<const Materia
 }
 
 /// Convexes that overlap are held together as if by a cube of what they have in common; such a
-/// joint is no bond, and never breaks by load.
+/// spring is no bond, and never breaks by load.
 void StressSystem::add_overlaps(const Compound& compound, std::span<const Material> materials,
                                 std::vector<Spring>& springs) const {
   for (const Ghost& ghost : compound.ghosts) {
@@ -196,28 +155,61 @@ void StressSystem::add_overlaps(const Compound& compound, std::span<const Materi
   }
 }
 
-/// Forces on convexes and torques about their centroids: loads and weight, less what accelerates
-/// a loose island as a whole.
-void StressSystem::weigh_down(std::span<const Load> loads, const Vec3& gravity_R,
-                              std::vector<Vec3>& forces_N, std::vector<Vec3>& torques_Nm) const {
-  forces_N.resize(centroids_.size());
-  torques_Nm.assign(centroids_.size(), Vec3::Zero());
-  for (std::size_t c = 0; c < centroids_.size(); ++c) forces_N[c] = masses_kg_[c] * gravity_R;
-  for (const Load& load : loads) {
-    forces_N[load.convex] += load.force_N;
-    torques_Nm[load.convex] +=
-        load.torque_Nm + (load.point_R - centroids_[load.convex]).cross(load.force_N);
+/// Convexes keep their nodes; new ones take those that are free. False if there are too few.
+bool StressSystem::number_nodes(const Edited& edited, SpringEdit& edit) {
+  const std::vector<std::uint8_t>& fixed = masses_.fixed();
+  nodes_ = edited.old.nodes_;
+  edit.changes.assign(nodes_, SpringEdit::Change::kNone);
+  std::vector<std::uint8_t> taken(nodes_, 0);
+  node_of_convex_.assign(fixed.size(), Spring::kWorld);
+  for (std::size_t c = 0; c < fixed.size(); ++c) {
+    const std::uint32_t was = edited.origin.convexes[c];
+    if (fixed[c] || was == StressOrigin::kNew) continue;
+    node_of_convex_[c] = edited.old.node_of_convex_[was];
+    if (node_of_convex_[c] != Spring::kWorld) taken[node_of_convex_[c]] = 1;
   }
-  for (const Loose& loose : loose_) {
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    for (const std::uint32_t c : loose.convexes) {
-      force += forces_N[c];
-      torque += torques_Nm[c] + (centroids_[c] - loose.com_R).cross(forces_N[c]);
-    }
-    const Vec3 acceleration = force / loose.mass_kg, spin = loose.inverse_inertia * torque;
-    for (const std::uint32_t c : loose.convexes) {
-      forces_N[c] -= masses_kg_[c] * (acceleration + spin.cross(centroids_[c] - loose.com_R));
-      torques_Nm[c] -= inertias_[c] * spin;
+  for (const std::uint32_t node : edited.old.node_of_convex_) {
+    if (node != Spring::kWorld && !taken[node]) edit.changes[node] = SpringEdit::Change::kSprings;
+  }
+  std::uint32_t free = 0;
+  for (std::size_t c = 0; c < fixed.size(); ++c) {
+    if (fixed[c] || node_of_convex_[c] != Spring::kWorld) continue;
+    while (free < nodes_ && taken[free]) ++free;
+    if (free == nodes_) return false;
+    node_of_convex_[c] = free;
+    edit.changes[free++] = SpringEdit::Change::kNew;
+  }
+  return true;
+}
+
+/// Marks the nodes at the ends of bonds that came or went, or lead to another node than before.
+void StressSystem::mark_changes(const Edited& edited, SpringEdit& edit) const {
+  const auto mark = [&](std::uint32_t convex) {
+    const std::uint32_t node = node_of_convex_[convex];
+    if (node == Spring::kWorld || edit.is_at(node)) return;
+    edit.changes[node] = SpringEdit::Change::kSprings;
+  };
+  const auto moved = [&](std::uint32_t convex) {
+    const std::uint32_t was = edited.origin.convexes[convex];
+    return was == StressOrigin::kNew || node_of_convex_[convex] != edited.old.node_of_convex_[was];
+  };
+  std::vector<std::uint8_t> stays(edited.old.bonds_.size(), 0);
+  for (std::size_t i = 0; i < bonds_.size(); ++i) {
+    const std::uint32_t was = edited.origin.bonds[i];
+    if (was != StressOrigin::kNew) stays[was] = 1;
+    if (was != StressOrigin::kNew && !moved(bonds_[i].a) && !moved(bonds_[i].b)) continue;
+    mark(bonds_[i].a);
+    mark(bonds_[i].b);
+  }
+  std::vector<std::uint32_t> new_of_old(edited.old.masses_.size(), StressOrigin::kNew);
+  for (std::uint32_t c = 0; c < edited.origin.convexes.size(); ++c) {
+    const std::uint32_t was = edited.origin.convexes[c];
+    if (was != StressOrigin::kNew) new_of_old[was] = c;
+  }
+  for (std::size_t k = 0; k < stays.size(); ++k) {
+    if (stays[k]) continue;
+    for (const std::uint32_t end : {edited.old.bonds_[k].a, edited.old.bonds_[k].b}) {
+      if (new_of_old[end] != StressOrigin::kNew) mark(new_of_old[end]);
     }
   }
 }
@@ -225,51 +217,48 @@ void StressSystem::weigh_down(std::span<const Load> loads, const Vec3& gravity_R
 SolveResult StressSystem::solve(std::span<const Load> loads, const Vec3& gravity_R,
                                 double tolerance, int most_iterations,
                                 std::vector<Displacement>& displacements) const {
-  displacements.resize(centroids_.size());
+  displacements.resize(masses_.size());
   if (!multigrid_) return {0, 0, 0, true};
   std::vector<Vec3> forces_N, torques_Nm;
-  weigh_down(loads, gravity_R, forces_N, torques_Nm);
+  masses_.balance(loads, gravity_R, forces_N, torques_Nm);
   const SpringLevel<double>& level = multigrid_->springs();
   Nodal<double> f = level.zero(), x = level.zero();
   // Nodes stand where their springs have their centre, which is not the centroid.
-  for (std::size_t c = 0; c < centroids_.size(); ++c) {
+  for (std::size_t c = 0; c < masses_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];
     if (node == Spring::kWorld) continue;
-    const Vec3 arm = centroids_[c] - level.place(node);
+    const Vec3 arm = masses_.centroid(c) - level.place(node);
     f[node] = {simd4<double>(forces_N[c]), simd4<double>(torques_Nm[c] + arm.cross(forces_N[c]))};
     const Displacement& d = displacements[c];
-    x[node] = {simd4<double>(d.shift_R - d.turn_R.cross(arm)), simd4<double>(d.turn_R)};
+    x[node] = {simd4<double>(d.shift_R - d.rotation_R.cross(arm)), simd4<double>(d.rotation_R)};
   }
   // What falls freely has forces that cancel but for rounding.
-  double applied_N = 0;
-  for (const double mass : masses_kg_) applied_N += mass * gravity_R.norm();
-  for (const Load& load : loads) applied_N += load.force_N.norm();
-  const SolveResult result =
-      multigrid_->solve(f, tolerance, kNothing * applied_N, most_iterations, x);
-  for (std::size_t c = 0; c < centroids_.size(); ++c) {
+  const double nothing_N = kNothing * masses_.applied_N(loads, gravity_R);
+  const SolveResult result = multigrid_->solve(f, tolerance, nothing_N, most_iterations, x);
+  for (std::size_t c = 0; c < masses_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];
     displacements[c] = {};
     if (node == Spring::kWorld) continue;
-    const Vec3 arm = centroids_[c] - level.place(node), turn = vec3(x[node].angular);
-    displacements[c] = {vec3(x[node].linear) + turn.cross(arm), turn};
+    const Vec3 arm = masses_.centroid(c) - level.place(node), rotation = vec3(x[node].angular);
+    displacements[c] = {vec3(x[node].linear) + rotation.cross(arm), rotation};
   }
   return result;
 }
 
 StressSystem::Field StressSystem::field(std::uint32_t bond,
                                         std::span<const Displacement> displacements) const {
-  const Joint& joint = joints_[bond];
+  const ElasticBond& elastic = bonds_[bond];
   const BondGeometry& g = geometry_[bond];
-  const Displacement &a = displacements[joint.a], &b = displacements[joint.b];
-  const Vec3 turn = joint.stiffness_Pa_m * (b.turn_R - a.turn_R);
-  const Vec3 stress =
-      joint.stiffness_Pa_m * (b.shift_R + b.turn_R.cross(g.centroid_R - centroids_[joint.b]) -
-                              a.shift_R - a.turn_R.cross(g.centroid_R - centroids_[joint.a]));
+  const Displacement &a = displacements[elastic.a], &b = displacements[elastic.b];
+  const Vec3 rotation = elastic.stiffness_Pa_m * (b.rotation_R - a.rotation_R);
+  const Vec3 stress = elastic.stiffness_Pa_m *
+                      (b.shift_R + b.rotation_R.cross(g.centroid_R - masses_.centroid(elastic.b)) -
+                       a.shift_R - a.rotation_R.cross(g.centroid_R - masses_.centroid(elastic.a)));
   Field field;
   field.mean_Pa = g.normal_R.dot(stress);
-  field.slope_Pa_m = g.normal_R.cross(turn);
+  field.slope_Pa_m = g.normal_R.cross(rotation);
   field.shear_Pa = stress - field.mean_Pa * g.normal_R;
-  field.twist_Pa_m = g.normal_R.dot(turn);
+  field.twist_Pa_m = g.normal_R.dot(rotation);
   return field;
 }
 
@@ -287,11 +276,11 @@ BondStress StressSystem::bound(std::uint32_t bond,
 StressSystem::Field StressSystem::section_field(std::uint32_t bond,
                                                 std::span<const Displacement> displacements) const {
   Field own = field(bond, displacements);
-  const Joint& joint = joints_[bond];
+  const ElasticBond& elastic = bonds_[bond];
   const BondGeometry& g = geometry_[bond];
   const auto [begin, end] =
       std::equal_range(by_plane_.begin(), by_plane_.end(), bond,
-                       [&](auto x, auto y) { return joints_[x].plane < joints_[y].plane; });
+                       [&](auto x, auto y) { return bonds_[x].plane < bonds_[y].plane; });
   // About the bond's centroid, in an orthonormal basis of the plane.
   const Vec3 u =
       g.normal_R.cross(std::abs(g.normal_R.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ()).normalized();
@@ -302,7 +291,7 @@ StressSystem::Field StressSystem::section_field(std::uint32_t bond,
   for (auto it = begin; it != end; ++it) {
     const BondGeometry& h = geometry_[*it];
     const Vec3 arm = h.centroid_R - g.centroid_R;
-    if (joints_[*it].stiffness_Pa_m <= 0 || arm.norm() > joint.window_m) continue;
+    if (bonds_[*it].stiffness_Pa_m <= 0 || arm.norm() > elastic.window_m) continue;
     const Field other = field(*it, displacements);
     const Vec3 at(1, u.dot(arm), v.dot(arm));
     const Vec3 bend = h.second_moment * other.slope_Pa_m;
@@ -325,7 +314,7 @@ StressSystem::Field StressSystem::section_field(std::uint32_t bond,
 BondStress StressSystem::stress(const Compound& compound, std::uint32_t bond,
                                 std::span<const Displacement> displacements) const {
   BondStress worst;
-  if (joints_[bond].stiffness_Pa_m <= 0) return worst;
+  if (bonds_[bond].stiffness_Pa_m <= 0) return worst;
   const Field f = section_field(bond, displacements);
   const BondGeometry& g = geometry_[bond];
   for (const Vec3& corner : bond_corners(compound, compound.bonds[bond])) {

@@ -1,4 +1,4 @@
-#include "fracture/vacd/node.h"
+#include "fracture/vacd/branch.h"
 
 #include <algorithm>
 #include <limits>
@@ -38,28 +38,28 @@ bool add_side(const VacdPiece& piece, const Plane& plane, PlaneId id, double lea
 }
 
 /// The parts by a plane, or one a little aside if that leaves slivers; empty if all do.
-std::vector<VacdNode> parts_by(const VacdNode& node, const Plane& plane, PlaneId id) {
-  const double size = bounds(node.piece.mesh).extent().maxCoeff();
-  const double least_m3 = kLeastShare * node.solid_m3;
-  std::vector<VacdNode> parts;
+std::vector<Branch> parts_by(const Branch& branch, const Plane& plane, PlaneId id) {
+  const double size = bounds(branch.piece.mesh).extent().maxCoeff();
+  const double least_m3 = kLeastShare * branch.solid_m3;
+  std::vector<Branch> parts;
   for (const double shift : {0.0, 1e-3, -1e-3, 5e-3, -5e-3}) {
     const Plane moved{plane.normal, plane.d + shift * size};
     std::vector<VacdPiece> sides;
-    if (!add_side(node.piece, moved, id, least_m3, sides) ||
-        !add_side(node.piece, moved.flipped(), id.opposite(), least_m3, sides)) {
+    if (!add_side(branch.piece, moved, id, least_m3, sides) ||
+        !add_side(branch.piece, moved.flipped(), id.opposite(), least_m3, sides)) {
       continue;
     }
-    for (VacdPiece& side : sides) parts.push_back(make_node(std::move(side)));
+    for (VacdPiece& side : sides) parts.push_back(make_branch(std::move(side)));
     break;
   }
   return parts;
 }
 
 /// The volume of the parts' hulls once each is cut again.
-double volume_one_further(const std::vector<VacdNode>& parts) {
+double volume_one_further(const std::vector<Branch>& parts) {
   if (parts.empty()) return std::numeric_limits<double>::infinity();
   double sum = 0;
-  for (const VacdNode& part : parts) {
+  for (const Branch& part : parts) {
     const std::optional<Cut> cut = best_cut(part.piece.mesh, part.outline, Effort::kLittle);
     sum += cut ? std::min(part.hull_m3, cut->hull_volume_m3) : part.hull_m3;
   }
@@ -68,14 +68,14 @@ double volume_one_further(const std::vector<VacdNode>& parts) {
 
 /// The parts that are smallest one cut further, of those by `best` and by some cuts through the
 /// middle.
-std::vector<VacdNode> look_further(const VacdNode& node, const Plane& best, PlaneId id) {
-  std::vector<Cut> cuts = middle_cuts(node.piece.mesh, node.outline);
+std::vector<Branch> look_further(const Branch& branch, const Plane& best, PlaneId id) {
+  std::vector<Cut> cuts = middle_cuts(branch.piece.mesh, branch.outline);
   cuts.resize(std::min(cuts.size(), kLookedAt));
   cuts.push_back({best, 0});
-  std::vector<std::vector<VacdNode>> parts(cuts.size());
+  std::vector<std::vector<Branch>> parts(cuts.size());
   std::vector<double> volume(cuts.size());
   for_chunks(cuts.size(), 1, [&](std::size_t c, std::size_t, std::size_t) {
-    parts[c] = parts_by(node, cuts[c].plane, id);
+    parts[c] = parts_by(branch, cuts[c].plane, id);
     volume[c] = volume_one_further(parts[c]);
   });
   const auto least = std::min_element(volume.begin(), volume.end());
@@ -84,23 +84,23 @@ std::vector<VacdNode> look_further(const VacdNode& node, const Plane& best, Plan
 
 }  // namespace
 
-VacdNode make_node(VacdPiece piece) {
-  VacdNode node;
-  node.outline = outline_of(piece.mesh);
-  node.solid_m3 = mass_properties(piece.mesh).volume_m3;
-  node.hull_m3 = std::max(node.solid_m3, node.outline.hull_m3);
-  node.piece = std::move(piece);
-  return node;
+Branch make_branch(VacdPiece piece) {
+  Branch branch;
+  branch.outline = outline_of(piece.mesh);
+  branch.solid_m3 = mass_properties(piece.mesh).volume_m3;
+  branch.hull_m3 = std::max(branch.solid_m3, branch.outline.hull_m3);
+  branch.piece = std::move(piece);
+  return branch;
 }
 
-std::vector<VacdNode> cut_node(const VacdNode& node, PlaneId id) {
-  const std::optional<Cut> cut = best_cut(node.piece.mesh, node.outline, Effort::kFull);
+std::vector<Branch> cut_branch(const Branch& branch, PlaneId id) {
+  const std::optional<Cut> cut = best_cut(branch.piece.mesh, branch.outline, Effort::kFull);
   if (!cut) return {};
-  const bool stuck = node.hull_m3 - cut->hull_volume_m3 < kLittleGain * node.slack();
-  if (stuck && node.slack() > kLoose * node.solid_m3) {
-    return look_further(node, cut->plane, id);
+  const bool stuck = branch.hull_m3 - cut->hull_volume_m3 < kLittleGain * branch.slack();
+  if (stuck && branch.slack() > kLoose * branch.solid_m3) {
+    return look_further(branch, cut->plane, id);
   }
-  return parts_by(node, cut->plane, id);
+  return parts_by(branch, cut->plane, id);
 }
 
 }  // namespace sunder::fracture

@@ -4,7 +4,7 @@
 // Each bond has the stiffness E/d per area, d the distance of its convexes along its normal; so it
 // resists tension, shear, bending and twist, and the stress over it is linear in the place.
 //
-// Read first: StressSystem. Then bear.h for what follows from it.
+// Read first: StressSystem. Then stress_breaks.h for what follows from it.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 
 #include "engine/model/breaker.h"
 #include "fracture/stress/bond_geometry.h"
+#include "fracture/stress/convex_masses.h"
 #include "fracture/stress/multigrid.h"
 
 namespace sunder::fracture {
@@ -25,22 +26,22 @@ struct BondStress {
   double shear_Pa = 0;
 };
 
-/// Displacement of a convex: of its centroid, and its rotation.
+/// Small displacement of a convex: of its centroid, in metres, and its rotation vector, in radians.
 struct Displacement {
   Vec3 shift_R = Vec3::Zero();
-  Vec3 turn_R = Vec3::Zero();
+  Vec3 rotation_R = Vec3::Zero();
 };
 
 /// Where convexes and bonds were in another system: their numbers there, ascending, or kNew.
 struct StressOrigin {
-  static constexpr std::uint32_t kNew = 0xffffffff;
+  static constexpr std::uint32_t kNew = ConvexMasses::kNew;
   std::vector<std::uint32_t> convexes, bonds;
 };
 
 /// The springs of one compound; edited when its bonds change, kept while loads do.
 ///
 /// Anchored convexes do not move. An island without any is taken at rest in its own falling and
-/// turning frame: it feels only what does not accelerate all of it alike.
+/// rotating frame: it feels only what does not accelerate all of it alike.
 class StressSystem {
  public:
   /// `geometry` is that of the compound's bonds.
@@ -55,6 +56,7 @@ class StressSystem {
   /// So many that a compound may be edited for a while.
   static std::size_t spare_nodes(const Compound& compound) { return compound.convexes.size() / 8; }
 
+  /// Of the compound's bonds.
   const std::vector<BondGeometry>& geometry() const { return geometry_; }
   /// What an iteration costs, in visits of springs.
   std::uint64_t work() const { return springs_; }
@@ -72,18 +74,11 @@ class StressSystem {
 
  private:
   /// How the displacements of two convexes become the stress on their bond.
-  struct Joint {
+  struct ElasticBond {
     std::uint32_t a = 0, b = 0;
     double stiffness_Pa_m = 0;  ///< E/d; 0: it has no area.
     double window_m = 0;        ///< Bonds of the same plane are beside it if no farther.
     std::uint64_t plane = 0;
-  };
-  /// Convexes that hang together without an anchor.
-  struct Loose {
-    std::vector<std::uint32_t> convexes;
-    double mass_kg = 0;
-    Vec3 com_R = Vec3::Zero();
-    Mat3 inverse_inertia = Mat3::Zero();
   };
   /// Stress over a bond, linear in the place.
   struct Field {
@@ -99,32 +94,24 @@ class StressSystem {
     const StressOrigin& origin;
   };
 
-  void weigh(const Compound& compound, std::span<const Material> materials, const Edited* edited);
-  std::vector<std::uint8_t> find_held(const Compound& compound);
-  void add_loose(std::vector<std::uint32_t> convexes);
-  bool number_nodes(const Edited& edited, const std::vector<std::uint8_t>& held, SpringEdit& edit);
-  void make_joints(const Compound& compound, std::span<const Material> materials,
-                   const Edited* edited);
-  Joint make_joint(const Compound& compound, std::uint32_t number,
-                   std::span<const Material> materials) const;
+  bool number_nodes(const Edited& edited, SpringEdit& edit);
+  void make_bonds(const Compound& compound, std::span<const Material> materials,
+                  const Edited* edited);
+  ElasticBond make_bond(const Compound& compound, std::uint32_t number,
+                        std::span<const Material> materials) const;
   void mark_changes(const Edited& edited, SpringEdit& edit) const;
   bool has_spring(std::uint32_t bond) const;
   Spring spring_of(std::uint32_t bond) const;
   void add_overlaps(const Compound& compound, std::span<const Material> materials,
                     std::vector<Spring>& springs) const;
-  void weigh_down(std::span<const Load> loads, const Vec3& gravity_R, std::vector<Vec3>& forces_N,
-                  std::vector<Vec3>& torques_Nm) const;
   Field field(std::uint32_t bond, std::span<const Displacement> displacements) const;
   Field section_field(std::uint32_t bond, std::span<const Displacement> displacements) const;
 
   std::vector<BondGeometry> geometry_;
-  std::vector<Vec3> centroids_;  ///< Per convex.
-  std::vector<double> masses_kg_;
-  std::vector<Mat3> inertias_;
-  std::vector<std::uint32_t> node_of_convex_;  ///< Spring::kWorld where held.
-  std::vector<Joint> joints_;                  ///< Per bond.
+  ConvexMasses masses_;
+  std::vector<std::uint32_t> node_of_convex_;  ///< Spring::kWorld where fixed.
+  std::vector<ElasticBond> bonds_;             ///< Per bond.
   std::vector<std::uint32_t> by_plane_;        ///< Bonds sorted by plane, then number.
-  std::vector<Loose> loose_;
   std::uint64_t springs_ = 0;
   std::size_t nodes_ = 0;                       ///< Some may stand for nothing.
   bool overlaps_ = false;                       ///< There are ghosts.

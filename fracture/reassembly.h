@@ -1,8 +1,10 @@
-// Steps 4 and 5 of a fracture: what the cuts left is put together again, as pieces.
+// Steps 4 and 5 of a fracture: what the cuts left is put together again, as pieces (paper 3.1).
 //
-// Read first: edit(). rubble_contacts.cpp finds what touches and rubble.cpp what holds together.
+// Read first: edit(). The constructor finds what touches, edit() what holds together.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -13,12 +15,14 @@
 
 namespace sunder::fracture {
 
-/// Fragments and their neighbours, on their way into pieces: steps 4 and 5 of a fracture. A node is
-/// a slot of the structure, or from `slot_count()` on a fragment.
-class Rubble {
+/// Fragments and their neighbours, on their way into pieces. A node is a slot of the structure, or
+/// from `slot_count()` on a fragment.
+class Reassembly {
  public:
-  Rubble(const Structure& structure, const std::vector<std::uint32_t>& touched,
-         const Fragments& fragments);
+  /// Of the fragments that the convexes in slots `touched`, ascending, were cut into. All three
+  /// must outlive it.
+  Reassembly(const Structure& structure, const std::vector<std::uint32_t>& touched,
+             const Fragments& fragments);
 
   /// What becomes of the structure.
   BreakEdit edit();

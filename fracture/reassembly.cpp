@@ -1,7 +1,9 @@
-#include "fracture/rubble.h"
+#include "fracture/reassembly.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "engine/base/check.h"
@@ -11,21 +13,150 @@
 
 namespace sunder::fracture {
 
+Reassembly::Reassembly(const Structure& structure, const std::vector<std::uint32_t>& touched,
+                       const Fragments& fragments)
+    : structure_(structure),
+      touched_(touched),
+      fragments_(fragments.all),
+      ghosts_(fragments.ghosts),
+      first_fragment_(structure.slot_count()) {
+  find_contacts_of_fragments();
+}
+
+void Reassembly::find_neighbours() {
+  const auto add = [&](std::uint32_t slot) {
+    if (!is_touched(slot)) neighbours_.push_back(slot);
+  };
+  for (const std::uint32_t slot : touched_) {
+    for (const Link& link : structure_.links(slot)) add(link.other);
+    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
+      for (const std::uint32_t other : structure_.ghost(number).of) add(other);
+    }
+  }
+  std::sort(neighbours_.begin(), neighbours_.end());
+  neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+}
+
+/// The faces by which neighbours touched what was cut.
+void Reassembly::add_neighbours(std::vector<ConvexPtr>& convexes,
+                                std::vector<FaceEntry>& faces) const {
+  for (std::uint32_t i = 0; i < neighbours_.size(); ++i) {
+    convexes.push_back(structure_.convex(neighbours_[i]));
+    std::uint32_t last_face = 0xffffffff;
+    for (const Link& link : structure_.links(neighbours_[i])) {
+      if (!is_touched(link.other) || link.face == last_face) continue;
+      last_face = link.face;
+      faces.push_back(known_face(*convexes.back(), i, link.face));
+    }
+  }
+  const auto same = [](const FaceEntry& x, const FaceEntry& y) {
+    return std::tie(x.convex, x.face) == std::tie(y.convex, y.face);
+  };
+  std::sort(faces.begin(), faces.end(), [](const FaceEntry& x, const FaceEntry& y) {
+    return std::tie(x.convex, x.face) < std::tie(y.convex, y.face);
+  });
+  faces.erase(std::unique(faces.begin(), faces.end(), same), faces.end());
+}
+
+/// Ghosts that weigh, by nodes: those that were cut, and those among neighbours, of which only the
+/// faces count that are in the planes given.
+std::vector<Ghost> Reassembly::add_ghosts(std::vector<ConvexPtr>& convexes,
+                                          std::vector<FaceEntry>& faces) const {
+  std::vector<Ghost> ghosts = ghosts_;
+  std::vector<std::uint32_t> known;
+  for (const std::uint32_t slot : neighbours_) {
+    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
+      if (!is_any_touched(structure_.ghost(number))) known.push_back(number);
+    }
+  }
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  for (const std::uint32_t number : known) ghosts.push_back(structure_.ghost(number));
+  std::erase_if(ghosts, [](const Ghost& ghost) { return ghost.sign == 0; });
+  if (ghosts.empty()) return ghosts;
+
+  std::set<PlaneId> planes;
+  for (const FaceEntry& face : faces) planes.insert(face.id);
+  for (const Ghost& ghost : ghosts) {
+    const auto index = static_cast<std::uint32_t>(convexes.size());
+    const std::size_t first = faces.size();
+    add_faces(*ghost.convex, index, faces);
+    convexes.push_back(ghost.convex);
+    if (is_fragment(ghost.of.back())) continue;
+    const auto at = faces.begin() + static_cast<std::ptrdiff_t>(first);
+    for (auto face = at; face != faces.end(); ++face) face->known = true;
+    faces.erase(std::remove_if(at, faces.end(),
+                               [&](const FaceEntry& face) { return !planes.contains(face.id); }),
+                faces.end());
+  }
+  return ghosts;
+}
+
+void Reassembly::find_contacts_of_fragments() {
+  find_neighbours();
+  // Neighbours first, then fragments: the order of nodes; then ghosts.
+  std::vector<ConvexPtr> convexes;
+  std::vector<FaceEntry> faces;
+  add_neighbours(convexes, faces);
+  for (const Fragment& fragment : fragments_) {
+    add_faces(*fragment.convex, static_cast<std::uint32_t>(convexes.size()), faces);
+    convexes.push_back(fragment.convex);
+  }
+  const auto count = static_cast<std::uint32_t>(convexes.size());
+  const std::vector<Ghost> ghosts = add_ghosts(convexes, faces);
+  for (const Bond& bond : find_contacts(convexes, faces)) {
+    if (bond.b >= count) {
+      correct(bond, count, ghosts);
+    } else {
+      contacts_.push_back(
+          {node_of(bond.a), node_of(bond.b), bond.face_a, bond.face_b, bond.area_m2});
+    }
+  }
+}
+
+/// Puts down a contact with at least one ghost to the first convexes of ghosts that have the face.
+void Reassembly::correct(const Bond& bond, std::uint32_t convexes,
+                         const std::vector<Ghost>& ghosts) {
+  Correction correction{{0, 0, bond.face_a, bond.face_b, bond.area_m2}, 1};
+  const auto resolve = [&](std::uint32_t index, std::uint32_t& node, std::uint32_t& face) {
+    if (index < convexes) {
+      node = node_of(index);
+      return true;
+    }
+    const Ghost& ghost = ghosts[index - convexes];
+    correction.sign *= ghost.sign;
+    const PlaneId id = ghost.convex->polyhedron.faces[face].id;
+    for (const std::uint32_t of : ghost.of) {
+      const auto& own = convex(of)->polyhedron.faces;
+      const auto at = std::find_if(own.begin(), own.end(), [&](auto& f) { return f.id == id; });
+      if (at == own.end()) continue;
+      node = of;
+      face = static_cast<std::uint32_t>(at - own.begin());
+      return true;
+    }
+    return false;
+  };
+  Contact& contact = correction.contact;
+  if (resolve(bond.a, contact.a, contact.face_a) && resolve(bond.b, contact.b, contact.face_b)) {
+    corrections_.push_back(correction);
+  }
+}
+
 /// What comes off, as islands of one group: the rest's smaller islands, then groups in order.
-std::vector<std::vector<std::uint32_t>> Rubble::find_pieces() {
+std::vector<std::vector<std::uint32_t>> Reassembly::find_pieces() {
   std::vector<std::vector<std::uint32_t>> pieces;
   separate_rest(pieces);
   join_groups(pieces);
   return pieces;
 }
 
-void Rubble::join_rest(std::uint32_t a, std::uint32_t b) {
+void Reassembly::join_rest(std::uint32_t a, std::uint32_t b) {
   if (group(a) != Fragment::kRest || group(b) != Fragment::kRest) return;
   rest_contacts_[a].push_back(b);
   rest_contacts_[b].push_back(a);
 }
 
-void Rubble::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) {
+void Reassembly::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) {
   for (const Contact& contact : contacts_) join_rest(contact.a, contact.b);
   for (const Ghost& ghost : ghosts_) {
     for (const std::uint32_t node : ghost.of) join_rest(ghost.of[0], node);
@@ -60,7 +191,7 @@ void Rubble::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) {
   pieces = std::move(rest.islands);
 }
 
-void Rubble::join_groups(std::vector<std::vector<std::uint32_t>>& pieces) const {
+void Reassembly::join_groups(std::vector<std::vector<std::uint32_t>>& pieces) const {
   std::vector<Bond> bonds;
   for (const Contact& contact : contacts_) {
     if (!is_fragment(contact.a) || !is_fragment(contact.b)) continue;
@@ -82,7 +213,7 @@ void Rubble::join_groups(std::vector<std::vector<std::uint32_t>>& pieces) const 
   for (auto& [key, nodes] : members) pieces.push_back(std::move(nodes));
 }
 
-Compound Rubble::make_piece(const std::vector<std::uint32_t>& nodes) const {
+Compound Reassembly::make_piece(const std::vector<std::uint32_t>& nodes) const {
   Compound piece;
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
     const std::uint32_t node = nodes[i];
@@ -106,7 +237,7 @@ Compound Rubble::make_piece(const std::vector<std::uint32_t>& nodes) const {
 }
 
 /// Gives the ghosts that were cut to the pieces of their convexes, which are held together.
-void Rubble::place_ghosts(BreakEdit& edit) const {
+void Reassembly::place_ghosts(BreakEdit& edit) const {
   for (Ghost ghost : ghosts_) {
     const std::uint32_t piece = place(ghost.of[0]).first;
     for (std::uint32_t& of : ghost.of) {
@@ -120,7 +251,7 @@ void Rubble::place_ghosts(BreakEdit& edit) const {
 }
 
 /// What stays with the structure: fragments of the rest that did not come off get slots.
-void Rubble::keep_rest(BreakEdit& edit) {
+void Reassembly::keep_rest(BreakEdit& edit) {
   for (std::uint32_t i = 0; i < fragments_.size(); ++i) {
     if (places_.count(first_fragment_ + i)) continue;
     const auto slot = structure_.slot_count() + static_cast<std::uint32_t>(edit.added.size());
@@ -130,7 +261,7 @@ void Rubble::keep_rest(BreakEdit& edit) {
   }
 }
 
-void Rubble::expose(BreakPlan& plan) const {
+void Reassembly::expose(BreakPlan& plan) const {
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, double> exposed;
   const auto add = [&](const Contact& contact, double area) {
     const auto [piece_a, a] = place(contact.a);
@@ -148,7 +279,7 @@ void Rubble::expose(BreakPlan& plan) const {
   }
 }
 
-BreakEdit Rubble::edit() {
+BreakEdit Reassembly::edit() {
   BreakEdit edit;
   const std::vector<std::vector<std::uint32_t>> pieces = find_pieces();
   for (std::uint32_t p = 0; p < pieces.size(); ++p) {

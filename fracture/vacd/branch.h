@@ -9,7 +9,8 @@
 
 namespace sunder::fracture {
 
-struct VacdNode {
+/// A piece as a branch of the tree of cuts (tree.h).
+struct Branch {
   VacdPiece piece;
   Outline outline;
   double solid_m3 = 0;
@@ -20,9 +21,10 @@ struct VacdNode {
   double slack() const { return hull_m3 - solid_m3; }
 };
 
-VacdNode make_node(VacdPiece piece);
+/// The piece with its hull worked out.
+Branch make_branch(VacdPiece piece);
 /// The islands on both sides of the plane, named `id`, that makes their hulls smallest, or, where
 /// none makes them much smaller, those of the next cuts. Empty if the piece cannot be cut.
-std::vector<VacdNode> cut_node(const VacdNode& node, PlaneId id);
+std::vector<Branch> cut_branch(const Branch& branch, PlaneId id);
 
 }  // namespace sunder::fracture

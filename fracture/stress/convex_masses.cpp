@@ -1,0 +1,107 @@
+#include "fracture/stress/convex_masses.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/Dense>
+
+#include "fracture/adjacency/islands.h"
+#include "fracture/stress/spring_math.h"
+
+namespace sunder::fracture {
+
+ConvexMasses::ConvexMasses(const Compound& compound, std::span<const Material> materials,
+                           const ConvexMasses* old, std::span<const std::uint32_t> old_of_new) {
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
+    if (old && compound.ghosts.empty() && old_of_new[c] != kNew) {
+      const std::uint32_t was = old_of_new[c];
+      centroids_.push_back(old->centroids_[was]);
+      masses_kg_.push_back(old->masses_kg_[was]);
+      inertias_.push_back(old->inertias_[was]);
+      continue;
+    }
+    const Convex& convex = *compound.convexes[c];
+    const double density = materials[convex.material.value].density_kg_m3;
+    centroids_.push_back(convex.solid.centroid);
+    masses_kg_.push_back(density * convex.solid.volume_m3);
+    inertias_.push_back(density * convex.solid.inertia());
+  }
+  for (const Ghost& ghost : compound.ghosts) {  // what is counted twice, shared
+    const Convex& common = *ghost.convex;
+    const double mass = materials[common.material.value].density_kg_m3 * common.solid.volume_m3;
+    for (const std::uint32_t c : ghost.of) {
+      masses_kg_[c] += ghost.sign * mass / static_cast<double>(ghost.of.size());
+    }
+  }
+  fix(compound);
+}
+
+void ConvexMasses::fix(const Compound& compound) {
+  const std::vector<std::uint32_t> island = find_islands(compound);
+  std::vector<std::vector<std::uint32_t>> members;
+  for (std::uint32_t c = 0; c < island.size(); ++c) {
+    if (island[c] == members.size()) members.emplace_back();
+    members[island[c]].push_back(c);
+  }
+  fixed_.assign(compound.anchored.begin(), compound.anchored.end());
+  for (std::vector<std::uint32_t>& convexes : members) {
+    if (std::any_of(convexes.begin(), convexes.end(), [&](auto c) { return fixed_[c] != 0; })) {
+      continue;
+    }
+    const auto heaviest = std::max_element(convexes.begin(), convexes.end(), [&](auto x, auto y) {
+      return masses_kg_[x] < masses_kg_[y];
+    });
+    fixed_[*heaviest] = 1;
+    add_loose(std::move(convexes));
+  }
+}
+
+void ConvexMasses::add_loose(std::vector<std::uint32_t> convexes) {
+  Loose loose;
+  Mat3 inertia = Mat3::Zero();
+  for (const std::uint32_t c : convexes) {
+    loose.mass_kg += masses_kg_[c];
+    loose.com_R += masses_kg_[c] * centroids_[c];
+  }
+  loose.com_R /= loose.mass_kg;
+  for (const std::uint32_t c : convexes) {
+    const Vec3 arm = centroids_[c] - loose.com_R;
+    inertia += inertias_[c] + masses_kg_[c] * parallel_axis(arm);
+  }
+  loose.inverse_inertia = inertia.inverse();
+  loose.convexes = std::move(convexes);
+  loose_.push_back(std::move(loose));
+}
+
+void ConvexMasses::balance(std::span<const Load> loads, const Vec3& gravity_R,
+                           std::vector<Vec3>& forces_N, std::vector<Vec3>& torques_Nm) const {
+  forces_N.resize(centroids_.size());
+  torques_Nm.assign(centroids_.size(), Vec3::Zero());
+  for (std::size_t c = 0; c < centroids_.size(); ++c) forces_N[c] = masses_kg_[c] * gravity_R;
+  for (const Load& load : loads) {
+    forces_N[load.convex] += load.force_N;
+    torques_Nm[load.convex] +=
+        load.torque_Nm + (load.point_R - centroids_[load.convex]).cross(load.force_N);
+  }
+  for (const Loose& loose : loose_) {
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    for (const std::uint32_t c : loose.convexes) {
+      force += forces_N[c];
+      torque += torques_Nm[c] + (centroids_[c] - loose.com_R).cross(forces_N[c]);
+    }
+    const Vec3 acceleration = force / loose.mass_kg, spin = loose.inverse_inertia * torque;
+    for (const std::uint32_t c : loose.convexes) {
+      forces_N[c] -= masses_kg_[c] * (acceleration + spin.cross(centroids_[c] - loose.com_R));
+      torques_Nm[c] -= inertias_[c] * spin;
+    }
+  }
+}
+
+double ConvexMasses::applied_N(std::span<const Load> loads, const Vec3& gravity_R) const {
+  double applied_N = 0;
+  for (const double mass : masses_kg_) applied_N += mass * gravity_R.norm();
+  for (const Load& load : loads) applied_N += load.force_N.norm();
+  return applied_N;
+}
+
+}  // namespace sunder::fracture
