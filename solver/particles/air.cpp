@@ -108,13 +108,25 @@ void cover_row(const float* fraction, const float* momentum, std::ptrdiff_t belo
 
 }  // namespace
 
-Air::Air(const Vec3i& counts) : solver_(counts) {
-  grid_.lattice = {counts};
+Air::Air(const Vec3i& counts) : Flow(counts), solver_(counts) {
   const std::size_t size = grid_.lattice.size();
-  for (auto* fields : {&velocity_, &advected_, &thrown_Ns_}) {
+  for (auto* fields : {&advected_, &thrown_Ns_}) {
     for (Field& field : *fields) field.assign(size, 0);
   }
   for (Field* field : {&dust_kg_, &thrown_kg_}) field->assign(size, 0);
+}
+
+bool Air::place(const Box& dust, double ground_m) {
+  if (placed_ && may_stay(grid_, dust)) return false;
+  const Grid grid = grid_around(dust, ground_m, grid_, placed_);
+  if (placed_) {
+    resample(grid, advected_);
+    std::swap(velocity_, advected_);
+    std::fill(solver_.pressure().begin(), solver_.pressure().end(), 0.0f);
+  }
+  grid_ = grid;
+  placed_ = true;
+  return true;
 }
 
 void Air::advance(double dt_s, const Vec3& gravity_W, const Obstacles& obstacles) {
@@ -254,26 +266,6 @@ void Air::slip_on_ground() {
       std::copy_n(row, lattice.counts.x() + 1, u.begin() + static_cast<std::ptrdiff_t>(at));
     }
   }
-}
-
-float Air::divergence() const {
-  const Lattice& lattice = grid_.lattice;
-  const auto sy = static_cast<std::size_t>(lattice.stride(1));
-  const auto sz = static_cast<std::size_t>(lattice.stride(2));
-  float speed = 0, largest = 0;
-  for (int k = 1; k <= lattice.counts.z(); ++k) {
-    for (int j = 1; j <= lattice.counts.y(); ++j) {
-      for (int i = 1; i <= lattice.counts.x(); ++i) {
-        const std::size_t at = lattice.index(i, j, k);
-        const float outflow = velocity_[0][at + 1] - velocity_[0][at] +
-                              (velocity_[1][at + sy] - velocity_[1][at]) +
-                              (velocity_[2][at + sz] - velocity_[2][at]);
-        largest = std::max(largest, std::abs(outflow));
-        for (const Field& u : velocity_) speed = std::max(speed, std::abs(u[at]));
-      }
-    }
-  }
-  return speed > 0 ? largest / speed : 0;
 }
 
 }  // namespace sunder::solver

@@ -134,7 +134,7 @@ void Debris::wake_touched(double dt_s, const Obstacles& obstacles) {
   std::vector<std::uint8_t> touched(asleep_.size());
   for_chunks(asleep_.size(), kChips, [&](std::size_t begin, std::size_t end, std::size_t) {
     ObstacleGrid::Near near;
-    std::array<ObstacleGrid::Way, kLanes> ways;
+    std::array<SphereWay, kLanes> ways;
     std::array<std::optional<ObstacleTouch>, kLanes> touches;
     for (std::size_t i = begin; i < end; i += kLanes) {
       const std::size_t count = std::min<std::size_t>(kLanes, end - i);
@@ -198,8 +198,8 @@ void Debris::fetch(std::uint32_t chip) const {
 /// They fly to their first touch, bounce, fly on.
 void Debris::move(std::span<const std::uint32_t> chips, std::span<Moved> moved, double dt_s,
                   double ground_m, ObstacleGrid::Near& near) {
-  std::array<ObstacleGrid::Way, kBatch> ways;  // of those that still fly
-  std::array<std::size_t, kBatch> flying;      // which of `chips` they are
+  std::array<SphereWay, kBatch> ways;      // of those that still fly
+  std::array<std::size_t, kBatch> flying;  // which of `chips` they are
   std::array<std::optional<ObstacleTouch>, kBatch> touches;
   const Vec3f fall = (dt_s * gravity_W_).cast<float>();
   for (std::size_t i = 0; i < chips.size(); ++i) {
@@ -234,7 +234,7 @@ void Debris::move(std::span<const std::uint32_t> chips, std::span<Moved> moved, 
 }
 
 /// Takes a chip to the end of its way, or to what it touches first: then it may go on from there.
-bool Debris::goes_on(std::uint32_t chip, ObstacleGrid::Way& way, std::optional<ObstacleTouch> touch,
+bool Debris::goes_on(std::uint32_t chip, SphereWay& way, std::optional<ObstacleTouch> touch,
                      double dt_s, double ground_m, Moved& moved) {
   const double lowest = ground_m + way.radius_m;
   const double fall = way.from.y() - way.to.y();

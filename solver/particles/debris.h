@@ -60,8 +60,8 @@ class Debris {
   void fetch(std::uint32_t chip) const;
   void move(std::span<const std::uint32_t> chips, std::span<Moved> moved, double dt_s,
             double ground_m, ObstacleGrid::Near& near);
-  bool goes_on(std::uint32_t chip, ObstacleGrid::Way& way, std::optional<ObstacleTouch> touch,
-               double dt_s, double ground_m, Moved& moved);
+  bool goes_on(std::uint32_t chip, SphereWay& way, std::optional<ObstacleTouch> touch, double dt_s,
+               double ground_m, Moved& moved);
   void spin(std::span<const std::uint32_t> chips, std::span<const Moved> moved, float dt_s);
   void put_to_sleep(double dt_s, const Obstacles& obstacles);
   void fade(float dt_s);

@@ -119,13 +119,13 @@ Vec3i Dust::cells_for(std::size_t puffs) const {
 Vec3i Dust::without_spare(Vec3i cells, const Vec3& extent) const {
   constexpr double kClearly = 0.75;  // so much less before there are fewer than now
   const Vec3i now = flow_ ? flow_->air.grid().lattice.counts : Vec3i(Vec3i::Zero());
-  const double cell_m = Air::cell_m_for(extent, cells);
+  const double cell_m = cell_m_for(extent, cells);
   const Vec3i least(16, 8, 8);  // what the pressure's coarser grids need
   for (int axis = 0; axis < 3; ++axis) {
     while (cells[axis] % 16 == 0 && cells[axis] / 2 >= least[axis]) {
       const int half = cells[axis] / 2;
       const double part = now[axis] > 0 && now[axis] <= half ? 1 : kClearly;
-      if (!Air::fits(extent[axis], half, part * cell_m)) break;
+      if (!grid_fits(extent[axis], half, part * cell_m)) break;
       cells[axis] = half;
     }
   }

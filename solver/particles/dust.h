@@ -43,7 +43,7 @@ class Dust {
   /// The air around the puffs of one cell.
   struct Around {
     std::uint32_t cell = kOutside;
-    AirGradient gradient;
+    FlowGradient gradient;
     float solid = 0;
     Swirl::Near swirl;
   };

@@ -1,5 +1,4 @@
 // Read first: build(). Shapes stay in their rest frames: only their boxes are brought to the world.
-// What ways meet is in obstacle_sweep.cpp.
 #include "solver/particles/obstacle_grid.h"
 
 #include <algorithm>
@@ -68,8 +67,8 @@ bool overlap(const Vec3f& min, const Vec3f& max, const Vec3f& low, const Vec3f& 
 /// The boxes that shapes sweep in the last step; empty for those not asked for.
 void ObstacleGrid::place(std::size_t begin, std::size_t end, Which which) {
   for (std::size_t s = begin; s < end; ++s) {
-    const ObstacleShape& shape = obstacles_.shapes[s];
-    const ObstacleBody& body = obstacles_.bodies[shape.body];
+    const ObstacleShape& shape = placed_.obstacles.shapes[s];
+    const ObstacleBody& body = placed_.obstacles.bodies[shape.body];
     Box& box = boxes_[s];
     box = Box();
     if (which == Which::kMoving && !body.moves) continue;
@@ -77,7 +76,7 @@ void ObstacleGrid::place(std::size_t begin, std::size_t end, Which which) {
     Vec3 half = Vec3::Constant(shape.radius_m);
     double reach = shape.radius_m;
     if (shape.hull) {
-      const Mat3& rotation = rotations_WB_[shape.body];
+      const Mat3& rotation = placed_.rotations_WB[shape.body];
       const Vec3 half_R = 0.5 * shape.box_R.extent();
       const Vec3 center_B = shape.box_R.center() - body.com_R;
       center += rotation * center_B;
@@ -99,11 +98,11 @@ void ObstacleGrid::place(std::size_t begin, std::size_t end, Which which) {
   }
 }
 
-ObstacleGrid::Placed ObstacleGrid::placed(std::uint32_t index) const {
-  const ObstacleShape& shape = obstacles_.shapes[index];
-  const ObstacleBody& body = obstacles_.bodies[shape.body];
-  const Mat3& rotation = rotations_WB_[shape.body];
-  Placed placed;
+PlacedObstacle ObstacleGrid::placed(std::uint32_t index) const {
+  const ObstacleShape& shape = placed_.obstacles.shapes[index];
+  const ObstacleBody& body = placed_.obstacles.bodies[shape.body];
+  const Mat3& rotation = placed_.rotations_WB[shape.body];
+  PlacedObstacle placed;
   placed.shape = index;
   placed.min = boxes_[index].min.cast<float>();
   placed.max = boxes_[index].max.cast<float>();
@@ -127,37 +126,39 @@ ObstacleGrid::Placed ObstacleGrid::placed(std::uint32_t index) const {
 
 void ObstacleGrid::sort_into_cells() {
   mask_ = 255;
-  while (mask_ < 4 * shapes_.size()) mask_ = 2 * mask_ + 1;
+  while (mask_ < 4 * placed_.shapes.size()) mask_ = 2 * mask_ + 1;
   first_.assign(std::size_t{mask_} + 3, 0);
   levels_ = 0;
-  const auto each_cell = [&](const Placed& placed, const auto& visit) {
+  const auto each_cell = [&](const PlacedObstacle& placed, const auto& visit) {
     const int level = level_of(placed.max - placed.min);
     levels_ |= 1u << level;
     for_cells(level, cell_of(placed.min.array() - kReach_m), cell_of(placed.max.array() + kReach_m),
               [&](std::uint32_t hash, const Eigen::Vector3i&) { visit(hash & mask_); });
   };
   // Starts are kept one bucket behind while it is filled.
-  for (const Placed& placed : shapes_) each_cell(placed, [&](std::uint32_t b) { ++first_[b + 2]; });
+  for (const PlacedObstacle& placed : placed_.shapes)
+    each_cell(placed, [&](std::uint32_t b) { ++first_[b + 2]; });
   for (std::size_t b = 2; b < first_.size(); ++b) first_[b] += first_[b - 1];
   entries_.resize(first_.back());
-  for (std::uint32_t s = 0; s < shapes_.size(); ++s) {
-    const Entry entry{four(shapes_[s].min, std::bit_cast<float>(s)), four(shapes_[s].max)};
-    each_cell(shapes_[s], [&](std::uint32_t b) { entries_[first_[b + 1]++] = entry; });
+  for (std::uint32_t s = 0; s < placed_.shapes.size(); ++s) {
+    const Entry entry{four(placed_.shapes[s].min, std::bit_cast<float>(s)),
+                      four(placed_.shapes[s].max)};
+    each_cell(placed_.shapes[s], [&](std::uint32_t b) { entries_[first_[b + 1]++] = entry; });
   }
 }
 
 void ObstacleGrid::build(const Obstacles& obstacles, double dt_s, const Box& region, Which which) {
-  obstacles_ = obstacles;
+  placed_.obstacles = obstacles;
   dt_s_ = dt_s;
-  shapes_.clear();
+  placed_.shapes.clear();
   if (region.empty()) return;
   const auto moves = [](const ObstacleBody& body) { return body.moves; };
   if (which == Which::kMoving && std::ranges::none_of(obstacles.bodies, moves)) return;
-  rotations_WB_.resize(obstacles.bodies.size());
+  placed_.rotations_WB.resize(obstacles.bodies.size());
   for_chunks(obstacles.bodies.size(), kObstacles,
              [&](std::size_t begin, std::size_t end, std::size_t) {
                for (std::size_t b = begin; b < end; ++b) {
-                 rotations_WB_[b] = obstacles.bodies[b].X_WB.rotation.toRotationMatrix();
+                 placed_.rotations_WB[b] = obstacles.bodies[b].X_WB.rotation.toRotationMatrix();
                }
              });
   boxes_.resize(obstacles.shapes.size());
@@ -165,9 +166,9 @@ void ObstacleGrid::build(const Obstacles& obstacles, double dt_s, const Box& reg
              [&](std::size_t begin, std::size_t end, std::size_t) { place(begin, end, which); });
   for (std::uint32_t s = 0; s < boxes_.size(); ++s) {
     if (!boxes_[s].overlaps(region)) continue;
-    shapes_.push_back(placed(s));
+    placed_.shapes.push_back(placed(s));
   }
-  if (shapes_.empty()) return;
+  if (placed_.shapes.empty()) return;
   sort_into_cells();
 }
 
@@ -182,8 +183,8 @@ inline bool ObstacleGrid::reaches(const Entry& entry, Four low, Four high) {
 void ObstacleGrid::find(const Vec3f& low, const Vec3f& high,
                         std::vector<std::uint32_t>& shapes) const {
   if ((high - low).maxCoeff() > kFar_m) {
-    for (std::uint32_t s = 0; s < shapes_.size(); ++s) {
-      if (overlap(shapes_[s].min, shapes_[s].max, low, high)) shapes.push_back(s);
+    for (std::uint32_t s = 0; s < placed_.shapes.size(); ++s) {
+      if (overlap(placed_.shapes[s].min, placed_.shapes[s].max, low, high)) shapes.push_back(s);
     }
     return;
   }
@@ -208,16 +209,16 @@ void ObstacleGrid::find(const Vec3f& low, const Vec3f& high,
   }
 }
 
-void ObstacleGrid::find(std::span<const Way> ways, Near& near) const {
-  if (shapes_.empty()) return;
+void ObstacleGrid::find(std::span<const SphereWay> ways, Near& near) const {
+  if (placed_.shapes.empty()) return;
   Vec3f low = Vec3f::Constant(1e30f), high = -low;
-  const auto low_of = [](const Way& way) {
+  const auto low_of = [](const SphereWay& way) {
     return Vec3f((way.from.cwiseMin(way.to).array() - way.radius_m).cast<float>());
   };
-  const auto high_of = [](const Way& way) {
+  const auto high_of = [](const SphereWay& way) {
     return Vec3f((way.from.cwiseMax(way.to).array() + way.radius_m).cast<float>());
   };
-  for (const Way& way : ways) {
+  for (const SphereWay& way : ways) {
     low = low.cwiseMin(low_of(way));
     high = high.cwiseMax(high_of(way));
   }
@@ -229,7 +230,7 @@ void ObstacleGrid::find(std::span<const Way> ways, Near& near) const {
     return;
   }
   near.high = near.low - Vec3f::Ones();  // holds for these ways alone
-  for (const Way& way : ways) find(low_of(way), high_of(way), near.shapes);
+  for (const SphereWay& way : ways) find(low_of(way), high_of(way), near.shapes);
   std::ranges::sort(near.shapes);
   near.shapes.erase(std::unique(near.shapes.begin(), near.shapes.end()), near.shapes.end());
 }

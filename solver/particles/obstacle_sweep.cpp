@@ -1,10 +1,11 @@
-// What small spheres meet on their ways. Read first: sweep(). Eight ways at a time go past the box
-// of each shape nearby; where some come through, they are clipped by its planes.
+// Read first: sweep_spheres(). Eight ways at a time go past the box of each shape nearby; where
+// some come through, they are clipped by its planes.
+#include "solver/particles/obstacle_sweep.h"
+
 #include <algorithm>
 #include <bit>
 
 #include "solver/base/wide.h"
-#include "solver/particles/obstacle_grid.h"
 
 namespace sunder::solver {
 namespace {
@@ -40,32 +41,30 @@ WideInt inside(Wide start, Wide end, Wide reach) {
   return (min(start, end) <= reach) & (max(start, end) >= -reach);
 }
 
-}  // namespace
-
-struct ObstacleGrid::WideWays {
+struct WideWays {
   Wide3 from, to, low, high;
   Wide radius_m, duration_s;
 
-  explicit WideWays(std::span<const Way> ways);
+  explicit WideWays(std::span<const SphereWay> ways);
 };
 
 /// Eight ways as seen from the middle of a shape's box, along its axes.
-struct ObstacleGrid::SeenWays {
+struct SeenWays {
   Wide3 start, end;
   std::uint32_t meet = 0;  ///< A bit for each that comes past all six sides of the box.
 
   SeenWays() = default;
-  SeenWays(const WideWays& ways, const Placed& shape);
+  SeenWays(const WideWays& ways, const PlacedObstacle& shape);
 };
 
 /// Asks memory for what meet() will read.
-void ObstacleGrid::fetch(const Placed& placed) const {
-  __builtin_prefetch(&obstacles_.shapes[placed.shape]);
-  const auto* from = reinterpret_cast<const char*>(placed.faces.data());
-  for (std::size_t at = 0; at < placed.faces.size_bytes(); at += 64) __builtin_prefetch(from + at);
+void fetch(const PlacedObstacle& shape, const Obstacles& obstacles) {
+  __builtin_prefetch(&obstacles.shapes[shape.shape]);
+  const auto* from = reinterpret_cast<const char*>(shape.faces.data());
+  for (std::size_t at = 0; at < shape.faces.size_bytes(); at += 64) __builtin_prefetch(from + at);
 }
 
-ObstacleGrid::WideWays::WideWays(std::span<const Way> ways) {
+WideWays::WideWays(std::span<const SphereWay> ways) {
   alignas(Wide) float lanes[8][kLanes];
   for (std::uint32_t i = 0; i < kLanes; ++i) {
     const bool goes = i < ways.size();
@@ -84,7 +83,7 @@ ObstacleGrid::WideWays::WideWays(std::span<const Way> ways) {
   high = {max(from.x, to.x) + radius_m, max(from.y, to.y) + radius_m, max(from.z, to.z) + radius_m};
 }
 
-ObstacleGrid::SeenWays::SeenWays(const WideWays& ways, const Placed& shape) {
+SeenWays::SeenWays(const WideWays& ways, const PlacedObstacle& shape) {
   const Wide3 least = wide3(shape.min), most = wide3(shape.max);
   WideInt meets = (ways.low.x <= most.x) & (ways.low.y <= most.y) & (ways.low.z <= most.z) &
                   (ways.high.x >= least.x) & (ways.high.y >= least.y) & (ways.high.z >= least.z);
@@ -107,10 +106,10 @@ ObstacleGrid::SeenWays::SeenWays(const WideWays& ways, const Placed& shape) {
 }
 
 /// Where those ways that come past a shape's box touch the shape, if they do so first.
-void ObstacleGrid::meet(const Placed& placed, const WideWays& wide, const SeenWays& seen,
-                        std::span<const Way> ways,
-                        std::span<std::optional<ObstacleTouch>> touches) const {
-  const ObstacleShape& shape = obstacles_.shapes[placed.shape];
+void meet(const PlacedObstacles& all, const PlacedObstacle& placed, const WideWays& wide,
+          const SeenWays& seen, std::span<const SphereWay> ways,
+          std::span<std::optional<ObstacleTouch>> touches) {
+  const ObstacleShape& shape = all.obstacles.shapes[placed.shape];
   Clip clip;
   std::uint32_t left = seen.meet;
   if (!placed.faces.empty()) {
@@ -141,14 +140,14 @@ void ObstacleGrid::meet(const Placed& placed, const WideWays& wide, const SeenWa
     }
     std::optional<ObstacleTouch>& first = touches[i];
     if (first && first->time <= touch.time) continue;
-    const ObstacleBody& body = obstacles_.bodies[shape.body];
+    const ObstacleBody& body = all.obstacles.bodies[shape.body];
     if (!placed.faces.empty()) {
       const std::int32_t face = clip.enter[i] >= 0 ? clip.enter_face[i] : clip.shallowest_face[i];
       touch.normal_W =
-          rotations_WB_[shape.body] * placed.faces[static_cast<std::size_t>(face)].plane.normal;
+          all.rotations_WB[shape.body] * placed.faces[static_cast<std::size_t>(face)].plane.normal;
     } else {
       const Vec3 start_B(double{seen.start.x[i]}, double{seen.start.y[i]}, double{seen.start.z[i]});
-      if (start_B.norm() > 0) touch.normal_W = rotations_WB_[shape.body] * start_B.normalized();
+      if (start_B.norm() > 0) touch.normal_W = all.rotations_WB[shape.body] * start_B.normalized();
     }
     touch.velocity_W =
         VelocityField{body.X_WB.position, body.velocity_W, body.angular_velocity_W}(ways[i].to);
@@ -157,25 +156,28 @@ void ObstacleGrid::meet(const Placed& placed, const WideWays& wide, const SeenWa
   }
 }
 
+}  // namespace
+
 /// What a shape is made of is asked for when its box is met, and looked at when the next one's is:
 /// by then it has come from memory.
-void ObstacleGrid::sweep(std::span<const Way> ways, const Near& near,
-                         std::span<std::optional<ObstacleTouch>> touches) const {
+void sweep_spheres(const PlacedObstacles& placed, std::span<const std::uint32_t> near,
+                   std::span<const SphereWay> ways,
+                   std::span<std::optional<ObstacleTouch>> touches) {
   for (std::optional<ObstacleTouch>& touch : touches) touch.reset();
-  if (near.shapes.empty()) return;
+  if (near.empty()) return;
   const WideWays wide(ways);
-  const Placed* asked = nullptr;
+  const PlacedObstacle* asked = nullptr;
   SeenWays seen_by_asked;
-  for (const std::uint32_t placed : near.shapes) {
-    const Placed& shape = shapes_[placed];
+  for (const std::uint32_t index : near) {
+    const PlacedObstacle& shape = placed.shapes[index];
     const SeenWays seen(wide, shape);
     if (seen.meet == 0) continue;
-    fetch(shape);
-    if (asked) meet(*asked, wide, seen_by_asked, ways, touches);
+    fetch(shape, placed.obstacles);
+    if (asked) meet(placed, *asked, wide, seen_by_asked, ways, touches);
     asked = &shape;
     seen_by_asked = seen;
   }
-  if (asked) meet(*asked, wide, seen_by_asked, ways, touches);
+  if (asked) meet(placed, *asked, wide, seen_by_asked, ways, touches);
 }
 
 }  // namespace sunder::solver

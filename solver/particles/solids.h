@@ -5,19 +5,9 @@
 #include <vector>
 
 #include "engine/model/particles.h"
-#include "solver/particles/lattice.h"
+#include "solver/particles/grid.h"
 
 namespace sunder::solver {
-
-/// A lattice in the world: cell (1, 1, 1) begins at the origin.
-struct Grid {
-  Lattice lattice;
-  Vec3 origin_W = Vec3::Zero();
-  double cell_m = 1;
-  bool on_ground = false;  ///< Its floor is the ground, which is closed.
-
-  Vec3 extent_m() const { return cell_m * lattice.counts.cast<double>(); }
-};
 
 /// Solid parts are those of the boxes that obstacles fill, exact where a box stands along the
 /// grid; so thin walls and crumbs smaller than a cell count for what they are.
