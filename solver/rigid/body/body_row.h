@@ -1,6 +1,7 @@
 // A body as the sweeps of contacts and joints see it.
 #pragma once
 
+#include "engine/base/types.h"
 #include "solver/base/wide.h"
 
 namespace sunder::solver {
@@ -12,5 +13,8 @@ struct alignas(64) BodyRow {
   Wide base;      ///< Velocity of the substep before any contact acted.
   Wide start;     ///< Velocity when the step began.
 };
+
+inline Vec3f linear(const Wide& of_row) { return {of_row[0], of_row[1], of_row[2]}; }
+inline Vec3f angular(const Wide& of_row) { return {of_row[3], of_row[4], of_row[5]}; }
 
 }  // namespace sunder::solver

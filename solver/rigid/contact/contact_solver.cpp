@@ -11,9 +11,6 @@ namespace {
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
 
-Vec3f linear(Wide v) { return {v[0], v[1], v[2]}; }
-Vec3f angular(Wide v) { return {v[3], v[4], v[5]}; }
-
 }  // namespace
 
 /// The stages of one solve, and what each does: to bodies, to blocks of manifolds, to groups of

@@ -243,7 +243,7 @@ void StaticWarmStart::estimate(const StepContext& step, const Bodies& bodies, Co
   for (std::uint32_t body = 0; body < bodies.size(); ++body) {
     if (!concerned_[body]) continue;
     const Wide& v = rows_[body + 1].velocity;
-    const Vec3f velocity(v[0], v[1], v[2]), spin(v[3], v[4], v[5]);
+    const Vec3f velocity = linear(v), spin = angular(v);
     loads_[body].impulse_W = velocity / bodies.inverse_mass[body];
     loads_[body].angular_impulse_W = root_W_[body].transpose().inverse() * spin;
     loads_[body].supported = velocity.dot(kick) < 0.5f * kick.squaredNorm();
@@ -309,7 +309,7 @@ std::size_t StaticWarmStart::find_supported(double kick_m_s, const Bodies& bodie
   std::size_t supported = 0;
   for (const std::uint32_t body : concerned_bodies_) {
     const Wide& v = rows_[body + 1].velocity;
-    const Vec3f velocity(v[0], v[1], v[2]), spin(v[3], v[4], v[5]);  // of unit inertia
+    const Vec3f velocity = linear(v), spin = angular(v);  // of unit inertia
     const double energy =
         double{velocity.squaredNorm()} + double{bodies.inverse_mass[body] * spin.squaredNorm()};
     loads_[body].supported = energy <= kMostLeft * kick_m_s * kick_m_s;

@@ -9,9 +9,6 @@ namespace {
 
 using Kind = JointDesc::Kind;
 
-Vec3f linear(Wide v) { return {v[0], v[1], v[2]}; }
-Vec3f angular(Wide v) { return {v[3], v[4], v[5]}; }
-
 /// One end of a joint as the step begins.
 struct End {
   Vec3 position, arm, axis;
