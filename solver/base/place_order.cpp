@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kCells_m = 4;
 constexpr int kBitsAPass = 11;
-constexpr std::size_t kChunk = 4096;
+constexpr std::size_t kKeysAChunk = 4096;
 
 /// Ten bits, two apart.
 std::uint32_t spread(std::uint32_t bits) {
@@ -63,7 +63,7 @@ void sort_by_key(std::span<const std::uint32_t> keys, std::vector<std::uint32_t>
 
 void sort_by_place(std::span<const Vec3f> position_W, std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> places(position_W.size());
-  for_chunks(places.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+  for_chunks(places.size(), kKeysAChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) places[i] = place_of(position_W[i]);
   });
   sort_by_key(places, order);

@@ -11,7 +11,7 @@ constexpr double kSmallestCell_m = 0.125;
 constexpr double kNotch = 1.4142135623730951;  // cells grow and shrink by this factor
 constexpr double kRoom = 0.15;                 // part of the cells around the dust, on each side
 constexpr double kGroundCells = 6;             // over the ground, within which it is the floor
-constexpr double kMargin = 0.075;              // of which so much must be left before it moves
+constexpr double kLeastMargin = 0.075;         // of which so much must be left before it moves
 
 /// Whether dust of this extent fits when the grid is placed anew.
 bool all_fit(const Vec3& extent, const Vec3i& counts, double cell_m) {
@@ -41,7 +41,7 @@ double cell_m_for(const Vec3& extent, const Vec3i& counts) {
 }
 
 bool may_stay(const Grid& grid, const Box& dust) {
-  const Vec3 margin = kMargin * grid.extent_m();
+  const Vec3 margin = kLeastMargin * grid.extent_m();
   const Vec3 over = dust.max + margin - grid.origin_W - grid.extent_m();
   const Vec3 under = dust.min - margin - grid.origin_W;
   const bool inside = (over.array() <= 0).all() && under.x() >= 0 && under.z() >= 0 &&

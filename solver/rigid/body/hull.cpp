@@ -5,18 +5,9 @@
 #include <cmath>
 
 #include "engine/base/check.h"
+#include "solver/base/lanes.h"
 
 namespace sunder::solver {
-namespace {
-
-void set_lane(Wide3& chunk, std::uint32_t lane, const Vec3f& v) {
-  chunk.x[lane] = v.x();
-  chunk.y[lane] = v.y();
-  chunk.z[lane] = v.z();
-}
-
-}  // namespace
-
 Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
   SUNDER_CHECK(!convex.empty() && convex.vertices.size() < 0xffff &&
                convex.corners.size() < 0xffff);

@@ -7,8 +7,8 @@
 namespace sunder::solver {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of the energy that moved to and fro
-constexpr double kSlowFalls = 4;    // in what gravity does to a speed within the step
+constexpr double kEnergyRounding = 1e-6;  // of the energy that moved to and fro
+constexpr double kSlowFalls = 4;          // in what gravity does to a speed within the step
 
 double lanes_sum(const Wide& a, const Wide& b, double linear) {
   double sum = 0;
@@ -81,7 +81,7 @@ void EnergyGuard::judge(std::span<const std::uint32_t> active) {
     share = 1;
     if (group_[body] == kNone) continue;
     const Work& work = of_group_[group_[body]];
-    if (!(work.first + work.second > kRounding * work.second)) continue;
+    if (!(work.first + work.second > kEnergyRounding * work.second)) continue;
     share = static_cast<float>(std::max(0.0, -work.first / work.second));
     objects_ = true;
   }

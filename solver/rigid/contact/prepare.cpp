@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/lanes.h"
+
 namespace sunder::solver {
 namespace {
 
@@ -16,18 +18,6 @@ constexpr float kMostGive = 0.01f;        // of the inner radius of the smaller 
 constexpr float kLeastCompliance = 0.1f;  // beyond, sweeps do not keep up
 constexpr float kLeastProp = 0.5f;  // of what is not pinched: what stands on it bounces at 0.3
 constexpr float kComplianceStep = 0.97f;  // a step
-
-template <class V>
-void set_lane(Triple<V>& v, std::uint32_t lane, const Vec3f& value) {
-  v.x[lane] = value.x();
-  v.y[lane] = value.y();
-  v.z[lane] = value.z();
-}
-
-template <class V>
-Vec3f lane_of(const Triple<V>& v, std::uint32_t lane) {
-  return {v.x[lane], v.y[lane], v.z[lane]};
-}
 
 template <class V>
 void set_columns(Triple<V> (&columns)[3], std::uint32_t lane, const Mat3f& root) {

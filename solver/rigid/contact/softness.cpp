@@ -13,14 +13,14 @@ namespace {
 // wall.
 constexpr double kPressStiffness[4] = {0.25, 0.25, 0.2, 0.18};
 constexpr double kSlideStiffness[4] = {0.25, 0.25, 0.125, 0.125};
-constexpr double kDamping = 5;  // ratio to critical
-constexpr double kPush = 4;     // fastest correction of an overlap, in speeds of falling
+constexpr double kDampingRatio = 5;  // to critical
+constexpr double kPush = 4;          // fastest correction of an overlap, in speeds of falling
 
 /// A spring of (omega·h)² of the mass over h²; what it gives way under an impulse p a substep is
 /// p / (mass · h) / omega².
 Softness softness(double stiffness, double h) {
   const double omega_h = 2 * std::numbers::pi * stiffness;
-  const double a1 = 2 * kDamping + omega_h, a2 = omega_h * a1, a3 = 1 / (1 + a2);
+  const double a1 = 2 * kDampingRatio + omega_h, a2 = omega_h * a1, a3 = 1 / (1 + a2);
   return {static_cast<float>(omega_h / h / a1), static_cast<float>(a2 * a3), static_cast<float>(a3),
           static_cast<float>(h / (omega_h * omega_h))};
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/nncg.h"
+#include "solver/base/lanes.h"
 #include "solver/rigid/contact/load_path.h"
 #include "solver/rigid/contact/prepare.h"
 #include "solver/rigid/contact/sweep.h"
@@ -26,10 +27,6 @@ constexpr float kMostOverlap = 0.04f;
 constexpr float kMostRest = 0.1f;   // of it
 constexpr float kNoBounce = 1e30f;  // m/s: nothing is as fast
 constexpr float kNoGap = 1e-4f;     // of it: rounding, or what would hardly be seen
-
-Vec3f lane_of(const Wide3Of<kStaticLanes>& v, std::uint32_t lane) {
-  return {v.x[lane], v.y[lane], v.z[lane]};
-}
 
 BlockLoads loads_of(const StaticBlock& c) {
   BlockLoads loads;

@@ -7,8 +7,6 @@
 namespace sunder::solver {
 namespace {
 
-using Kind = JointDesc::Kind;
-
 /// One end of a joint as the step begins.
 struct End {
   Vec3 position, arm, axis;
@@ -98,7 +96,8 @@ JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bod
   w.gap = (b.position - a.position) + b.arm - a.arm;
   w.axis_a = a.axis, w.axis_b = b.axis;
   w.side_a = a.rotation * across(desc.axis_a_R);
-  if (w.kind == Kind::kFixed) w.twist = b.rotation * (a.rotation * desc.rotation_RaRb).conjugate();
+  if (w.kind == JointDesc::Kind::kFixed)
+    w.twist = b.rotation * (a.rotation * desc.rotation_RaRb).conjugate();
   w.length_m = desc.length_m;
   w.breaking_N = desc.breaking_N, w.breaking_Nm = desc.breaking_Nm;
   w.impulse = joint.impulse;
@@ -112,19 +111,19 @@ void refresh_rows(JointWork& w, const BodyRow* rows) {
   const Vec3 way = (linear(rows[w.row_b].position) - linear(rows[w.row_a].position)).cast<double>();
   const Vec3 gap = w.gap + way + (arm_b - w.arm_b) - (arm_a - w.arm_a);
   w.rows = w.place_rows = 0;
-  if (w.kind == Kind::kDistance || w.kind == Kind::kRope) {
+  if (w.kind == JointDesc::Kind::kDistance || w.kind == JointDesc::Kind::kRope) {
     const double length = gap.norm();
     const Vec3 direction = length > 1e-9 ? Vec3(gap / length) : Vec3(Vec3::UnitY());
     place_row(w, arm_a, arm_b, direction, length - w.length_m);
     return;
   }
   for (int i = 0; i < 3; ++i) place_row(w, arm_a, arm_b, Vec3::Unit(i), gap[i]);
-  if (w.kind == Kind::kHinge) {
+  if (w.kind == JointDesc::Kind::kHinge) {
     const Vec3 axis = rotation_a * w.axis_a, lean = axis.cross(rotation_b * w.axis_b);
     const Vec3 side = rotation_a * w.side_a, other = axis.cross(side);
     angular_row(w, side, side.dot(lean));
     angular_row(w, other, other.dot(lean));
-  } else if (w.kind == Kind::kFixed) {
+  } else if (w.kind == JointDesc::Kind::kFixed) {
     const Quat twist = rotation_b * w.twist * rotation_a.conjugate();
     const Vec3 angle = (twist.w() < 0 ? -2.0 : 2.0) * twist.vec();
     for (int i = 0; i < 3; ++i) angular_row(w, Vec3::Unit(i), angle[i]);

@@ -1,0 +1,21 @@
+// One lane of vectors that lie side by side, as a vector.
+#pragma once
+
+#include "engine/base/types.h"
+#include "solver/base/wide.h"
+
+namespace sunder::solver {
+
+template <class V>
+void set_lane(Triple<V>& wide, std::uint32_t lane, const Vec3f& v) {
+  wide.x[lane] = v.x();
+  wide.y[lane] = v.y();
+  wide.z[lane] = v.z();
+}
+
+template <class V>
+Vec3f lane_of(const Triple<V>& wide, std::uint32_t lane) {
+  return {wide.x[lane], wide.y[lane], wide.z[lane]};
+}
+
+}  // namespace sunder::solver
