@@ -1,5 +1,19 @@
 // The seam between the world and whatever moves bodies. Called a few times a step, in batches;
 // nothing calls back.
+//
+// A step, as the world calls it (engine/world/simulation.cpp):
+//   replace(), join(), cut()         what the script brings in or takes away
+//   collide()                        contacts, and what will touch before long
+//   as often as something breaks:
+//     approaches(), touches()        who may break, and what is connected to it
+//     set_state(), replace(), edit() what is left moves on, pieces come in
+//     attach(), cut()                joints follow the pieces
+//     collide()                      new bodies meet the others
+//   pause(), apply_impulse()         what waits sits out; blasts and drives push
+//   solve(), then take_broken()      everything moves by the step
+//   contact_loads()                  what pressed on what may break by it; then replace() and
+//   edit()
+// And at the end of a frame penetrations(). states() may be asked for at any time.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +25,9 @@
 #include "engine/base/index.h"
 #include "engine/base/types.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/model/body_states.h"
 
 namespace sunder {
-
-struct BodyTag;
-using BodyId = Id<BodyTag>;
 
 /// One convex shape of a body. `hull` must outlive the call only.
 struct ShapeDesc {
@@ -52,14 +64,6 @@ struct BodyEdit {
   BodyId body;
   std::span<const std::uint32_t> removed_tags;  ///< Of shapes it has; its tags must be unique.
   std::span<const ShapeDesc> added;             ///< In the rest frame R of the body.
-};
-
-/// How a body moves now.
-struct BodyState {
-  Pose X_WB;
-  Vec3 velocity_W = Vec3::Zero();
-  Vec3 angular_velocity_W = Vec3::Zero();
-  bool asleep = false;
 };
 
 struct JointTag;
@@ -116,10 +120,13 @@ struct ContactLoad {
   Vec3 point_W = Vec3::Zero();
 };
 
-/// What one solve did, for the books.
+/// What one solve did, for the ledger.
 struct SolveReport {
   Vec3 external_impulse_Ns = Vec3::Zero();  ///< Gravity, static bodies, and what sleep took away.
-  std::uint32_t contacts = 0;               ///< Manifolds with a point in reach.
+  /// Of all bodies that are not static.
+  Vec3 momentum_before_Ns = Vec3::Zero(), momentum_after_Ns = Vec3::Zero();
+  double mass_kg = 0;          ///< Of the same.
+  std::uint32_t contacts = 0;  ///< Manifolds with a point in reach.
   std::uint32_t contact_points = 0;
   std::uint32_t awake = 0;   ///< Dynamic bodies.
   std::uint32_t frozen = 0;  ///< Bodies stopped because they were no longer finite.
@@ -134,8 +141,8 @@ class Physics {
                                       std::span<const BodyDesc> add) = 0;
   /// Changes the shapes of a static body; sleepers that lose a support wake up.
   virtual void edit(const BodyEdit& edit) = 0;
-  /// Finds contacts and what may touch within dt_s; new bodies are included when called again.
-  virtual void collide(double dt_s) = 0;
+  /// Finds contacts and what may touch within that time; new bodies are included when called again.
+  virtual void collide(double horizon_s) = 0;
   /// Approaches among the contacts of the last collide(), with the velocities as they are now.
   virtual std::vector<Approach> approaches() = 0;
   /// Contact points of any of `bodies`, each once, as the last collide() found them and in order of
@@ -162,7 +169,10 @@ class Physics {
   /// Advances by dt_s in `substeps` equal parts, using the contacts of the last collide().
   virtual SolveReport solve(double dt_s, int substeps) = 0;
 
-  virtual BodyState state(BodyId body) const = 0;
+  /// How all bodies move now; valid until the next call that changes anything.
+  virtual BodyStates states() const = 0;
+  /// Of one of them, to keep.
+  BodyState state(BodyId body) const { return states()[body]; }
   /// What the last solve() did to bodies that bear load, ordered by a key that does not depend on
   /// threads; contacts asleep count with what they last carried.
   virtual std::vector<ContactLoad> contact_loads() const = 0;

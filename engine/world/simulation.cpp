@@ -14,32 +14,17 @@ constexpr double kFrame_s = 1.0 / 60;
 
 void collide(World& world) { world.physics->collide(world.horizon_s()); }
 
-struct Momentum {
-  double mass_kg = 0;
-  Vec3 momentum_Ns = Vec3::Zero();
-};
-
-Momentum momentum(const World& world) {
-  Momentum sum;
-  for (const Actor& actor : world.actors) {
-    if (actor.is_static) continue;
-    sum.mass_kg += actor.weight.mass_kg;
-    sum.momentum_Ns += actor.weight.mass_kg * world.physics->state(actor.body).velocity_W;
-  }
-  return sum;
-}
-
 /// Moves everything; what the momentum did not come from gravity or static bodies is an error.
 void solve(World& world) {
-  const Vec3 before = momentum(world).momentum_Ns;
   const SolveReport report =
       world.physics->solve(world.scene.accuracy.dt_s, world.scene.accuracy.substeps);
   note_broken_joints(world);
-  const Momentum after = momentum(world);
-  world.momentum_error_Ns += (after.momentum_Ns - before - report.external_impulse_Ns).norm();
+  world.momentum_error_Ns +=
+      (report.momentum_after_Ns - report.momentum_before_Ns - report.external_impulse_Ns).norm();
   // At rest weight and support cancel: what changed hands is the weight, not the sum of both.
-  world.momentum_moved_Ns +=
-      before.norm() + after.mass_kg * world.scene.gravity_W.norm() * world.scene.accuracy.dt_s;
+  world.momentum_moved_Ns += report.momentum_before_Ns.norm() + report.mass_kg *
+                                                                    world.scene.gravity_W.norm() *
+                                                                    world.scene.accuracy.dt_s;
   world.report.counts.contacts = report.contacts;
   world.report.frozen += report.frozen;
 }

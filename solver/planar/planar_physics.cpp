@@ -37,12 +37,17 @@ class PlanarPhysics final : public Physics {
   void set_state(BodyId body, const BodyState& state) override;
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
   SolveReport solve(double dt_s, int substeps) override;
-  BodyState state(BodyId body) const override;
+  BodyStates states() const override { return table_.states(); }
   std::vector<ContactLoad> contact_loads() const override;
   std::vector<float> penetrations() const override;
   std::vector<std::pair<const char*, double>> take_timings_ms() override;
 
  private:
+  /// After a change to one body, or to any: what states() shows, and what is near.
+  void note(std::uint32_t slot);
+  void note_all();
+  BodyState state_of(const PlanarBody& body) const;
+  Vec3 momentum_Ns() const;
   void step(float h_s, SolveReport& report);
   void freeze_broken(SolveReport& report);
   int steps_for(double dt_s, int substeps) const;
@@ -55,13 +60,13 @@ class PlanarPhysics final : public Physics {
                  bodies_.items[id.slot].generation == id.generation);
     return bodies_.items[id.slot];
   }
-  const PlanarBody& at(BodyId id) const { return const_cast<PlanarPhysics*>(this)->at(id); }
 
   PlanarOptions options_;
   Plane2 plane_;
   b2World world_;
   PlanarBodies bodies_;
   ContactListener listener_;
+  BodyTable table_;
   std::vector<Nearby> nearby_;
   bool nearby_known_ = false;
   double dt_s_ = 0;  ///< Of the last collide.
@@ -90,13 +95,14 @@ std::vector<BodyId> PlanarPhysics::replace(std::span<const BodyId> remove,
   for (const BodyId id : remove) {
     at(id);
     bodies_.remove(id.slot);
+    table_.remove(id);
   }
   std::vector<BodyId> ids;
   for (std::size_t i = 0; i < add.size(); ++i) {
     const std::uint32_t slot = bodies_.add(add[i], made[i]);
     ids.push_back({slot, bodies_.items[slot].generation});
   }
-  nearby_known_ = false;
+  note_all();
   return ids;
 }
 
@@ -112,7 +118,7 @@ void PlanarPhysics::edit(const BodyEdit& edit) {
     bodies_.remove_shape(*found);
   }
   bodies_.add_shapes(edit.body.slot, edit.added, made);
-  nearby_known_ = false;
+  note_all();
 }
 
 /// Box2D finds its contacts when it solves; those who ask before get their own.
@@ -214,20 +220,21 @@ void PlanarPhysics::set_state(BodyId id, const BodyState& state) {
   body.body->SetLinearVelocity(plane_.units(state.velocity_W));
   body.body->SetAngularVelocity(static_cast<float>(state.angular_velocity_W.z()));
   body.body->SetAwake(true);
-  nearby_known_ = false;
+  note(id.slot);
 }
 
 void PlanarPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) {
   PlanarBody& body = at(id);
   if (!body.dynamic()) return;
   body.body->ApplyLinearImpulse(plane_.units(impulse_W), plane_.units(point_W), true);
-  nearby_known_ = false;
+  note(id.slot);
 }
 
 SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   SUNDER_CHECK(dt_s > 0 && substeps > 0);
   const Stopwatch watch;
   SolveReport report;
+  report.momentum_before_Ns = momentum_Ns();
   freeze_broken(report);
   const int steps = steps_for(dt_s, substeps);
   listener_.begin();
@@ -242,8 +249,10 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   }
   for (const PlanarBody& body : bodies_.items) {
     report.awake += body.dynamic() && body.body->IsAwake() ? 1 : 0;
+    report.mass_kg += body.body ? body.mass_kg : 0;
   }
-  nearby_known_ = false;
+  report.momentum_after_Ns = momentum_Ns();
+  note_all();
   solve_ms_ += watch.ms();
   return report;
 }
@@ -300,8 +309,32 @@ void PlanarPhysics::freeze_broken(SolveReport& report) {
   }
 }
 
-BodyState PlanarPhysics::state(BodyId id) const {
-  const PlanarBody& body = at(id);
+void PlanarPhysics::note(std::uint32_t slot) {
+  const PlanarBody& body = bodies_.items[slot];
+  nearby_known_ = false;
+  if (!body.body) return;
+  const BodyState state = state_of(body);
+  const BodyMode mode = body.frozen       ? BodyMode::kFrozen
+                        : !body.dynamic() ? BodyMode::kStatic
+                        : state.asleep    ? BodyMode::kAsleep
+                                          : BodyMode::kAwake;
+  table_.set({slot, body.generation}, mode, state);
+}
+
+void PlanarPhysics::note_all() {
+  nearby_known_ = false;
+  for (std::uint32_t slot = 0; slot < bodies_.items.size(); ++slot) note(slot);
+}
+
+Vec3 PlanarPhysics::momentum_Ns() const {
+  Vec3 sum = Vec3::Zero();
+  for (const PlanarBody& body : bodies_.items) {
+    if (body.body) sum += body.mass_kg * plane_.metres(body.body->GetLinearVelocity());
+  }
+  return sum;
+}
+
+BodyState PlanarPhysics::state_of(const PlanarBody& body) const {
   BodyState state;
   const SinCos half = sin_cos(0.5 * static_cast<double>(body.body->GetAngle()));
   state.X_WB.position = plane_.metres(body.body->GetPosition(), body.X_WB.position.z());

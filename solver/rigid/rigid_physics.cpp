@@ -52,7 +52,7 @@ class RigidPhysics final : public Physics {
   std::vector<JointId> take_broken() override { return joints_.take_broken(); }
   void pause(std::span<const BodyId> bodies) override;
   SolveReport solve(double dt_s, int substeps) override;
-  BodyState state(BodyId body) const override;
+  BodyStates states() const override { return bodies_.states(); }
   std::vector<ContactLoad> contact_loads() const override {
     return find_contact_loads(contacts_, bodies_, shapes_);
   }
@@ -309,6 +309,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   Stopwatch watch;
   const StepContext step(options_.gravity_W, dt_s, substeps, last_h_s_);
   SolveReport report;
+  report.momentum_before_Ns = bodies_.momentum().momentum_Ns;
   report.external_impulse_Ns = freeze_broken();
   joints_.wake(bodies_);
   paused_.stop(bodies_);
@@ -335,17 +336,12 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   report.contacts = solved.manifolds;
   report.contact_points = solved.points;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) report.awake += bodies_.awake(body);
+  const Momentum after = bodies_.momentum();
+  report.momentum_after_Ns = after.momentum_Ns;
+  report.mass_kg = after.mass_kg;
   report.frozen = frozen_;
   frozen_ = 0;
   return report;
-}
-
-BodyState RigidPhysics::state(BodyId id) const {
-  SUNDER_CHECK(bodies_.contains(id));
-  return {{bodies_.position[id.slot], bodies_.rotation[id.slot]},
-          bodies_.velocity[id.slot],
-          bodies_.angular_velocity[id.slot],
-          bodies_.motion[id.slot] == Motion::kAsleep};
 }
 
 std::vector<std::pair<const char*, double>> RigidPhysics::take_timings_ms() {

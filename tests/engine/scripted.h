@@ -18,7 +18,7 @@ class ScriptedPhysics : public Physics {
     BodyDesc desc;
     BodyState state;
     bool alive = true;
-    bool held = false;  ///< For the next solve.
+    bool paused = false;  ///< For the next solve.
   };
   using Script = std::function<std::vector<Approach>(const ScriptedPhysics&, int collides)>;
 
@@ -70,8 +70,8 @@ class ScriptedPhysics : public Physics {
     const Vec3 twist = (point_W - body.state.X_WB.position).cross(impulse_W);
     body.state.angular_velocity_W += q * (body.desc.inertia_B.inverse() * (q.conjugate() * twist));
   }
-  void pause(std::span<const BodyId> held) override {
-    for (const BodyId id : held) bodies[id.slot].held = true;
+  void pause(std::span<const BodyId> paused) override {
+    for (const BodyId id : paused) bodies[id.slot].paused = true;
   }
   JointId join(const JointDesc& joint) override {
     joints.push_back(joint);
@@ -83,13 +83,28 @@ class ScriptedPhysics : public Physics {
   }
   void cut(JointId id) override { cut_joints[id.slot] = true; }
   SolveReport solve(double dt_s, int) override {
+    SolveReport report;
     for (Body& body : bodies) {
-      if (!body.held) body.state.X_WB.position += dt_s * body.state.velocity_W;
-      body.held = false;
+      if (!body.paused) body.state.X_WB.position += dt_s * body.state.velocity_W;
+      body.paused = false;
+      if (!body.alive || body.desc.is_static) continue;
+      report.mass_kg += body.desc.mass_kg;
+      report.momentum_before_Ns += body.desc.mass_kg * body.state.velocity_W;
     }
-    return {};
+    report.momentum_after_Ns = report.momentum_before_Ns;
+    return report;
   }
-  BodyState state(BodyId id) const override { return bodies[id.slot].state; }
+  BodyStates states() const override {
+    for (std::uint32_t slot = 0; slot < bodies.size(); ++slot) {
+      const Body& body = bodies[slot];
+      const BodyMode mode = !body.alive           ? BodyMode::kAbsent
+                            : body.desc.is_static ? BodyMode::kStatic
+                            : body.state.asleep   ? BodyMode::kAsleep
+                                                  : BodyMode::kAwake;
+      table_.set({slot, 0}, mode, body.state);
+    }
+    return table_.states();
+  }
   std::vector<ContactLoad> contact_loads() const override { return loads; }
   std::vector<float> penetrations() const override { return {}; }
   std::vector<std::pair<const char*, double>> take_timings_ms() override { return {}; }
@@ -125,14 +140,15 @@ class ScriptedPhysics : public Physics {
  private:
   static double inverse_mass(const Body& body, const Vec3& point_W, const Vec3& normal_W) {
     if (body.desc.is_static) return 0;
-    const Vec3 lever_B =
+    const Vec3 beta_B =
         body.state.X_WB.rotation.conjugate() * (point_W - body.state.X_WB.position).cross(normal_W);
-    return 1 / body.desc.mass_kg + lever_B.dot(body.desc.inertia_B.inverse() * lever_B);
+    return 1 / body.desc.mass_kg + beta_B.dot(body.desc.inertia_B.inverse() * beta_B);
   }
 
   Script script_;
   std::vector<Approach> approaches_;
   int collides_ = 0;
+  mutable BodyTable table_;  ///< Of `bodies`, which tests change as they like.
 };
 
 /// Parts every compound into its convexes; reports `area_m2` of crack for each part.
@@ -171,8 +187,8 @@ class ScriptedBreaker final : public Breaker {
     return edit;
   }
 
-  std::function<StressAnswer(const Structure&, const LoadCase&)>
-      stressed;  ///< What stress() answers.
+  /// What stress() answers.
+  std::function<StressAnswer(const Structure&, const LoadCase&)> stressed;
 
  private:
   double area_m2_;

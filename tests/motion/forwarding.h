@@ -18,7 +18,7 @@ class ForwardingPhysics : public Physics {
     return physics_->replace(remove, add);
   }
   void edit(const BodyEdit& edit) override { physics_->edit(edit); }
-  void collide(double dt_s) override { physics_->collide(dt_s); }
+  void collide(double horizon_s) override { physics_->collide(horizon_s); }
   std::vector<Approach> approaches() override { return physics_->approaches(); }
   std::vector<Touch> touches(std::span<const BodyId> bodies) override {
     return physics_->touches(bodies);
@@ -27,7 +27,7 @@ class ForwardingPhysics : public Physics {
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override {
     physics_->apply_impulse(body, impulse_W, point_W);
   }
-  void hold(std::span<const BodyId> bodies) override { physics_->hold(bodies); }
+  void pause(std::span<const BodyId> bodies) override { physics_->pause(bodies); }
   JointId join(const JointDesc& joint) override { return physics_->join(joint); }
   void attach(JointId joint, bool end_a, BodyId body) override {
     physics_->attach(joint, end_a, body);
@@ -35,7 +35,7 @@ class ForwardingPhysics : public Physics {
   void cut(JointId joint) override { physics_->cut(joint); }
   std::vector<JointId> take_broken() override { return physics_->take_broken(); }
   SolveReport solve(double dt_s, int substeps) override { return physics_->solve(dt_s, substeps); }
-  BodyState state(BodyId body) const override { return physics_->state(body); }
+  BodyStates states() const override { return physics_->states(); }
   std::vector<ContactLoad> contact_loads() const override { return physics_->contact_loads(); }
   std::vector<float> penetrations() const override { return physics_->penetrations(); }
   std::vector<std::pair<const char*, double>> take_timings_ms() override {

@@ -41,9 +41,9 @@ class SpyPhysics final : public ForwardingPhysics {
     if (!remove.empty()) replacements.push_back(replacement);
     return ids;
   }
-  void collide(double dt_s) override {
+  void collide(double horizon_s) override {
     if (!std::exchange(in_step_, true)) books.before = sum();
-    physics_->collide(dt_s);
+    physics_->collide(horizon_s);
   }
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override {
     note_end_of_breaks();

@@ -155,6 +155,16 @@ Vec3 Bodies::freeze(std::uint32_t body) {
   return momentum;
 }
 
+Momentum Bodies::momentum() const {
+  Momentum sum;
+  for (std::uint32_t body = 0; body < size(); ++body) {
+    if (motion[body] == Motion::kAbsent || motion[body] == Motion::kStatic) continue;
+    sum.mass_kg += mass_kg[body];
+    sum.momentum_Ns += mass_kg[body] * velocity[body];
+  }
+  return sum;
+}
+
 void Bodies::wake(std::uint32_t body) {
   if (motion[body] != Motion::kAsleep) return;
   motion[body] = Motion::kAwake;

@@ -14,12 +14,12 @@ namespace sunder::solver {
 inline constexpr std::uint32_t kNone = 0xffffffff;
 
 /// What a body is to the solver.
-enum class Motion : std::uint8_t {
-  kAbsent,  ///< A free slot.
-  kStatic,  ///< Never moves; infinite mass.
-  kAwake,
-  kAsleep,
-  kFrozen,  ///< Was not finite; kept where it last was, as if static.
+using Motion = BodyMode;
+
+/// Of several bodies.
+struct Momentum {
+  double mass_kg = 0;
+  Vec3 momentum_Ns = Vec3::Zero();
 };
 
 /// Arrays over body slots. Positions and velocities are double; the float rotation is a copy.
@@ -62,6 +62,11 @@ struct Bodies {
            motion[id.slot] != Motion::kAbsent;
   }
   BodyId id(std::uint32_t body) const { return {body, generation[body]}; }
+  BodyStates states() const {
+    return {generation, motion, position, rotation, velocity, angular_velocity};
+  }
+  /// Of all that are not static, in order of slots.
+  Momentum momentum() const;
 
   std::uint32_t add(const BodyDesc& desc);
   void remove(std::uint32_t body);
