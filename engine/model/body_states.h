@@ -14,12 +14,25 @@ namespace sunder {
 struct BodyTag;
 using BodyId = Id<BodyTag>;
 
+/// How a solid moves: the velocity of its point p is velocity_W + angular_velocity_W × (p − at).
+struct VelocityField {
+  Vec3 at_W = Vec3::Zero();
+  Vec3 velocity_W = Vec3::Zero();
+  Vec3 angular_velocity_W = Vec3::Zero();
+
+  Vec3 operator()(const Vec3& point_W) const {
+    return velocity_W + angular_velocity_W.cross(point_W - at_W);
+  }
+};
+
 /// How one body moves.
 struct BodyState {
   Pose X_WB;
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
   bool asleep = false;
+
+  VelocityField field() const { return {X_WB.position, velocity_W, angular_velocity_W}; }
 };
 
 /// What a body is to the physics.

@@ -1,5 +1,5 @@
 // A frame: everything there is to see and to count at one instant, and the seams that pass frames
-// on (paper: none; see docs/architecture.md, "Follow one frame").
+// on (docs/architecture.md, "Rooms"). How one comes about is told there in "A step".
 #pragma once
 
 #include <cstdint>
@@ -85,7 +85,7 @@ struct Counts {
   std::uint32_t dust = 0;
 };
 
-/// The books of a frame.
+/// The ledger of a frame.
 struct FrameReport {
   double stage_ms[kStages] = {};  ///< Summed over the frame's steps.
   Counts counts;

@@ -1,10 +1,15 @@
 // The seam between the world and what is simulated for the eye: debris (small spheres drawn as
 // chips) and dust (a grid of air that carries oriented particles); paper section 5.
 //
-// Particles weigh nothing to bodies: they feel bodies as obstacles and never push back. The world
-// gathers what a break laid bare as Emissions, and bodies as Obstacles, once a step; a world
-// without particles holds no Particles at all. Everything depends only on the calls and their
-// order, never on threads.
+// Particles weigh nothing to bodies: they feel bodies as obstacles and never push back. A world
+// without particles has no Particles at all. Everything depends only on the calls and their order,
+// never on threads.
+//
+// At the end of a frame's last step the world calls (engine/world/particles/particle_stage.cpp):
+//   emit(faces), emit(chips)  what the frame's breaks laid bare, if anything
+//   report()                  whether there is anything to move
+//   advance()                 by a whole frame, among all bodies as they stand then
+// And for the frame to show: debris(), dust(), report().
 #pragma once
 
 #include <cstdint>
@@ -12,20 +17,10 @@
 
 #include "engine/base/types.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/model/body_states.h"
 #include "engine/model/material.h"
 
 namespace sunder {
-
-/// How a solid moves: the velocity of its point p is velocity_W + angular_velocity_W × (p − at).
-struct VelocityField {
-  Vec3 at_W = Vec3::Zero();
-  Vec3 velocity_W = Vec3::Zero();
-  Vec3 angular_velocity_W = Vec3::Zero();
-
-  Vec3 operator()(const Vec3& point_W) const {
-    return velocity_W + angular_velocity_W.cross(point_W - at_W);
-  }
-};
 
 /// A face that a break laid bare, which crumbles as its material does.
 struct Emission {
@@ -39,7 +34,7 @@ struct Emission {
   Crumbling crumbling;
 };
 
-/// A solid too small to be a body any longer; the world keeps its mass in the books.
+/// A solid too small to be a body any longer; the world keeps its mass in the ledger.
 struct Chip {
   Vec3 center_W = Vec3::Zero();
   double radius_m = 0;  ///< Of the sphere of the same volume.
@@ -69,7 +64,7 @@ struct ObstacleShape {
   double radius_m = 0;   ///< Of the ball.
 };
 
-/// All that is in the particles' way at the end of a step.
+/// All that is in the particles' way.
 struct Obstacles {
   std::span<const ObstacleBody> bodies;  ///< Ascending by key.
   std::span<const ObstacleShape> shapes;
@@ -128,7 +123,7 @@ class Particles {
   virtual void emit(std::span<const Emission> faces) = 0;
   /// One piece of debris each.
   virtual void emit(std::span<const Chip> chips) = 0;
-  /// Moves everything by one step; `obstacles` stand where they do at its end.
+  /// Moves everything by dt_s; `obstacles` stand where they do at its end.
   virtual void advance(double dt_s, const Obstacles& obstacles) = 0;
 
   /// Valid until the next call that changes anything.

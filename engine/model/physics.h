@@ -11,8 +11,7 @@
 //     collide()                      new bodies meet the others
 //   pause(), apply_impulse()         what waits sits out; blasts and drives push
 //   solve(), then take_broken()      everything moves by the step
-//   contact_loads()                  what pressed on what may break by it; then replace() and
-//   edit()
+//   contact_loads()                  what pressed on what; overloaded bonds part it: replace(), ...
 // And at the end of a frame penetrations(). states() may be asked for at any time.
 #pragma once
 

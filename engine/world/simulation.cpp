@@ -1,107 +1,118 @@
 #include "engine/world/simulation.h"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "engine/base/trace.h"
-#include "engine/world/actors/actors.h"
-#include "engine/world/actors/joints.h"
+#include "engine/world/act/act_stage.h"
+#include "engine/world/actors/make_actor.h"
+#include "engine/world/break/break_stage.h"
+#include "engine/world/load/load_stage.h"
+#include "engine/world/particles/particle_stage.h"
+#include "engine/world/snapshot.h"
 
 namespace sunder {
 namespace {
 
-constexpr double kFrame_s = 1.0 / 60;
-
-void collide(World& world) { world.physics->collide(world.horizon_s()); }
-
-/// Moves everything; what the momentum did not come from gravity or static bodies is an error.
-void solve(World& world) {
-  const SolveReport report =
-      world.physics->solve(world.scene.accuracy.dt_s, world.scene.accuracy.substeps);
-  note_broken_joints(world);
-  world.momentum_error_Ns +=
-      (report.momentum_after_Ns - report.momentum_before_Ns - report.external_impulse_Ns).norm();
-  // At rest weight and support cancel: what changed hands is the weight, not the sum of both.
-  world.momentum_moved_Ns += report.momentum_before_Ns.norm() + report.mass_kg *
-                                                                    world.scene.gravity_W.norm() *
-                                                                    world.scene.accuracy.dt_s;
-  world.report.counts.contacts = report.contacts;
-  world.report.frozen += report.frozen;
-}
-
-void add_ground(World& world) {
+void add_ground(const Ground& ground, Physics& physics) {
   ShapeDesc plane;
   plane.kind = ShapeDesc::Kind::kHalfSpace;
-  plane.friction = world.scene.ground.friction;
-  plane.restitution = world.scene.ground.restitution;
+  plane.friction = ground.friction;
+  plane.restitution = ground.restitution;
   BodyDesc body;
-  body.X_WB.position = Vec3(0, world.scene.ground.height_m, 0);
+  body.X_WB.position = Vec3(0, ground.height_m, 0);
   body.is_static = true;
   body.shapes = {plane};
   body.tag = kGroundKey;
-  world.physics->replace({}, std::span(&body, 1));
+  physics.replace({}, std::span(&body, 1));
 }
 
-int steps_per_frame(double dt_s) {
-  return std::max(1, static_cast<int>(std::lround(kFrame_s / dt_s)));
+/// Everything moves by the step; joints that bear too much break.
+void solve(World& world) {
+  const Clock& clock = world.clock;
+  const SolveReport report = world.physics->solve(clock.dt_s, clock.substeps);
+  world.ledger.note(report, world.scene.gravity_W.norm() * clock.dt_s);
+  world.ledger.report.joints_lost += world.joints.take_broken(*world.physics);
 }
 
 }  // namespace
 
+/// The world, and the stages with what each keeps to itself.
+struct Simulation::Parts {
+  World world;
+  std::unique_ptr<Breaker> breaker;
+  ActStage act;
+  BreakStage breaks;
+  LoadStage loads;
+  ParticleStage particles;
+  bool started = false;  ///< Frame 0 has been given out.
+
+  Parts(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaks_by,
+        std::unique_ptr<Particles> moves)
+      : world(std::move(scene), std::move(physics)),
+        breaker(std::move(breaks_by)),
+        breaks(world.scene.limits),
+        loads(world.scene.limits),
+        particles(std::move(moves)) {
+    if (particles.any()) world.exposed.emplace();
+  }
+};
+
 Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
                        std::unique_ptr<Breaker> breaker, std::unique_ptr<Particles> particles)
-    : world_(std::make_unique<World>()) {
-  World& world = *world_;
-  world.scene = std::move(scene);
-  world.physics = std::move(physics);
-  world.breaker = std::move(breaker);
-  world.particles = std::move(particles);
-  world.steps_per_frame = steps_per_frame(world.scene.accuracy.dt_s);
-  world.materials = std::make_shared<const std::vector<Material>>(world.scene.materials);
-  add_ground(world);
+    : parts_(std::make_unique<Parts>(std::move(scene), std::move(physics), std::move(breaker),
+                                     std::move(particles))) {
+  World& world = parts_->world;
+  add_ground(world.scene.ground, *world.physics);
   add_compounds(world, world.scene.solids);
   for (const Ball& ball : world.scene.balls) add_ball(world, ball);
-  for (const Joint& joint : world.scene.joints) add_joint(world, joint);  // keys are indices still
+  for (const Joint& joint : world.scene.joints) {  // keys are indices still
+    world.joints.add(*world.physics, world.actors, joint);
+  }
 }
 
 Simulation::~Simulation() = default;
 
 FramePtr Simulation::next() {
-  World& world = *world_;
-  const int steps = world.steps_per_frame;
-  if (world.started) {
-    const double frame_s = steps * world.scene.accuracy.dt_s;
-    if (static_cast<double>(world.frame + 1) * frame_s > world.scene.duration_s + 0.5 * frame_s) {
-      return nullptr;
-    }
-    ++world.frame;
-    world.parts_left = world.scene.limits.parts_a_frame;
-    const std::int64_t load_work = world.scene.limits.load_work_a_frame;
-    world.load_work_left = std::min(load_work, world.load_work_left + load_work);
-    for (int i = 0; i < steps; ++i) advance();
+  auto& [world, breaker, act, breaks, loads, particles, started] = *parts_;
+  if (started) {
+    const double frame_s = world.clock.frame_s();
+    const double end_s = static_cast<double>(world.clock.frame + 1) * frame_s;
+    if (end_s > world.scene.duration_s + 0.5 * frame_s) return nullptr;
+    ++world.clock.frame;
+    breaks.begin_frame();
+    loads.begin_frame();
+    for (int i = 0; i < world.clock.steps_per_frame; ++i) advance();
   }
-  world.started = true;
+  started = true;
   const Stopwatch watch;
-  auto frame = snapshot(world);
+  auto frame = snapshot(world, particles, act.shots_to_come(world.scene),
+                        breaks.waiting() + loads.waiting());
   frame->report.stage_ms[static_cast<int>(Stage::kSnapshot)] = watch.ms();
   return frame;
 }
 
 void Simulation::advance() {
-  World& world = *world_;
-  const auto stage = [&](Stage name, void (*work)(World&)) {
+  Parts& parts = *parts_;
+  World& world = parts.world;
+  const Breaker& breaker = *parts.breaker;
+  const auto timed = [&](Stage stage, const auto& work) {
     const Stopwatch watch;
-    work(world);
-    world.report.stage_ms[static_cast<int>(name)] += watch.ms();
+    work();
+    world.ledger.report.stage_ms[static_cast<int>(stage)] += watch.ms();
   };
-  stage(Stage::kAct, act_stage);
-  stage(Stage::kCollide, collide);
-  stage(Stage::kBreak, break_stage);
-  stage(Stage::kAct, push_stage);
-  stage(Stage::kSolve, solve);
-  stage(Stage::kLoad, load_stage);
-  stage(Stage::kParticles, particle_stage);
-  ++world.step;
+  std::vector<Impact> blows;  // of blasts
+  timed(Stage::kAct, [&] { blows = parts.act.run(world); });
+  timed(Stage::kCollide, [&] { world.physics->collide(world.clock.horizon_s()); });
+  timed(Stage::kBreak, [&] { parts.breaks.run(world, breaker, blows); });
+  timed(Stage::kAct, [&] { parts.act.push(world); });
+  timed(Stage::kSolve, [&] { solve(world); });
+  timed(Stage::kLoad, [&] { parts.loads.run(world, breaker); });
+  timed(Stage::kParticles, [&] {
+    if (!parts.particles.any() || !world.clock.ends_frame()) return;
+    parts.particles.run(world, std::exchange(*world.exposed, {}));
+  });
+  ++world.clock.step;
 }
 
 }  // namespace sunder

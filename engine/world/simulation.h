@@ -13,8 +13,6 @@
 
 namespace sunder {
 
-struct World;
-
 /// A FrameSource that simulates: frame 0 is the scene as given, then one frame every 1/60 s until
 /// the scene's duration has passed.
 class Simulation final : public FrameSource {
@@ -29,7 +27,8 @@ class Simulation final : public FrameSource {
   void advance();
 
  private:
-  std::unique_ptr<World> world_;
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace sunder

@@ -90,7 +90,7 @@ TEST(Blast, OfTwoAtOnceBothPush) {
   EXPECT_NEAR(run.physics->bodies.back().state.velocity_W.norm(), 1.5 * 0.36, 1e-9);
 }
 
-TEST(Removal, OfASolidTakesItsPiecesTooAndTheBooksKeepTheMass) {
+TEST(Removal, OfASolidTakesItsPiecesTooAndTheLedgerKeepsTheMass) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3::Zero(), 2, false), row(Vec3(0, 5, 0), 1, false)};
   scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(-0.3, 0.5, 0.5), Vec3(60, 0, 0)}};
@@ -118,7 +118,7 @@ TEST(Removal, OfAnchorsLetsGoWhatNothingElseHolds) {
   ActRun run(scene);
   const FramePtr frame = run.simulation->next();
   ASSERT_EQ(frame->bodies.size(), 2u);
-  EXPECT_TRUE(frame->bodies[0].is_static) << "its third box is held still";
+  EXPECT_TRUE(frame->bodies[0].is_static) << "its third box is anchored still";
   EXPECT_FALSE(frame->bodies[1].is_static);
 }
 
@@ -168,12 +168,12 @@ TEST(Joint, FollowsThePieceThatHasItsAnchorOrGoes) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3(0, 0, 0), 3, false)};
   scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(-0.3, 0.5, 0.5), Vec3(60, 0, 0)}};
-  Joint held;  // at the far end, a little outside
-  held.a = 0;
-  held.at_W = Vec3(3.001, 0.5, 0.5);
-  Joint beside = held;  // above nothing
+  Joint at_end;  // at the far end, a little outside
+  at_end.a = 0;
+  at_end.at_W = Vec3(3.001, 0.5, 0.5);
+  Joint beside = at_end;  // above nothing
   beside.at_W = Vec3(1.5, 2, 0.5);
-  scene.joints = {held, beside};
+  scene.joints = {at_end, beside};
   ActRun run(scene, 0.01, [](const ScriptedPhysics& scripted, int) {
     return scripted.approach(1, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX());
   });

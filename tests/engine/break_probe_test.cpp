@@ -18,7 +18,7 @@ ProbeBody ball(double mass_kg, const Vec3& velocity_W) {
   return body;
 }
 
-/// Held by the world.
+/// Fixed to the world.
 ProbeBody pane(double least_J = 0) {
   ProbeBody body;
   body.breakable = true;

@@ -9,7 +9,7 @@ namespace {
 using testing::ScriptedBreaker;
 using testing::ScriptedPhysics;
 
-/// Two boxes on top of each other, the lower one held by the world or neither.
+/// Two boxes on top of each other, the lower one anchored or neither.
 Compound two_boxes(bool anchored) {
   Compound compound;
   for (int i = 0; i < 2; ++i) {

@@ -1,4 +1,4 @@
-// The break stage and the books, with scripted physics and fracture: energy, momentum, order.
+// The break stage and the ledger, with scripted physics and fracture: energy, momentum, order.
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"

@@ -1,5 +1,5 @@
 // Glass under fire with nothing too small to be a body: slivers of any shape, however thin. They
-// stay finite, fly no faster than what was put in allows, and keep the books.
+// stay finite, fly no faster than what was put in allows, and balance the ledger.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBall_m_s = 40;
 
-/// A pane 2 cm thick, held at its foot, of which every splinter breaks again and is a body.
+/// A pane 2 cm thick, anchored at its foot, of which every splinter breaks again and is a body.
 Scene pane_under_fire(std::uint64_t seed, PatternSpec::Kind pattern) {
   Scene scene = bare_scene(1.0 / 60, 8, 2500);
   Material& glass = scene.materials[0];

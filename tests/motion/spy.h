@@ -1,4 +1,4 @@
-// Physics that moves bodies as another does, and keeps the books of what each call changed.
+// Physics that moves bodies as another does, and notes what each call changed.
 #pragma once
 
 #include <algorithm>
@@ -20,11 +20,11 @@ struct Motions {
 class SpyPhysics final : public ForwardingPhysics {
  public:
   /// Of one step's breaks: before the first, and when all are done.
-  struct Books {
+  struct Balance {
     Motions before, after;
   };
   /// Of one body that gave way to others.
-  using Replacement = Books;
+  using Replacement = Balance;
 
   using ForwardingPhysics::ForwardingPhysics;
 
@@ -42,7 +42,7 @@ class SpyPhysics final : public ForwardingPhysics {
     return ids;
   }
   void collide(double horizon_s) override {
-    if (!std::exchange(in_step_, true)) books.before = sum();
+    if (!std::exchange(in_step_, true)) breaks.before = sum();
     physics_->collide(horizon_s);
   }
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override {
@@ -63,7 +63,7 @@ class SpyPhysics final : public ForwardingPhysics {
     return all;
   }
 
-  Books books;  ///< Of the last step.
+  Balance breaks;  ///< Of the last step.
   std::vector<Replacement> replacements;
   Motions before_solve, after_solve;  ///< Of the last solve.
 
@@ -75,7 +75,7 @@ class SpyPhysics final : public ForwardingPhysics {
   };
 
   void note_end_of_breaks() {
-    if (std::exchange(in_step_, false)) books.after = sum();
+    if (std::exchange(in_step_, false)) breaks.after = sum();
   }
   void add(BodyId id, Motions& all) const {
     const auto it = bodies_.find(id.slot);

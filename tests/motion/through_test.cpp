@@ -14,7 +14,7 @@ class AtAnyStep : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Steps, AtAnyStep,
                          testing::Values(1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 960));
 
-/// A wall across one axis, held at its rim.
+/// A wall across one axis, anchored at its rim.
 Solid wall(int axis, const Vec3& center_W, double side_m, double thickness_m) {
   Vec3 size = Vec3::Constant(side_m);
   size[axis] = thickness_m;
@@ -140,35 +140,35 @@ void expect_decided_by_work(const std::function<Scene(double)>& scene_of,
               0.03 * work_J(1.07 * enough));
 }
 
-/// A ball about to hit a loose block from the side, which `tie` holds to the world.
-Scene held_block(double dt_s, double speed_m_s, const Joint& tie) {
+/// A ball about to hit a loose block from the side, which `joint` holds to the world.
+Scene joined_block(double dt_s, double speed_m_s, const Joint& joint) {
   Scene scene = bare_scene(dt_s, 300, 500);
   scene.solids = {box_solid(Vec3::Zero(), Vec3(0.4, 0.4, 0.4))};
   scene.materials[0].smallest_break_m3 = 0.99 * volume(scene.solids[0].compound);
   scene.balls = {steel_ball(0.1, Vec3(-0.31, 0, 0), Vec3(speed_m_s, 0, 0))};
-  scene.joints = {tie};
+  scene.joints = {joint};
   return scene;
 }
 
 TEST_P(AtAnyStep, ABlockFixedToTheWorldBearsAllOfABlow) {
-  Joint tie;
-  tie.kind = JointDesc::Kind::kFixed;
-  tie.a = 0;
-  tie.at_W = Vec3(0.15, 0.15, 0.15);
+  Joint joint;
+  joint.kind = JointDesc::Kind::kFixed;
+  joint.a = 0;
+  joint.at_W = Vec3(0.15, 0.15, 0.15);
   const double ball_mass = ball_kg(steel_ball(0.1, Vec3::Zero(), Vec3::Zero()));
-  expect_decided_by_work([&](double speed) { return held_block(GetParam(), speed, tie); },
+  expect_decided_by_work([&](double speed) { return joined_block(GetParam(), speed, joint); },
                          [&](double speed) { return kinetic_J(ball_mass, speed); }, false);
 }
 
 TEST_P(AtAnyStep, ABlockOnARopeBearsOfABlowWhatAFreeOneDoes) {
-  Joint tie;
-  tie.kind = JointDesc::Kind::kRope;
-  tie.a = 0;
-  tie.at_W = Vec3(0, 0.2, 0);
-  tie.to_W = Vec3(0, 2.2, 0);
+  Joint joint;
+  joint.kind = JointDesc::Kind::kRope;
+  joint.a = 0;
+  joint.at_W = Vec3(0, 0.2, 0);
+  joint.to_W = Vec3(0, 2.2, 0);
   const double ball_mass = ball_kg(steel_ball(0.1, Vec3::Zero(), Vec3::Zero()));
   const double block_mass = 500 * 0.4 * 0.4 * 0.4;
-  expect_decided_by_work([&](double speed) { return held_block(GetParam(), speed, tie); },
+  expect_decided_by_work([&](double speed) { return joined_block(GetParam(), speed, joint); },
                          [&](double speed) {
                            return block_mass / (block_mass + ball_mass) *
                                   kinetic_J(ball_mass, speed);

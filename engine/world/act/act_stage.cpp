@@ -1,12 +1,10 @@
-// Stage `act`: what the script does to the world at this time; and making room when it is full.
-//
-// Read first: act_stage() and push_stage(). Acts come before contacts are found, pushes after
-// breaks were decided, so that what a blast breaks off is what it blows away.
+#include "engine/world/act/act_stage.h"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "engine/world/actors/actors.h"
-#include "engine/world/actors/joints.h"
+#include "engine/world/actors/make_actor.h"
 #include "engine/world/actors/replace.h"
 
 namespace sunder {
@@ -14,26 +12,49 @@ namespace {
 
 constexpr std::uint32_t kRoom = 16;  // one part in so many bodies is kept free for breaks
 
-/// Whether something due at `time_s` happens in this step.
-bool is_due(const World& world, double time_s) {
-  return time_s <= world.time_s() + 0.5 * world.scene.accuracy.dt_s;
-}
-
 /// The elements that have become due since the last step.
 template <class Act>
-std::span<const Act> due(const World& world, const std::vector<Act>& acts, std::size_t& next) {
+std::span<const Act> take_due(const Clock& clock, const std::vector<Act>& acts, std::size_t& next) {
   const std::size_t first = next;
-  while (next < acts.size() && is_due(world, acts[next].time_s)) ++next;
+  while (next < acts.size() && clock.is_due(acts[next].time_s)) ++next;
   return std::span(acts).subspan(first, next - first);
 }
 
-void shoot(World& world) {
-  for (const Shot& shot : due(world, world.scene.shots, world.next_shot)) {
-    if (shot.hangs_from_W) {
-      hang(world, shot);
-    } else {
-      add_ball(world, shot.ball);
+std::uint32_t newest(const World& world) { return world.actors[world.actors.size() - 1].key; }
+
+/// A shot ball on its rope, or on its chain, which appears with it.
+void hang(World& world, const Shot& shot) {
+  std::optional<std::uint32_t> above;
+  Joint joint;
+  if (shot.links.empty()) {
+    add_ball(world, shot.ball);
+    joint.kind = JointDesc::Kind::kRope;
+    joint.at_W = *shot.hangs_from_W;
+    joint.to_W = shot.ball.center_W;
+  } else {
+    const Vec3 way = shot.ball.center_W - *shot.hangs_from_W;
+    const Vec3 chain = way - shot.ball.radius_m * way.normalized();
+    const double count = static_cast<double>(shot.links.size());
+    for (std::size_t i = 0; i < shot.links.size(); ++i) {
+      add_compounds(world, std::span(&shot.links[i], 1));
+      joint.a = above;
+      joint.b = above = newest(world);
+      joint.at_W = *shot.hangs_from_W + static_cast<double>(i) / count * chain;
+      world.joints.add(*world.physics, world.actors, joint);
     }
+    add_ball(world, shot.ball);
+    joint.at_W = *shot.hangs_from_W + chain;
+  }
+  joint.a = above;
+  joint.b = newest(world);
+  world.joints.add(*world.physics, world.actors, joint);
+}
+
+void shoot(World& world, const Shot& shot) {
+  if (shot.hangs_from_W) {
+    hang(world, shot);
+  } else {
+    add_ball(world, shot.ball);
   }
 }
 
@@ -41,20 +62,19 @@ void drop(World& world, const std::vector<std::size_t>& gone) {
   std::vector<BodyId> bodies;
   for (const std::size_t i : gone) {
     bodies.push_back(world.actors[i].body);
-    cut_joints(world, world.actors[i].key);
+    world.ledger.report.joints_lost += world.joints.cut(*world.physics, world.actors[i].key);
   }
   world.physics->replace(bodies, {});
-  for (auto i = gone.rbegin(); i != gone.rend(); ++i) {
-    world.actors.erase(world.actors.begin() + static_cast<std::ptrdiff_t>(*i));
-  }
+  for (auto i = gone.rbegin(); i != gone.rend(); ++i) world.actors.erase(*i);
 }
 
-/// What has lost an anchor goes on as it was, held by the others or by nothing.
+/// What has lost an anchor goes on as it was, on its other anchors or on none.
 void loosen(World& world, const Box& region_W) {
+  const BodyStates states = world.physics->states();
   std::vector<std::uint32_t> loosened;
   for (Actor& actor : world.actors) {
     if (!actor.is_static) continue;
-    const Pose X_WB = world.physics->state(actor.body).X_WB;
+    const Pose X_WB = states[actor.body].X_WB;
     std::vector<std::uint32_t> slots;
     actor.structure.for_each([&](std::uint32_t slot, const Convex& convex) {
       const Vec3 at_W = X_WB * (convex.solid.centroid - actor.weight.com_R);
@@ -71,19 +91,19 @@ void loosen(World& world, const Box& region_W) {
   }
 }
 
-void remove(World& world) {
-  for (const Removal& removal : due(world, world.scene.removals, world.next_removal)) {
-    if (removal.roots.empty()) {
-      loosen(world, removal.anchors_W);
-      continue;
-    }
-    std::vector<std::size_t> gone;
-    for (std::size_t i = 0; i < world.actors.size(); ++i) {
-      if (std::ranges::binary_search(removal.roots, world.actors[i].root_key)) gone.push_back(i);
-    }
-    for (const std::size_t i : gone) world.removed_mass_kg += world.actors[i].weight.mass_kg;
-    drop(world, gone);
+void remove(World& world, const Removal& removal) {
+  if (removal.roots.empty()) {
+    loosen(world, removal.anchors_W);
+    return;
   }
+  std::vector<std::size_t> gone;
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    if (std::ranges::binary_search(removal.roots, world.actors[i].root_key)) gone.push_back(i);
+  }
+  for (const std::size_t i : gone) {
+    world.ledger.removed_mass_kg += world.actors[i].weight.mass_kg;
+  }
+  drop(world, gone);
 }
 
 /// The smallest fragments at rest become debris once bodies are more than the scene wants.
@@ -92,13 +112,12 @@ void age(World& world) {
   const std::uint32_t most =
       limits.ageing > 0 ? std::min(limits.ageing, limits.bodies) : limits.bodies;
   if (world.actors.size() <= most - most / kRoom) return;
+  const BodyStates states = world.physics->states();
   std::vector<std::size_t> resting;
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
     const Actor& actor = world.actors[i];
     const bool fragment = actor.key != actor.root_key && !actor.structure.empty();
-    if (fragment && !actor.is_static && world.physics->state(actor.body).asleep) {
-      resting.push_back(i);
-    }
+    if (fragment && !actor.is_static && states[actor.body].asleep) resting.push_back(i);
   }
   // Ascending by key already: a stable order of equals.
   std::ranges::stable_sort(resting, {}, [&](std::size_t i) { return world.actors[i].volume_m3; });
@@ -108,45 +127,60 @@ void age(World& world) {
   std::ranges::sort(resting);
   for (const std::size_t i : resting) {
     const Actor& actor = world.actors[i];
-    const BodyState state = world.physics->state(actor.body);
-    const Pose X_WR{state.X_WB * Vec3(-actor.weight.com_R), state.X_WB.rotation};
-    add_chip(world, actor.structure.compound(),
-             {X_WR, state.X_WB.position, state.velocity_W, state.angular_velocity_W});
-    world.debris_mass_kg += actor.weight.mass_kg;
-    ++world.report.aged;
+    note_chip(world, actor.structure.compound(), motion_of(actor, states[actor.body]));
+    world.ledger.debris_mass_kg += actor.weight.mass_kg;
+    ++world.ledger.report.aged;
   }
   if (!resting.empty()) drop(world, resting);
 }
 
-void drive(World& world) {
-  for (const Drive& drive : world.scene.drives) {
-    if (!is_due(world, drive.time_s) || is_due(world, drive.until_s)) continue;
-    for (const std::uint32_t root : drive.roots) {
-      const Actor* actor = world.find(root);
-      if (!actor || actor->is_static) continue;
-      const BodyState state = world.physics->state(actor->body);
-      Vec3 impulse = actor->weight.mass_kg * (drive.velocity_W - state.velocity_W);
-      const double most = drive.force_N * world.scene.accuracy.dt_s;
-      if (impulse.norm() > most) impulse *= most / impulse.norm();
-      if (impulse.norm() > 0) {
-        world.physics->apply_impulse(actor->body, impulse, state.X_WB.position);
-      }
+void drive_by(World& world, const Drive& drive) {
+  for (const std::uint32_t root : drive.roots) {
+    const Actor* actor = world.actors.find(root);
+    if (!actor || actor->is_static) continue;
+    const BodyState state = world.physics->state(actor->body);
+    Vec3 impulse = actor->weight.mass_kg * (drive.velocity_W - state.velocity_W);
+    const double most = drive.force_N * world.clock.dt_s;
+    if (impulse.norm() > most) impulse *= most / impulse.norm();
+    if (impulse.norm() > 0) {
+      world.physics->apply_impulse(actor->body, impulse, state.X_WB.position);
     }
   }
 }
 
 }  // namespace
 
-void act_stage(World& world) {
-  shoot(world);
-  remove(world);
-  light_blasts(world);
+std::vector<Impact> ActStage::run(World& world) {
+  for (const Shot& shot : take_due(world.clock, world.scene.shots, next_shot_)) shoot(world, shot);
+  for (const Removal& removal : take_due(world.clock, world.scene.removals, next_removal_)) {
+    remove(world, removal);
+  }
+  for (const Blast& blast : take_due(world.clock, world.scene.blasts, next_blast_)) {
+    bursts_.push_back(light(blast, world.clock));
+  }
+  std::vector<Impact> blows;
+  for (Burst& burst : bursts_) {
+    const std::vector<Impact> of_burst = blows_of(world, burst);
+    blows.insert(blows.end(), of_burst.begin(), of_burst.end());
+  }
   age(world);
+  return blows;
 }
 
-void push_stage(World& world) {
-  push_blasts(world);
-  drive(world);
+void ActStage::push(World& world) {
+  const auto pushes = [&](const Burst& burst) { return world.clock.is_due(burst.pushes_at_s); };
+  for (const Burst& burst : bursts_) {
+    if (pushes(burst)) push_by(world, burst.blast);
+  }
+  std::erase_if(bursts_, pushes);
+  for (const Drive& drive : world.scene.drives) {
+    const bool on = world.clock.is_due(drive.time_s) && !world.clock.is_due(drive.until_s);
+    if (on) drive_by(world, drive);
+  }
+}
+
+std::span<const Shot> ActStage::shots_to_come(const Scene& scene) const {
+  return std::span(scene.shots).subspan(next_shot_);
 }
 
 }  // namespace sunder

@@ -1,14 +1,9 @@
-// Blasts: an impulse on every face that sees the centre, less with distance and slant.
-//
-// Read first: push_on(). What a blast can break is decided by the break stage, from the energy
-// that its impulse would give the convexes it meets if they were free: for a few steps one place of
-// each solid, the hardest pressed first. Then all that is loose is pushed. Nothing stands in the
-// way of a blast: walls give no cover.
+// Read first: push_on().
+#include "engine/world/act/blast.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "engine/world/actors/actors.h"
 
 namespace sunder {
 namespace {
@@ -59,11 +54,6 @@ Push push_on(const Blast& blast, const Actor& actor, std::uint32_t slot, const P
   return push;
 }
 
-Pose rest_pose(const World& world, const Actor& actor) {
-  const Pose X_WB = world.physics->state(actor.body).X_WB;
-  return {X_WB * Vec3(-actor.weight.com_R), X_WB.rotation};
-}
-
 bool reaches(const Blast& blast, const Actor& actor, const Pose& X_WR) {
   if (actor.structure.empty()) return true;
   const Box box_R = bounds(actor.structure);
@@ -82,10 +72,10 @@ bool was_tried(const World& world, const Burst& burst, const Convex& convex, con
 
 /// The impact that a blast amounts to, where it presses hardest; of no energy if it cannot break
 /// it.
-Impact blow_of(const World& world, const Burst& burst, const Actor& actor) {
+Impact blow_on(const World& world, const Burst& burst, const Actor& actor, const Pose& X_WB) {
   const Blast& blast = burst.blast;
   Impact impact;
-  const Pose X_WR = rest_pose(world, actor);
+  const Pose X_WR = rest_pose(actor, X_WB);
   if (!reaches(blast, actor, X_WR)) return impact;
   const Structure& structure = actor.structure;
   std::vector<Push> pushes(structure.slot_count());
@@ -99,7 +89,6 @@ Impact blow_of(const World& world, const Burst& burst, const Actor& actor) {
   const Material& material = world.material(structure.convex(hardest)->material);
   if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) return impact;
   impact.key = actor.key;
-  impact.other_key = kNobodyKey;
   impact.convex = hardest;
   impact.point_W = pushes[hardest].point_W();
   Vec3 impulse_W = Vec3::Zero();
@@ -119,7 +108,7 @@ Impact blow_of(const World& world, const Burst& burst, const Actor& actor) {
 }
 
 void push_away(World& world, const Blast& blast, const Actor& actor) {
-  const Pose X_WR = rest_pose(world, actor);
+  const Pose X_WR = rest_pose(actor, world.physics->state(actor.body).X_WB);
   if (!reaches(blast, actor, X_WR)) return;
   Push push;
   actor.structure.for_each([&](std::uint32_t slot, const Convex&) {
@@ -129,7 +118,7 @@ void push_away(World& world, const Blast& blast, const Actor& actor) {
     push.weight_Ns += part.weight_Ns;
   });
   if (actor.structure.empty()) {
-    const double radius = std::cbrt(actor.volume_m3 * 3 / (4 * std::numbers::pi));
+    const double radius = ball_radius_m(actor.volume_m3);
     push.add(std::numbers::pi * radius * radius * impulse_Ns_m2(blast, X_WR.position),
              X_WR.position);
   }
@@ -139,36 +128,26 @@ void push_away(World& world, const Blast& blast, const Actor& actor) {
 
 }  // namespace
 
-void light_blasts(World& world) {
-  const double now_s = world.time_s();
-  const double until_s = now_s + 0.5 * world.scene.accuracy.dt_s;
-  for (; world.next_blast < world.scene.blasts.size() &&
-         world.scene.blasts[world.next_blast].time_s <= until_s;
-       ++world.next_blast) {
-    world.bursts.push_back({world.scene.blasts[world.next_blast], now_s + kBreaking_s, {}});
-  }
-  for (Burst& burst : world.bursts) {
-    std::vector<Vec3> tried_W;
-    for (const Actor& actor : world.actors) {
-      const Impact impact = blow_of(world, burst, actor);
-      if (impact.energy_J <= 0) continue;
-      tried_W.push_back(impact.point_W);
-      const auto same = [&](const Impact& known) { return known.key == impact.key; };
-      if (std::ranges::none_of(world.waiting, same)) world.waiting.push_back(impact);
-    }
-    burst.tried_W.insert(burst.tried_W.end(), tried_W.begin(), tried_W.end());
-  }
+Burst light(const Blast& blast, const Clock& clock) {
+  return {blast, clock.time_s() + kBreaking_s, {}};
 }
 
-void push_blasts(World& world) {
-  const double until_s = world.time_s() + 0.5 * world.scene.accuracy.dt_s;
-  for (const Burst& burst : world.bursts) {
-    if (burst.pushes_at_s > until_s) continue;
-    for (const Actor& actor : world.actors) {
-      if (!actor.is_static) push_away(world, burst.blast, actor);
-    }
+std::vector<Impact> blows_of(const World& world, Burst& burst) {
+  const BodyStates states = world.physics->states();
+  std::vector<Impact> blows;
+  for (const Actor& actor : world.actors) {
+    const Impact blow = blow_on(world, burst, actor, states[actor.body].X_WB);
+    if (blow.energy_J <= 0) continue;
+    blows.push_back(blow);
   }
-  std::erase_if(world.bursts, [&](const Burst& burst) { return burst.pushes_at_s <= until_s; });
+  for (const Impact& blow : blows) burst.tried_W.push_back(blow.point_W);
+  return blows;
+}
+
+void push_by(World& world, const Blast& blast) {
+  for (const Actor& actor : world.actors) {
+    if (!actor.is_static) push_away(world, blast, actor);
+  }
 }
 
 }  // namespace sunder

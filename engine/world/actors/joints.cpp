@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "engine/world/actors/actors.h"
+#include <optional>
 
 namespace sunder {
 namespace {
@@ -24,16 +23,10 @@ const Actor* actor_at(std::span<const Actor* const> actors, const Vec3& point_R)
   return nearest;
 }
 
-void lose(World& world, std::vector<LiveJoint>::iterator joint) {
-  world.physics->cut(joint->id);
-  world.joints.erase(joint);
-  ++world.report.joints_lost;
-}
-
 }  // namespace
 
-void add_joint(World& world, const Joint& joint) {
-  LiveJoint live;
+void Joints::add(Physics& physics, const Actors& actors, const Joint& joint) {
+  Live live;
   JointDesc desc;
   desc.kind = joint.kind;
   live.rigid = joint.kind == JointDesc::Kind::kFixed;
@@ -41,14 +34,13 @@ void add_joint(World& world, const Joint& joint) {
       joint.kind == JointDesc::Kind::kDistance || joint.kind == JointDesc::Kind::kRope;
   const Vec3 end_W = apart ? joint.to_W : joint.at_W;
   Quat rotation_WR[2];
-  const auto set_end = [&](std::optional<std::uint32_t> key, const Vec3& anchor_W, JointEnd& end,
+  const auto set_end = [&](std::optional<std::uint32_t> key, const Vec3& anchor_W, End& end,
                            BodyId& body, Vec3& anchor_R, Vec3& axis_R, Quat& q) {
     end = {key.value_or(kGroundKey), anchor_W};
     Pose X_WR;
     if (key) {
-      const Actor& actor = *world.find(*key);
-      const Pose X_WB = world.physics->state(actor.body).X_WB;
-      X_WR = {X_WB * Vec3(-actor.weight.com_R), X_WB.rotation};
+      const Actor& actor = *actors.find(*key);
+      X_WR = rest_pose(actor, physics.state(actor.body).X_WB);
       body = actor.body;
     }
     anchor_R = end.anchor_R = X_WR.inverse() * anchor_W;
@@ -62,83 +54,62 @@ void add_joint(World& world, const Joint& joint) {
   desc.breaking_N = joint.breaking_N;
   desc.breaking_Nm = joint.breaking_Nm;
   desc.collide = joint.collide;
-  live.id = world.physics->join(desc);
-  world.joints.push_back(live);
+  live.id = physics.join(desc);
+  live_.push_back(live);
 }
 
-void hang(World& world, const Shot& shot) {
-  std::optional<std::uint32_t> above;
-  Joint joint;
-  if (shot.links.empty()) {
-    add_ball(world, shot.ball);
-    joint.kind = JointDesc::Kind::kRope;
-    joint.at_W = *shot.hangs_from_W;
-    joint.to_W = shot.ball.center_W;
-  } else {
-    const Vec3 way = shot.ball.center_W - *shot.hangs_from_W;
-    const Vec3 chain = way - shot.ball.radius_m * way.normalized();
-    const double count = static_cast<double>(shot.links.size());
-    for (std::size_t i = 0; i < shot.links.size(); ++i) {
-      add_compounds(world, std::span(&shot.links[i], 1));
-      joint.a = above;
-      joint.b = above = world.actors.back().key;
-      joint.at_W = *shot.hangs_from_W + static_cast<double>(i) / count * chain;
-      add_joint(world, joint);
-    }
-    add_ball(world, shot.ball);
-    joint.at_W = *shot.hangs_from_W + chain;
-  }
-  joint.a = above;
-  joint.b = world.actors.back().key;
-  add_joint(world, joint);
-}
-
-void move_joints(World& world, const Actor& parent, bool stays, std::span<const Actor> pieces) {
+std::uint32_t Joints::follow(Physics& physics, const Actor& parent, bool stays,
+                             std::span<const Actor> pieces) {
   std::vector<const Actor*> actors;
   if (stays) actors.push_back(&parent);
   for (const Actor& piece : pieces) actors.push_back(&piece);
-  for (auto joint = world.joints.begin(); joint != world.joints.end();) {
+  std::vector<JointId> lost;
+  for (Live& joint : live_) {
     bool whole = true;
-    for (JointEnd* end : {&joint->a, &joint->b}) {
+    for (End* end : {&joint.a, &joint.b}) {
       if (end->key != parent.key) continue;
       const Actor* actor = actor_at(actors, end->anchor_R);
       whole = whole && actor;
       if (!actor || actor == &parent) continue;
       end->key = actor->key;
-      world.physics->attach(joint->id, end == &joint->a, actor->body);
+      physics.attach(joint.id, end == &joint.a, actor->body);
     }
-    if (whole) {
-      ++joint;
-      continue;
-    }
-    const std::ptrdiff_t at = joint - world.joints.begin();
-    lose(world, joint);
-    joint = world.joints.begin() + at;
+    if (whole) continue;
+    physics.cut(joint.id);
+    lost.push_back(joint.id);
   }
+  return forget(lost);
 }
 
-void cut_joints(World& world, std::uint32_t key) {
-  for (std::size_t i = world.joints.size(); i-- > 0;) {
-    const auto joint = world.joints.begin() + static_cast<std::ptrdiff_t>(i);
-    if (joint->a.key == key || joint->b.key == key) lose(world, joint);
+std::uint32_t Joints::cut(Physics& physics, std::uint32_t key) {
+  std::vector<JointId> lost;
+  for (auto joint = live_.rbegin(); joint != live_.rend(); ++joint) {
+    if (joint->a.key != key && joint->b.key != key) continue;
+    physics.cut(joint->id);
+    lost.push_back(joint->id);
   }
+  return forget(lost);
 }
 
-void note_broken_joints(World& world) {
-  if (world.joints.empty()) return;
-  for (const JointId joint : world.physics->take_broken()) {
-    std::erase_if(world.joints, [&](const LiveJoint& live) { return live.id == joint; });
-    ++world.report.joints_lost;
-  }
+std::uint32_t Joints::take_broken(Physics& physics) {
+  return live_.empty() ? 0 : forget(physics.take_broken());
 }
 
-std::vector<std::uint32_t> fixed_to_world(const World& world) {
+/// Returns how many.
+std::uint32_t Joints::forget(const std::vector<JointId>& gone) {
+  for (const JointId id : gone) {
+    std::erase_if(live_, [&](const Live& joint) { return joint.id == id; });
+  }
+  return static_cast<std::uint32_t>(gone.size());
+}
+
+std::vector<std::uint32_t> Joints::fixed_to_world(const Actors& actors) const {
   const auto stands = [&](std::uint32_t key) {
-    const auto actor = std::ranges::lower_bound(world.actors, key, {}, &Actor::key);
-    return key == kGroundKey || (actor != world.actors.end() && actor->is_static);
+    const Actor* actor = actors.find(key);
+    return key == kGroundKey || (actor && actor->is_static);
   };
   std::vector<std::uint32_t> keys;
-  for (const LiveJoint& joint : world.joints) {
+  for (const Live& joint : live_) {
     if (joint.rigid && stands(joint.b.key)) keys.push_back(joint.a.key);
     if (joint.rigid && stands(joint.a.key)) keys.push_back(joint.b.key);
   }

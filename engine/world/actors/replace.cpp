@@ -1,25 +1,24 @@
 #include "engine/world/actors/replace.h"
 
 #include <algorithm>
-#include <iterator>
 #include <unordered_set>
 #include <utility>
 
-#include "engine/world/actors/actors.h"
-#include "engine/world/actors/joints.h"
+#include "engine/world/actors/make_actor.h"
 
 namespace sunder {
 namespace {
 
 Vec3 momentum_of(const World& world, std::span<const Actor> actors) {
+  const BodyStates states = world.physics->states();
   Vec3 sum = Vec3::Zero();
   for (const Actor& actor : actors) {
-    if (!actor.is_static) sum += actor.weight.mass_kg * world.physics->state(actor.body).velocity_W;
+    if (!actor.is_static) sum += actor.weight.mass_kg * states[actor.body].velocity_W;
   }
   return sum;
 }
 
-/// Whether a piece is a body: held in place, or large enough.
+/// Whether a piece is a body: anchored, or large enough.
 bool is_body(const World& world, const Compound& piece) {
   if (piece.is_anchored()) return true;
   return volume(piece) >= world.material(piece.convexes[0]->material).smallest_piece_m3;
@@ -33,8 +32,8 @@ Vec3 debris_momentum(const Actor& parent, std::span<const Actor> pieces, const M
     mass -= piece.weight.mass_kg;
     moment_R -= piece.weight.mass_kg * (piece.weight.com_R - parent.weight.com_R);
   }
-  return mass * motion.velocity_W +
-         motion.angular_velocity_W.cross(motion.X_WR.rotation * moment_R);
+  return mass * motion.field.velocity_W +
+         motion.field.angular_velocity_W.cross(motion.X_WR.rotation * moment_R);
 }
 
 /// What leaves a structure (sign 1), and what comes to it (−1), convexes and ghosts.
@@ -96,14 +95,14 @@ struct Pieces {
   std::uint32_t add(World& world, const Compound& compound, const Actor& parent,
                     const Motion& motion) {
     if (!is_body(world, compound)) {
-      add_chip(world, compound, motion);
+      note_chip(world, compound, motion);
       return kNobodyKey;
     }
     Actor& piece = actors.emplace_back(make_actor(world, compound));
-    piece.born_step = world.step + 1;
+    piece.born_step = world.clock.step + 1;
     piece.root_key = parent.root_key;
     if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;
-    world.debris_mass_kg -= piece.weight.mass_kg;
+    world.ledger.debris_mass_kg -= piece.weight.mass_kg;
     bodies.push_back(describe(world, piece, motion));
     return piece.key;
   }
@@ -117,7 +116,7 @@ DrawnBefore looks_of(const Actor& actor, std::span<const std::uint32_t> slots) {
   return looks;
 }
 
-/// Takes the convexes that went out of the body of what stands, and of the books on it.
+/// Takes the convexes that went out of the body of what stands, and of what is known of it.
 void stay(World& world, Actor& actor, const BreakEdit& edit,
           std::span<const std::uint32_t> changed) {
   std::vector<ShapeDesc> shapes;
@@ -131,13 +130,13 @@ void stay(World& world, Actor& actor, const BreakEdit& edit,
     actor.meshes[slot] = {};
     actor.hidden[slot] = {};
   }
-  renew_meshes(world, actor, changed);
+  world.meshes.renew(actor, changed);
   set_least(world, actor);
   const auto is_gone = [&](const Press& press) { return !actor.structure.has(press.convex); };
   std::erase_if(actor.stress.pressing, is_gone);
   std::erase_if(actor.stress.judged, is_gone);
   actor.stress.settled = false;
-  actor.stress.since_step = world.step;
+  actor.stress.since_step = world.clock.step;
 }
 
 }  // namespace
@@ -147,18 +146,13 @@ std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit) {
   return static_cast<std::uint32_t>(edit.loose.pieces.size()) + (stays ? 1 : 0);
 }
 
-bool has_room(World& world, const BreakEdit& edit) {
-  if (world.actors.size() + edit.loose.pieces.size() <= world.scene.limits.bodies) return true;
-  ++world.report.limits_hit;
-  return false;
+bool has_room(const World& world, const BreakEdit& edit) {
+  return world.actors.size() + edit.loose.pieces.size() <= world.scene.limits.bodies;
 }
 
 void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
-  const std::size_t at = static_cast<std::size_t>(world.find(key) - world.actors.data());
-  Actor& parent = world.actors[at];
-  const BodyState state = world.physics->state(parent.body);
-  const Pose X_WR{state.X_WB * Vec3(-parent.weight.com_R), state.X_WB.rotation};
-  const Motion motion{X_WR, state.X_WB.position, state.velocity_W, state.angular_velocity_W};
+  Actor& parent = *world.actors.find(key);
+  const Motion motion = motion_of(parent, world.physics->state(parent.body));
   std::vector<std::uint32_t> changed;
   if (parent.is_static) changed = changed_looks(parent.structure, edit);
   DrawnBefore looks = looks_of(parent, edit.removed);
@@ -173,7 +167,7 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
 
   Pieces pieces;
   std::vector<std::uint32_t> keys{stays ? parent.key : kNobodyKey};  // as exposed faces name them
-  world.debris_mass_kg += stays ? left_kg : parent.weight.mass_kg;
+  world.ledger.debris_mass_kg += stays ? left_kg : parent.weight.mass_kg;
   if (!stays && !parent.structure.empty()) {
     const Compound rest = parent.structure.compound();
     parent.structure.for_each([&](std::uint32_t slot, const Convex& convex) {
@@ -185,8 +179,8 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
   for (const Compound& piece : edit.loose.pieces) {
     keys.push_back(pieces.add(world, piece, parent, motion));
   }
-  crumble(world, parent.structure, edit, motion, keys);
-  add_meshes(world, pieces.actors, looks);
+  note_exposed(world, parent.structure, edit, motion, keys);
+  world.meshes.add_to(pieces.actors, looks);
   const Vec3 before = momentum_of(world, std::span(&parent, 1));
   std::vector<BodyId> ids;
   if (stays) {
@@ -198,14 +192,15 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
     ids = world.physics->replace(std::span(&parent.body, 1), pieces.bodies);
   }
   for (std::size_t i = 0; i < ids.size(); ++i) pieces.actors[i].body = ids[i];
-  move_joints(world, parent, stays, pieces.actors);
+  world.ledger.report.joints_lost +=
+      world.joints.follow(*world.physics, parent, stays, pieces.actors);
   if (!parent.is_static) {
     const Vec3 after =
         momentum_of(world, pieces.actors) + debris_momentum(parent, pieces.actors, motion);
-    world.momentum_error_Ns += (after - before).norm();
+    world.ledger.momentum_error_Ns += (after - before).norm();
   }
-  if (!stays) world.actors.erase(world.actors.begin() + static_cast<std::ptrdiff_t>(at));
-  std::move(pieces.actors.begin(), pieces.actors.end(), std::back_inserter(world.actors));
+  if (!stays) world.actors.erase(world.actors.place_of(parent));
+  for (Actor& piece : pieces.actors) world.actors.add(std::move(piece));
 }
 
 }  // namespace sunder

@@ -10,10 +10,10 @@ namespace sunder {
 /// Pieces that an edit makes of a structure, what stays of it included.
 std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit);
 
-/// Whether the limit of bodies allows for the pieces that come off; counts it as hit if not.
-bool has_room(World& world, const BreakEdit& edit);
+/// Whether the limit of bodies allows for the pieces that come off.
+bool has_room(const World& world, const BreakEdit& edit);
 
-/// Breaks the actor `key`. One that stands, and is still held, stays and loses what came off;
+/// Breaks the actor `key`. One that is still anchored stays and loses what came off;
 /// another gives way to its pieces, what stays of its structure first. Pieces move as it did (each
 /// with its velocity field, so that linear and angular momentum stay); the smallest become debris.
 void carry_out(World& world, std::uint32_t key, BreakEdit& edit);

@@ -253,7 +253,7 @@ void BreakProbe::finish(const ClusterMotion& without, double share) {
                                         motion.angular_velocity_W != bodies_[b].angular_velocity_W);
     if (!motion.changed) continue;
     motion.shift_W = way_[b].linear - time_s_ * motion.velocity_W;
-    motion.turn_W = way_[b].angular - time_s_ * motion.angular_velocity_W;
+    motion.rotation_W = way_[b].angular - time_s_ * motion.angular_velocity_W;
   }
 }
 

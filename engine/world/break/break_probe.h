@@ -20,7 +20,7 @@ namespace sunder {
 /// A body of the cluster, as it moves at the start of the step.
 struct ProbeBody {
   std::uint32_t key = 0;
-  double inverse_mass = 0;                ///< 0: held by the world.
+  double inverse_mass = 0;                ///< 0: static, or fixed to the world.
   Mat3 inverse_inertia_W = Mat3::Zero();  ///< About the centre of mass.
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
@@ -53,8 +53,8 @@ struct ProbeLoad {
 struct ProbeMotion {
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
-  Vec3 shift_W = Vec3::Zero();  ///< To add to the position at the start of the step,
-  Vec3 turn_W = Vec3::Zero();   ///< and to its rotation.
+  Vec3 shift_W = Vec3::Zero();     ///< To add to the position at the start of the step,
+  Vec3 rotation_W = Vec3::Zero();  ///< and to its rotation.
   bool changed = false;
 };
 
@@ -119,13 +119,13 @@ class BreakProbe {
   double time_s_ = 0;
   int events_ = 0;
   std::vector<BodyVelocity> velocities_;  ///< Now.
-  std::vector<BodyVelocity> way_;         ///< Displacement and turn since the start of the step.
-  std::vector<std::uint32_t> closed_;     ///< Contacts, ascending.
-  std::vector<ContactRow> rows_;          ///< Per contact.
-  double fastest_m_s_ = 0;                ///< Of the contacts that closed at this event.
-  std::vector<std::uint8_t> undecided_;   ///< Per body, of this event.
-  std::vector<ProbeLoad> loads_;          ///< Of this event.
-  std::optional<ClusterMotion> with_;     ///< Nothing removed; empty between events.
+  std::vector<BodyVelocity> way_;        ///< Displacement and rotation since the start of the step.
+  std::vector<std::uint32_t> closed_;    ///< Contacts, ascending.
+  std::vector<ContactRow> rows_;         ///< Per contact.
+  double fastest_m_s_ = 0;               ///< Of the contacts that closed at this event.
+  std::vector<std::uint8_t> undecided_;  ///< Per body, of this event.
+  std::vector<ProbeLoad> loads_;         ///< Of this event.
+  std::optional<ClusterMotion> with_;    ///< Nothing removed; empty between events.
   std::vector<ProbeMotion> motions_;
 };
 

@@ -1,10 +1,11 @@
 #include "engine/world/break/clusters.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "engine/base/froude.h"
-#include "engine/world/actors/joints.h"
+#include "engine/base/rotation.h"
 
 namespace sunder {
 namespace {
@@ -20,45 +21,42 @@ struct Seed {
   std::uint64_t since_step = 0;  ///< It waits since then.
 };
 
-std::uint64_t waits_since(const World& world, std::uint32_t key) {
-  const auto it = std::ranges::lower_bound(world.waiters, key, {}, &Waiter::key);
-  return it != world.waiters.end() && it->key == key ? it->since_step : world.step;
-}
-
 /// Pieces that came off in this step do not break again in it; what stands may be hit by others.
 bool may_break(const World& world, const Actor* actor, double energy_J) {
   if (!actor || energy_J <= actor->least_J) return false;
-  return actor->is_static || actor->born_step != world.step + 1;
+  return actor->is_static || actor->born_step != world.clock.step + 1;
 }
 
 /// What closes at a contact; things that joints fix to the world give no more than it does.
-double closing_energy_J(World& world, const Approach& approach,
+double closing_energy_J(const World& world, const BodyStates& states, const Approach& approach,
                         const std::vector<std::uint32_t>& fixed) {
   const double all_J = 0.5 * approach.effective_mass_kg * approach.speed_m_s * approach.speed_m_s;
   if (fixed.empty()) return all_J;
   double left = 1;  // of what gives
   for (const std::uint32_t key : {approach.body_tag_a, approach.body_tag_b}) {
     if (!std::ranges::binary_search(fixed, key)) continue;
-    const Actor& actor = *world.find(key);
+    const Actor& actor = *world.actors.find(key);
     if (actor.is_static) continue;
-    const Pose X_WB = world.physics->state(actor.body).X_WB;
+    const Pose X_WB = states[actor.body].X_WB;
     const Vec3 normal = X_WB.rotation.conjugate() * approach.normal_W;
-    const Vec3 lever = (X_WB.inverse() * approach.point_W).cross(normal);
+    const Vec3 beta = (X_WB.inverse() * approach.point_W).cross(normal);
     left -= approach.effective_mass_kg *
-            (1 / actor.weight.mass_kg + lever.dot(actor.weight.inertia_R.inverse() * lever));
+            (1 / actor.weight.mass_kg + beta.dot(actor.weight.inertia_R.inverse() * beta));
   }
   return left > 1e-6 ? all_J / left : 0;
 }
 
 /// Approaches with energy enough to break something in the world, in the order of find_clusters().
-std::vector<Seed> find_seeds(World& world, const std::vector<std::uint32_t>& fixed) {
+std::vector<Seed> find_seeds(const World& world, const WaitingRoom& waiting,
+                             const std::vector<std::uint32_t>& fixed) {
   double least_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) least_J = std::min(least_J, actor.least_J);
   if (least_J == std::numeric_limits<double>::infinity()) return {};
+  const BodyStates states = world.physics->states();
   std::vector<Seed> pairs;
   for (const Approach& approach : world.physics->approaches()) {
-    pairs.push_back(
-        {approach.body_tag_a, approach.body_tag_b, closing_energy_J(world, approach, fixed)});
+    pairs.push_back({approach.body_tag_a, approach.body_tag_b,
+                     closing_energy_J(world, states, approach, fixed)});
   }
   std::ranges::stable_sort(pairs, {}, [](const Seed& seed) { return std::pair(seed.a, seed.b); });
   std::vector<Seed> seeds;
@@ -67,7 +65,8 @@ std::vector<Seed> find_seeds(World& world, const std::vector<std::uint32_t>& fix
     for (end = i + 1; end < pairs.size() && pairs[end].a == seed.a && pairs[end].b == seed.b; ++end)
       seed.energy_J += pairs[end].energy_J;
     if (seed.energy_J <= least_J) continue;
-    seed.since_step = std::min(waits_since(world, seed.a), waits_since(world, seed.b));
+    seed.since_step = std::min(waiting.since_step(seed.a, world.clock.step),
+                               waiting.since_step(seed.b, world.clock.step));
     seeds.push_back(seed);
   }
   std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& x, const Seed& y) {
@@ -81,7 +80,9 @@ std::vector<Seed> find_seeds(World& world, const std::vector<std::uint32_t>& fix
 class Members {
  public:
   explicit Members(const World& world)
-      : world_(world), place_of_key_(world.next_key, ground()), all_(world.actors.size() + 1) {
+      : world_(world),
+        place_of_key_(world.actors.next_key(), ground()),
+        all_(world.actors.size() + 1) {
     for (std::uint32_t place = 0; place < ground(); ++place) {
       place_of_key_[world.actors[place].key] = place;
     }
@@ -125,8 +126,8 @@ class Members {
 /// Bodies reached from a seed, contact by contact.
 class Reach {
  public:
-  Reach(World& world, const std::vector<std::uint32_t>& fixed, Members& members)
-      : world_(world), fixed_(fixed), members_(members) {
+  Reach(const World& world, const std::vector<std::uint32_t>& fixed, Members& members)
+      : world_(world), states_(world.physics->states()), fixed_(fixed), members_(members) {
     members_.begin_cluster();
   }
 
@@ -181,8 +182,8 @@ class Reach {
                           touch.shape_tag_b, touch.arm_a_W, touch.arm_b_W, touch.normal_W,
                           touch.separation_m});
     }
-    return BreakProbe(std::move(bodies), std::move(contacts), world_.horizon_s(),
-                      FroudeScale(world_.scene.gravity_W).still_m_s(world_.scene.accuracy.dt_s));
+    return BreakProbe(std::move(bodies), std::move(contacts), world_.clock.horizon_s(),
+                      FroudeScale(world_.scene.gravity_W).still_m_s(world_.clock.dt_s));
   }
 
   bool could_break(double energy_J) const {
@@ -212,7 +213,7 @@ class Reach {
     body.least_Ns = actor->least_Ns;
     body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
     if (actor->is_static || std::ranges::binary_search(fixed_, actor->key)) return body;
-    const BodyState state = world_.physics->state(actor->body);
+    const BodyState state = states_[actor->body];
     const Mat3 rotation = state.X_WB.rotation.toRotationMatrix();
     body.inverse_mass = 1 / actor->weight.mass_kg;
     body.inverse_inertia_W = rotation * actor->weight.inertia_R.inverse() * rotation.transpose();
@@ -221,23 +222,24 @@ class Reach {
     return body;
   }
 
-  World& world_;
+  const World& world_;
+  const BodyStates states_;
   const std::vector<std::uint32_t>& fixed_;  ///< Keys: to the world, by joints.
   Members& members_;
-  std::vector<std::uint32_t> places_;  ///< Of this cluster's bodies, held ones too.
+  std::vector<std::uint32_t> places_;  ///< Of this cluster's bodies, fixed ones too.
   std::vector<std::uint32_t> moving_;  ///< Nearest first.
   std::size_t most_ = kMostBodies;
 };
 
 }  // namespace
 
-std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out) {
-  const std::vector<std::uint32_t> fixed = fixed_to_world(world);
-  const std::vector<Seed> seeds = find_seeds(world, fixed);
+std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting) {
+  const std::vector<std::uint32_t> fixed = world.joints.fixed_to_world(world.actors);
+  const std::vector<Seed> seeds = find_seeds(world, waiting, fixed);
   std::vector<BreakProbe> clusters;
   if (seeds.empty()) return clusters;
   Members members(world);
-  for (const Waiter& waiter : left_out) members.take(members.place(waiter.key));
+  waiting.for_each([&](const Waiter& waiter) { members.take(members.place(waiter.key)); });
   for (const Seed& seed : seeds) {
     Reach reach(world, fixed, members);
     if (!reach.start(seed)) continue;
@@ -245,6 +247,20 @@ std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& l
     if (reach.could_break(seed.energy_J)) clusters.push_back(reach.probe());
   }
   return clusters;
+}
+
+void take_over(World& world, const BreakProbe& probe) {
+  for (std::size_t b = 0; b < probe.bodies().size(); ++b) {
+    const ProbeMotion& motion = probe.motions()[b];
+    if (!motion.changed) continue;
+    const BodyId body = world.actors.find(probe.bodies()[b].key)->body;
+    BodyState state = world.physics->state(body);
+    state.X_WB.position += motion.shift_W;
+    state.X_WB.rotation = (rotation_by(motion.rotation_W) * state.X_WB.rotation).normalized();
+    state.velocity_W = motion.velocity_W;
+    state.angular_velocity_W = motion.angular_velocity_W;
+    world.physics->set_state(body, state);
+  }
 }
 
 }  // namespace sunder

@@ -6,12 +6,16 @@
 
 #include "engine/world/actors/world.h"
 #include "engine/world/break/break_probe.h"
+#include "engine/world/break/waiting_room.h"
 
 namespace sunder {
 
-/// Clusters, without the bodies `left_out`, around the approaches of the last collide(); a body
-/// that can move is in one at most. What has waited the longest comes first, then the hardest
+/// Clusters, without the bodies in the waiting room, around the approaches of the last collide(); a
+/// body that can move is in one at most. What has waited the longest comes first, then the hardest
 /// approach.
-std::vector<BreakProbe> find_clusters(World& world, const std::vector<Waiter>& left_out);
+std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting);
+
+/// Moves the bodies of a cluster on as its probe found, once that has ended.
+void take_over(World& world, const BreakProbe& probe);
 
 }  // namespace sunder

@@ -1,9 +1,5 @@
-// Stage `load`: own weight, and what presses on a compound, break what they overload.
-//
-// Read first: load_stage(). What presses is averaged over a tenth of a second, so that a push
-// counts alike at every length of a step; impacts are the business of stage `break`. An actor is
-// judged when its load has changed since it was judged last, or its bonds have. The breaker judges
-// by the stress in balance with the load: nothing is worn out by time.
+#include "engine/world/load/load_stage.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -30,7 +26,7 @@ double weight_N(const World& world, double mass_kg) {
 
 /// The mean of what presses on the actor, moved on by one step in which `now` pressed.
 std::vector<Press> averaged(const World& world, const Actor& actor, const std::vector<Press>& now) {
-  const double dt = world.scene.accuracy.dt_s, share = dt / (kAverage_s + dt);
+  const double dt = world.clock.dt_s, share = dt / (kAverage_s + dt);
   const double trifle = kTrifle * weight_N(world, actor.weight.mass_kg);
   std::vector<Press> mean;
   auto old = actor.stress.pressing.begin();
@@ -74,22 +70,23 @@ bool changed(const World& world, const Actor& actor) {
   return false;
 }
 
-/// What presses on each actor in this step, in the order of World::actors; forces are in the
+/// What presses on each actor in this step, in the order of actors; forces are in the
 /// rest frame, torques about the convex's centroid.
-std::vector<std::vector<Press>> presses(World& world) {
+std::vector<std::vector<Press>> presses(const World& world) {
   std::vector<std::vector<Press>> all(world.actors.size());
-  const double dt = world.scene.accuracy.dt_s;
+  const BodyStates states = world.physics->states();
+  const double dt = world.clock.dt_s;
   for (const ContactLoad& contact : world.physics->contact_loads()) {
-    const Actor* actor = world.find(contact.body_tag);
+    const Actor* actor = world.actors.find(contact.body_tag);
     if (!actor || !actor->structure.has(contact.shape_tag)) continue;
-    const Pose X_WB = world.physics->state(actor->body).X_WB;
+    const Pose X_WB = states[actor->body].X_WB;
     Press press;
     press.convex = contact.shape_tag;
     press.force_R = X_WB.rotation.conjugate() * contact.impulse_W / dt;
     const Vec3 point_R = X_WB.inverse() * contact.point_W + actor->weight.com_R;
     const Vec3 centroid = actor->structure.convex(press.convex)->solid.centroid;
     press.torque_R = (point_R - centroid).cross(press.force_R);
-    all[static_cast<std::size_t>(actor - world.actors.data())].push_back(press);
+    all[world.actors.place_of(*actor)].push_back(press);
   }
   for (std::vector<Press>& of_actor : all) {
     std::stable_sort(of_actor.begin(), of_actor.end(),
@@ -111,7 +108,7 @@ std::vector<std::uint32_t> due(World& world) {
     if (!actor.is_static && stress.pressing.empty()) continue;
     if (stress.settled && changed(world, actor)) {
       stress.settled = false;
-      stress.since_step = world.step;
+      stress.since_step = world.clock.step;
     }
     if (!stress.settled) waiting.emplace_back(stress.since_step, actor.key);
   }
@@ -121,7 +118,8 @@ std::vector<std::uint32_t> due(World& world) {
   return keys;
 }
 
-StressAnswer judge(const World& world, const Actor& actor, std::uint64_t most_work) {
+StressAnswer judge(const World& world, const Breaker& breaker, const Actor& actor,
+                   const Quat& rotation_WB, std::uint64_t most_work) {
   std::vector<Load> loads;
   for (const Press& press : actor.stress.pressing) {
     const Vec3& centroid = actor.structure.convex(press.convex)->solid.centroid;
@@ -130,11 +128,10 @@ StressAnswer judge(const World& world, const Actor& actor, std::uint64_t most_wo
   LoadCase load;
   load.materials = *world.materials;
   load.loads = loads;
-  load.gravity_R =
-      world.physics->state(actor.body).X_WB.rotation.conjugate() * world.scene.gravity_W;
+  load.gravity_R = rotation_WB.conjugate() * world.scene.gravity_W;
   load.most_work = most_work;
   load.memory = actor.stress.memory;
-  return world.breaker->stress(actor.structure, load);
+  return breaker.stress(actor.structure, load);
 }
 
 struct Judged {
@@ -145,14 +142,17 @@ struct Judged {
 };
 
 /// Judges all, each within the work that is reserved for it.
-void judge_all(World& world, std::vector<Judged>& batch) {
+void judge_all(const World& world, const Breaker& breaker, std::vector<Judged>& batch) {
+  const BodyStates states = world.physics->states();
   const auto one = [&](Judged& judged) {
     const Stopwatch watch;
-    judged.answer = judge(world, *world.find(judged.key), judged.most_work);
+    const Actor& actor = *world.actors.find(judged.key);
+    judged.answer =
+        judge(world, breaker, actor, states[actor.body].X_WB.rotation, judged.most_work);
     judged.ms = watch.ms();
   };
   const auto large = [&](const Judged& judged) {
-    return world.find(judged.key)->structure.size() >= kLarge;
+    return world.actors.find(judged.key)->structure.size() >= kLarge;
   };
   for_chunks(batch.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
     if (!large(batch[i])) one(batch[i]);
@@ -164,18 +164,19 @@ void judge_all(World& world, std::vector<Judged>& batch) {
 
 /// Does to the actor what the answer says.
 void apply(World& world, Judged& judged) {
-  Actor& actor = *world.find(judged.key);
+  Actor& actor = *world.actors.find(judged.key);
   StressAnswer& answer = judged.answer;
   actor.stress.judged = actor.stress.pressing;
   actor.stress.memory = answer.memory;
   actor.stress.settled = answer.settled;
-  actor.stress.since_step = world.step;
+  actor.stress.since_step = world.clock.step;
   BreakEdit& edit = answer.edit;
   if (!edit.changed) {
     actor.structure.apply(edit);
     return;
   }
   if (!has_room(world, edit)) {
+    ++world.ledger.report.limits_hit;
     actor.stress.settled = true;
     return;
   }
@@ -184,35 +185,38 @@ void apply(World& world, Judged& judged) {
   if (!edit.loose.exposed.empty()) {
     middle_R = edit.exposed_convex(actor.structure, edit.loose.exposed[0]).solid.centroid;
   }
-  world.breaks.push_back({world.time_s(), actor.key, X_WB * Vec3(middle_R - actor.weight.com_R), 0,
-                          edit.loose.new_area_m2, judged.ms, pieces_after(actor.structure, edit)});
+  world.ledger.breaks.push_back(
+      {world.clock.time_s(), actor.key, X_WB * Vec3(middle_R - actor.weight.com_R), 0,
+       edit.loose.new_area_m2, judged.ms, pieces_after(actor.structure, edit)});
   carry_out(world, judged.key, edit);
 }
 
 }  // namespace
 
-void load_stage(World& world) {
+void LoadStage::begin_frame() { work_left_ = std::min(work_a_frame_, work_left_ + work_a_frame_); }
+
+void LoadStage::run(World& world, const Breaker& breaker) {
   const bool any = std::any_of(world.actors.begin(), world.actors.end(),
                                [](const Actor& actor) { return actor.stress.breakable; });
   if (!any) return;
   const std::vector<std::uint32_t> keys = due(world);
   std::size_t next = 0;
-  while (next < keys.size() && world.load_work_left > 0) {
+  while (next < keys.size() && work_left_ > 0) {
     std::vector<Judged> batch;
-    auto left = static_cast<std::uint64_t>(world.load_work_left);
+    auto left = static_cast<std::uint64_t>(work_left_);
     for (; next < keys.size() && left > 0; ++next) {
-      const std::uint64_t bonds = world.find(keys[next])->structure.bond_count();
+      const std::uint64_t bonds = world.actors.find(keys[next])->structure.bond_count();
       const std::uint64_t reserved = std::min(left, kReserve * (bonds + 1));
       batch.push_back({keys[next], reserved, {}, 0});
       left -= reserved;
     }
-    judge_all(world, batch);
+    judge_all(world, breaker, batch);
     for (Judged& judged : batch) {
-      world.load_work_left -= static_cast<std::int64_t>(judged.answer.work);
+      work_left_ -= static_cast<std::int64_t>(judged.answer.work);
       apply(world, judged);
     }
   }
-  world.loads_waiting = static_cast<std::uint32_t>(keys.size() - next);
+  waiting_ = static_cast<std::uint32_t>(keys.size() - next);
 }
 
 }  // namespace sunder

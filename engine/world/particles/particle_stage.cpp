@@ -1,48 +1,35 @@
-// Stage `particles`: debris and dust come off what breaks laid bare, and move among the bodies.
-//
-// Read first: particle_stage(). Particles move once a frame, whatever the step, as they are for
-// the eye; what breaks within a frame is noted as if it had been there from the frame's start.
+#include "engine/world/particles/particle_stage.h"
+
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "engine/base/parallel.h"
-#include "engine/geometry/triangulate_face.h"
-#include "engine/world/actors/actors.h"
 
 namespace sunder {
 namespace {
 
-double radius_of_ball_m(double volume_m3) {
-  return std::cbrt(volume_m3 * 3 / (4 * std::numbers::pi));
-}
-
-/// How much of the frame has passed before this step.
-double elapsed_s(const World& world) {
-  return static_cast<double>(world.step % static_cast<std::uint64_t>(world.steps_per_frame)) *
-         world.scene.accuracy.dt_s;
-}
+constexpr std::size_t kBodiesInChunk = 64, kDebrisInChunk = 4096;
 
 /// A face where it was when the frame began, moving as it does now; a face of what is gone again
 /// moves as the solid did that it came off.
-Emission emission_of(World& world, const Exposed::Face& face, std::span<const Vec3> corners_R,
+Emission emission_of(const World& world, const BodyStates& states, const Exposed::Parent& parent,
+                     const Exposed::Face& face, std::span<const Vec3> corners_R,
                      std::vector<Vec3>& corners_W) {
-  const Exposed::Parent& parent = world.exposed.parents[face.parent];
-  Pose X_WR = parent.X_WR;
+  Pose X_WR = parent.motion.X_WR;
   Emission emission;
-  emission.motion = parent.motion;
+  emission.motion = parent.motion.field;
   emission.parting_m_s = 0;
   emission.material = face.material;
   emission.crumbling = world.material(face.material).crumbling;
   double back_s = parent.back_s;
-  if (const Actor* owner = world.find(face.owner_key)) {
-    const BodyState now = world.physics->state(owner->body);
-    const Vec3 was_W = parent.X_WR * corners_R[0];
-    X_WR = {now.X_WB * Vec3(-owner->weight.com_R), now.X_WB.rotation};
-    emission.motion = {now.X_WB.position, now.velocity_W, now.angular_velocity_W};
+  if (const Actor* owner = world.actors.find(face.owner_key)) {
+    const Motion now = motion_of(*owner, states[owner->body]);
+    const Vec3 was_W = parent.motion.X_WR * corners_R[0];
+    X_WR = now.X_WR;
+    emission.motion = now.field;
     const Vec3 velocity_W = emission.motion(X_WR * corners_R[0]);
-    emission.parting_m_s = (velocity_W - parent.motion(was_W)).norm();
-    back_s = world.steps_per_frame * world.scene.accuracy.dt_s;
+    emission.parting_m_s = (velocity_W - parent.motion.field(was_W)).norm();
+    back_s = world.clock.frame_s();
   }
   emission.normal_W = X_WR.rotation * face.normal_R;
   for (const Vec3& corner_R : corners_R) {
@@ -53,22 +40,22 @@ Emission emission_of(World& world, const Exposed::Face& face, std::span<const Ve
   return emission;
 }
 
-void emit(World& world) {
-  Exposed& crumbs = world.exposed;
+void emit(const World& world, const Exposed& exposed, Particles& particles) {
+  const BodyStates states = world.physics->states();
   std::vector<Emission> emissions;
   std::vector<Vec3> corners_W;
-  corners_W.reserve(crumbs.corners_R.size());  // spans into it stay
+  corners_W.reserve(exposed.corners_R.size());  // spans into it stay
   std::size_t begin = 0;
-  for (const Exposed::Face& face : crumbs.faces) {
+  for (const Exposed::Face& face : exposed.faces) {
     const std::size_t count = face.corners_end - begin;
-    const std::span<const Vec3> corners_R = std::span(crumbs.corners_R).subspan(begin, count);
-    emissions.push_back(emission_of(world, face, corners_R, corners_W));
+    const std::span<const Vec3> corners_R = std::span(exposed.corners_R).subspan(begin, count);
+    emissions.push_back(
+        emission_of(world, states, exposed.parents[face.parent], face, corners_R, corners_W));
     emissions.back().corners_W = std::span(corners_W).subspan(begin, count);
     begin = face.corners_end;
   }
-  if (!emissions.empty()) world.particles->emit(emissions);
-  if (!crumbs.chips.empty()) world.particles->emit(crumbs.chips);
-  crumbs = {};
+  if (!emissions.empty()) particles.emit(emissions);
+  if (!exposed.chips.empty()) particles.emit(exposed.chips);
 }
 
 /// All bodies as they stand, with the convexes they consist of.
@@ -79,17 +66,17 @@ struct Surroundings {
 
 /// By several threads, as it is mostly waiting for memory.
 Surroundings surroundings(const World& world) {
-  constexpr std::size_t kChunk = 64;
+  const BodyStates states = world.physics->states();
   const std::size_t count = world.actors.size();
   std::vector<std::size_t> first(count + 1);
   for (std::size_t i = 0; i < count; ++i) {
     first[i + 1] = first[i] + std::max(1u, world.actors[i].structure.size());
   }
   Surroundings all{std::vector<ObstacleBody>(count), std::vector<ObstacleShape>(first[count])};
-  for_chunks(count, kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+  for_chunks(count, kBodiesInChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       const Actor& actor = world.actors[i];
-      const BodyState state = world.physics->state(actor.body);
+      const BodyState state = states[actor.body];
       all.bodies[i] = {actor.key,
                        actor.edits,
                        state.X_WB,
@@ -103,80 +90,45 @@ Surroundings surroundings(const World& world) {
         *shape++ = {body, &convex.polyhedron, convex.box, convex.solid.volume_m3, 0};
       });
       if (actor.structure.empty()) {
-        *shape = {body, nullptr, {}, 0, radius_of_ball_m(actor.volume_m3)};
+        *shape = {body, nullptr, {}, 0, ball_radius_m(actor.volume_m3)};
       }
     }
   });
   return all;
 }
 
-/// Calls `use` with the corners of convex polygons that make up what a convex shows in a face: the
-/// face, or triangles of its visual mesh's cap there, which is often less.
-template <class Use>
-void for_polygons(const Convex& convex, std::uint32_t face, const Use& use) {
-  const ConvexPolyhedron& hull = convex.polyhedron;
-  std::vector<Vec3> polygon;
-  if (convex.is_internal()) {
-    for (const std::uint32_t v : hull.face_corners(face)) polygon.push_back(hull.vertices[v]);
-    use(polygon);
-    return;
-  }
-  const PolygonMesh& visual = *convex.visual;
-  for (std::size_t f = first_cap(visual); f < visual.faces.size(); ++f) {
-    if (visual.faces[f].id != hull.faces[face].id) continue;
-    for (const Triangle& triangle : triangulate(visual, f)) {
-      polygon.clear();
-      for (const std::uint32_t c : triangle) polygon.push_back(visual.vertices[visual.corners[c]]);
-      use(polygon);
-    }
-  }
-}
-
 }  // namespace
 
-void crumble(World& world, const Structure& structure, const BreakEdit& edit, const Motion& before,
-             std::span<const std::uint32_t> piece_keys) {
-  if (!world.particles || edit.loose.exposed.empty()) return;
-  Exposed& crumbs = world.exposed;
-  crumbs.parents.push_back({before.X_WR,
-                            {before.point_W, before.velocity_W, before.angular_velocity_W},
-                            elapsed_s(world)});
-  for (const ExposedFace& exposed : edit.loose.exposed) {
-    const Convex& convex = edit.exposed_convex(structure, exposed);
-    if (!(world.material(convex.material).crumbling.particles_per_m2 > 0)) continue;
-    Exposed::Face face;
-    face.parent = static_cast<std::uint32_t>(crumbs.parents.size() - 1);
-    face.owner_key = piece_keys[exposed.piece];
-    face.normal_R = convex.polyhedron.faces[exposed.face].plane.normal;
-    face.material = convex.material;
-    for_polygons(convex, exposed.face, [&](std::span<const Vec3> polygon_R) {
-      crumbs.corners_R.insert(crumbs.corners_R.end(), polygon_R.begin(), polygon_R.end());
-      face.corners_end = crumbs.corners_R.size();
-      crumbs.faces.push_back(face);
-    });
-  }
-}
-
-void add_chip(World& world, const Compound& piece, const Motion& motion) {
-  if (!world.particles) return;
-  const Weight weight = weigh(piece, *world.materials);
-  const Vec3 center_W = motion.X_WR * weight.com_R;
-  const VelocityField field{motion.point_W, motion.velocity_W, motion.angular_velocity_W};
-  const Vec3 velocity_W = field(center_W);
-  world.exposed.chips.push_back({center_W - elapsed_s(world) * velocity_W,
-                                 radius_of_ball_m(volume(piece)), velocity_W,
-                                 motion.angular_velocity_W, piece.convexes[0]->material});
-}
-
-void particle_stage(World& world) {
-  if (!world.particles) return;
-  if ((world.step + 1) % static_cast<std::uint64_t>(world.steps_per_frame) != 0) return;
-  emit(world);
-  const ParticleReport report = world.particles->report();
+void ParticleStage::run(const World& world, const Exposed& exposed) {
+  emit(world, exposed, *particles_);
+  const ParticleReport report = particles_->report();
   if (report.debris.alive == 0 && report.dust.alive == 0) return;
   const Surroundings all = surroundings(world);
-  world.particles->advance(world.steps_per_frame * world.scene.accuracy.dt_s,
-                           {all.bodies, all.shapes, world.scene.ground.height_m});
+  particles_->advance(world.clock.frame_s(), {all.bodies, all.shapes, world.scene.ground.height_m});
+}
+
+void ParticleStage::show(Frame& frame) {
+  if (!particles_) return;
+  const DebrisView debris = particles_->debris();
+  frame.debris.resize(debris.position_W.size());
+  for_chunks(frame.debris.size(), kDebrisInChunk,
+             [&](std::size_t begin, std::size_t end, std::size_t) {
+               for (std::size_t i = begin; i < end; ++i) {
+                 frame.debris[i] = {debris.position_W[i], debris.rotation_WD[i], debris.radius_m[i],
+                                    debris.material[i], debris.variant[i]};
+               }
+             });
+  const DustView dust = particles_->dust();
+  frame.dust.resize(dust.position_W.size());
+  for (std::size_t i = 0; i < frame.dust.size(); ++i) {
+    frame.dust[i] = {dust.position_W[i], dust.rotation_WD[i], dust.radius_m[i], dust.opacity[i],
+                     dust.material[i]};
+  }
+  frame.report.counts.debris = static_cast<std::uint32_t>(frame.debris.size());
+  frame.report.counts.dust = static_cast<std::uint32_t>(frame.dust.size());
+  const ParticleReport report = particles_->report();
+  const std::uint64_t ignored = report.debris.ignored + report.dust.ignored;
+  if (ignored > std::exchange(ignored_, ignored)) ++frame.report.limits_hit;
 }
 
 }  // namespace sunder

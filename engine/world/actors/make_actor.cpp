@@ -1,23 +1,14 @@
-// Actors come and go: bodies for the physics, meshes for the eye.
-#include "engine/world/actors/actors.h"
+#include "engine/world/actors/make_actor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <numeric>
 #include <utility>
 
-#include "engine/base/check.h"
-#include "engine/base/parallel.h"
 #include "engine/model/piece_mesh.h"
 
 namespace sunder {
 namespace {
-
-double ball_volume_m3(double radius_m) {
-  return 4.0 / 3.0 * std::numbers::pi * radius_m * radius_m * radius_m;
-}
 
 /// Whether load may break a compound: one that stands, or a large one that moves.
 bool reports_load(const World& world, const Actor& actor) {
@@ -42,22 +33,6 @@ constexpr double kLeastCrack = 0.1;
 
 }  // namespace
 
-Actor* World::find(std::uint32_t key) {
-  const auto it =
-      std::lower_bound(actors.begin(), actors.end(), key,
-                       [](const Actor& actor, std::uint32_t k) { return actor.key < k; });
-  return it != actors.end() && it->key == key ? &*it : nullptr;
-}
-
-MeshIndex World::add_mesh(std::shared_ptr<const Mesh> mesh) {
-  if (meshes_published) {
-    meshes = std::make_shared<MeshStore>(*meshes);
-    meshes_published = false;
-  }
-  meshes->push_back(std::move(mesh));
-  return MeshIndex(meshes->size() - 1);
-}
-
 void set_least(const World& world, Actor& actor) {
   actor.least_J = actor.least_Ns = std::numeric_limits<double>::infinity();
   for (const MaterialIndex index : actor.materials) {
@@ -73,15 +48,15 @@ void set_least(const World& world, Actor& actor) {
 
 Actor make_actor(World& world, const Compound& compound) {
   Actor actor;
-  actor.key = actor.root_key = world.next_key++;
+  actor.key = actor.root_key = world.actors.new_key();
   actor.structure = Structure(compound);
   actor.is_static = actor.structure.is_anchored();
   actor.weight = weigh(compound, *world.materials);
   actor.volume_m3 = volume(compound);
   actor.materials = materials_of(compound);
-  actor.born_step = world.step;
+  actor.born_step = world.clock.step;
   actor.stress.breakable = reports_load(world, actor);
-  actor.stress.since_step = world.step;
+  actor.stress.since_step = world.clock.step;
   set_least(world, actor);
   return actor;
 }
@@ -106,9 +81,8 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
   body.mass_kg = actor.weight.mass_kg;
   body.inertia_B = actor.weight.inertia_R;
   if (!actor.is_static) {
-    body.angular_velocity_W = motion.angular_velocity_W;
-    body.velocity_W =
-        motion.velocity_W + motion.angular_velocity_W.cross(body.X_WB.position - motion.point_W);
+    body.angular_velocity_W = motion.field.angular_velocity_W;
+    body.velocity_W = motion.field(body.X_WB.position);
   }
   actor.structure.for_each([&](std::uint32_t slot, const Convex&) {
     body.shapes.push_back(shape_of(world, actor, slot));
@@ -116,57 +90,6 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
   body.tag = actor.key;
   body.reports_load = actor.stress.breakable;
   return body;
-}
-
-void add_meshes(World& world, std::span<Actor> actors, const DrawnBefore& old) {
-  std::vector<std::uint32_t> all;
-  for (Actor& actor : actors) {
-    const std::uint32_t count = actor.structure.slot_count();
-    all.resize(count);
-    std::iota(all.begin(), all.end(), 0u);
-    actor.hidden = hidden_faces(actor.structure, all);
-    actor.meshes.assign(count, kUndrawn);
-    for (std::uint32_t c = 0; c < count; ++c) {
-      const auto known = old.find(actor.structure.convex(c).get());
-      if (known != old.end() && known->second.hidden == actor.hidden[c]) {
-        actor.meshes[c] = known->second.mesh;
-      }
-      if (actor.meshes[c] == kUndrawn) world.undrawn.push_back({actor.key, c});
-    }
-  }
-}
-
-void renew_meshes(World& world, Actor& actor, std::span<const std::uint32_t> slots) {
-  std::vector<std::vector<std::uint8_t>> hidden = hidden_faces(actor.structure, slots);
-  actor.hidden.resize(actor.structure.slot_count());
-  actor.meshes.resize(actor.structure.slot_count());
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    if (actor.hidden[slots[i]] == hidden[i]) continue;
-    actor.hidden[slots[i]] = std::move(hidden[i]);
-    actor.meshes[slots[i]] = kUndrawn;
-    world.undrawn.push_back({actor.key, slots[i]});
-  }
-}
-
-void draw(World& world) {
-  std::vector<Undrawn> todo = std::exchange(world.undrawn, {});
-  std::ranges::sort(todo);
-  todo.erase(std::unique(todo.begin(), todo.end()), todo.end());
-  std::erase_if(todo, [&](const Undrawn& one) {
-    const Actor* actor = world.find(one.key);
-    return !actor || actor->meshes[one.slot] != kUndrawn;
-  });
-  std::vector<std::shared_ptr<const Mesh>> made(todo.size());
-  for_chunks(todo.size(), 8, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Actor& actor = *world.find(todo[i].key);
-      made[i] = make_mesh(*actor.structure.convex(todo[i].slot), actor.hidden[todo[i].slot]);
-    }
-  });
-  for (std::size_t i = 0; i < todo.size(); ++i) {
-    MeshIndex& mesh = world.find(todo[i].key)->meshes[todo[i].slot];
-    mesh = made[i] ? world.add_mesh(std::move(made[i])) : MeshIndex();
-  }
 }
 
 void add_compounds(World& world, std::span<const Solid> solids) {
@@ -177,13 +100,13 @@ void add_compounds(World& world, std::span<const Solid> solids) {
     const Actor& actor = actors.back();
     const Vec3 com_W = solid.X_WR * actor.weight.com_R;
     bodies.push_back(
-        describe(world, actor, {solid.X_WR, com_W, solid.velocity_W, solid.angular_velocity_W}));
+        describe(world, actor, {solid.X_WR, {com_W, solid.velocity_W, solid.angular_velocity_W}}));
   }
-  add_meshes(world, actors, {});
+  world.meshes.add_to(actors, {});
   const std::vector<BodyId> ids = world.physics->replace({}, bodies);
   for (std::size_t i = 0; i < actors.size(); ++i) {
     actors[i].body = ids[i];
-    world.actors.push_back(std::move(actors[i]));
+    world.actors.add(std::move(actors[i]));
   }
 }
 
@@ -195,12 +118,12 @@ void add_ball(World& world, const Ball& ball) {
   const Material& material = world.material(ball.material);
   const double radius = ball.radius_m;
   Actor actor;
-  actor.key = actor.root_key = world.next_key++;
+  actor.key = actor.root_key = world.actors.new_key();
   actor.volume_m3 = ball_volume_m3(radius);
   actor.weight.mass_kg = ball_mass_kg(world, ball);
   actor.weight.inertia_R = 0.4 * actor.weight.mass_kg * radius * radius * Mat3::Identity();
-  actor.born_step = world.step;
-  actor.meshes = {world.add_mesh(make_ball_mesh(radius, ball.material))};
+  actor.born_step = world.clock.step;
+  actor.meshes = {world.meshes.add(make_ball_mesh(radius, ball.material))};
 
   BodyDesc body;
   body.X_WB.position = ball.center_W;
@@ -216,7 +139,7 @@ void add_ball(World& world, const Ball& ball) {
   body.shapes = {shape};
   body.tag = actor.key;
   actor.body = world.physics->replace({}, std::span(&body, 1))[0];
-  world.actors.push_back(std::move(actor));
+  world.actors.add(std::move(actor));
 }
 
 }  // namespace sunder

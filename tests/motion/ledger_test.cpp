@@ -114,8 +114,8 @@ std::size_t check(std::uint64_t seed) {
   const double mass_kg = simulation.next()->report.mass_kg;
   const double least_piece_m3 = one.scene.materials[0].smallest_piece_m3;
   const FramePtr first = simulation.next();
-  const SpyPhysics::Books books = physics.books;
-  const Motions& before = books.before;
+  const SpyPhysics::Balance breaks = physics.breaks;
+  const Motions& before = breaks.before;
   for (const SpyPhysics::Replacement& broken : physics.replacements) {
     EXPECT_LE(broken.after.kinetic_J, broken.before.kinetic_J * (1 + kExact));
     if (least_piece_m3 >= 1e-6) continue;  // small pieces take theirs along
@@ -127,13 +127,14 @@ std::size_t check(std::uint64_t seed) {
   EXPECT_LT(first->report.momentum_residual, 1e-4);  // solves are in single precision
   double taken_J = 0;
   for (const BreakEvent& event : first->breaks) taken_J += one.is_blast ? 0 : event.energy_J;
-  EXPECT_LE(books.after.kinetic_J, before.kinetic_J - taken_J + kExact * before.kinetic_J);
-  // A hit within the step turns bodies on before it counts, so spin is only exact break by break.
-  if (least_piece_m3 < 1e-6) expect_same_momentum(books.after, before);
+  EXPECT_LE(breaks.after.kinetic_J, before.kinetic_J - taken_J + kExact * before.kinetic_J);
+  // An impact within the step turns bodies on before it counts, so spin is only exact break by
+  // break.
+  if (least_piece_m3 < 1e-6) expect_same_momentum(breaks.after, before);
   return first->breaks.size();
 }
 
-TEST(Books, AThousandRandomBreaksInMotionKeepMassAndMomentumAndMakeNoEnergy) {
+TEST(Ledger, AThousandRandomBreaksInMotionKeepMassAndMomentumAndMakeNoEnergy) {
   std::size_t breaks = 0;
   for (std::uint64_t seed = 1; breaks < 1000 && seed < 3000; ++seed) {
     breaks += check(seed);
@@ -160,7 +161,7 @@ double made_by_solves(std::uint64_t seed) {
   return made_J / first_J;
 }
 
-TEST(Books, WhatBreaksInMotionIsPartedWithoutMakingEnergy) {
+TEST(Ledger, WhatBreaksInMotionIsPartedWithoutMakingEnergy) {
   for (std::uint64_t seed = 1; seed <= 1000; ++seed)
     EXPECT_LT(made_by_solves(seed), kExact) << "case " << seed;
 }

@@ -1,0 +1,30 @@
+// Blasts: an impulse on every face that sees the centre, less with distance and slant. Internal to
+// engine/world.
+//
+// What a blast can break is decided by the break stage, from the energy that its impulse would give
+// the convexes it meets if they were free: for a few steps one place of each solid, the hardest
+// pressed first. Then all that is loose is pushed. Nothing stands in the way of a blast: walls give
+// no cover.
+#pragma once
+
+#include <vector>
+
+#include "engine/world/actors/impact.h"
+#include "engine/world/actors/world.h"
+
+namespace sunder {
+
+/// A blast under way: it breaks, one place of each solid a step, then it pushes.
+struct Burst {
+  Blast blast;
+  double pushes_at_s = 0;
+  std::vector<Vec3> tried_W;  ///< Where it has broken something, or failed to.
+};
+
+Burst light(const Blast& blast, const Clock& clock);
+/// What it does to each actor where it presses hardest and has not been tried, which is noted.
+std::vector<Impact> blows_of(const World& world, Burst& burst);
+/// Pushes all that is loose.
+void push_by(World& world, const Blast& blast);
+
+}  // namespace sunder

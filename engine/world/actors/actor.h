@@ -1,0 +1,89 @@
+// A solid in the running world. Internal to engine/world.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "engine/base/types.h"
+#include "engine/model/breaker.h"
+#include "engine/model/compound.h"
+#include "engine/model/mesh.h"
+#include "engine/model/physics.h"
+#include "engine/model/structure.h"
+
+namespace sunder {
+
+inline constexpr std::uint32_t kNoConvex = 0xffffffff;
+
+/// What presses on a convex (a slot): force in the rest frame, torque about its centroid.
+struct Press {
+  std::uint32_t convex = 0;
+  Vec3 force_R = Vec3::Zero();
+  Vec3 torque_R = Vec3::Zero();
+};
+
+/// What an actor bears, and how far it is known whether it can.
+struct StressState {
+  bool breakable = false;        ///< Load can break it.
+  bool settled = false;          ///< Judged for `judged`, to the end.
+  std::uint64_t since_step = 0;  ///< Waits to be judged since then, if not settled.
+  std::vector<Press> pressing;   ///< Averaged over time; ascending by convex.
+  std::vector<Press> judged;
+  StressMemoryPtr memory;
+};
+
+/// Stands for a mesh that is not made yet: until the next snapshot, nobody looks.
+inline constexpr MeshIndex kUndrawn = MeshIndex(0xfffffffe);
+
+/// A solid in the world: a body, what it is made of, and what is drawn of it.
+struct Actor {
+  std::uint32_t key = 0;       ///< Unique in a run, ascending with age; the tag of its body.
+  std::uint32_t root_key = 0;  ///< Of what it came off in the end: a solid or ball of the scene.
+  BodyId body;
+  bool is_static = false;
+  Structure structure;      ///< Without convexes for a ball.
+  std::uint32_t edits = 0;  ///< Of its structure, since it was made.
+  /// Of what stands, the centre is where it was when its body was made: there B has its origin.
+  Weight weight;
+  double volume_m3 = 0;
+  std::vector<MaterialIndex> materials;  ///< Of its convexes when it was made, each once.
+  std::uint64_t born_step = 0;
+  /// No impact with less energy can break it: it is too tough, or its last fruitless plan asked for
+  /// more. Infinite if nothing can.
+  double least_J = std::numeric_limits<double>::infinity();
+  double least_Ns = 0;  ///< No impact with less impulse can break it.
+  StressState stress;
+  std::vector<MeshIndex> meshes;  ///< Per slot; none() where nothing shows, or kUndrawn.
+  std::vector<std::vector<std::uint8_t>> hidden;  ///< Per slot, a flag for each face.
+};
+
+/// The body tag of the ground, which is no actor.
+inline constexpr std::uint32_t kGroundKey = 0xffffffff;
+/// In place of an actor where there is none.
+inline constexpr std::uint32_t kNobodyKey = 0xfffffffe;
+
+inline double ball_volume_m3(double radius_m) {
+  return 4.0 / 3.0 * std::numbers::pi * radius_m * radius_m * radius_m;
+}
+inline double ball_radius_m(double volume_m3) {
+  return std::cbrt(volume_m3 * 3 / (4 * std::numbers::pi));
+}
+
+/// Where a rest frame is, and how what is in it moves.
+struct Motion {
+  Pose X_WR;
+  VelocityField field;
+};
+
+/// Where an actor's rest frame is when its body is at `X_WB`.
+inline Pose rest_pose(const Actor& actor, const Pose& X_WB) {
+  return {X_WB * Vec3(-actor.weight.com_R), X_WB.rotation};
+}
+inline Motion motion_of(const Actor& actor, const BodyState& state) {
+  return {rest_pose(actor, state.X_WB), state.field()};
+}
+
+}  // namespace sunder

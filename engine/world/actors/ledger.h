@@ -1,0 +1,33 @@
+// What the running world counts and weighs, for the next frame. Internal to engine/world.
+#pragma once
+
+#include <vector>
+
+#include "engine/model/frame.h"
+#include "engine/model/physics.h"
+
+namespace sunder {
+
+struct Ledger {
+  FrameReport report;              ///< Of the frame under way.
+  std::vector<BreakEvent> breaks;  ///< Of the frame under way.
+  double debris_mass_kg = 0;       ///< Of all that became too small for a body.
+  double removed_mass_kg = 0;      ///< By the script.
+  double momentum_error_Ns = 0, momentum_moved_Ns = 0;  ///< Of the frame under way.
+
+  /// What a solve did, of a step in which gravity changes velocities by `fall_m_s`. Momentum that
+  /// came neither from gravity nor from static bodies is an error.
+  void note(const SolveReport& solved, double fall_m_s) {
+    momentum_error_Ns +=
+        (solved.momentum_after_Ns - solved.momentum_before_Ns - solved.external_impulse_Ns).norm();
+    // At rest weight and support cancel: what changed hands is the weight, not the sum of both.
+    momentum_moved_Ns += solved.momentum_before_Ns.norm() + solved.mass_kg * fall_m_s;
+    report.counts.contacts = solved.contacts;
+    report.frozen += solved.frozen;
+  }
+  double momentum_residual() const {
+    return momentum_moved_Ns > 0 ? momentum_error_Ns / momentum_moved_Ns : 0;
+  }
+};
+
+}  // namespace sunder

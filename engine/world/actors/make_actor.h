@@ -1,0 +1,26 @@
+// Actors come into the world: what they are made of, and bodies for the physics. Internal to
+// engine/world.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/world/actors/world.h"
+
+namespace sunder {
+
+/// An actor with a new key and no body yet; anchored compounds become static.
+Actor make_actor(World& world, const Compound& compound);
+/// Its body, moving with the field (static bodies do not move).
+BodyDesc describe(const World& world, const Actor& actor, const Motion& motion);
+/// The shape of one of its convexes.
+ShapeDesc shape_of(const World& world, const Actor& actor, std::uint32_t slot);
+/// The least energy and impulse that could break it.
+void set_least(const World& world, Actor& actor);
+
+void add_compounds(World& world, std::span<const Solid> solids);
+
+double ball_mass_kg(const World& world, const Ball& ball);
+void add_ball(World& world, const Ball& ball);
+
+}  // namespace sunder

@@ -1,0 +1,75 @@
+// Stage `break`: what breaks, decided before the solve, so that a wall that breaks does not first
+// stop the ball. Internal to engine/world.
+//
+// Read first: BreakStage::run(), then decide(). Break probes (break_probe.h) tell what the
+// breakable solids would have to bear. A solid breaks if the work exceeds the toughness times the
+// crack's area, and the impulse the strength. Exactly that energy is taken from the motion; the
+// pieces inherit the velocity field of the whole.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/model/breaker.h"
+#include "engine/world/actors/impact.h"
+#include "engine/world/actors/world.h"
+#include "engine/world/break/break_probe.h"
+#include "engine/world/break/planned_break.h"
+#include "engine/world/break/waiting_room.h"
+
+namespace sunder {
+
+/// Parts to cut that a frame allows for.
+class BreakBudget {
+ public:
+  explicit BreakBudget(std::uint32_t a_frame) : a_frame_(a_frame) {}
+
+  void begin_frame() { left_ = a_frame_; }
+  bool spent() const { return left_ == 0; }
+  /// False if that is more than is left: then nothing is left for what comes later, too, however
+  /// cheap. A frame that has spent none yet can afford anything, or what costs more than a frame
+  /// has would wait for ever.
+  bool try_spend(std::uint32_t parts);
+
+ private:
+  std::uint32_t a_frame_;
+  std::uint32_t left_ = 0;
+};
+
+/// A probe under way.
+struct Trial {
+  BreakProbe probe;
+  bool asked = false;  ///< What it has to bear is known, but not decided.
+  std::vector<ProbeLoad> loads = {};
+  std::vector<PlannedBreak> planned = {};
+};
+
+class BreakStage {
+ public:
+  explicit BreakStage(const Limits& limits) : budget_(limits.parts_a_frame) {}
+
+  void begin_frame() { budget_.begin_frame(); }
+  /// Breaks what `blows` of blasts, and what approaches, can break; contacts are found anew after
+  /// every round of breaks.
+  void run(World& world, const Breaker& breaker, std::span<const Impact> blows);
+  /// Impacts that wait for a later step's budget.
+  std::uint32_t waiting() const;
+
+ private:
+  /// Makes impacts ready to be planned, and spends what they cost; false if that is too much.
+  bool take_on(const World& world, const Breaker& breaker, std::span<PlannedBreak> all);
+  /// Impacts that come with an energy of their own; true if something broke.
+  bool break_by_blasts(World& world, const Breaker& breaker, std::span<const Impact> blows);
+  /// Follows all probes until each has broken something or come to the end of the step, or has to
+  /// wait (if it is not `in_time`, or too costly); true if another round is due. What another trial
+  /// has broken meanwhile is hit again in that round, as what became of it.
+  bool decide(World& world, const Breaker& breaker, std::vector<Trial> trials, bool in_time);
+
+  BreakBudget budget_;
+  std::uint64_t next_event_ = 1;
+  std::vector<Impact> blows_waiting_;  ///< Over the frame's budget: decided first in the next.
+  WaitingRoom waiting_room_;
+};
+
+}  // namespace sunder

@@ -1,0 +1,43 @@
+// An impact, and what it would do: planned, but not carried out. Internal to engine/world.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/model/breaker.h"
+#include "engine/world/actors/impact.h"
+#include "engine/world/actors/world.h"
+
+namespace sunder {
+
+struct PlannedBreak {
+  Impact impact;
+  std::uint32_t load = 0;  ///< Index in the probe's answer.
+  BreakCommand command;
+  BreakEdit edit;
+  double plan_ms = 0;
+  double needed_J = 0;  ///< By the crack.
+};
+
+/// Makes the command that the impact amounts to.
+void prepare(const World& world, const Breaker& breaker, std::uint64_t event,
+             PlannedBreak& planned);
+/// How many parts its command cuts, about: what it costs follows that (docs/decisions/032).
+std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned);
+/// Plans what is prepared, in parallel; nothing changes yet.
+void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak* const> all);
+
+enum class Verdict {
+  kHolds,   ///< The impact does not pay for the crack.
+  kNoRoom,  ///< The limit of bodies forbids it.
+  kBreaks,
+};
+Verdict verdict_on(const World& world, const PlannedBreak& planned);
+/// Remembers what an impact lacked, if it did.
+void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict);
+
+/// Breaks the actor of an impact that has paid for it.
+void break_actor(World& world, PlannedBreak& planned);
+
+}  // namespace sunder
