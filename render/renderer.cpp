@@ -63,7 +63,7 @@ Programs make_programs(const GlTable& gl) {
     set_sampler(gl, program, "slots", kSlotUnit);
   }
   for (const GLuint program : {p.matte, p.shiny, p.glass})
-    set_sampler(gl, program, "looks", kLookUnit);
+    set_sampler(gl, program, "materials", kMaterialUnit);
   for (const GLuint program : {p.matte, p.shiny, p.ground, p.sky}) {
     set_sampler(gl, program, "tiles", kTileUnit);
   }
@@ -124,7 +124,7 @@ struct Renderer::Impl {
   Chips chips;
   Puffs puffs;
   GLuint uniform_buffer = 0;
-  GLuint look_buffer = 0;
+  GLuint material_buffer = 0;
   GLuint empty_vertex_array = 0;  ///< For passes that need no vertices.
   Target shadow;
   Target zenith;
@@ -181,11 +181,11 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   gl.BindTexture(GL_TEXTURE_BUFFER, pieces.slot_texture());
   GLuint look_texture = 0;
   gl.GenTextures(1, &look_texture);
-  gl.GenBuffers(1, &look_buffer);
-  gl.ActiveTexture(GL_TEXTURE0 + kLookUnit);
-  gl.BindBuffer(GL_TEXTURE_BUFFER, look_buffer);
+  gl.GenBuffers(1, &material_buffer);
+  gl.ActiveTexture(GL_TEXTURE0 + kMaterialUnit);
+  gl.BindBuffer(GL_TEXTURE_BUFFER, material_buffer);
   gl.BindTexture(GL_TEXTURE_BUFFER, look_texture);
-  gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, look_buffer);
+  gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, material_buffer);
   gl.GenBuffers(1, &uniform_buffer);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, uniform_buffer);
   gl.GenVertexArrays(1, &empty_vertex_array);
@@ -213,8 +213,8 @@ void Renderer::Impl::upload(const Frame& frame) {
   pieces.update(frame);
   if (frame.materials != materials) {
     materials = frame.materials;
-    const std::vector<float> texels = look_texels(*materials);
-    gl.BindBuffer(GL_TEXTURE_BUFFER, look_buffer);
+    const std::vector<float> texels = material_rows(*materials);
+    gl.BindBuffer(GL_TEXTURE_BUFFER, material_buffer);
     gl.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(texels.size() * sizeof(float)),
                   texels.data(), GL_STATIC_DRAW);
   }

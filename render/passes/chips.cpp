@@ -70,7 +70,7 @@ Chips::Chips(const GlTable& gl) : gl_(gl) {
   shadow_program_ = make_program(gl, "chips' shadow", {common_glsl, "#define SHADOW\n", chips_vert},
                                  {common_glsl, nothing_frag});
   set_sampler(gl, program_, "shadow_map", kShadowUnit);
-  set_sampler(gl, program_, "looks", kLookUnit);
+  set_sampler(gl, program_, "materials", kMaterialUnit);
   set_sampler(gl, program_, "tiles", kTileUnit);
 
   std::vector<ChipVertex> vertices;

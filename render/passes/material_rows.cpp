@@ -64,7 +64,7 @@ void append(std::vector<float>& texels, const Look& look, const Finish& finish) 
 
 }  // namespace
 
-std::vector<float> look_texels(std::span<const Material> materials) {
+std::vector<float> material_rows(std::span<const Material> materials) {
   std::vector<float> texels;
   texels.reserve(24 * materials.size());
   for (const Material& material : materials) {

@@ -8,8 +8,8 @@
 
 namespace sunder::render {
 
-/// Texels (RGBA, float) of `looks` in pieces.vert: for every material its surface, then its
-/// interior, three texels each.
-std::vector<float> look_texels(std::span<const Material> materials);
+/// Texels (RGBA, float) of `materials` in pieces.vert: two rows a material, its surface and its
+/// interior, of three texels each.
+std::vector<float> material_rows(std::span<const Material> materials);
 
 }  // namespace sunder::render

@@ -26,7 +26,7 @@ Puffs::Puffs(const GlTable& gl) : gl_(gl) {
   program_ =
       make_program(gl, "puffs", {common_glsl, shadow_glsl, puffs_vert}, {common_glsl, puffs_frag});
   set_sampler(gl, program_, "shadow_map", kShadowUnit);
-  set_sampler(gl, program_, "looks", kLookUnit);
+  set_sampler(gl, program_, "materials", kMaterialUnit);
   set_sampler(gl, program_, "tiles", kTileUnit);
   set_sampler(gl, program_, "distances", kOpenUnit);
   gl_.GenVertexArrays(1, &vertex_array_);

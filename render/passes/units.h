@@ -7,7 +7,7 @@ enum Unit {
   kShadowUnit,
   kZenithUnit,
   kSlotUnit,
-  kLookUnit,
+  kMaterialUnit,
   kTileUnit,
   kDepthUnit,
   kLightUnit,

@@ -15,7 +15,7 @@ void main() {
   gl_Position = vec4(2.0 * seen - 1.0, 1.0);
 }
 #else
-uniform samplerBuffer looks;  // as in pieces.vert
+uniform samplerBuffer materials;  // as in pieces.vert
 
 out vec3 rest;
 out vec3 normal_rest;
@@ -42,9 +42,9 @@ void main() {
   vec3 off = turned(normal, rotation) * (to_sun.w * (0.6 + 2.2 * (1.0 - facing)));
   shadow = (shadow_of_eye * vec4(here + off, 1.0)).xyz;
 
-  int look = 6 * int(material) + 3;
-  first_color = texelFetch(looks, look);
-  second_color = texelFetch(looks, look + 1);
-  finish = texelFetch(looks, look + 2).xyz;
+  int row = 6 * int(material) + 3;
+  first_color = texelFetch(materials, row);
+  second_color = texelFetch(materials, row + 1);
+  finish = texelFetch(materials, row + 2).xyz;
 }
 #endif

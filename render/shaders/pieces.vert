@@ -1,6 +1,6 @@
 // Light, sky and eye are turned into the piece's rest frame here, so that the fragment shader
 // works in the frame its textures live in.
-uniform samplerBuffer looks;  // three texels a look, surface then interior of each material
+uniform samplerBuffer materials;  // material_rows(): surface, then interior, three texels each
 
 out vec3 rest;
 out vec3 normal_rest;
@@ -29,8 +29,8 @@ void main() {
   vec3 off = piece_.rotation * normal * (to_sun.w * (0.6 + 2.2 * (1.0 - facing)));
   shadow = (shadow_of_eye * vec4(place + off, 1.0)).xyz;
 
-  int look = 6 * piece_.material + 3 * int(piece & 1u);
-  first_color = texelFetch(looks, look);
-  second_color = texelFetch(looks, look + 1);
-  finish = texelFetch(looks, look + 2).xyz;
+  int row = 6 * piece_.material + 3 * int(piece & 1u);
+  first_color = texelFetch(materials, row);
+  second_color = texelFetch(materials, row + 1);
+  finish = texelFetch(materials, row + 2).xyz;
 }

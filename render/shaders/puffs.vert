@@ -2,7 +2,7 @@
 layout(location = 0) in vec4 place;  // centre in eye space, radius
 layout(location = 1) in vec4 look;   // cosine and sine of its turn, opacity, material
 
-uniform samplerBuffer looks;  // as in pieces.vert
+uniform samplerBuffer materials;  // as in pieces.vert
 
 const float kDrawnLarger = 2.4;  // soft edges: what is seen is smaller than what is drawn
 const vec3 kPowder = vec3(0.60, 0.54, 0.46);
@@ -30,5 +30,5 @@ void main() {
   // Puffs that fill much of the picture would show that they are sprites.
   float small = clamp(1.7 - 4.0 * radius / metres, 0.0, 1.0);
   puff = vec4(dot(place.xyz, ray_forward.xyz), radius, look.z * small, exp2(-metres * kHaze));
-  color = mix(kPowder, texelFetch(looks, 6 * int(look.w) + 3).rgb, 0.25);
+  color = mix(kPowder, texelFetch(materials, 6 * int(look.w) + 3).rgb, 0.25);
 }
