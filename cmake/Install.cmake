@@ -1,10 +1,50 @@
-# find_package(sunder): targets sunder::engine, sunder::fracture and so on, one a room.
+# find_package(sunder): the target sunder::sunder, for users of #include <sunder/sunder.h>. The rooms
+# are installed as what it is linked from; these are all the headers that are.
 
 include(CMakePackageConfigHelpers)
 
+set(public_headers
+  engine/base/check.h
+  engine/base/types.h
+  engine/geometry/convex_polyhedron.h
+  engine/io/statistics.h
+  engine/io/take/take.h
+  engine/model/compound.h
+  engine/model/frame.h
+  engine/model/joint.h
+  engine/model/material.h
+  engine/model/scene.h
+  render/sinks.h
+  scenes/file/make_compound.h
+  scenes/load.h
+  scenes/make_simulation.h
+  scenes/sunder.h)
+
+# Users have folders called engine/ too: ours lie in one folder and name each other by it.
+set(public_folder ${PROJECT_BINARY_DIR}/include/sunder)
+foreach(header ${public_headers})
+  cmake_path(GET header FILENAME name)
+  file(READ ${PROJECT_SOURCE_DIR}/${header} text)
+  string(REGEX REPLACE "#include \"[a-z_/]*/([a-z_]+\\.h)\"" "#include <sunder/\\1>" text "${text}")
+  file(CONFIGURE OUTPUT ${public_folder}/${name} CONTENT "@text@" @ONLY)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
+  install(FILES ${public_folder}/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sunder)
+endforeach()
+
+add_library(sunder_library INTERFACE)
+add_library(sunder::sunder ALIAS sunder_library)
+target_include_directories(sunder_library INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_link_libraries(sunder_library INTERFACE sunder_scenes sunder_render)
+set_target_properties(sunder_library PROPERTIES EXPORT_NAME sunder)
+install(TARGETS sunder_library EXPORT sunderTargets)
+
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/sunder)
+set(scenes_dir ${CMAKE_INSTALL_DATADIR}/sunder/scenes)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/sunderConfig.cmake.in
-  ${PROJECT_BINARY_DIR}/sunderConfig.cmake INSTALL_DESTINATION ${package_dir})
+  ${PROJECT_BINARY_DIR}/sunderConfig.cmake INSTALL_DESTINATION ${package_dir}
+  PATH_VARS scenes_dir)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/sunderConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/sunderConfig.cmake

@@ -34,6 +34,9 @@ add_library(sunder_options INTERFACE)
 target_compile_features(sunder_options INTERFACE cxx_std_20)
 target_compile_definitions(sunder_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY)
 target_compile_options(sunder_options INTERFACE -ffp-contract=off)
+# Failed checks name their file from the root on: nothing that is installed knows where it was built.
+target_compile_options(sunder_options INTERFACE
+  $<BUILD_INTERFACE:-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=>)
 if(SUNDER_ARCH)
   target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-march=${SUNDER_ARCH}>)
 endif()
@@ -101,14 +104,10 @@ function(sunder_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(sunder_${name} STATIC ${ROOM_SOURCES})
   add_library(sunder::${name} ALIAS sunder_${name})
-  target_include_directories(sunder_${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sunder>)
+  target_include_directories(sunder_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_link_libraries(sunder_${name} PUBLIC sunder_options Eigen3::Eigen ${ROOM_LINK}
     PRIVATE ${ROOM_PRIVATE_LINK})
   sunder_unity(sunder_${name})
   set_target_properties(sunder_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
   install(TARGETS sunder_${name} EXPORT sunderTargets)
-  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sunder
-    FILES_MATCHING PATTERN "*.h" PATTERN app EXCLUDE)
 endfunction()

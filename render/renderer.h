@@ -7,16 +7,9 @@
 
 #include "engine/model/frame.h"
 #include "render/image/image.h"
+#include "render/sinks.h"
 
 namespace sunder::render {
-
-struct RenderOptions {
-  int width = 1280;
-  int height = 720;
-  std::string gl = "auto";   ///< auto | egl-device:N | egl-surfaceless | osmesa
-  bool hud = false;          ///< Frame number, time and counts in the corner.
-  bool time_passes = false;  ///< Waits for the GPU after each pass, to fill pass_times().
-};
 
 /// What one pass of the last draw took.
 struct PassTime {

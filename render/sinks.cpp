@@ -8,19 +8,20 @@
 
 #include "engine/base/check.h"
 #include "render/image/encoder.h"
+#include "render/renderer.h"
 
 namespace sunder::render {
 namespace {
 
 constexpr int kFramesPerS = 60;
 
-/// Makes `folder`, if it is not there yet; throws InputError.
+/// Makes `folder`, if it is not there yet; throws FileError.
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder.string() + ": cannot be made: " + error.message());
+  if (error) throw FileError(folder.string() + ": cannot be made: " + error.message());
   if (!folder.empty() && ::access(folder.c_str(), W_OK) != 0) {
-    throw InputError(folder.string() + ": cannot be written");
+    throw FileError(folder.string() + ": cannot be written");
   }
 }
 
@@ -82,7 +83,25 @@ class ImagesSink final : public FrameSink {
   Renderer& renderer_;
 };
 
+/// A sink with a renderer of its own.
+class OwnRenderer final : public FrameSink {
+ public:
+  OwnRenderer(const std::filesystem::path& path, const RenderOptions& options)
+      : renderer_(options), sink_(make_picture_sink(path, renderer_)) {}
+  void take(const FramePtr& frame) override { sink_->take(frame); }
+  void finish() override { sink_->finish(); }
+
+ private:
+  Renderer renderer_;
+  std::unique_ptr<FrameSink> sink_;
+};
+
 }  // namespace
+
+std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
+                                             const RenderOptions& options) {
+  return std::make_unique<OwnRenderer>(path, options);
+}
 
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
                                              Renderer& renderer) {

@@ -3,14 +3,30 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
-#include "render/renderer.h"
+#include "engine/model/frame.h"
 
 namespace sunder::render {
 
+struct RenderOptions {
+  int width = 1280;
+  int height = 720;
+  std::string gl = "auto";   ///< auto | egl-device:N | egl-surfaceless | osmesa
+  bool hud = false;          ///< Frame number, time and counts in the corner.
+  bool time_passes = false;  ///< Waits for the GPU after each pass, to fill pass_times().
+};
+
+/// Draws with OpenGL, off-screen, on the thread that makes it; renderer.h.
+class Renderer;
+
 /// `path` ending in .mp4: a video of 60 frames a second; .png: the last frame taken; otherwise a
 /// directory of frame_00000.png and so on. Nothing stands at `path` until it is complete.
-/// Throws InputError if ffmpeg is missing (naming the package) or the place cannot be written.
+/// Throws InputError if ffmpeg is missing (naming the package) or the options cannot be met,
+/// FileError if the place cannot be written.
+std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
+                                             const RenderOptions& options);
+/// The same with a renderer that is there already, and must outlive the sink.
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer);
 
 }  // namespace sunder::render

@@ -12,11 +12,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Files of the catalogue lie one folder down; the library of materials lies beside the folders.
-std::vector<fs::path> catalog_files() {
+std::vector<fs::path> catalog_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const fs::directory_entry& folder : fs::directory_iterator(scenes_folder())) {
-    if (!folder.is_directory()) continue;
-    for (const fs::directory_entry& file : fs::directory_iterator(folder)) {
+  for (const fs::directory_entry& group : fs::directory_iterator(scenes_folder(folder))) {
+    if (!group.is_directory()) continue;
+    for (const fs::directory_entry& file : fs::directory_iterator(group)) {
       if (file.path().extension() == ".toml") files.push_back(file.path());
     }
   }
@@ -25,12 +25,16 @@ std::vector<fs::path> catalog_files() {
   return files;
 }
 
-fs::path resolve(const std::string& file_or_name) {
+fs::path resolve(const std::string& file_or_name, const fs::path& folder) {
   if (fs::is_regular_file(file_or_name) || file_or_name.ends_with(".toml")) return file_or_name;
   std::vector<std::string> names;
-  for (const fs::path& file : catalog_files()) {
-    if (file.stem() == file_or_name) return file;
-    names.push_back(file.stem().string());
+  try {
+    for (const fs::path& file : catalog_files(folder)) {
+      if (file.stem() == file_or_name) return file;
+      names.push_back(file.stem().string());
+    }
+  } catch (const InputError& error) {
+    throw InputError(file_or_name + ": no such file, and " + error.what());
   }
   const std::vector<std::string_view> views(names.begin(), names.end());
   throw InputError(file_or_name + ": no such file, and no scene of that name" +
@@ -48,23 +52,28 @@ std::string description(const fs::path& file) {
 
 }  // namespace
 
-fs::path scenes_folder() {
+fs::path scenes_folder(const fs::path& folder) {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
   const fs::path installed = program.parent_path().parent_path() / "share/sunder/scenes";
-  return fs::is_directory(installed) ? installed : fs::path(SUNDER_SCENES_FOLDER);
+  if (fs::is_directory(installed)) return installed;
+  if (fs::is_directory(folder)) return folder;
+  throw InputError("no catalogue of scenes is here: neither " + installed.string() +
+                   (folder.empty() ? "" : " nor " + folder.string()) +
+                   " is a folder; name a scene by its file");
 }
 
-std::vector<CatalogEntry> catalog() {
+std::vector<CatalogEntry> catalog(const fs::path& folder) {
   std::vector<CatalogEntry> entries;
-  for (const fs::path& file : catalog_files()) {
+  for (const fs::path& file : catalog_files(folder)) {
     entries.push_back({file.stem().string(), file, description(file)});
   }
   return entries;
 }
 
-Scene load_scene(const std::string& file_or_name, const LoadOptions& options) {
-  const fs::path file = resolve(file_or_name);
+Scene load_scene(const std::string& file_or_name, const LoadOptions& options,
+                 const fs::path& folder) {
+  const fs::path file = resolve(file_or_name, folder);
   return parse_scene(read_text(file), file.string(), options);
 }
 

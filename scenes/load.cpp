@@ -11,6 +11,7 @@
 #include "scenes/file/body.h"
 #include "scenes/file/builtin_materials.h"
 #include "scenes/file/joint.h"
+#include "scenes/file/names.h"
 #include "scenes/file/patterns.h"
 #include "scenes/file/planar.h"
 #include "scenes/file/schema.h"
@@ -41,8 +42,17 @@ class Loader {
 
   Scene load(const LoadOptions& options);
   void add_materials(const Value& document, const std::filesystem::path& folder);
+  std::vector<Material> take_materials() { return std::move(scene_.materials); }
 
  private:
+  /// The solids that a table became, from `first` on.
+  struct Made {
+    std::string name;   ///< Empty: none was given.
+    std::string usual;  ///< In place of it.
+    std::string where;
+    std::size_t first = 0, count = 0;
+  };
+
   template <class T>
   void read_table(const Keys<T>& keys, std::string_view name, T& object) {
     if (const Value* table = find(std::get<Table>(document_.data), name)) {
@@ -54,11 +64,16 @@ class Loader {
   void add_solid(const Value& table);
   void add_body(const Value& table);
   void add_ball(const Value& table);
-  void check_names() const;
+  void add_solids(Made made, std::vector<Solid> solids);
+  void give_names(const Value& parent, std::initializer_list<std::string_view> keys);
+  void name_solids();
+  void check_references() const;
 
   const Value& document_;
   std::filesystem::path folder_;  ///< Where the files it names are sought.
   Scene scene_;
+  std::vector<Made> made_;
+  Names names_;
 };
 
 Scene Loader::load(const LoadOptions& options) {
@@ -83,11 +98,12 @@ Scene Loader::load(const LoadOptions& options) {
   for (const Value* table : tables(document_, "solid")) add_solid(*table);
   for (const Value* table : tables(document_, "body")) add_body(*table);
   for (const Value* table : tables(document_, "ball")) add_ball(*table);
+  name_solids();
+  check_references();
   for (const Value* table : tables(document_, "joint"))
     scene_.joints.push_back(read_joint(*table, scene_));
   if (const Value* table = find(std::get<Table>(document_.data), "script"))
     read_script(*table, scene_);
-  check_names();
   aim();
   if (scene_.planar) check_planar(scene_, find(std::get<Table>(scene->data), "planar")->where);
   std::size_t bodies = scene_.solids.size() + scene_.balls.size() + scene_.shots.size();
@@ -226,14 +242,9 @@ void Loader::add_solid(const Value& table) {
     throw InputError(table.where + ": " + error.what());
   }
   if (head.anchored == Anchored::kBottom) {
-    const auto foundation =
-        std::find_if(scene_.materials.begin(), scene_.materials.end(),
-                     [](const Material& material) { return material.name == "foundation"; });
-    add_foundation(pieces,
-                   MaterialIndex(static_cast<std::size_t>(foundation - scene_.materials.begin())));
+    add_foundation(pieces, find_material("foundation", table.where, scene_.materials));
   }
   const Pose X_WS{head.position, rotation(head.rotation_rad)};
-  const std::string base = head.name.empty() ? head.structure : head.name;
   std::vector<Solid> solids;
   for (Piece& piece : pieces) {
     const Compound whole = fracture::make_compound(std::move(piece.parts));
@@ -246,50 +257,100 @@ void Loader::add_solid(const Value& table) {
       solids.push_back(std::move(solid));
     }
   }
-  for (std::size_t i = 0; i < solids.size(); ++i) {
-    solids[i].name = solids.size() == 1 ? base : base + "." + std::to_string(i);
-    scene_.solids.push_back(std::move(solids[i]));
-  }
+  add_solids({head.name, head.structure, table.where}, std::move(solids));
 }
 
 void Loader::add_body(const Value& table) {
-  BodyText text;
-  read(body_keys(), table, scene_.materials, text);
+  BodyTable given;
+  read(body_keys(), table, scene_.materials, given);
   try {
-    for (Solid& solid : make_body(text, folder_)) scene_.solids.push_back(std::move(solid));
+    add_solids({given.name, default_name(given), table.where}, make_body(given, folder_));
   } catch (const InputError& error) {
     throw InputError(table.where + ": " + error.what());
   }
 }
 
+void Loader::add_solids(Made made, std::vector<Solid> solids) {
+  made.first = scene_.solids.size();
+  made.count = solids.size();
+  for (Solid& solid : solids) scene_.solids.push_back(std::move(solid));
+  made_.push_back(std::move(made));
+}
+
 void Loader::add_ball(const Value& table) {
-  BallText ball;
+  BallTable ball;
   read(schema().ball, table, scene_.materials, ball);
   scene_.balls.push_back(
       {ball.name, ball.radius_m, ball.material.index, ball.position, ball.velocity});
 }
 
-void Loader::check_names() const {
-  std::set<std::string> seen;
-  const auto check = [&](const std::string& name) {
-    if (!name.empty() && !seen.insert(name).second) {
-      throw InputError(document_.where + ": two things are named '" + name +
-                       "'; give each a name of its own");
+/// The names that the tables of an array give, by the keys of those arrays.
+void Loader::give_names(const Value& parent, std::initializer_list<std::string_view> keys) {
+  for (const std::string_view key : keys) {
+    for (const Value* table : tables(parent, key)) {
+      const Value* name = find(std::get<Table>(table->data), "name");
+      const std::string* text = name ? std::get_if<std::string>(&name->data) : nullptr;
+      if (text && !text->empty()) names_.give(*text, name->where);
+    }
+  }
+}
+
+/// What has a name keeps it; the parts of one thing are numbered.
+void Loader::name_solids() {
+  give_names(document_, {"solid", "body", "ball"});
+  if (const Value* script = find(std::get<Table>(document_.data), "script")) {
+    as_table(*script, "[script]");
+    give_names(*script, {"shot", "wrecking_ball"});
+  }
+  for (const Made& made : made_) {
+    const std::string name = made.name.empty() ? names_.pick(made.usual, made.where) : made.name;
+    for (std::size_t i = 0; i < made.count; ++i) {
+      std::string& part = scene_.solids[made.first + i].name;
+      part = made.count == 1 ? name : name + "." + std::to_string(i);
+      if (made.count > 1) names_.give(part, made.where);
+    }
+  }
+}
+
+void Loader::check_references() const {
+  const auto check = [&](const Value& parent, std::string_view array,
+                         std::initializer_list<std::string_view> keys) {
+    for (const Value* table : tables(parent, array)) {
+      for (const std::string_view key : keys) {
+        const Value* name = find(std::get<Table>(table->data), key);
+        if (name) names_.check_reference(*name);
+      }
     }
   };
-  for (const Solid& solid : scene_.solids) check(solid.name);
-  for (const Ball& ball : scene_.balls) check(ball.name);
-  for (const Shot& shot : scene_.shots) check(shot.ball.name);
+  check(document_, "joint", {"a", "b"});
+  const Value* script = find(std::get<Table>(document_.data), "script");
+  if (!script) return;
+  check(*script, "remove", {"name"});
+  check(*script, "drive", {"name"});
+}
+
+void add_builtin_materials(Loader& loader) {
+  loader.add_materials(parse_toml(builtin::materials_toml, "materials.toml (built in)"), {});
 }
 
 }  // namespace
 
+std::vector<Material> builtin_materials() {
+  const Value nothing;
+  Loader loader(nothing, {});
+  add_builtin_materials(loader);
+  return loader.take_materials();
+}
+
+MaterialIndex material_named(const Scene& scene, const std::string& name) {
+  return find_material(name, scene.name.empty() ? "the scene" : scene.name, scene.materials);
+}
+
 Scene parse_scene(const std::string& text, const std::string& file, const LoadOptions& options) {
   Value document = parse_toml(text, file);
   for (const std::string& assignment : options.set) set_value(document, assignment);
-  const Value materials = parse_toml(builtin::materials_toml, "materials.toml (built in)");
   Loader loader(document, std::filesystem::path(file).parent_path());
-  loader.add_materials(materials, {});
+  add_builtin_materials(loader);
   Scene scene = loader.load(options);
   scene.name = std::filesystem::path(file).stem().string();
   return scene;

@@ -1,4 +1,5 @@
 // The reference of scene files, written by the reader's own tables.
+#include "engine/geometry/approximate_hull.h"
 #include "scenes/file/body.h"
 #include "scenes/file/joint.h"
 #include "scenes/file/schema.h"

@@ -52,6 +52,7 @@ THIRD_PARTY = [
     (r"(EGL|GL|GLES\d|KHR|stb)/.*", ("render/",)),
     (r"toml\+\+/.*", ("scenes/",)),
     (r"CLI/.*", ("scenes/app/",)),
+    (r"sunder/.*", ("tests/consumer/",)),  # the installed library, from outside
     (r"benchmark/.*", ("bench/",)),
     (r"(bullet/.*|bt[A-Z]\w*\.h|ode/.*)", ("bench/",)),
     (r"(gtest|gmock|rapidcheck)(/.*|\.h)", ("tests/",)),

@@ -43,7 +43,7 @@ BAD = {
     "a folder on no floor":
         ("solver/cloth/b.h", HEADER, "on no floor"),
     "two files of one name in a room":
-        ("solver/rigid/body/r.h", HEADER, "a file of that name already: solver/rigid/r"),
+        ("solver/rigid/body/r.h", HEADER, "a file of that name already: solver/rigid/body/r"),
     "the engine includes fracture":
         ("engine/world/b.h", HEADER + '#include "fracture/f.h"\n', "engine may not include"),
     "fracture includes the solver":

@@ -1,10 +1,15 @@
-// Vectors, rotations and poses: Eigen under the short names every room uses.
+// Vectors, rotations and poses: Eigen under the short names every room uses. Strong indices, so
+// that an index into one array cannot be used in another, and ids that notice when what they named
+// is gone.
 //
 // double for geometry and body positions, float (suffix f) for solver inner loops and drawing.
 // Poses follow monogram notation: X_WB is the pose of B in W, and X_WB * point_B == point_W.
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -53,6 +58,28 @@ struct Box {
   bool overlaps(const Box& other) const {
     return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
   }
+};
+
+/// An index into one kind of array; `Tag` tells which. Default-constructed: `none()`.
+template <class Tag>
+struct Index {
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t value = kNone;
+
+  constexpr Index() = default;
+  constexpr explicit Index(std::size_t v) : value(static_cast<std::uint32_t>(v)) {}
+  constexpr bool none() const { return value == kNone; }
+  constexpr auto operator<=>(const Index&) const = default;
+};
+
+/// A slot and the generation it had when the id was handed out: stale ids compare unequal.
+template <class Tag>
+struct Id {
+  std::uint32_t slot = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t generation = 0;
+
+  constexpr bool none() const { return slot == std::numeric_limits<std::uint32_t>::max(); }
+  constexpr auto operator<=>(const Id&) const = default;
 };
 
 }  // namespace sunder

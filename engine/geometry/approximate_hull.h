@@ -14,16 +14,8 @@
 
 #include "engine/base/types.h"
 #include "engine/geometry/convex_polyhedron.h"
-#include "engine/geometry/plane.h"
 
 namespace sunder {
-
-/// How a convex is fitted to what it encloses.
-struct Fit {
-  enum class Kind : std::uint8_t { kAabb, k14Dop, k26Dop, kHull };
-  Kind kind = Kind::k26Dop;
-  std::uint32_t vertex_count = 24;  ///< Of algorithm 1's hull, for kHull.
-};
 
 /// What a fit is called: aabb, 14dop, 26dop or hull:N, N from 4 to kMostFitVertices.
 std::string name_of(const Fit& fit);

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/geometry/convex_polyhedron.h"
 #include "engine/geometry/cut_edge.h"
-#include "engine/geometry/plane.h"
 #include "engine/geometry/polygon_mesh.h"
 
 namespace sunder {

@@ -4,15 +4,54 @@
 // solid that the convex was cut from, and stays there through every generation of fracture.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/base/types.h"
-#include "engine/geometry/mass_properties.h"
-#include "engine/geometry/plane.h"
 
 namespace sunder {
+
+/// The half-space n·x + d <= 0; the normal has unit length and points out of it.
+struct Plane {
+  Vec3 normal = Vec3::UnitY();
+  double d = 0;
+
+  /// Signed, in metres: positive outside.
+  double distance(const Vec3& point) const { return normal.dot(point) + d; }
+  /// The other half-space.
+  Plane flipped() const { return {-normal, -d}; }
+  static Plane through(const Vec3& point, const Vec3& unit_normal) {
+    return {unit_normal, -unit_normal.dot(point)};
+  }
+};
+
+/// Names one side of a plane within a compound's lineage: faces a and b lie in one plane with
+/// opposite normals iff a == b.opposite(). Zero is "not named yet".
+struct PlaneId {
+  std::uint64_t value = 0;
+
+  constexpr PlaneId opposite() const { return {value ^ 1}; }
+  constexpr bool none() const { return value == 0; }
+  constexpr auto operator<=>(const PlaneId&) const = default;
+};
+
+/// Where a solid lies relative to a plane.
+enum class PlaneSide { kInside, kOutside, kCut };
+
+/// Of a solid of density 1: multiply volume and second moment by the density for mass and inertia.
+struct MassProperties {
+  double volume_m3 = 0;
+  Vec3 centroid = Vec3::Zero();
+  /// ∫ r rᵀ dV about the centroid (symmetric, m⁵); inertia = trace(S)·I − S.
+  Mat3 second_moment = Mat3::Zero();
+
+  Mat3 inertia() const { return second_moment.trace() * Mat3::Identity() - second_moment; }
+};
+
+/// The union of two solids that do not overlap (parallel-axis theorem).
+MassProperties operator+(const MassProperties& a, const MassProperties& b);
 
 /// What a face looks like: part of the original surface, or made by a break.
 enum class FaceKind : std::uint8_t { kSurface, kInterior };
@@ -57,6 +96,13 @@ ConvexPolyhedron make_prism(std::span<const Vec2> polygon_xz, double bottom, dou
                             bool smooth);
 /// The same solid moved rigidly; plane ids are kept.
 ConvexPolyhedron transformed(const ConvexPolyhedron& convex, const Pose& X_RQ);
+
+/// How a convex is fitted to what it encloses; approximate_hull.h does it.
+struct Fit {
+  enum class Kind : std::uint8_t { kAabb, k14Dop, k26Dop, kHull };
+  Kind kind = Kind::k26Dop;
+  std::uint32_t vertex_count = 24;  ///< Of algorithm 1's hull, for kHull.
+};
 
 /// Whether every directed edge has its opposite exactly once and V − E + F = 2.
 bool is_closed(const ConvexPolyhedron& convex);

@@ -1,7 +1,7 @@
 // Volume, first and second moment summed over the triangles of a closed surface.
 #pragma once
 
-#include "engine/geometry/mass_properties.h"
+#include "engine/geometry/convex_polyhedron.h"
 
 namespace sunder {
 

@@ -8,8 +8,6 @@
 
 #include "engine/base/types.h"
 #include "engine/geometry/convex_polyhedron.h"
-#include "engine/geometry/mass_properties.h"
-#include "engine/geometry/plane.h"
 
 namespace sunder {
 

@@ -27,13 +27,16 @@ void write_file(const std::filesystem::path& path, const std::vector<std::byte>&
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   std::ofstream out(partial, std::ios::binary);
+  const bool opened = out.is_open();
   out.write(reinterpret_cast<const char*>(bytes.data()),
             static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (out) std::filesystem::rename(partial, path, error);
   if (!out || error) {
     std::filesystem::remove(partial, error);
-    throw InputError(path.string() + ": cannot be written; check the folder and its permissions");
+    throw FileError(
+        path.string() + ": cannot be written; " +
+        (opened && !out ? "is the disk full?" : "check the folder and its permissions"));
   }
 }
 

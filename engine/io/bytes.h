@@ -78,7 +78,7 @@ class ByteReader {
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 /// A hash (XXH3) of bytes; the same on every machine.
 std::uint64_t hash_bytes(const std::vector<std::byte>& bytes);
-/// Writes under a temporary name and renames; throws InputError if that fails.
+/// Writes under a temporary name and renames; throws FileError if that fails.
 void write_file(const std::filesystem::path& path, const std::vector<std::byte>& bytes);
 
 }  // namespace sunder

@@ -5,6 +5,7 @@
 #include <xxhash.h>
 
 #include "engine/io/particle_codes.h"
+#include "engine/io/statistics.h"
 
 namespace sunder {
 namespace {

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "engine/model/frame.h"
 
@@ -15,17 +13,5 @@ std::uint64_t hash_state(const Frame& frame);
 
 /// Hash of one body's exact state.
 std::uint64_t hash_body(const FrameBody& body);
-
-/// Keeps the hash of every frame it takes.
-class StateHash final : public FrameSink {
- public:
-  void take(const FramePtr& frame) override;
-  /// 16 hexadecimal digits, over all frames so far.
-  std::string hex() const;
-  const std::vector<std::uint64_t>& per_frame() const { return per_frame_; }
-
- private:
-  std::vector<std::uint64_t> per_frame_;
-};
 
 }  // namespace sunder

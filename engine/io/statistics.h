@@ -1,6 +1,8 @@
-// Figures of a run: stage timings, counts, energy, penetration; as a table and as JSON.
+// What a run comes to: a hash of all its states, and its figures (stage timings, counts, energy,
+// penetration) as a table and as JSON.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,6 +12,18 @@
 #include "engine/model/scene.h"
 
 namespace sunder {
+
+/// Keeps the hash of every frame it takes.
+class StateHash final : public FrameSink {
+ public:
+  void take(const FramePtr& frame) override;
+  /// 16 hexadecimal digits, over all frames so far.
+  std::string hex() const;
+  const std::vector<std::uint64_t>& per_frame() const { return per_frame_; }
+
+ private:
+  std::vector<std::uint64_t> per_frame_;
+};
 
 /// What the figures are of; goes into the JSON as it is.
 struct RunInfo {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/base/check.h"
-#include "engine/base/index.h"
 #include "engine/base/types.h"
 
 namespace sunder {

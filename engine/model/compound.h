@@ -74,6 +74,14 @@ struct Compound {
   bool is_anchored() const;
 };
 
+/// A convex on its way into a compound.
+struct Part {
+  ConvexPolyhedron polyhedron;
+  MaterialIndex material;
+  std::uint8_t anchored = 0;  ///< As in Compound: `true` is anchored from below.
+  std::shared_ptr<const PolygonMesh> visual = nullptr;  ///< As in Convex.
+};
+
 /// Mass, centre of mass and inertia about it, in the rest frame; overlaps count once.
 struct Weight {
   double mass_kg = 0;

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/index.h"
 #include "engine/base/types.h"
-#include "engine/geometry/approximate_hull.h"
+#include "engine/geometry/convex_polyhedron.h"
 
 namespace sunder {
 

@@ -21,10 +21,10 @@
 #include <vector>
 
 #include "engine/base/check.h"
-#include "engine/base/index.h"
 #include "engine/base/types.h"
 #include "engine/geometry/convex_polyhedron.h"
 #include "engine/model/body_states.h"
+#include "engine/model/joint.h"
 
 namespace sunder {
 
@@ -71,13 +71,7 @@ using JointId = Id<JointTag>;
 /// What holds two bodies, or a body and the world, together. Places and directions are in the rest
 /// frame R of their body; in W where there is none.
 struct JointDesc {
-  enum class Kind : std::uint8_t {
-    kBall,      ///< The anchors stay in one place.
-    kHinge,     ///< And the axes stay parallel.
-    kFixed,     ///< And neither body turns against the other.
-    kDistance,  ///< The anchors stay `length_m` apart.
-    kRope,      ///< No farther than that.
-  };
+  using Kind = JointKind;
   Kind kind = Kind::kBall;
   BodyId a, b;  ///< None: the world.
   Vec3 anchor_a_R = Vec3::Zero(), anchor_b_R = Vec3::Zero();

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/model/mesh.h"
+#include "engine/model/frame.h"
 #include "engine/model/structure.h"
 
 namespace sunder {

@@ -2,15 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/model/compound.h"
 #include "engine/model/frame.h"
+#include "engine/model/joint.h"
 #include "engine/model/material.h"
-#include "engine/model/physics.h"
 
 namespace sunder {
 
@@ -38,19 +37,6 @@ struct Shot {
   Ball ball;
   std::optional<Vec3> hangs_from_W = std::nullopt;
   std::vector<Solid> links = {};  ///< From the top down, in one line and equally long.
-};
-
-/// What holds two things of the scene together, or one and the world, as they stand at the start.
-struct Joint {
-  JointDesc::Kind kind = JointDesc::Kind::kBall;
-  /// Indices of solids, then of balls; none: the world.
-  std::optional<std::uint32_t> a = std::nullopt, b = std::nullopt;
-  Vec3 at_W = Vec3::Zero();  ///< On a; but for kDistance and kRope, on both.
-  Vec3 to_W = Vec3::Zero();  ///< kDistance, kRope: on b.
-  Vec3 axis_W = Vec3::UnitZ();
-  double breaking_N = std::numeric_limits<double>::infinity();
-  double breaking_Nm = std::numeric_limits<double>::infinity();
-  bool collide = false;
 };
 
 /// An impulse on every face that sees the centre: per square metre, falling with the square of the

@@ -4,9 +4,11 @@
 
 #include <vector>
 
-#include "fracture/adjacency/part.h"
+#include "engine/model/compound.h"
 
 namespace sunder::fracture {
+
+using sunder::Part;
 
 /// A compound of parts. Faces within `tolerance_m` of one plane share a plane id; touching pairs
 /// become bonds, and parts that overlap by more than the tolerance ghosts. Up to kDeepestGhost

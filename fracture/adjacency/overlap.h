@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fracture/adjacency/part.h"
+#include "engine/model/compound.h"
 
 namespace sunder::fracture {
 

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "engine/base/check.h"
+#include "engine/geometry/approximate_hull.h"
 #include "engine/geometry/polygon_mesh.h"
 
 namespace sunder::fracture {

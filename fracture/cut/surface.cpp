@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/geometry/approximate_hull.h"
 #include "engine/geometry/clip.h"
 #include "engine/geometry/mesh_islands.h"
 #include "fracture/cut/cutter.h"

@@ -10,7 +10,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/geometry/approximate_hull.h"
-#include "engine/geometry/mass_properties.h"
+#include "engine/geometry/convex_polyhedron.h"
 #include "fracture/vacd/sweep.h"
 
 namespace sunder::fracture {

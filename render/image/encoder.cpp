@@ -145,8 +145,8 @@ void Encoder::fail() {
   std::filesystem::remove(temporary_, ignored);
   std::array<char, 2000> words = {};
   const ssize_t size = ::pread(log_, words.data(), words.size() - 1, 0);
-  throw InputError(path_.string() + ": the program ffmpeg (package ffmpeg) failed: " +
-                   (size > 0 ? words.data() : "it said nothing"));
+  throw FileError(path_.string() + ": the program ffmpeg (package ffmpeg) failed: " +
+                  (size > 0 ? words.data() : "it said nothing"));
 }
 
 }  // namespace sunder::render

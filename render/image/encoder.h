@@ -17,7 +17,7 @@ class Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  /// Throws InputError with ffmpeg's own words if it stopped.
+  /// Throws FileError with ffmpeg's own words if it stopped.
   void add(const Image& image);
   void finish();
 

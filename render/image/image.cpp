@@ -46,20 +46,20 @@ void replace_file(const std::filesystem::path& temporary, const std::filesystem:
   if (!error) return;
   std::error_code ignored;
   std::filesystem::remove(temporary, ignored);
-  throw InputError(path.string() + ": cannot be written: " + error.message());
+  throw FileError(path.string() + ": cannot be written: " + error.message());
 }
 
 void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
   const std::filesystem::path temporary = temporary_name(path);
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (file == nullptr) {
-    throw InputError(path.string() + ": cannot be written; is the folder there and yours?");
+    throw FileError(path.string() + ": cannot be written; is the folder there and yours?");
   }
   const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
   if (std::fclose(file) != 0 || !whole) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw InputError(path.string() + ": cannot be written; is the disk full?");
+    throw FileError(path.string() + ": cannot be written; is the disk full?");
   }
   replace_file(temporary, path);
 }

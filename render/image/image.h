@@ -19,16 +19,16 @@ struct Image {
 
 /// The bytes of a PNG file.
 std::vector<std::uint8_t> encode_png(const Image& image);
-/// Writes to a temporary name and renames; throws InputError if the place cannot be written.
+/// Writes to a temporary name and renames; throws FileError if the place cannot be written.
 void write_png(const std::filesystem::path& path, const Image& image);
 /// Throws InputError if there is no readable PNG at `path`.
 Image read_png(const std::filesystem::path& path);
 
 /// Where a file is written until it is complete: beside `path`, named after this process.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
-/// Moves a complete file to its name, or removes it and throws InputError.
+/// Moves a complete file to its name, or removes it and throws FileError.
 void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
-/// Writes to a temporary name and renames; throws InputError if the place cannot be written.
+/// Writes to a temporary name and renames; throws FileError if the place cannot be written.
 void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
 }  // namespace sunder::render

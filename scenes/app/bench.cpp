@@ -1,10 +1,11 @@
 // sunder bench: frame timing of the benchmark scenes, gated by the state hash: a faster run that
 // simulates something else is no faster run.
+#include <algorithm>
 #include <cstdio>
 
 #include "engine/base/check.h"
 #include "engine/io/figures.h"
-#include "engine/io/state_hash.h"
+#include "engine/io/statistics.h"
 #include "scenes/app/run.h"
 #include "scenes/file/text_file.h"
 
@@ -16,8 +17,10 @@ constexpr const char* kQuantiles[] = {"p50_ms", "p95_ms", "p99_ms", "max_ms"};
 /// The figures of one scene's run, without the leading place.
 Figures measure(const std::string& name, const BenchOptions& options) {
   Scene scene = scenes::load_scene(name, options.load);
-  const int last = last_frame(scene, options.frames);
-  Statistics statistics(run_info(scene, options.load));
+  // Scenes are timed beside each other: a shorter one to its end.
+  const int end = last_frame(scene, -1);
+  const int last = options.frames < 0 ? end : std::min(options.frames, end);
+  Statistics statistics(scenes::run_info(scene, options.load.preset));
   Progress progress("bench " + scene.name, last, options.quiet);
   StateHash hash;
   const auto simulation = make_simulation(std::move(scene));

@@ -105,7 +105,7 @@ void add_bench(CLI::App& program, Command& chosen) {
 
 constexpr const char* kMeshHelp =
     "A file (.obj .ply .stl .off .gltf .glb), or a built-in solid: box:X,Y,Z column:R,H torus:R,r "
-    "grid:NX,NY,NZ voronoi:N";
+    "grid:NX,NY,NZ voronoi:N hall:N";
 
 /// How a mesh from a file is decomposed.
 void add_decomposition(CLI::App* app, scenes::MeshOptions& options) {

@@ -111,7 +111,7 @@ int golden_record(const GoldenOptions& options) {
   options.apply();
   const std::string& name = options.names.front();
   Scene scene = scenes::load_scene(options.scene, options.load);
-  const int last = last_frame(scene, options.frame);
+  const int last = last_frame(scene, options.frame, "FRAME " + std::to_string(options.frame));
   Progress progress("record " + scene.name, last, options.quiet);
   const auto simulation = make_simulation(std::move(scene));
   FramePtr frame;

@@ -16,7 +16,9 @@ int main(int argc, char** argv) {
   }
 #endif
   try {
-    return sunder::app::parse_command_line(argc, argv)();
+    const int code = sunder::app::parse_command_line(argc, argv)();
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    throw sunder::FileError("standard output cannot be written");
   } catch (const sunder::InputError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;

@@ -9,7 +9,8 @@
 namespace sunder::app {
 
 /// Draws solids, moved apart by `explode` times their distance from the middle, from the front and
-/// a little above, as a PNG. Throws InputError if nothing can be drawn or written here.
+/// a little above, as a PNG. Throws InputError if nothing can be drawn here, FileError if it cannot
+/// be written.
 void draw_solids(const std::filesystem::path& file, std::span<const Compound> solids,
                  const std::vector<Material>& materials, double explode);
 

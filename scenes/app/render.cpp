@@ -5,8 +5,8 @@
 #include "engine/base/check.h"
 #include "engine/io/figures.h"
 #include "engine/io/frame_file.h"
-#include "engine/io/state_hash.h"
-#include "engine/io/take/take_reader.h"
+#include "engine/io/statistics.h"
+#include "engine/io/take/take.h"
 #include "render/sinks.h"
 #include "scenes/app/run.h"
 

@@ -6,17 +6,18 @@
 #include <string>
 
 #include "engine/io/statistics.h"
-#include "engine/world/simulation.h"
+#include "engine/model/frame.h"
 #include "scenes/app/commands.h"
+#include "scenes/make_simulation.h"
 
 namespace sunder::app {
 
-/// The composition root: our solver and our fracture around a scene.
-std::unique_ptr<Simulation> make_simulation(Scene scene);
-/// What statistics say about the run.
-RunInfo run_info(const Scene& scene, const scenes::LoadOptions& load);
-/// Index of the last frame: the scene's duration, or `wanted` if that comes first.
-int last_frame(const Scene& scene, int wanted);
+/// A scene's simulation as the program has it: warnings go to stderr, breaks that went wrong to
+/// sunder-cases/.
+std::unique_ptr<FrameSource> make_simulation(Scene scene);
+/// Index of the last frame: `wanted`, or, if that is negative, where the scene ends. Throws
+/// InputError if it ends before `wanted`; `asked` is how that was said.
+int last_frame(const Scene& scene, int wanted, const std::string& asked = "");
 
 /// The frames 0 to `last` of another source.
 class FramesUntil final : public FrameSource {

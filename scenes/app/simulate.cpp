@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <optional>
 
-#include "engine/io/state_hash.h"
+#include "engine/io/statistics.h"
+#include "engine/io/take/take.h"
 #include "engine/io/take/take_verifier.h"
-#include "engine/io/take/take_writer.h"
 #include "scenes/app/run.h"
 
 namespace sunder::app {
@@ -21,8 +21,8 @@ std::string megabytes(std::uint64_t bytes) {
 int simulate(const SimulateOptions& options) {
   options.apply();
   Scene scene = scenes::load_scene(options.scene, options.load);
-  const int last = last_frame(scene, options.frames);
-  Statistics statistics(run_info(scene, options.load));
+  const int last = last_frame(scene, options.frames, "--frames " + std::to_string(options.frames));
+  Statistics statistics(scenes::run_info(scene, options.load.preset));
   Progress progress("simulate " + scene.name, last, options.quiet);
   StateHash hash;
   const auto simulation = make_simulation(std::move(scene));

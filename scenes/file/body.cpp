@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/base/trigonometry.h"
-#include "fracture/adjacency/compound_builder.h"
+#include "scenes/file/make_compound.h"
 #include "scenes/file/mesh_solid.h"
 
 namespace sunder::scenes {
@@ -14,58 +14,44 @@ constexpr std::string_view kAnchored[] = {"none", "bottom"};
 /// What reaches this part of the height is the bottom.
 constexpr double kBottom = 0.01;
 
-Keys<BodyText> make_body_keys() {
+Keys<BodyTable> make_body_keys() {
   constexpr Range kPlace{-1e6, 1e6}, kSpeed{-1e4, 1e4}, kTurn{-6.2832, 6.2832};
   return {"[[body]]",
-          {key<&BodyText::mesh>("mesh",
-                                "A file (.obj .ply .stl .off .gltf .glb) from the scene's folder "
-                                "on, or a built-in solid, such as torus:1,0.3.")
+          {key<&BodyTable::mesh>("mesh",
+                                 "A file (.obj .ply .stl .off .gltf .glb) from the scene's folder "
+                                 "on, or a built-in solid, such as torus:1,0.3.")
                .must(),
-           key<&BodyText::name>("name", "Shown in messages; the mesh's name by default."),
-           key<&BodyText::scale>("scale", "", Range{1e-6, 1e6}, "Of a file: one unit of it."),
-           key<&BodyText::size_m>("size_m", "m", Range{1e-3, 1e4},
-                                  "Of a file, in place of scale: its longest side."),
-           key<&BodyText::nodes>("nodes", "Of its decomposition."),
-           key<&BodyText::convexes>("convexes", "", Range{0, 10000},
-                                    "Most convexes of its decomposition; 0: what nodes make."),
-           key<&BodyText::fit>("fit", "Of its convexes: aabb, 14dop, 26dop or hull:N."),
-           choice<&BodyText::repair>("repair", kRepairs, "off: a mesh that needs it is refused."),
-           key<&BodyText::material>("material", "What it is made of."),
-           key<&BodyText::position>("position", "m", kPlace, "Where the middle of its foot is."),
-           key<&BodyText::rotation_rad>("rotation_rad", "rad", kTurn,
-                                        "About the axes x, then y, then z, through its foot."),
-           key<&BodyText::velocity>("velocity", "m/s", kSpeed, "At the start."),
-           key<&BodyText::angular_velocity>("angular_velocity", "rad/s", kSpeed, "At the start."),
-           choice<&BodyText::anchored>("anchored", kAnchored,
-                                       "bottom: the world holds its lowest parts.")}};
+           key<&BodyTable::name>("name", "Shown in messages; the mesh's name by default."),
+           key<&BodyTable::scale>("scale", "", Range{1e-6, 1e6}, "Of a file: one unit of it."),
+           key<&BodyTable::size_m>("size_m", "m", Range{1e-3, 1e4},
+                                   "Of a file, in place of scale: its longest side."),
+           key<&BodyTable::nodes>("nodes", "Of its decomposition."),
+           key<&BodyTable::convexes>("convexes", "", Range{0, 10000},
+                                     "Most convexes of its decomposition; 0: what nodes make."),
+           key<&BodyTable::fit>("fit", "Of its convexes: aabb, 14dop, 26dop or hull:N."),
+           choice<&BodyTable::repair>("repair", kRepairs, "off: a mesh that needs it is refused."),
+           key<&BodyTable::material>("material", "What it is made of."),
+           key<&BodyTable::position>("position", "m", kPlace, "Where the middle of its foot is."),
+           key<&BodyTable::rotation_rad>("rotation_rad", "rad", kTurn,
+                                         "About the axes x, then y, then z, through its foot."),
+           key<&BodyTable::velocity>("velocity", "m/s", kSpeed, "At the start."),
+           key<&BodyTable::angular_velocity>("angular_velocity", "rad/s", kSpeed, "At the start."),
+           choice<&BodyTable::anchored>("anchored", kAnchored,
+                                        "bottom: the world holds its lowest parts.")}};
 }
 
-MeshOptions options_of(const BodyText& text, const std::filesystem::path& folder) {
+MeshOptions options_of(const BodyTable& given, const std::filesystem::path& folder) {
   MeshOptions options;
-  options.nodes = text.nodes.file.empty() ? std::to_string(text.nodes.count)
-                                          : (folder / text.nodes.file).string();
-  if (text.nodes.file.empty() && text.nodes.count == 0) options.nodes.clear();
-  options.convexes = text.convexes;
-  options.fit = text.fit;
-  options.repair = kRepairs[static_cast<std::size_t>(text.repair)];
-  options.scale = text.scale;
-  options.size_m = text.size_m;
+  options.nodes = given.nodes.file.empty() ? std::to_string(given.nodes.count)
+                                           : (folder / given.nodes.file).string();
+  if (given.nodes.file.empty() && given.nodes.count == 0) options.nodes.clear();
+  options.convexes = given.convexes;
+  options.fit = given.fit;
+  options.repair = kRepairs[static_cast<std::size_t>(given.repair)];
+  options.scale = given.scale;
+  options.size_m = given.size_m;
   options.cached = true;
   return options;
-}
-
-/// The same convexes, of another material.
-void set_material(Compound& compound, MaterialIndex material) {
-  for (ConvexPtr& convex : compound.convexes) {
-    const auto changed = std::make_shared<Convex>(*convex);
-    changed->material = material;
-    convex = changed;
-  }
-  for (Ghost& ghost : compound.ghosts) {
-    const auto changed = std::make_shared<Convex>(*ghost.convex);
-    changed->material = material;
-    ghost.convex = changed;
-  }
 }
 
 void anchor_bottom(Compound& compound) {
@@ -80,8 +66,8 @@ void anchor_bottom(Compound& compound) {
 
 }  // namespace
 
-const Keys<BodyText>& body_keys() {
-  static const Keys<BodyText> kKeys = make_body_keys();
+const Keys<BodyTable>& body_keys() {
+  static const Keys<BodyTable> kKeys = make_body_keys();
   return kKeys;
 }
 
@@ -95,26 +81,24 @@ Quat rotation(const Vec3& angles_rad) {
   return q.normalized();
 }
 
-std::vector<Solid> make_body(const BodyText& text, const std::filesystem::path& folder) {
-  const bool built_in = names_built_in(text.mesh);
-  const std::string mesh = built_in ? text.mesh : (folder / text.mesh).string();
-  MeshSolid made = make_mesh_solid(mesh, options_of(text, folder));
-  set_material(made.compound, text.material.index);
-  if (text.anchored == Anchored::kBottom) anchor_bottom(made.compound);
+std::string default_name(const BodyTable& given) {
+  return names_built_in(given.mesh) ? given.mesh
+                                    : std::filesystem::path(given.mesh).stem().string();
+}
 
-  const Box box = bounds(made.compound);
+std::vector<Solid> make_body(const BodyTable& given, const std::filesystem::path& folder) {
+  const bool built_in = names_built_in(given.mesh);
+  const std::string mesh = built_in ? given.mesh : (folder / given.mesh).string();
+  Compound compound = make_compound(mesh, given.material.index, options_of(given, folder));
+  if (given.anchored == Anchored::kBottom) anchor_bottom(compound);
+
+  const Box box = bounds(compound);
   const Vec3 foot_R(box.center().x(), box.min.y(), box.center().z());
-  Pose X_WR{text.position, rotation(text.rotation_rad)};
+  Pose X_WR{given.position, rotation(given.rotation_rad)};
   X_WR.position -= X_WR.rotation * foot_R;
-  const std::string base =
-      text.name.empty() ? (built_in ? text.mesh : std::filesystem::path(mesh).stem().string())
-                        : text.name;
   std::vector<Solid> solids;
-  for (Compound& part : fracture::split_islands(made.compound)) {
-    solids.push_back({base, std::move(part), X_WR, text.velocity, text.angular_velocity});
-  }
-  for (std::size_t i = 0; solids.size() > 1 && i < solids.size(); ++i) {
-    solids[i].name += "." + std::to_string(i);
+  for (Compound& part : split_islands(compound)) {
+    solids.push_back({"", std::move(part), X_WR, given.velocity, given.angular_velocity});
   }
   return solids;
 }

@@ -15,7 +15,7 @@ namespace sunder::scenes {
 enum class RepairChoice { kAuto, kOff };
 
 /// The keys of [[body]].
-struct BodyText {
+struct BodyTable {
   std::string mesh;
   std::string name;
   double scale = 1;
@@ -31,11 +31,14 @@ struct BodyText {
   Vec3 angular_velocity = Vec3::Zero();
   Anchored anchored = Anchored::kNone;
 };
-const Keys<BodyText>& body_keys();
+const Keys<BodyTable>& body_keys();
 
-/// The solids that a body is, one for each part that hangs together. Files are sought from
-/// `folder` on, decompositions kept in the cache (mesh_cache.h). Throws InputError without a place.
-std::vector<Solid> make_body(const BodyText& text, const std::filesystem::path& folder);
+/// What it is called if nothing is given: its mesh's name.
+std::string default_name(const BodyTable& given);
+/// The solids that a body is, one for each part that hangs together, without names. Files are
+/// sought from `folder` on, decompositions kept in the cache (mesh_cache.h). Throws InputError
+/// without a place.
+std::vector<Solid> make_body(const BodyTable& given, const std::filesystem::path& folder);
 
 /// About x, then y, then z.
 Quat rotation(const Vec3& angles_rad);

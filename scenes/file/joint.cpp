@@ -7,32 +7,32 @@
 namespace sunder::scenes {
 namespace {
 
-using Kind = JointDesc::Kind;
+using Kind = JointKind;
 constexpr std::string_view kKinds[] = {"ball", "hinge", "fixed", "distance", "rope"};
 constexpr Range kPlace{-1e6, 1e6};
 constexpr Range kLoad{0, std::numeric_limits<double>::infinity()};
 
-Keys<JointText> make_keys() {
-  using Text = JointText;
+Keys<JointTable> make_keys() {
+  using Given = JointTable;
   return {
       "[[joint]]",
-      {choice<&Text::kind>(
+      {choice<&Given::kind>(
            "kind", kKinds,
            "ball: turns freely; hinge: about one axis; fixed: not at all; distance: "
            "a rod from at to to; rope: one that only pulls.")
            .must(),
-       key<&Text::a>("a",
-                     "The solid, body or ball that is held; of several by that name, the one "
-                     "nearest to the place.")
+       key<&Given::a>("a",
+                      "The solid, body or ball that is joined; of several by that name, the one "
+                      "nearest to the place.")
            .must(),
-       key<&Text::b>("b", "What it is held to; without it, the world."),
-       key<&Text::at>("at", "m", kPlace, "Where; of distance and rope, on a.").must(),
-       key<&Text::to>("to", "m", kPlace, "distance, rope: where on b; it stays as long as it is."),
-       key<&Text::axis>("axis", "", Range{-1, 1}, "hinge: its direction."),
-       key<&Text::breaking_N>("breaking_N", "N", kLoad, "It breaks when it would bear more."),
-       key<&Text::breaking_Nm>("breaking_Nm", "N·m", kLoad,
-                               "hinge, fixed: it breaks when it would bear more."),
-       key<&Text::collide>("collide", "Whether the two touch each other.")}};
+       key<&Given::b>("b", "What it is joined to; without it, the world."),
+       key<&Given::at>("at", "m", kPlace, "Where; of distance and rope, on a.").must(),
+       key<&Given::to>("to", "m", kPlace, "distance, rope: where on b; it stays as long as it is."),
+       key<&Given::axis>("axis", "", Range{-1, 1}, "hinge: its direction."),
+       key<&Given::breaking_N>("breaking_N", "N", kLoad, "It breaks when it would bear more."),
+       key<&Given::breaking_Nm>("breaking_Nm", "N·m", kLoad,
+                                "hinge, fixed: it breaks when it would bear more."),
+       key<&Given::collide>("collide", "Whether the two touch each other.")}};
 }
 
 [[noreturn]] void fail(const Value& table, std::string_view key, const std::string& what) {
@@ -58,22 +58,23 @@ std::uint32_t thing_named(const Scene& scene, const std::string& name, const Val
   return nearest;
 }
 
-bool is_held(const Scene& scene, const std::optional<std::uint32_t>& root) {
+bool is_fixed(const Scene& scene, const std::optional<std::uint32_t>& root) {
   return !root || is_anchored(scene, *root);
 }
 
-void check(const Value& table, const JointText& text) {
-  const bool apart = text.kind == Kind::kDistance || text.kind == Kind::kRope;
-  const std::string kind(kKinds[static_cast<std::size_t>(text.kind)]);
-  if (apart != text.to.has_value()) {
+void check(const Value& table, const JointTable& given) {
+  const bool apart = given.kind == Kind::kDistance || given.kind == Kind::kRope;
+  const std::string kind(kKinds[static_cast<std::size_t>(given.kind)]);
+  if (apart != given.to.has_value()) {
     fail(table, "to",
          apart ? "missing key 'to' in [[joint]] of kind " + kind + ": where on b it ends"
                : "to in [[joint]] is for kinds distance and rope; this one is " + kind);
   }
-  if (apart && *text.to == text.at) fail(table, "to", "at and to in [[joint]] are the same point");
-  if (text.axis.isZero()) fail(table, "axis", "axis in [[joint]] is zero; give it a direction");
-  const bool turns = text.kind == Kind::kHinge || text.kind == Kind::kFixed;
-  if (!turns && std::isfinite(text.breaking_Nm)) {
+  if (apart && *given.to == given.at)
+    fail(table, "to", "at and to in [[joint]] are the same point");
+  if (given.axis.isZero()) fail(table, "axis", "axis in [[joint]] is zero; give it a direction");
+  const bool turns = given.kind == Kind::kHinge || given.kind == Kind::kFixed;
+  if (!turns && std::isfinite(given.breaking_Nm)) {
     fail(table, "breaking_Nm",
          "breaking_Nm in [[joint]] is for kinds hinge and fixed; a " + kind + " bears no torque");
   }
@@ -81,30 +82,30 @@ void check(const Value& table, const JointText& text) {
 
 }  // namespace
 
-const Keys<JointText>& joint_keys() {
-  static const Keys<JointText> kKeys = make_keys();
+const Keys<JointTable>& joint_keys() {
+  static const Keys<JointTable> kKeys = make_keys();
   return kKeys;
 }
 
 Joint read_joint(const Value& table, const Scene& scene) {
-  JointText text;
-  read(joint_keys(), table, {}, text);
-  check(table, text);
+  JointTable given;
+  read(joint_keys(), table, {}, given);
+  check(table, given);
   const Table& entries = std::get<Table>(table.data);
   Joint joint;
-  joint.kind = text.kind;
-  joint.at_W = text.at;
-  joint.to_W = text.to.value_or(text.at);
-  joint.a = thing_named(scene, text.a, *find(entries, "a"), text.at);
-  if (text.b) joint.b = thing_named(scene, *text.b, *find(entries, "b"), joint.to_W);
+  joint.kind = given.kind;
+  joint.at_W = given.at;
+  joint.to_W = given.to.value_or(given.at);
+  joint.a = thing_named(scene, given.a, *find(entries, "a"), given.at);
+  if (given.b) joint.b = thing_named(scene, *given.b, *find(entries, "b"), joint.to_W);
   if (joint.a == joint.b) fail(table, "b", "a and b in [[joint]] are the same thing");
-  if (is_held(scene, joint.a) && is_held(scene, joint.b)) {
+  if (is_fixed(scene, joint.a) && is_fixed(scene, joint.b)) {
     fail(table, "a", "neither end of this [[joint]] can move: the world holds both");
   }
-  joint.axis_W = text.axis;
-  joint.breaking_N = text.breaking_N;
-  joint.breaking_Nm = text.breaking_Nm;
-  joint.collide = text.collide;
+  joint.axis_W = given.axis;
+  joint.breaking_N = given.breaking_N;
+  joint.breaking_Nm = given.breaking_Nm;
+  joint.collide = given.collide;
   return joint;
 }
 

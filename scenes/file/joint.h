@@ -11,8 +11,8 @@
 namespace sunder::scenes {
 
 /// The keys of [[joint]].
-struct JointText {
-  JointDesc::Kind kind = JointDesc::Kind::kBall;
+struct JointTable {
+  JointKind kind = JointKind::kBall;
   std::string a;
   std::optional<std::string> b;
   Vec3 at = Vec3::Zero();
@@ -22,7 +22,7 @@ struct JointText {
   double breaking_Nm = std::numeric_limits<double>::infinity();
   bool collide = false;
 };
-const Keys<JointText>& joint_keys();
+const Keys<JointTable>& joint_keys();
 
 /// The joint of a table, between solids and balls that the scene has by now. Throws InputError with
 /// the place of what is wrong.

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "engine/base/check.h"
+#include "engine/geometry/approximate_hull.h"
 
 namespace sunder::scenes {
 namespace {
@@ -26,8 +27,7 @@ struct Reading {
   const Value& value;
   const Key& key;
   std::string_view table;
-  std::span<const Material> materials;
-  double scale;
+  double scale;  ///< From what the key allows to what is stored.
 
   [[noreturn]] void fail() const {
     throw InputError(value.where + ": " + std::string(key.name) + " in " + std::string(table) +
@@ -43,10 +43,9 @@ struct Reading {
     } else {
       fail();
     }
-    number *= scale;
     // Written so that NaN fails too; infinity passes where the range says so.
     if (!(number >= key.range.low && number <= key.range.high)) fail();
-    return number;
+    return number * scale;
   }
 
   template <class Integer>
@@ -145,15 +144,14 @@ void store(const Reading& reading, void* object) {
   }
 }
 
-MaterialIndex find_material(std::string_view name, const std::string& where,
-                            std::span<const Material> materials) {
-  std::vector<std::string_view> names;
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (materials[i].name == name) return MaterialIndex(i);
-    names.push_back(materials[i].name);
-  }
-  throw InputError(where + ": unknown material '" + std::string(name) + "'" +
-                   did_you_mean(name, names) + "; there are: " + join(names));
+/// An angle's key as it is when given in degrees, under that name; limits to a hundredth.
+Key in_degrees(const Key& key, std::string_view name) {
+  const auto limit = [](double angle_rad) { return std::round(100 * angle_rad / kDegree) / 100; };
+  Key degrees = key;
+  degrees.name = name;
+  degrees.unit = "degrees";
+  degrees.range = {limit(key.range.low), limit(key.range.high)};
+  return degrees;
 }
 
 /// Levenshtein distance.
@@ -173,6 +171,17 @@ std::size_t edits(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+MaterialIndex find_material(std::string_view name, const std::string& where,
+                            std::span<const Material> materials) {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (materials[i].name == name) return MaterialIndex(i);
+    names.push_back(materials[i].name);
+  }
+  throw InputError(where + ": unknown material '" + std::string(name) + "'" +
+                   did_you_mean(name, names) + "; there are: " + join(names));
+}
 
 std::string degrees_name(const Key& key) {
   const std::string name(key.name);
@@ -245,14 +254,16 @@ void check_known(const Value& table, std::string_view name,
   for (std::span<const Key> keys : allowed_keys) {
     for (const Key& key : keys) {
       names.push_back(key.name);
-      degrees.push_back(degrees_name(key));
+      if (std::string angle = degrees_name(key); !angle.empty()) degrees.push_back(angle);
     }
   }
+  std::vector<std::string_view> candidates = names;
+  candidates.insert(candidates.end(), degrees.begin(), degrees.end());
   for (const Entry& entry : as_table(table, name)) {
     if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
     if (std::find(degrees.begin(), degrees.end(), entry.key) != degrees.end()) continue;
     throw InputError(entry.value.where + ": unknown key '" + entry.key + "' in " +
-                     std::string(name) + did_you_mean(entry.key, names) +
+                     std::string(name) + did_you_mean(entry.key, candidates) +
                      "; allowed: " + join(names));
   }
 }
@@ -261,19 +272,19 @@ void read_keys(const Value& table, std::string_view name, std::span<const Key> k
                std::span<const Material> materials, void* object) {
   const Table& entries = as_table(table, name);
   for (const Key& key : keys) {
-    const std::string in_degrees = degrees_name(key);
+    const std::string degrees_key = degrees_name(key);
     const Value* value = find(entries, key.name);
-    const Value* degrees = in_degrees.empty() ? nullptr : find(entries, in_degrees);
+    const Value* degrees = degrees_key.empty() ? nullptr : find(entries, degrees_key);
     if (value && degrees) {
-      throw InputError(degrees->where + ": " + in_degrees + " in " + std::string(name) +
+      throw InputError(degrees->where + ": " + degrees_key + " in " + std::string(name) +
                        " is given beside " + std::string(key.name) + "; keep one");
     }
     if (!value && !degrees && key.required) {
       throw InputError(table.where + ": missing key '" + std::string(key.name) + "' in " +
                        std::string(name) + ": " + allowed(key));
     }
-    if (value) store({*value, key, name, materials, 1}, object);
-    if (degrees) store({*degrees, key, name, materials, kDegree}, object);
+    if (value) store({*value, key, name, 1}, object);
+    if (degrees) store({*degrees, in_degrees(key, degrees_key), name, kDegree}, object);
     if (key.kind == Key::Kind::kMaterial) {
       MaterialRef& material = *static_cast<MaterialRef*>(key.field(object));
       material.index = find_material(material.name, value ? value->where : table.where, materials);

@@ -191,6 +191,10 @@ void read(const Keys<T>& keys, const Value& table, std::span<const Material> mat
   read_keys(table, keys.table, keys.keys, materials, &object);
 }
 
+/// The material of that name. Throws InputError, beginning with `where`, if there is none.
+MaterialIndex find_material(std::string_view name, const std::string& where,
+                            std::span<const Material> materials);
+
 /// "; did you mean 'x'?", or nothing if no candidate is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
 /// "a, b, c"

@@ -117,7 +117,7 @@ void keep(std::uint64_t key, const MeshSolid& solid) {
   file.bytes.insert(file.bytes.end(), content.bytes.begin(), content.bytes.end());
   try {
     write_file(entry(key), file.bytes);
-  } catch (const InputError&) {
+  } catch (const FileError&) {
     // A cache that cannot be written is no reason not to run.
   }
 }

@@ -7,6 +7,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
+#include "engine/geometry/approximate_hull.h"
 #include "engine/io/mesh/mesh_reader.h"
 #include "fracture/solids.h"
 #include "scenes/file/mesh_cache.h"
@@ -15,7 +16,7 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr const char* kBuiltIn[] = {"box", "column", "torus", "grid", "voronoi"};
+constexpr const char* kBuiltIn[] = {"box", "column", "torus", "grid", "voronoi", "hall"};
 
 /// A whole number from `low` to `high`; none if the text is anything else.
 std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t low,

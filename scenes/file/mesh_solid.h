@@ -4,29 +4,16 @@
 // Read first: make_mesh_solid().
 #pragma once
 
-#include <cstdint>
-#include <functional>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/geometry/repair/repair.h"
 #include "fracture/vacd/vacd.h"
+#include "scenes/file/make_compound.h"
 
 namespace sunder::scenes {
-
-/// How a file's mesh is decomposed; what is built in is as it is.
-struct MeshOptions {
-  std::string nodes;  ///< How many, or a file of them; empty: as fracture/vacd/vacd.h has it.
-  std::uint32_t convexes = 0;  ///< At most so many; 0: what the nodes make.
-  std::string fit = "hull:24";
-  std::string repair = "auto";   ///< off: a mesh that needs repair is refused.
-  double scale = 1;              ///< Metres a unit of the file.
-  std::optional<double> size_m;  ///< In place of it: the longest side of the bounding box.
-  bool cached = false;           ///< Whether a decomposition is kept, and recalled (mesh_cache.h).
-  /// Told of each step when it begins, and then of the share of all work done; may be empty.
-  std::function<void(const char* step, double share)> progress{};
-};
 
 /// A compound, and what it was made of.
 struct MeshSolid {

@@ -7,6 +7,30 @@
 
 namespace sunder::scenes {
 
+void Names::give(const std::string& name, const std::string& where) {
+  const auto [other, is_new] = where_.emplace(name, where);
+  if (is_new) return;
+  throw InputError(where + ": two things are named '" + name + "', the other at " + other->second +
+                   "; give each a name of its own");
+}
+
+std::string Names::pick(const std::string& usual, const std::string& where) {
+  std::string name = usual;
+  for (int i = 2; !where_.emplace(name, where).second; ++i) {
+    if (i == 2) shared_.emplace(usual, where);
+    name = usual + " " + std::to_string(i);
+  }
+  return name;
+}
+
+void Names::check_reference(const Value& value) const {
+  const std::string* name = std::get_if<std::string>(&value.data);
+  const auto other = name ? shared_.find(*name) : shared_.end();
+  if (other == shared_.end()) return;
+  throw InputError(value.where + ": '" + *name + "' may be the one at " + where_.at(*name) +
+                   " or the one at " + other->second + "; give them names of their own");
+}
+
 std::vector<std::uint32_t> roots_named(const Scene& scene, const std::string& name,
                                        const Value& value) {
   std::vector<std::uint32_t> roots;

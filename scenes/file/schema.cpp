@@ -66,12 +66,12 @@ Keys<Material> material_keys() {
        key<&Material::toughness_J_m2>("toughness_J_m2", "J/m²", Range{0, kInfinity},
                                       "Energy that each square metre of crack takes."),
        key<&Material::tensile_Pa>("tensile_Pa", "Pa", Range{0, kInfinity},
-                                  "Tension that breaks a joint, by weight or slow load; 0: never."),
+                                  "Tension that breaks a bond, by weight or slow load; 0: never."),
        key<&Material::shear_Pa>("shear_Pa", "Pa", Range{0, kInfinity}, "Shear that does."),
        key<&Material::compressive_Pa>("compressive_Pa", "Pa", Range{0, kInfinity},
                                       "Pressure that does."),
        key<&Material::youngs_Pa>("youngs_Pa", "Pa", Range{1, 1e13},
-                                 "Stiffness: how joints share a load."),
+                                 "Stiffness: how bonds share a load."),
        key<&Material::impact_radius_m>("impact_radius_m", "m", Range{0.001, kInfinity},
                                        "Only what is nearer to the impact breaks; inf: all."),
        key<&Material::smallest_break_m3>("smallest_break_m3", "m³", Range{0, kInfinity},
@@ -151,64 +151,64 @@ Keys<SolidHead> solid_keys() {
                                     "world holds; none: it is loose.")}};
 }
 
-Keys<ShotText> shot_keys() {
+Keys<ShotTable> shot_keys() {
   return {"[[script.shot]]",
-          {key<&ShotText::time_s>("time_s", "s", Range{0, 600}, "When the ball appears.").must(),
-           key<&ShotText::from>("from", "m", kPlace, "Where.").must(),
-           key<&ShotText::velocity>("velocity", "m/s", kSpeed, "How it flies; or give `at`."),
-           key<&ShotText::at>("at", "m", kPlace, "What it is aimed at, in a straight line."),
-           key<&ShotText::speed_m_s>("speed_m_s", "m/s", Range{0, 1e4}, "With `at`: how fast."),
-           key<&ShotText::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
-           key<&ShotText::material>("material", "What the ball is made of."),
-           key<&ShotText::name>("name", "Shown in messages.")}};
+          {key<&ShotTable::time_s>("time_s", "s", Range{0, 600}, "When the ball appears.").must(),
+           key<&ShotTable::from>("from", "m", kPlace, "Where.").must(),
+           key<&ShotTable::velocity>("velocity", "m/s", kSpeed, "How it flies; or give `at`."),
+           key<&ShotTable::at>("at", "m", kPlace, "What it is aimed at, in a straight line."),
+           key<&ShotTable::speed_m_s>("speed_m_s", "m/s", Range{0, 1e4}, "With `at`: how fast."),
+           key<&ShotTable::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
+           key<&ShotTable::material>("material", "What the ball is made of."),
+           key<&ShotTable::name>("name", "Shown in messages.")}};
 }
 
 constexpr Range kTime{0, 600};
 
-Keys<WreckingBallText> wrecking_ball_keys() {
-  using Text = WreckingBallText;
+Keys<WreckingBallTable> wrecking_ball_keys() {
+  using Given = WreckingBallTable;
   return {"[[script.wrecking_ball]]",
-          {key<&Text::time_s>("time_s", "s", kTime, "When the ball appears."),
-           key<&Text::from>("from", "m", kPlace, "Where.").must(),
-           key<&Text::hangs_from>("hangs_from", "m", kPlace,
-                                  "Where its chain is held; as long as the way there.")
+          {key<&Given::time_s>("time_s", "s", kTime, "When the ball appears."),
+           key<&Given::from>("from", "m", kPlace, "Where.").must(),
+           key<&Given::hangs_from>("hangs_from", "m", kPlace,
+                                   "Where its chain is fixed; as long as the way there.")
                .must(),
-           key<&Text::velocity>("velocity", "m/s", kSpeed, "At the start."),
-           key<&Text::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
-           key<&Text::links>("links", "", Range{0, 200},
-                             "Of its chain; 0: a rope without weight, to its centre."),
-           key<&Text::material>("material", "What ball and chain are made of."),
-           key<&Text::name>("name", "Shown in messages.")}};
+           key<&Given::velocity>("velocity", "m/s", kSpeed, "At the start."),
+           key<&Given::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
+           key<&Given::links>("links", "", Range{0, 200},
+                              "Of its chain; 0: a rope without weight, to its centre."),
+           key<&Given::material>("material", "What ball and chain are made of."),
+           key<&Given::name>("name", "Shown in messages.")}};
 }
 
-Keys<BlastText> blast_keys() {
+Keys<BlastTable> blast_keys() {
   return {"[[script.blast]]",
-          {key<&BlastText::time_s>("time_s", "s", kTime, "When.").must(),
-           key<&BlastText::at>("at", "m", kPlace, "Its centre.").must(),
-           key<&BlastText::radius_m>("radius_m", "m", Range{0.01, 1000},
-                                     "How far it reaches; nothing stands in its way."),
-           key<&BlastText::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0, 1e9},
-                                          "On a face turned to the centre, there; less with "
-                                          "distance and slant.")}};
+          {key<&BlastTable::time_s>("time_s", "s", kTime, "When.").must(),
+           key<&BlastTable::at>("at", "m", kPlace, "Its centre.").must(),
+           key<&BlastTable::radius_m>("radius_m", "m", Range{0.01, 1000},
+                                      "How far it reaches; nothing stands in its way."),
+           key<&BlastTable::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0, 1e9},
+                                           "On a face turned to the centre, there; less with "
+                                           "distance and slant.")}};
 }
 
-Keys<RemoveText> remove_keys() {
+Keys<RemoveTable> remove_keys() {
   return {"[[script.remove]]",
-          {key<&RemoveText::time_s>("time_s", "s", kTime, "When.").must(),
-           key<&RemoveText::name>("name", "A solid or ball that goes with all its pieces; or:"),
-           key<&RemoveText::from>("from", "m", kPlace,
-                                  "A corner of a box; what is held by the world in it is let go."),
-           key<&RemoveText::to>("to", "m", kPlace, "The opposite corner.")}};
+          {key<&RemoveTable::time_s>("time_s", "s", kTime, "When.").must(),
+           key<&RemoveTable::name>("name", "A solid or ball that goes with all its pieces; or:"),
+           key<&RemoveTable::from>("from", "m", kPlace,
+                                   "A corner of a box; what is anchored in it is let go."),
+           key<&RemoveTable::to>("to", "m", kPlace, "The opposite corner.")}};
 }
 
-Keys<DriveText> drive_keys() {
+Keys<DriveTable> drive_keys() {
   return {
       "[[script.drive]]",
-      {key<&DriveText::name>("name", "The solid or ball that is driven until it breaks.").must(),
-       key<&DriveText::time_s>("time_s", "s", kTime, "From when."),
-       key<&DriveText::until_s>("until_s", "s", kTime, "Until when."),
-       key<&DriveText::velocity>("velocity", "m/s", kSpeed, "How it is to move.").must(),
-       key<&DriveText::force_N>("force_N", "N", Range{0, 1e12}, "Most that drives it.")}};
+      {key<&DriveTable::name>("name", "The solid or ball that is driven until it breaks.").must(),
+       key<&DriveTable::time_s>("time_s", "s", kTime, "From when."),
+       key<&DriveTable::until_s>("until_s", "s", kTime, "Until when."),
+       key<&DriveTable::velocity>("velocity", "m/s", kSpeed, "How it is to move.").must(),
+       key<&DriveTable::force_N>("force_N", "N", Range{0, 1e12}, "Most that drives it.")}};
 }
 
 Schema make_schema() {
@@ -236,7 +236,7 @@ Schema make_schema() {
                                    "Parts to cut, about: cells of a pattern, and eight for each "
                                    "convex in its reach; breaks beyond it wait a frame."),
        key<&Limits::load_work_a_frame>("load_work_a_frame", "", Range{1, 4e9},
-                                       "Visits of joints to find out what load breaks; the rest "
+                                       "Visits of bonds to find out what load breaks; the rest "
                                        "waits a frame."),
        key<&Limits::debris>("debris", "", Range{0, 200000}, "Pieces of debris alive at once."),
        key<&Limits::dust>("dust", "", Range{0, 100000}, "Puffs of dust alive at once.")}};
@@ -263,11 +263,11 @@ Schema make_schema() {
              key<&Look::color>("color", "", kFraction, "Linear red, green, blue.")}};
   s.solid = solid_keys();
   s.ball = {"[[ball]]",
-            {key<&BallText::name>("name", "Shown in messages."),
-             key<&BallText::position>("position", "m", kPlace, "Of its centre."),
-             key<&BallText::velocity>("velocity", "m/s", kSpeed, "At the start."),
-             key<&BallText::radius_m>("radius_m", "m", kRadius, "Radius."),
-             key<&BallText::material>("material", "What it is made of.")}};
+            {key<&BallTable::name>("name", "Shown in messages."),
+             key<&BallTable::position>("position", "m", kPlace, "Of its centre."),
+             key<&BallTable::velocity>("velocity", "m/s", kSpeed, "At the start."),
+             key<&BallTable::radius_m>("radius_m", "m", kRadius, "Radius."),
+             key<&BallTable::material>("material", "What it is made of.")}};
   s.script = {
       "[script]",
       {key<&Script::enabled>("enabled", "false: nothing of it happens."),

@@ -41,7 +41,7 @@ struct SolidHead {
   Anchored anchored = Anchored::kNone;
 };
 
-struct BallText {
+struct BallTable {
   std::string name;
   Vec3 position = Vec3(0, 1, 0);
   Vec3 velocity = Vec3::Zero();
@@ -53,7 +53,7 @@ struct Script {
   bool enabled = true;
 };
 
-struct ShotText {
+struct ShotTable {
   std::string name;
   double time_s = 0;
   Vec3 from = Vec3::Zero();
@@ -64,20 +64,20 @@ struct ShotText {
   MaterialRef material{"steel", {}};
 };
 
-struct BlastText {
+struct BlastTable {
   double time_s = 0;
   Vec3 at = Vec3::Zero();
   double radius_m = 4;
   double impulse_Ns_m2 = 1000;
 };
 
-struct RemoveText {
+struct RemoveTable {
   double time_s = 0;
   std::optional<std::string> name;
   std::optional<Vec3> from, to;
 };
 
-struct DriveText {
+struct DriveTable {
   double time_s = 0;
   double until_s = 600;
   std::string name;
@@ -85,7 +85,7 @@ struct DriveText {
   double force_N = 1e6;
 };
 
-struct WreckingBallText {
+struct WreckingBallTable {
   std::string name;
   double time_s = 0;
   Vec3 from = Vec3::Zero();
@@ -112,13 +112,13 @@ struct Schema {
   Keys<Crumbling> crumbling;
   Keys<Look> look;
   Keys<SolidHead> solid;
-  Keys<BallText> ball;
+  Keys<BallTable> ball;
   Keys<Script> script;
-  Keys<ShotText> shot;
-  Keys<WreckingBallText> wrecking_ball;
-  Keys<BlastText> blast;
-  Keys<RemoveText> remove;
-  Keys<DriveText> drive;
+  Keys<ShotTable> shot;
+  Keys<WreckingBallTable> wrecking_ball;
+  Keys<BlastTable> blast;
+  Keys<RemoveTable> remove;
+  Keys<DriveTable> drive;
 };
 const Schema& schema();
 

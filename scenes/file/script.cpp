@@ -11,75 +11,76 @@ namespace sunder::scenes {
 namespace {
 
 void add_wrecking_ball(const Value& table, Scene& scene) {
-  WreckingBallText text;
-  read(schema().wrecking_ball, table, scene.materials, text);
-  Shot shot{text.time_s,
-            {text.name, text.radius_m, text.material.index, text.from, text.velocity},
-            text.hangs_from};
-  if ((text.from - text.hangs_from).norm() <= text.radius_m) {
+  WreckingBallTable given;
+  read(schema().wrecking_ball, table, scene.materials, given);
+  Shot shot{given.time_s,
+            {given.name, given.radius_m, given.material.index, given.from, given.velocity},
+            given.hangs_from};
+  if ((given.from - given.hangs_from).norm() <= given.radius_m) {
     throw InputError(table.where +
                      ": hangs_from in [[script.wrecking_ball]] is within the ball; move it out, or "
                      "lessen radius_m");
   }
-  shot.links = make_chain(shot, text.links);
+  shot.links = make_chain(shot, given.links);
   scene.shots.push_back(std::move(shot));
 }
 
 void add_blast(const Value& table, Scene& scene) {
-  BlastText text;
-  read(schema().blast, table, {}, text);
-  scene.blasts.push_back({text.time_s, text.at, text.radius_m, text.impulse_Ns_m2});
+  BlastTable given;
+  read(schema().blast, table, {}, given);
+  scene.blasts.push_back({given.time_s, given.at, given.radius_m, given.impulse_Ns_m2});
 }
 
 void add_removal(const Value& table, Scene& scene) {
-  RemoveText text;
-  read(schema().remove, table, {}, text);
-  if (text.name.has_value() == (text.from || text.to) ||
-      text.from.has_value() != text.to.has_value()) {
+  RemoveTable given;
+  read(schema().remove, table, {}, given);
+  if (given.name.has_value() == (given.from || given.to) ||
+      given.from.has_value() != given.to.has_value()) {
     throw InputError(table.where + ": [[script.remove]] needs either name, or from and to");
   }
   Removal removal;
-  removal.time_s = text.time_s;
-  if (text.name) {
-    removal.roots = roots_named(scene, *text.name, *find(std::get<Table>(table.data), "name"));
+  removal.time_s = given.time_s;
+  if (given.name) {
+    removal.roots = roots_named(scene, *given.name, *find(std::get<Table>(table.data), "name"));
   } else {
-    removal.anchors_W.extend(*text.from);
-    removal.anchors_W.extend(*text.to);
+    removal.anchors_W.extend(*given.from);
+    removal.anchors_W.extend(*given.to);
   }
   scene.removals.push_back(removal);
 }
 
 void add_drive(const Value& table, Scene& scene) {
-  DriveText text;
-  read(schema().drive, table, {}, text);
-  if (text.until_s <= text.time_s) {
+  DriveTable given;
+  read(schema().drive, table, {}, given);
+  if (given.until_s <= given.time_s) {
     throw InputError(table.where + ": until_s in [[script.drive]] is not after time_s");
   }
   const Value& name = *find(std::get<Table>(table.data), "name");
-  std::vector<std::uint32_t> roots = roots_named(scene, text.name, name);
+  std::vector<std::uint32_t> roots = roots_named(scene, given.name, name);
   if (std::ranges::all_of(roots, [&](std::uint32_t root) { return is_anchored(scene, root); })) {
-    throw InputError(name.where + ": '" + text.name +
-                     "' in [[script.drive]] is held by the world, which no force moves; take its "
-                     "anchored away");
+    throw InputError(
+        name.where + ": '" + given.name +
+        "' in [[script.drive]] is anchored to the world, which no force moves; take its "
+        "anchored away");
   }
   scene.drives.push_back(
-      {text.time_s, text.until_s, std::move(roots), text.velocity, text.force_N});
+      {given.time_s, given.until_s, std::move(roots), given.velocity, given.force_N});
 }
 
 void add_shot(const Value& table, Scene& scene) {
-  ShotText text;
-  read(schema().shot, table, scene.materials, text);
-  if (text.velocity.has_value() == text.at.has_value()) {
+  ShotTable given;
+  read(schema().shot, table, scene.materials, given);
+  if (given.velocity.has_value() == given.at.has_value()) {
     throw InputError(table.where +
                      ": [[script.shot]] needs either velocity, or at (and speed_m_s)");
   }
-  if (text.at && *text.at == text.from) {
+  if (given.at && *given.at == given.from) {
     throw InputError(table.where + ": at and from in [[script.shot]] are the same point");
   }
   const Vec3 velocity =
-      text.velocity ? *text.velocity : text.speed_m_s * (*text.at - text.from).normalized();
+      given.velocity ? *given.velocity : given.speed_m_s * (*given.at - given.from).normalized();
   scene.shots.push_back(
-      {text.time_s, {text.name, text.radius_m, text.material.index, text.from, velocity}, {}});
+      {given.time_s, {given.name, given.radius_m, given.material.index, given.from, velocity}, {}});
 }
 
 }  // namespace

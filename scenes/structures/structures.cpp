@@ -65,7 +65,7 @@ struct Pane {
   MaterialRef frame{"steel", {}};
 };
 
-/// Glass in four bars; the bars are held by the world, the glass by the bars.
+/// Glass in four bars; the bars are anchored to the world, the glass is bonded to the bars.
 std::vector<Piece> build_pane(const Pane& pane) {
   Piece piece;
   const double f = pane.frame_m, w = pane.width_m / 2, h = pane.height_m, t = pane.thickness_m / 2;
@@ -137,7 +137,7 @@ StructureType column_structure() {
 
 StructureType pane_structure() {
   return make_structure<Pane, build_pane>(
-      "pane", "An upright pane facing z, in a frame that is held by the world.",
+      "pane", "An upright pane facing z, in a frame that is anchored to the world.",
       {key<&Pane::width_m>("width_m", "m", kLength, "Width of the glass."),
        key<&Pane::height_m>("height_m", "m", kLength, "Height of the glass."),
        key<&Pane::thickness_m>("thickness_m", "m", kLength, "Thickness of the glass."),

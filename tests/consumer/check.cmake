@@ -1,15 +1,33 @@
-# Installs the build into an empty prefix, then configures, builds and runs the consumer there.
-# Called by ctest with BUILD (the build directory) and COMPILER.
-set(work ${BUILD}/consumer)
-set(prefix ${work}/prefix)
-file(REMOVE_RECURSE ${work})
-
-foreach(step
-    "${CMAKE_COMMAND};--install;${BUILD};--prefix;${prefix}"
-    "${CMAKE_COMMAND};-G;Ninja;-S;${CMAKE_CURRENT_LIST_DIR};-B;${work}/build;-DCMAKE_BUILD_TYPE=Release;-DCMAKE_CXX_COMPILER=${COMPILER};-DCMAKE_PREFIX_PATH=${prefix}"
-    "${CMAKE_COMMAND};--build;${work}/build"
-    "${work}/build/falling_box")
-  list(JOIN step " " command)
+# Installs the build into an empty prefix, then configures, builds and runs the consumer there, with
+# nothing that knows where the checkout is. Called by ctest with ROOT (the checkout), BUILD (the
+# build directory) and COMPILER.
+function(run)
+  list(JOIN ARGN " " command)
   message(STATUS "${command}")
-  execute_process(COMMAND ${step} COMMAND_ERROR_IS_FATAL ANY)
-endforeach()
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+# Outside the checkout, whose path the prefix would have otherwise.
+execute_process(COMMAND mktemp -d OUTPUT_VARIABLE work OUTPUT_STRIP_TRAILING_WHITESPACE
+  COMMAND_ERROR_IS_FATAL ANY)
+set(prefix ${work}/prefix)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+file(COPY ${CMAKE_CURRENT_LIST_DIR}/ DESTINATION ${work}/source)
+run(${CMAKE_COMMAND} -G Ninja -S ${work}/source -B ${work}/build -DCMAKE_BUILD_TYPE=Release
+  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${prefix})
+run(${CMAKE_COMMAND} --build ${work}/build)
+run(${CMAKE_COMMAND} -E chdir ${work}/build ./consumer)
+
+file(GLOB_RECURSE headers ${prefix}/include/*)
+list(LENGTH headers count)
+if(count GREATER 15)
+  message(FATAL_ERROR "${count} headers are installed: the public face has 15")
+endif()
+
+# What names the checkout would open it, or fail without it.
+execute_process(COMMAND grep -rlF ${ROOT} ${prefix}/include ${prefix}/lib ${prefix}/share
+  ${work}/build/consumer OUTPUT_VARIABLE naming RESULT_VARIABLE found)
+if(NOT found EQUAL 1)
+  message(FATAL_ERROR "these name the checkout ${ROOT}:\n${naming}")
+endif()
+file(REMOVE_RECURSE ${work})

@@ -12,7 +12,6 @@
 
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
-#include "engine/base/index.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"

@@ -1,5 +1,7 @@
 // Takes: what is recorded is played, from anywhere; damage is met with a word and the readable
 // part; a run that differs is told where.
+#include "engine/io/take/take.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -9,9 +11,7 @@
 #include "engine/base/random.h"
 #include "engine/io/bytes.h"
 #include "engine/io/state_hash.h"
-#include "engine/io/take/take_reader.h"
 #include "engine/io/take/take_verifier.h"
-#include "engine/io/take/take_writer.h"
 #include "engine/model/piece_mesh.h"
 
 namespace sunder {
@@ -265,7 +265,7 @@ TEST_F(Take, OfAnotherKindOrNoneIsRefused) {
   EXPECT_THROW(TakeReader{fs::temp_directory_path()}, InputError);
   write_file(path_, std::vector<std::byte>(100));
   EXPECT_THROW(TakeReader{path_}, InputError);
-  EXPECT_THROW(TakeWriter("/proc/no/such.take"), InputError);
+  EXPECT_THROW(TakeWriter("/proc/no/such.take"), FileError);
 }
 
 TEST_F(Take, OfAnotherVersionIsRefusedAndToldSo) {

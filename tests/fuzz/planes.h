@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "engine/geometry/plane.h"
+#include "engine/geometry/convex_polyhedron.h"
 
 namespace sunder::fuzz {
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
-#include "engine/io/state_hash.h"
+#include "engine/io/statistics.h"
 #include "tests/motion/run.h"
 
 namespace sunder::tests {

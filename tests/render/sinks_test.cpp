@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
+#include "render/renderer.h"
 #include "tests/render/synthetic_frame.h"
 #include "tests/render/test_folder.h"
 
@@ -109,7 +110,7 @@ TEST(VideoSink, AnFfmpegThatFailsIsAnErrorWithItsWordsAndNotASignal) {
     take_frames(*sink, 40);
     sink->finish();
     ADD_FAILURE() << "the failure went unnoticed";
-  } catch (const InputError& error) {
+  } catch (const FileError& error) {
     EXPECT_NE(std::string(error.what()).find("no such codec"), std::string::npos) << error.what();
   }
   EXPECT_EQ(folder.contents(), std::vector<std::string>{"bin"});

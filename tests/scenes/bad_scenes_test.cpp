@@ -115,8 +115,8 @@ constexpr Fault kFaults[] = {
      "bad.toml:3: gravity in [scene] is an array of 3; allowed: "
      "[x, y, z], each a number from -100 to 100"},
     {"[view]\nfov_deg = 270",
-     "bad.toml:4: fov_rad in [view] is the number 270; allowed: a number "
-     "from 0.02 to 3"},
+     "bad.toml:4: fov_deg in [view] is the number 270; allowed: a number from 1.15 to 171.89, in "
+     "degrees"},
     {"[limits]\nbodies = 0",
      "bad.toml:4: bodies in [limits] is the number 0; allowed: a whole "
      "number from 1 to 200000"},
@@ -164,7 +164,15 @@ constexpr Fault kFaults[] = {
      "bad.toml:5: a second [[material]] "
      "named 'x'"},
     {"[[solid]]\nstructure = \"box\"\nname = \"a\"\n[[ball]]\nname = \"a\"",
-     "bad.toml: two things are named 'a'; give each a name of its own"},
+     "bad.toml:7: two things are named 'a', the other at bad.toml:5; give each a name of its own"},
+    {"[[solid]]\nstructure = \"stack\"\n[[body]]\nmesh = \"box:1,1,1\"\nname = \"stack.0\"",
+     "bad.toml:3: two things are named 'stack.0', the other at bad.toml:7; give each a name of its "
+     "own"},
+    {"[[solid]]\nstructure = \"pane\"\n[[solid]]\nstructure = \"pane\"\n[[script.remove]]\ntime_s "
+     "= "
+     "1\nname = \"pane\"",
+     "bad.toml:9: 'pane' may be the one at bad.toml:3 or the one at bad.toml:5; give them names of "
+     "their own"},
     {"[[ball]]\nname = \"\"",
      "bad.toml:4: name in [[ball]] is the string \"\"; allowed: a text "
      "that is not empty"},
@@ -195,11 +203,19 @@ constexpr Fault kFaults[] = {
      "bad.toml:5: until_s in [[script.drive]] is not after time_s"},
     {"[[solid]]\nstructure = \"box\"\nanchored = \"bottom\"\n[[script.drive]]\nvelocity = [1, 0, "
      "0]\nname = \"box\"",
-     "bad.toml:8: 'box' in [[script.drive]] is held by the world, which no force moves; take its "
+     "bad.toml:8: 'box' in [[script.drive]] is anchored to the world, which no force moves; take "
+     "its "
      "anchored away"},
     {"[view]\nfov_rad = 1\nfov_deg = 50",
      "bad.toml:5: fov_deg in [view] is given beside fov_rad; "
      "keep one"},
+    {"[[solid]]\nstructure = \"box\"\nrotation_deg = [0, 400, 0]",
+     "bad.toml:5: rotation_deg in [[solid]] is an array of 3; allowed: [x, y, z], each a number "
+     "from -360 to 360, in degrees"},
+    {"[[body]]\nmesh = \"box:1,1,1\"\nrotation_deg = 90",
+     "bad.toml:5: rotation_deg in [[body]] is the number 90; allowed: [x, y, z]"},
+    {"[[solid]]\nstructure = \"box\"\nrotation_degs = [0, 90, 0]",
+     "bad.toml:5: unknown key 'rotation_degs' in [[solid]] box; did you mean 'rotation_deg'?"},
     {"[view]\nsun = [0, 0, 0]", "bad.toml: [view] needs a sun that is not zero"},
     {"[[solid]]\nstructure = \"house\"\nwindows = 40",
      "bad.toml:3: house: windows of window_m do "
@@ -280,6 +296,14 @@ TEST(BadFiles, AreNamed) {
     }
   };
   EXPECT_EQ(refused("no/such.toml"), "no/such.toml: cannot be read: there is no such file");
+  try {
+    load_scene("house", {}, "no/such/folder");
+    ADD_FAILURE() << "there is no catalogue";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what())
+                    .starts_with("house: no such file, and no catalogue of scenes is here: "))
+        << error.what();
+  }
   EXPECT_TRUE(refused("hause").starts_with(
       "hause: no such file, and no scene of that name; did you mean 'house'?; scenes: "));
 }

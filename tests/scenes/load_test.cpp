@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/check.h"
+
 namespace sunder::scenes {
 namespace {
 
@@ -73,6 +75,42 @@ TEST(Load, AnAnchoredSolidStandsOnAFoundationThatIsHeld) {
   ASSERT_EQ(compound.bonds.size(), 1u);
   EXPECT_NEAR(compound.bonds[0].area_m2, 1, 1e-12);
   EXPECT_LT(bounds(compound).min.y(), 0) << "the foundation is in the ground";
+}
+
+TEST(Load, WhatIsGivenNoNameGetsOneOfItsOwn) {
+  const std::string pane = "[[solid]]\nstructure = \"pane\"\n";
+  const std::string box = "[[body]]\nmesh = \"box:1,1,1\"\n";
+  const Scene scene = scene_of(pane + pane + pane + "name = \"pane 2\"\n" + box + box);
+  std::vector<std::string> names;
+  for (const Solid& solid : scene.solids) names.push_back(solid.name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"pane", "pane 3", "pane 2", "box:1,1,1", "box:1,1,1 2"}));
+}
+
+TEST(Load, ANameThatIsGivenIsKeptFromWhatHasNone) {
+  const Scene scene = scene_of(
+      "[[solid]]\nstructure = \"box\"\n[[ball]]\nname = \"box\"\n"
+      "[[solid]]\nstructure = \"stack\"\ncount = 2\n[[solid]]\nstructure = \"stack\"\ncount = 2\n");
+  std::vector<std::string> names;
+  for (const Solid& solid : scene.solids) names.push_back(solid.name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"box 2", "stack.0", "stack.1", "stack 2.0", "stack 2.1"}));
+}
+
+TEST(Load, TheMaterialsAreThereForScenesMadeInCode) {
+  Scene scene;
+  scene.materials = builtin_materials();
+  const Scene loaded = scene_of("");
+  ASSERT_EQ(scene.materials.size(), loaded.materials.size());
+  EXPECT_EQ(scene.materials[material_named(scene, "steel").value].name, "steel");
+  try {
+    material_named(scene, "stel");
+    ADD_FAILURE() << "there is no such material";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what())
+                    .starts_with("the scene: unknown material 'stel'; did you mean 'steel'?"))
+        << error.what();
+  }
 }
 
 TEST(Load, ShotsAreInOrderOfTimeAndAimed) {

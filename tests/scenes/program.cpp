@@ -20,10 +20,11 @@ std::string contents(const std::string& file) {
 
 }  // namespace
 
-Outcome sunder(const std::string& arguments) {
+Outcome sunder(const std::string& arguments, const std::string& before) {
   const Folder folder;
   const std::string out = folder / "out", err = folder / "err";
-  const std::string line = "\"" SUNDER_PROGRAM "\" " + arguments + " >" + out + " 2>" + err;
+  const std::string line =
+      before + "\"" SUNDER_PROGRAM "\" " + arguments + " >" + out + " 2>" + err;
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
 }

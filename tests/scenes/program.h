@@ -12,8 +12,8 @@ struct Outcome {
   std::string err;
 };
 
-/// `sunder ARGUMENTS`, as in a shell.
-Outcome sunder(const std::string& arguments);
+/// `sunder ARGUMENTS`, as in a shell that has run `before`.
+Outcome sunder(const std::string& arguments, const std::string& before = "");
 
 /// A new empty folder, removed at the end.
 class Folder {

@@ -1,13 +1,16 @@
 // The program as its users see it: exit codes, messages and JSON.
 #include "tests/scenes/program.h"
 
+#include <sys/wait.h>
+
 #include <cstdlib>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "engine/io/figures.h"
-#include "engine/io/take/take_reader.h"
+#include "engine/io/take/take.h"
+#include "scenes/file/text_file.h"
 #include "scenes/load.h"
 
 namespace sunder::tests {
@@ -34,15 +37,51 @@ TEST(Program, EveryCommandHasHelp) {
 TEST(Program, WrongUseExitsWithTwoAndSaysWhy) {
   for (const std::string wrong :
        {"", "explode", "simulate", "simulate nowhere", "simulate stack --frames 0",
-        "simulate stack --frames ten", "simulate stack --preset fast", "simulate stack --set x",
-        "simulate stack --speed 3", "check nowhere.toml", "render stack",
-        "render stack -o x.png --frames 9:3", "render stack -o x.png --size 3",
-        "render stack -o x.png --frames 100000:100001", "render stack -o x.png --gl vulkan",
-        "bench stack --compare nowhere.json", "golden test nowhere", "golden accept"}) {
+        "simulate stack --frames ten", "simulate stack --frames 100000",
+        "simulate stack --preset fast", "simulate stack --set x", "simulate stack --speed 3",
+        "check nowhere.toml", "render stack", "render stack -o x.png --frames 9:3",
+        "render stack -o x.png --size 3", "render stack -o x.png --frames 100000:100001",
+        "render stack -o x.png --gl vulkan", "bench stack --compare nowhere.json",
+        "golden test nowhere", "golden accept"}) {
     const Outcome outcome = sunder(wrong);
     EXPECT_EQ(outcome.exit_code, 2) << wrong << "\n" << outcome.err;
     EXPECT_NE(outcome.err, "") << wrong;
   }
+}
+
+TEST(Program, SimulateSaysWhereASceneEnds) {
+  const Outcome outcome = sunder("simulate stack --frames 2 --set scene.duration_s=0.1 --quiet");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Outcome past = sunder("simulate stack --frames 7 --set scene.duration_s=0.1");
+  EXPECT_EQ(past.exit_code, 2);
+  EXPECT_EQ(past.err, "error: --frames 7: stack ends with frame 6\n");
+}
+
+// Files of at most 512 bytes are how a full disk looks to a program.
+TEST(Program, WhatCannotBeWrittenIsAFailureOfTheMachineNotOfTheInput) {
+  const Folder folder;
+  const std::string run = "simulate stack --frames 2 --quiet ";
+  const std::string draw = "render stack --frames 0:2 --size 64x48 --quiet ";
+  const std::string cut = "fracture box:1,1,1 --pattern grid:3 --quiet ";
+  const auto fails = [](const std::string& arguments, const std::string& before) {
+    const Outcome outcome = sunder(arguments, before);
+    EXPECT_EQ(outcome.exit_code, 1) << before << " " << arguments << "\n" << outcome.err;
+    EXPECT_NE(outcome.err.find("cannot be written"), std::string::npos) << outcome.err;
+  };
+  // Not even root makes files in /proc.
+  for (const std::string& arguments :
+       {run + "--take /proc/x.take", run + "--json /proc/x.json", draw + "-o /proc/x.png",
+        cut + "-o /proc/x.glb", cut + "-o /proc/x/"}) {
+    fails(arguments, "");
+  }
+  for (const std::string& arguments :
+       {run + "--take " + folder / "x.take", run + "--json " + folder / "x.json",
+        draw + "-o " + folder / "x.png", cut + "-o " + folder / "x.glb",
+        cut + "-o " + folder / "y/"}) {
+    fails(arguments, "trap '' XFSZ; ulimit -f 1;");
+  }
+  const int full = std::system("\"" SUNDER_PROGRAM "\" list --json - >/dev/full 2>/dev/null");
+  EXPECT_EQ(WIFEXITED(full) ? WEXITSTATUS(full) : -1, 1);
 }
 
 TEST(Program, ListNamesTheScenes) {

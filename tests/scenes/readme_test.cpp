@@ -1,6 +1,7 @@
 // scenes/README.md says what the reader's own tables say.
 #include <gtest/gtest.h>
 
+#include "scenes/file/text_file.h"
 #include "scenes/load.h"
 
 namespace sunder::scenes {

@@ -8,7 +8,7 @@
 namespace sunder {
 
 /// A node a part, a primitive a material, with normals and texture coordinates; single precision
-/// around each part's centre. Written under a temporary name and renamed. Throws InputError.
+/// around each part's centre. Written under a temporary name and renamed. Throws FileError.
 void write_glb(const std::filesystem::path& file, const Model& model);
 
 }  // namespace sunder

@@ -112,14 +112,19 @@ void write_obj_folder(const fs::path& folder, const Model& model) {
   const fs::path partial = place.string() + ".part";
   std::error_code error;
   fs::remove_all(partial, error);
-  write_materials(partial / kMaterials, model);
-  for (const Model::Part& part : model.parts) {
-    write_part(partial / (part.name + ".obj"), part, model);
+  try {
+    write_materials(partial / kMaterials, model);
+    for (const Model::Part& part : model.parts) {
+      write_part(partial / (part.name + ".obj"), part, model);
+    }
+  } catch (...) {
+    fs::remove_all(partial, error);
+    throw;
   }
   fs::remove_all(place, error);
   fs::rename(partial, place, error);
   if (error) {
-    throw InputError(place.string() + ": cannot be written; check the folder and its permissions");
+    throw FileError(place.string() + ": cannot be written; check the folder and its permissions");
   }
 }
 

@@ -1,14 +1,61 @@
 // Read first: the constructor (where the blocks are), then next().
-#include "engine/io/take/take_reader.h"
-
 #include <algorithm>
 #include <cstring>
+#include <fstream>
+#include <optional>
 
 #include "engine/io/frame_parts.h"
+#include "engine/io/take/take.h"
+#include "engine/io/take/take_blocks.h"
+#include "engine/io/take/take_frame.h"
 
 namespace sunder {
 
-TakeReader::TakeReader(const std::filesystem::path& path) : file_(path.string()) {
+/// A take being played; its members are those of TakeReader.
+class TakeReader::Playback {
+ public:
+  explicit Playback(const std::filesystem::path& path);
+  FramePtr next();
+  void seek(std::uint32_t frame);
+  std::uint32_t frames() const { return static_cast<std::uint32_t>(frame_blocks_.size()); }
+  const std::string& damage() const { return damage_; }
+  bool is_complete() const { return complete_; }
+  const std::vector<std::int32_t>& body_hashes() const { return body_hashes_; }
+
+ private:
+  struct Block {
+    BlockHeader header;
+    std::vector<std::byte> packed;
+  };
+
+  bool read_index();
+  void scan();
+  void note(const BlockPlace& place);
+  std::optional<Block> block_at(std::uint64_t offset);
+  std::vector<std::byte> content_at(const BlockPlace& place, Unpacker& unpacker);
+  FramePtr decode(std::uint32_t frame);
+  void read_meshes(std::uint32_t until);
+
+  std::string file_;
+  std::ifstream in_;
+  std::uint64_t size_ = 0;
+  bool complete_ = false;
+  std::string damage_;
+
+  std::optional<BlockPlace> materials_block_;
+  std::vector<BlockPlace> mesh_blocks_, frame_blocks_;
+  std::shared_ptr<const std::vector<Material>> materials_;
+  std::shared_ptr<MeshStore> meshes_ = std::make_shared<MeshStore>();
+  std::size_t mesh_blocks_read_ = 0;
+
+  std::uint32_t next_ = 0;
+  std::optional<std::uint32_t> decoded_;  ///< What the coder stands at.
+  FrameCoder coder_;
+  Unpacker frame_unpacker_, other_unpacker_;
+  std::vector<std::int32_t> body_hashes_;
+};
+
+TakeReader::Playback::Playback(const std::filesystem::path& path) : file_(path.string()) {
   in_.open(path, std::ios::binary | std::ios::ate);
   if (!in_ || !std::filesystem::is_regular_file(path)) {
     throw InputError(file_ + ": cannot be read; check the name and permissions");
@@ -36,7 +83,7 @@ TakeReader::TakeReader(const std::filesystem::path& path) : file_(path.string())
 }
 
 /// Blocks follow each other in the order of the run, each with its frame or mesh number.
-void TakeReader::note(const BlockPlace& place) {
+void TakeReader::Playback::note(const BlockPlace& place) {
   const auto wrong = [&] { throw InputError(file_ + ": corrupt: its blocks are out of order"); };
   switch (place.kind) {
     case BlockKind::kMaterials:
@@ -59,7 +106,7 @@ void TakeReader::note(const BlockPlace& place) {
 }
 
 /// False if there is no index, or none that is right: scan() does without.
-bool TakeReader::read_index() {
+bool TakeReader::Playback::read_index() {
   constexpr std::uint64_t kEnd = 8 + sizeof kIndexMagic;
   std::vector<std::byte> end(kEnd);
   if (size_ < sizeof kTakeMagic + kEnd) return false;
@@ -92,7 +139,7 @@ bool TakeReader::read_index() {
 }
 
 /// Goes from block to block until the file ends or makes no sense.
-void TakeReader::scan() {
+void TakeReader::Playback::scan() {
   complete_ = false;
   for (std::uint64_t at = sizeof kTakeMagic; at < size_ && !complete_;) {
     const std::optional<Block> block = block_at(at);
@@ -108,7 +155,7 @@ void TakeReader::scan() {
 }
 
 /// Nothing unless a whole block, unharmed, is there.
-std::optional<TakeReader::Block> TakeReader::block_at(std::uint64_t offset) {
+std::optional<TakeReader::Playback::Block> TakeReader::Playback::block_at(std::uint64_t offset) {
   if (offset > size_ || size_ - offset < sizeof(BlockHeader)) return {};
   Block block;
   in_.clear();
@@ -123,7 +170,8 @@ std::optional<TakeReader::Block> TakeReader::block_at(std::uint64_t offset) {
   return block;
 }
 
-std::vector<std::byte> TakeReader::content_at(const BlockPlace& place, Unpacker& unpacker) {
+std::vector<std::byte> TakeReader::Playback::content_at(const BlockPlace& place,
+                                                        Unpacker& unpacker) {
   const std::optional<Block> block = block_at(place.offset);
   if (!block || block->header.kind != place.kind || block->header.first != place.first) {
     throw InputError(file_ + ": corrupt at byte " + std::to_string(place.offset));
@@ -132,9 +180,9 @@ std::vector<std::byte> TakeReader::content_at(const BlockPlace& place, Unpacker&
   return unpacker.unpack(block->packed, block->header.content_bytes, file_);
 }
 
-void TakeReader::seek(std::uint32_t frame) { next_ = std::min(frame, frames() - 1); }
+void TakeReader::Playback::seek(std::uint32_t frame) { next_ = std::min(frame, frames() - 1); }
 
-FramePtr TakeReader::next() {
+FramePtr TakeReader::Playback::next() {
   if (next_ >= frames()) return nullptr;
   // On from where the coder stands, or from the key frame before.
   std::uint32_t at = next_;
@@ -156,7 +204,7 @@ FramePtr TakeReader::next() {
   }
 }
 
-FramePtr TakeReader::decode(std::uint32_t frame) {
+FramePtr TakeReader::Playback::decode(std::uint32_t frame) {
   decoded_.reset();
   const BlockPlace& place = frame_blocks_[frame];
   const std::vector<std::byte> content = content_at(place, frame_unpacker_);
@@ -179,7 +227,7 @@ FramePtr TakeReader::decode(std::uint32_t frame) {
 }
 
 /// The store grows as the run's did; frames given out keep the store they have.
-void TakeReader::read_meshes(std::uint32_t until) {
+void TakeReader::Playback::read_meshes(std::uint32_t until) {
   if (meshes_->size() >= until) return;
   meshes_ = std::make_shared<MeshStore>(*meshes_);
   while (meshes_->size() < until) {
@@ -195,6 +243,18 @@ void TakeReader::read_meshes(std::uint32_t until) {
     }
     ++mesh_blocks_read_;
   }
+}
+
+TakeReader::TakeReader(const std::filesystem::path& path)
+    : playback_(std::make_unique<Playback>(path)) {}
+TakeReader::~TakeReader() = default;
+FramePtr TakeReader::next() { return playback_->next(); }
+void TakeReader::seek(std::uint32_t frame) { playback_->seek(frame); }
+std::uint32_t TakeReader::frames() const { return playback_->frames(); }
+const std::string& TakeReader::damage() const { return playback_->damage(); }
+bool TakeReader::is_complete() const { return playback_->is_complete(); }
+const std::vector<std::int32_t>& TakeReader::body_hashes() const {
+  return playback_->body_hashes();
 }
 
 }  // namespace sunder

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/io/state_hash.h"
+#include "engine/io/take/take_frame.h"
 
 namespace sunder {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/io/take/take_reader.h"
+#include "engine/io/take/take.h"
 
 namespace sunder {
 

@@ -1,7 +1,15 @@
 // Read first: write(), what a frame becomes.
-#include "engine/io/take/take_writer.h"
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <thread>
 
 #include "engine/io/frame_parts.h"
+#include "engine/io/take/take.h"
+#include "engine/io/take/take_blocks.h"
+#include "engine/io/take/take_frame.h"
 
 namespace sunder {
 namespace {
@@ -10,22 +18,58 @@ constexpr std::size_t kMostWaiting = 16;  // frames; a run that is faster waits
 
 }  // namespace
 
-TakeWriter::TakeWriter(const std::filesystem::path& path) : path_(path) {
+/// A take being written; its members are those of TakeWriter.
+class TakeWriter::Recording {
+ public:
+  explicit Recording(const std::filesystem::path& path);
+  ~Recording();
+  void take(const FramePtr& frame);
+  void finish();
+  std::uint64_t bytes() const { return offset_; }
+
+ private:
+  void work();
+  void write(const Frame& frame);
+  void write_new_meshes(const Frame& frame);
+  void append(BlockKind kind, std::uint32_t first, std::uint64_t content_bytes,
+              const std::vector<std::byte>& packed);
+  void stop();
+
+  std::filesystem::path path_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<FramePtr> queue_;
+  bool closed_ = false;
+  std::exception_ptr failure_;
+
+  // Of the thread that writes.
+  std::ofstream out_;
+  std::uint64_t offset_ = 0;
+  std::vector<BlockPlace> places_;
+  std::shared_ptr<const std::vector<Material>> materials_;
+  std::size_t meshes_ = 0;
+  std::uint32_t frames_ = 0;
+  FrameCoder coder_;
+  Packer frame_packer_, other_packer_;
+  std::thread thread_;
+};
+
+TakeWriter::Recording::Recording(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   out_.open(path, std::ios::binary);
   out_.write(kTakeMagic, sizeof kTakeMagic);
   out_.flush();
   if (!out_) {
-    throw InputError(path.string() + ": cannot be written; check the folder and its permissions");
+    throw FileError(path.string() + ": cannot be written; check the folder and its permissions");
   }
   offset_ = sizeof kTakeMagic;
   thread_ = std::thread([this] { work(); });
 }
 
-TakeWriter::~TakeWriter() { stop(); }
+TakeWriter::Recording::~Recording() { stop(); }
 
-void TakeWriter::take(const FramePtr& frame) {
+void TakeWriter::Recording::take(const FramePtr& frame) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return failure_ || queue_.size() < kMostWaiting; });
   if (failure_) std::rethrow_exception(failure_);
@@ -33,7 +77,7 @@ void TakeWriter::take(const FramePtr& frame) {
   changed_.notify_all();
 }
 
-void TakeWriter::stop() {
+void TakeWriter::Recording::stop() {
   {
     const std::lock_guard lock(mutex_);
     closed_ = true;
@@ -42,7 +86,7 @@ void TakeWriter::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void TakeWriter::finish() {
+void TakeWriter::Recording::finish() {
   stop();
   if (failure_) std::rethrow_exception(failure_);
   ByteWriter index;
@@ -61,10 +105,10 @@ void TakeWriter::finish() {
              static_cast<std::streamsize>(end.bytes.size()));
   offset_ += end.bytes.size();
   out_.close();
-  if (!out_) throw InputError(path_.string() + ": cannot be written; is the disk full?");
+  if (!out_) throw FileError(path_.string() + ": cannot be written; is the disk full?");
 }
 
-void TakeWriter::work() {
+void TakeWriter::Recording::work() {
   for (;;) {
     FramePtr frame;
     {
@@ -86,7 +130,7 @@ void TakeWriter::work() {
   }
 }
 
-void TakeWriter::write(const Frame& frame) {
+void TakeWriter::Recording::write(const Frame& frame) {
   if (!materials_) {
     materials_ = frame.materials;
     ByteWriter content;
@@ -105,10 +149,10 @@ void TakeWriter::write(const Frame& frame) {
   append(is_key ? BlockKind::kKeyFrame : BlockKind::kFrame, frames_++, content.bytes.size(),
          frame_packer_.pack(content.bytes));
   out_.flush();
-  if (!out_) throw InputError(path_.string() + ": cannot be written; is the disk full?");
+  if (!out_) throw FileError(path_.string() + ": cannot be written; is the disk full?");
 }
 
-void TakeWriter::write_new_meshes(const Frame& frame) {
+void TakeWriter::Recording::write_new_meshes(const Frame& frame) {
   SUNDER_CHECK(frame.meshes->size() >= meshes_);
   if (frame.meshes->size() == meshes_) return;
   ByteWriter content;
@@ -120,13 +164,20 @@ void TakeWriter::write_new_meshes(const Frame& frame) {
   meshes_ = frame.meshes->size();
 }
 
-void TakeWriter::append(BlockKind kind, std::uint32_t first, std::uint64_t content_bytes,
-                        const std::vector<std::byte>& packed) {
+void TakeWriter::Recording::append(BlockKind kind, std::uint32_t first, std::uint64_t content_bytes,
+                                   const std::vector<std::byte>& packed) {
   const std::vector<std::byte> block = make_block(kind, first, content_bytes, packed);
   places_.push_back({offset_, kind, first});
   out_.write(reinterpret_cast<const char*>(block.data()),
              static_cast<std::streamsize>(block.size()));
   offset_ += block.size();
 }
+
+TakeWriter::TakeWriter(const std::filesystem::path& path)
+    : recording_(std::make_unique<Recording>(path)) {}
+TakeWriter::~TakeWriter() = default;
+void TakeWriter::take(const FramePtr& frame) { recording_->take(frame); }
+void TakeWriter::finish() { recording_->finish(); }
+std::uint64_t TakeWriter::bytes() const { return recording_->bytes(); }
 
 }  // namespace sunder

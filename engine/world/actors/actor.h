@@ -10,7 +10,7 @@
 #include "engine/base/types.h"
 #include "engine/model/breaker.h"
 #include "engine/model/compound.h"
-#include "engine/model/mesh.h"
+#include "engine/model/frame.h"
 #include "engine/model/physics.h"
 #include "engine/model/structure.h"
 

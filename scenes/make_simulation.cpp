@@ -1,0 +1,110 @@
+#include "scenes/make_simulation.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/model/scene_accuracy.h"
+#include "engine/world/simulation.h"
+#include "fracture/pattern_breaker.h"
+#include "scenes/file/planar.h"
+#include "scenes/file/schema.h"
+#include "solver/particles/debris_and_dust.h"
+#include "solver/planar/planar_physics.h"
+#include "solver/rigid/rigid_physics.h"
+
+namespace sunder::scenes {
+namespace {
+
+/// Of the air that carries dust: what the largest scenes need, and what a frame can spare.
+const Eigen::Vector3i kAirCells(40, 24, 40);
+
+/// Writes breaks that went wrong to files, and says so when the run is over.
+std::shared_ptr<fracture::FailureLog> failure_log(const SimulationOptions& options) {
+  if (options.cases_folder.empty() && !options.warn) return nullptr;
+  const std::string folder = options.cases_folder.string();
+  const auto tell = [folder, warn = options.warn](fracture::FailureLog* log) {
+    if (log->failed() > 0 && warn) {
+      std::string text = std::to_string(log->failed()) +
+                         " convexes were left whole because their parts did not add up";
+      if (log->files() > 0) {
+        text += "; " + std::to_string(log->files()) + " breaks are kept in " + folder +
+                "/, to look into by `sunder fracture`";
+      }
+      warn(text);
+    }
+    delete log;
+  };
+  return {new fracture::FailureLog(folder), tell};
+}
+
+/// As many dimensions as the scene needs.
+std::unique_ptr<Physics> make_physics(const Scene& scene) {
+  if (scene.planar) {
+    solver::PlanarOptions planar;
+    planar.gravity_W = scene.gravity_W;
+    planar.piece_m = planar_piece_m(scene);
+    return solver::make_planar_physics(planar);
+  }
+  solver::RigidOptions rigid;
+  rigid.gravity_W = scene.gravity_W;
+  rigid.max_colors = scene.solver.max_colors;
+  rigid.sweeps = scene.solver.sweeps;
+  rigid.lanes = scene.solver.lanes;
+  return solver::make_rigid_physics(rigid);
+}
+
+std::unique_ptr<Particles> make_particles(const Scene& scene) {
+  if (scene.limits.debris + scene.limits.dust == 0) return nullptr;
+  solver::DebrisAndDustOptions options;
+  options.gravity_W = scene.gravity_W;
+  options.seed = scene.seed;
+  options.air_cells = kAirCells;
+  options.limits = {scene.limits.debris, scene.limits.dust};
+  return solver::make_debris_and_dust(options);
+}
+
+std::vector<std::string> warnings_of(const Scene& scene) {
+  const std::string warning = accuracy_warning(scene, kMostSubsteps);
+  return warning.empty() ? std::vector<std::string>{} : std::vector{warning};
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOptions& options) {
+  if (options.threads > 0) set_threads(options.threads);
+  const std::string name = scene.name.empty() ? "the scene" : scene.name;
+  if (scene.planar) check_planar(scene, name);
+  if (options.warn) {
+    for (const std::string& warning : warnings_of(scene)) options.warn(name + ": " + warning);
+  }
+  std::unique_ptr<Particles> particles = make_particles(scene);
+  std::unique_ptr<Physics> physics = make_physics(scene);
+  return std::make_unique<Simulation>(std::move(scene), std::move(physics),
+                                      fracture::make_pattern_breaker(failure_log(options)),
+                                      std::move(particles));
+}
+
+RunInfo run_info(const Scene& scene, const std::string& preset) {
+  const auto breaks = [&](const Solid& solid) {
+    return std::any_of(solid.compound.convexes.begin(), solid.compound.convexes.end(),
+                       [&](const ConvexPtr& convex) {
+                         return scene.materials[convex->material.value].breakable();
+                       });
+  };
+  const bool scripted = !scene.shots.empty() || !scene.blasts.empty() || !scene.removals.empty() ||
+                        !scene.drives.empty();
+  const bool any = std::any_of(scene.solids.begin(), scene.solids.end(), breaks);
+  return {scene.name,
+          preset,
+          threads(),
+          scene.accuracy,
+          {{"fracture", any ? "on" : "off: nothing here is breakable"},
+           {"script", scripted ? "on" : "off: nothing happens"},
+           {"sleeping", "on"},
+           {"third_dimension", scene.planar ? "off: planar = true, so Box2D moves it" : "on"}},
+          {scene.solver.max_colors, scene.solver.sweeps, solver::lanes_in_use(scene.solver.lanes)},
+          warnings_of(scene)};
+}
+
+}  // namespace sunder::scenes

@@ -1,0 +1,28 @@
+// Sunder as a library, all of it: a scene becomes a simulation, which is pumped as frames into
+// sinks.
+//
+//   #include <sunder/sunder.h>
+//
+//   const auto simulation = sunder::scenes::make_simulation(sunder::scenes::load_scene("house"));
+//   const auto video = sunder::render::make_picture_sink("house.mp4", {});
+//   sunder::StateHash hash;
+//   sunder::FrameSink* const sinks[] = {video.get(), &hash};
+//   sunder::pump(*simulation, sinks);
+//
+// Read next: scene.h for what there is in a scene, frame.h for what comes out.
+#pragma once
+
+#include "engine/base/check.h"                  // InputError, FileError
+#include "engine/base/types.h"                  // Vec3, Quat, Pose, Box
+#include "engine/geometry/convex_polyhedron.h"  // make_box(), make_prism(), make_hull()
+#include "engine/io/statistics.h"               // Statistics, StateHash
+#include "engine/io/take/take.h"                // TakeWriter, TakeReader
+#include "engine/model/compound.h"              // Part, Compound
+#include "engine/model/frame.h"                 // Frame, FrameSource, FrameSink, pump()
+#include "engine/model/joint.h"
+#include "engine/model/material.h"
+#include "engine/model/scene.h"
+#include "render/sinks.h"               // make_picture_sink()
+#include "scenes/file/make_compound.h"  // make_compound() of parts, or of a mesh
+#include "scenes/load.h"                // load_scene(), builtin_materials()
+#include "scenes/make_simulation.h"
