@@ -50,8 +50,7 @@ void draw_solids(const std::filesystem::path& file, std::span<const Compound> so
   frame.view = view_of(shown);
   frame.meshes = std::move(meshes);
   frame.materials = std::make_shared<std::vector<Material>>(materials);
-  render::Renderer renderer({});
-  const auto sink = render::make_picture_sink(file, renderer);
+  const auto sink = render::make_picture_sink(file, render::RenderOptions());
   sink->take(std::make_shared<Frame>(std::move(frame)));
   sink->finish();
 }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
+#include "engine/geometry/approximate_hull.h"
 #include "fracture/pattern_breaker.h"
 #include "tests/fracture/solids.h"
 
