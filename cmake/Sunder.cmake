@@ -48,10 +48,11 @@ if(SUNDER_STRICT)
   target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic
     ${shadow} -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual
     -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough -Werror>)
-  # GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651), and warns
-  # that wide vectors are passed otherwise without AVX; they stay inside the solver.
+  # GCC 12 sees overlaps and overruns in std::string's operator+ that are not there (GCC bug 105651),
+  # and warns that wide vectors are passed otherwise without AVX; they stay inside the solver.
+  set(gnu -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-psabi)
   target_compile_options(sunder_options INTERFACE
-    $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-psabi>>)
+    $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:${gnu}>>)
 endif()
 if(SUNDER_SANITIZE)
   # Checks of pointers cost a third of the compile time, and a null one stops the program anyhow.
