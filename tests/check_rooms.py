@@ -60,6 +60,9 @@ THIRD_PARTY = [
 SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|signal|spawn|unistd|poll|errno|"
                     r"(imm|x86|arm_neo)intrin|cpuid)\.h")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+# A file spelled from the root, in a page or a comment.
+MENTION = re.compile(r"(?<![\w./*])((?:%s|docs|cmake)/[\w/-]+\.(?:h|cpp|py|md|toml|sh|cmake))\b"
+                     % "|".join(ROOMS))
 PRAGMA_OMP = re.compile(r"^\s*#\s*pragma\s+omp\b", re.MULTILINE)
 
 
@@ -72,6 +75,14 @@ def sources(root):
 def owner(path):
     """The row of MAY_INCLUDE that a path belongs to."""
     return "scenes/app" if path.parts[:2] == ("scenes", "app") else path.parts[0]
+
+
+def check_mentions(root, path):
+    """Files that a page or a comment names, which must be there."""
+    text = INCLUDE.sub("", (root / path).read_text(encoding="utf-8"))
+    return [f'names "{name}", which is not there'
+            for name in sorted(set(MENTION.findall(text)))
+            if not (root / name).exists() and not (root / (name + ".in")).is_file()]
 
 
 def check_own_include(root, path, target):
@@ -160,8 +171,13 @@ def check_tree(root):
     messages = [f"{path.name}: no source lives outside a room" for path in strays]
     messages += check_folders(sources(root))
     in_cmake = listed(root)
+    pages = [path.relative_to(root) for path in [*root.glob("*.md"), *root.glob("docs/**/*.md"),
+                                                 *root.glob("scenes/**/*.md")]]
+    for path in sorted(pages):
+        messages += [f"{path}: {message}" for message in check_mentions(root, path)]
     for path in sources(root):
-        messages += [f"{path}: {message}" for message in check_source(root, path)]
+        messages += [f"{path}: {message}"
+                     for message in check_source(root, path) + check_mentions(root, path)]
         if path.suffix == ".cpp" and path not in in_cmake:
             messages.append(f"{path}: listed in no CMakeLists.txt")
     return messages

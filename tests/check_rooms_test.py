@@ -84,6 +84,10 @@ BAD = {
         ("main.cpp", "int main() {}\n", "outside a room"),
     "a header without a guard":
         ("fracture/b.h", "// What it is for.\n", "no #pragma once"),
+    "a page that names a file that is gone":
+        ("docs/page.md", "See `engine/base/gone.h`.\n", "which is not there"),
+    "a comment that names a file that is gone":
+        ("fracture/b.h", "// As in engine/base/gone.h.\n#pragma once\n", "which is not there"),
     "a header that does not say what it is for":
         ("fracture/b.h", "#pragma once\n", "opens with a comment"),
 }

@@ -1,6 +1,6 @@
 // Scenes without a third dimension behind the Physics seam: Box2D 2.4 in the plane z = 0.
 //
-// Read first: planar_physics.cpp; shapes.h says what becomes of three dimensions, and
+// Read first: planar_physics.cpp; planar_shapes.h says what becomes of three dimensions, and
 // docs/decisions/018-planar-scenes.md why.
 #pragma once
 
