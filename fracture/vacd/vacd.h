@@ -25,7 +25,8 @@ inline constexpr std::uint32_t kDefaultPolygons = 10000;  ///< Of a piece.
 
 /// How a mesh is decomposed.
 struct VacdOptions {
-  std::vector<Vec3> nodes;  ///< Sites of Voronoi cells, by hand, in the mesh's coordinates; empty: automatic.
+  std::vector<Vec3>
+      nodes;  ///< Sites of Voronoi cells, by hand, in the mesh's coordinates; empty: automatic.
   /// Automatic nodes, shared among the shells; none by default where `convexes` is given.
   std::optional<std::uint32_t> node_count;
   /// At most so many convexes, and no fewer where more make tighter hulls; 0: what the nodes make.
@@ -67,8 +68,8 @@ struct Vacd {
 /// that are not finite.
 Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options = {});
 
-/// Voronoi nodes from a file: `x y z` a line, what follows a # is left out. Throws InputError naming `name`
-/// and the line.
+/// Voronoi nodes from a file: `x y z` a line, what follows a # is left out. Throws InputError
+/// naming `name` and the line.
 std::vector<Vec3> read_nodes(std::istream& in, const std::string& name);
 
 }  // namespace sunder::fracture
