@@ -180,7 +180,8 @@ void recolor() {
   contacts.body_colors.assign(bodies.size(), 0);
   auto touch = [&](std::uint32_t a, std::uint32_t b) {
     Pair pair;
-    pair.shape_a = pair.body_a = a, pair.shape_b = pair.body_b = b;
+    pair.shape_a = ShapeSlot(a), pair.shape_b = ShapeSlot(b);
+    pair.body_a = BodySlot(a), pair.body_b = BodySlot(b);
     contacts.add(pair);
   };
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -188,25 +189,25 @@ void recolor() {
     if (i / kSide % kSide + 1 < kSide) touch(i, i + kSide);
     if (i / kSide / kSide + 1 < kSide) touch(i, i + kSide * kSide);
   }
-  auto insert = [&](std::uint32_t pair) {
+  auto insert = [&](PairSlot pair) {
     Manifold m;
     m.body_a = contacts.pairs[pair].body_a, m.body_b = contacts.pairs[pair].body_b, m.count = 4;
     contacts.touch(pair, m, bodies);
   };
   const auto count = static_cast<std::uint32_t>(contacts.pairs.size());
   double all_ms = now_ms();
-  for (std::uint32_t pair = 0; pair < count; ++pair) insert(pair);
+  for (const PairSlot pair : contacts.pairs.slots()) insert(pair);
   all_ms = now_ms() - all_ms;
   double out_ms = 1e30, in_ms = 1e30;
   Random random(1);
   for (int i = 0; i < kTries; ++i) {
-    std::vector<std::uint32_t> gone;
-    for (std::uint32_t pair = 0; pair < count && gone.size() < kGone; ++pair)
-      if (random.below(count / kGone) == 0) gone.push_back(pair);
+    std::vector<PairSlot> gone;
+    for (const PairSlot pair : contacts.pairs.slots())
+      if (gone.size() < kGone && random.below(count / kGone) == 0) gone.push_back(pair);
     const double start = now_ms();
-    for (const std::uint32_t pair : gone) contacts.part(pair);
+    for (const PairSlot pair : gone) contacts.part(pair);
     const double middle = now_ms();
-    for (const std::uint32_t pair : gone) insert(pair);
+    for (const PairSlot pair : gone) insert(pair);
     out_ms = std::min(out_ms, middle - start), in_ms = std::min(in_ms, now_ms() - middle);
   }
   std::printf(

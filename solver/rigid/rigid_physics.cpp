@@ -61,7 +61,7 @@ class RigidPhysics final : public Physics {
 
  private:
   void remove_bodies(std::span<const BodyId> ids);
-  void remove_shapes(std::span<const std::uint32_t> shapes);
+  void remove_shapes(std::span<const ShapeSlot> shapes);
   void update_contacts();
   void find_reaches();
   Vec3 freeze_broken();
@@ -80,10 +80,10 @@ class RigidPhysics final : public Physics {
   StaticWarmStart static_warm_start_;
   ContactsOfBodies contacts_of_bodies_;
   Paused paused_;
-  StepContext step_;              ///< Of the last collide.
-  double last_h_s_ = 0;           ///< Of the impulses that contacts and joints keep; 0: none.
-  std::uint32_t frozen_ = 0;      ///< Since the last solve began.
-  std::vector<StepReach> reach_;  ///< By body slot.
+  StepContext step_;          ///< Of the last collide.
+  double last_h_s_ = 0;       ///< Of the impulses that contacts and joints keep; 0: none.
+  std::uint32_t frozen_ = 0;  ///< Since the last solve began.
+  ByBody<StepReach> reach_;
   std::vector<std::pair<const char*, double>> timings_ms_ = {
       {"broad phase", 0}, {"narrow phase", 0}, {"contacts", 0}, {"sleep", 0}};
 };
@@ -92,7 +92,7 @@ std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
                                           std::span<const BodyDesc> add) {
   check_bodies(add);
   remove_bodies(remove);
-  std::vector<std::uint32_t> slots;
+  std::vector<BodySlot> slots;
   std::vector<BodyId> ids;
   for (const BodyDesc& desc : add) {
     slots.push_back(bodies_.add(desc));
@@ -107,43 +107,41 @@ std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
 }
 
 void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
-  std::vector<std::uint32_t> shapes;
+  std::vector<ShapeSlot> shapes;
   for (const BodyId id : ids) {
-    SUNDER_CHECK(bodies_.contains(id));
-    const std::vector<std::uint32_t> of_body = shapes_.of_body(id.slot, bodies_);
+    const std::vector<ShapeSlot> of_body = shapes_.of_body(bodies_.slot(id), bodies_);
     shapes.insert(shapes.end(), of_body.begin(), of_body.end());
   }
   remove_shapes(shapes);
   for (const BodyId id : ids) {
-    SUNDER_CHECK(bodies_.contains(id));  // each once
-    if (!joints_.empty()) joints_.lose(id.slot, bodies_);
-    bodies_.remove(id.slot);
-    contacts_.body_colors[id.slot] = 0;
+    const BodySlot body = bodies_.slot(id);  // each once
+    if (!joints_.empty()) joints_.lose(body, bodies_);
+    bodies_.remove(body);
+    contacts_.body_colors[body] = 0;
   }
 }
 
-void RigidPhysics::remove_shapes(std::span<const std::uint32_t> shapes) {
-  const std::vector<std::uint32_t> pairs =
-      broad_phase_.pairs_with(shapes, shapes_, contacts_.slot_of);
-  std::vector<std::uint32_t> manifolds;
-  for (const std::uint32_t pair : pairs)
+void RigidPhysics::remove_shapes(std::span<const ShapeSlot> shapes) {
+  const std::vector<PairSlot> pairs = broad_phase_.pairs_with(shapes, shapes_, contacts_);
+  std::vector<ManifoldSlot> manifolds;
+  for (const PairSlot pair : pairs)
     if (contacts_.pairs[pair].touching()) manifolds.push_back(contacts_.pairs[pair].manifold);
   sleep_.wake_left(manifolds, options_.gravity_W, contacts_, bodies_);
   contacts_of_bodies_.clear();
-  for (const std::uint32_t pair : pairs) contacts_.remove(pair);
+  for (const PairSlot pair : pairs) contacts_.remove(pair);
   broad_phase_.remove(shapes);
   shapes_.remove(shapes, bodies_);
 }
 
 void RigidPhysics::edit(const BodyEdit& edit) {
-  SUNDER_CHECK(bodies_.contains(edit.body) && bodies_.motion[edit.body.slot] == Motion::kStatic);
-  check_shapes(edit.added, bodies_.tag[edit.body.slot]);
-  std::vector<std::uint32_t> removed;
-  for (const std::uint32_t tag : edit.removed_tags)
-    removed.push_back(shapes_.with_tag(edit.body.slot, tag));
+  const BodySlot body = bodies_.slot(edit.body);
+  SUNDER_CHECK(bodies_.motion[body] == Motion::kStatic);
+  check_shapes(edit.added, bodies_.tag[body]);
+  std::vector<ShapeSlot> removed;
+  for (const std::uint32_t tag : edit.removed_tags) removed.push_back(shapes_.with_tag(body, tag));
   remove_shapes(removed);
   std::vector<NewShape> added;
-  for (const ShapeDesc& shape : edit.added) added.push_back({&shape, edit.body.slot});
+  for (const ShapeDesc& shape : edit.added) added.push_back({&shape, body});
   broad_phase_.add(shapes_.add(added, bodies_), shapes_, bodies_);
 }
 
@@ -162,10 +160,10 @@ void RigidPhysics::collide(double dt_s) {
 void RigidPhysics::find_reaches() {
   const double dt_s = step_.dt_s;
   reach_.resize(bodies_.size());
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    const double angle = std::min(1.0, dt_s * bodies_.angular_velocity[i].norm());
-    reach_[i] = {(dt_s * bodies_.velocity[i]).cast<float>(),
-                 static_cast<float>(angle * bodies_.reach_m[i]) * 1.00001f};
+  for (const BodySlot body : bodies_.slots()) {
+    const double angle = std::min(1.0, dt_s * bodies_.angular_velocity[body].norm());
+    reach_[body] = {(dt_s * bodies_.velocity[body]).cast<float>(),
+                    static_cast<float>(angle * bodies_.reach_m[body]) * 1.00001f};
   }
 }
 
@@ -182,7 +180,7 @@ void RigidPhysics::update_contacts() {
   for_chunks(pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
     NarrowScratch scratch;
     Manifold fresh;
-    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+    for (PairSlot i(begin); i.value < end; ++i.value) {
       Pair& pair = pairs[i];
       if (!pair.present()) continue;
       if (!pair.fresh && !bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b]) continue;
@@ -201,25 +199,25 @@ void RigidPhysics::update_contacts() {
     }
   });
   crowd_.thin_out(changes, contacts_, bodies_);
-  std::vector<std::uint32_t> left;
+  std::vector<ManifoldSlot> left;
   for (const ContactChanges& chunk : changes)
-    for (const std::uint32_t i : chunk.parted) left.push_back(pairs[i].manifold);
+    for (const PairSlot i : chunk.parted) left.push_back(pairs[i].manifold);
   sleep_.wake_left(left, options_.gravity_W, contacts_, bodies_);
   for (const ContactChanges& chunk : changes)
-    for (const std::uint32_t i : chunk.parted) contacts_.part(i);
+    for (const PairSlot i : chunk.parted) contacts_.part(i);
   std::size_t touched = 0;
   for (const ContactChanges& chunk : changes) touched += chunk.touched.size();
   contacts_.expect_manifolds(touched);
   for (const ContactChanges& chunk : changes)
     for (const auto& [pair, manifold] : chunk.touched) contacts_.touch(pair, manifold, bodies_);
   for (const ContactChanges& chunk : changes)
-    for (const std::uint32_t i : chunk.gone) contacts_.remove(i);
+    for (const PairSlot i : chunk.gone) contacts_.remove(i);
   std::fill(bodies_.changed.begin(), bodies_.changed.end(), std::uint8_t{0});
 }
 
 Vec3 RigidPhysics::freeze_broken() {
   Vec3 taken = Vec3::Zero();
-  for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
+  for (const BodySlot body : bodies_.slots()) {
     if (!bodies_.awake(body) || bodies_.finite(body)) continue;
     if (!bodies_.position[body].allFinite() || !bodies_.rotation[body].coeffs().allFinite())
       bodies_.place(body, Vec3::Zero(), Quat::Identity());
@@ -235,17 +233,13 @@ std::vector<Approach> RigidPhysics::approaches() {
 
 std::vector<Touch> RigidPhysics::touches(std::span<const BodyId> bodies) {
   if (contacts_of_bodies_.empty()) contacts_of_bodies_ = ContactsOfBodies(contacts_, bodies_);
-  std::vector<std::uint32_t> slots;
-  for (const BodyId id : bodies) {
-    SUNDER_CHECK(bodies_.contains(id));
-    slots.push_back(id.slot);
-  }
+  std::vector<BodySlot> slots;
+  for (const BodyId id : bodies) slots.push_back(bodies_.slot(id));
   return find_touches(contacts_, bodies_, shapes_, contacts_of_bodies_, slots);
 }
 
 void RigidPhysics::set_state(BodyId id, const BodyState& state) {
-  SUNDER_CHECK(bodies_.contains(id));
-  const std::uint32_t body = id.slot;
+  const BodySlot body = bodies_.slot(id);
   if (!bodies_.dynamic(body)) return;
   bodies_.wake(body);
   const Quat rotation = bodies_.rotation[body].conjugate() * state.X_WB.rotation;
@@ -259,8 +253,7 @@ void RigidPhysics::set_state(BodyId id, const BodyState& state) {
 }
 
 void RigidPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) {
-  SUNDER_CHECK(bodies_.contains(id));
-  const std::uint32_t body = id.slot;
+  const BodySlot body = bodies_.slot(id);
   if (!bodies_.dynamic(body)) return;
   bodies_.wake(body);
   const Quat& q = bodies_.rotation[body];
@@ -286,7 +279,7 @@ JointId RigidPhysics::join(const JointDesc& joint) {
   look_again(id);
   // StaticWarmStart knows of contacts only: it would let them bear what hangs in joints.
   for (const BodyId end : {joint.a, joint.b})
-    if (bodies_.contains(end)) bodies_.is_new[end.slot] = 0;
+    if (bodies_.contains(end)) bodies_.is_new[bodies_.slot(end)] = 0;
   return id;
 }
 
@@ -298,10 +291,8 @@ void RigidPhysics::attach(JointId id, bool end_a, BodyId body) {
 void RigidPhysics::cut(JointId id) { joints_.cut(id, bodies_); }
 
 void RigidPhysics::pause(std::span<const BodyId> bodies) {
-  for (const BodyId id : bodies) {
-    SUNDER_CHECK(bodies_.contains(id));
-    if (bodies_.awake(id.slot)) paused_.add(id.slot);
-  }
+  for (const BodyId id : bodies)
+    if (const BodySlot body = bodies_.slot(id); bodies_.awake(body)) paused_.add(body);
 }
 
 SolveReport RigidPhysics::solve(double dt_s, int substeps) {
@@ -314,7 +305,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   joints_.wake(bodies_);
   paused_.stop(bodies_);
   double awake_mass = 0;
-  for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
+  for (const BodySlot body : bodies_.slots()) {
     if (!bodies_.awake(body)) continue;
     awake_mass += bodies_.mass_kg[body];
     bodies_.changed[body] = 1;
@@ -335,7 +326,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   contacts_of_bodies_.clear();
   report.contacts = solved.manifolds;
   report.contact_points = solved.points;
-  for (std::uint32_t body = 0; body < bodies_.size(); ++body) report.awake += bodies_.awake(body);
+  for (const BodySlot body : bodies_.slots()) report.awake += bodies_.awake(body);
   const Momentum after = bodies_.momentum();
   report.momentum_after_Ns = after.momentum_Ns;
   report.mass_kg = after.mass_kg;

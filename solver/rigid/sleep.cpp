@@ -24,7 +24,7 @@ constexpr float kChange = 0.3f;  // of the sleeper's weight: what wakes it
 // weight, one that wakes shifts a fifth of that on; less than this, and waking goes round for ever.
 constexpr float kLoadChange = 0.3f;
 
-float weight_N(const Bodies& bodies, std::uint32_t body, const Vec3& gravity_W) {
+float weight_N(const Bodies& bodies, BodySlot body, const Vec3& gravity_W) {
   return static_cast<float>(bodies.mass_kg[body] * FroudeScale(gravity_W).gravity_m_s2());
 }
 
@@ -38,26 +38,25 @@ Vec3f up(const Vec3& gravity_W) {
   return g > 0 ? Vec3f((-gravity_W / g).cast<float>()) : Vec3f(Vec3f::Zero());
 }
 
-bool asleep(const Bodies& bodies, std::uint32_t body) {
-  return bodies.motion[body] == Motion::kAsleep;
-}
+bool asleep(const Bodies& bodies, BodySlot body) { return bodies.motion[body] == Motion::kAsleep; }
 
 }  // namespace
 
 void Sleep::note_rest(const StepContext& step, Bodies& bodies) {
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies.awake(i)) continue;
-    const double reach = bodies.reach_m[i];
-    const double speed = bodies.velocity[i].norm() + bodies.angular_velocity[i].norm() * reach;
-    const Quat rotation = bodies.rest_rotation[i].conjugate() * bodies.rotation[i];
-    const double drift =
-        (bodies.position[i] - bodies.rest_position[i]).norm() + 2 * rotation.vec().norm() * reach;
+  for (const BodySlot body : bodies.slots()) {
+    if (!bodies.awake(body)) continue;
+    const double reach = bodies.reach_m[body];
+    const double speed =
+        bodies.velocity[body].norm() + bodies.angular_velocity[body].norm() * reach;
+    const Quat rotation = bodies.rest_rotation[body].conjugate() * bodies.rotation[body];
+    const double drift = (bodies.position[body] - bodies.rest_position[body]).norm() +
+                         2 * rotation.vec().norm() * reach;
     if (speed < speed_m_s(kSlow, step, reach) && drift < kDrift * reach) {
-      bodies.slow_s[i] += static_cast<float>(step.dt_s);
+      bodies.slow_s[body] += static_cast<float>(step.dt_s);
     } else {
-      bodies.slow_s[i] = 0;
-      bodies.rest_position[i] = bodies.position[i];
-      bodies.rest_rotation[i] = bodies.rotation[i];
+      bodies.slow_s[body] = 0;
+      bodies.rest_position[body] = bodies.position[body];
+      bodies.rest_rotation[body] = bodies.rotation[body];
     }
   }
 }
@@ -67,7 +66,7 @@ void Sleep::keep_joined_awake(const Bodies& bodies, const Joints& joints) {
   for (bool again = true; again;) {
     again = false;
     for (const Joint& joint : joints.all()) {
-      if (!joint.holds() || joint.body_a == kNone || joint.body_b == kNone) continue;
+      if (!joint.holds() || joint.body_a.none() || joint.body_b.none()) continue;
       for (const auto& [one, other] :
            {std::pair(joint.body_a, joint.body_b), {joint.body_b, joint.body_a}}) {
         if (!candidate_[one] || candidate_[other] || !bodies.awake(other)) continue;
@@ -81,14 +80,12 @@ void Sleep::keep_joined_awake(const Bodies& bodies, const Joints& joints) {
 void Sleep::anchor_by_joints(const Bodies& bodies, const Joints& joints, DisjointSets& groups) {
   for (const Joint& joint : joints.all()) {
     if (!joint.holds()) continue;
-    const auto rests = [&](std::uint32_t body) {
-      return body != kNone && (candidate_[body] || asleep(bodies, body));
+    const auto rests = [&](BodySlot body) {
+      return !body.none() && (candidate_[body] || asleep(bodies, body));
     };
-    const auto immovable = [&](std::uint32_t body) {
-      return body == kNone || !bodies.dynamic(body);
-    };
-    const std::uint32_t a = joint.body_a, b = joint.body_b;
-    if (rests(a) && rests(b)) groups.join(a, b);
+    const auto immovable = [&](BodySlot body) { return body.none() || !bodies.dynamic(body); };
+    const BodySlot a = joint.body_a, b = joint.body_b;
+    if (rests(a) && rests(b)) groups.join(a.value, b.value);
     if (rests(a) && immovable(b)) anchored_[a] = 1;
     if (rests(b) && immovable(a)) anchored_[b] = 1;
   }
@@ -100,22 +97,22 @@ Vec3 Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& 
   const std::uint32_t n = bodies.size();
   candidate_.assign(n, 0);
   bool any = false;
-  for (std::uint32_t i = 0; i < n; ++i) {
+  for (const BodySlot body : bodies.slots()) {
     const double rest_s =
-        std::max(kRestTime * step.froude.time_s(bodies.reach_m[i]), kRestSteps * step.dt_s);
-    candidate_[i] = bodies.awake(i) && double{bodies.slow_s[i]} >= rest_s;
-    any = any || candidate_[i];
+        std::max(kRestTime * step.froude.time_s(bodies.reach_m[body]), kRestSteps * step.dt_s);
+    candidate_[body] = bodies.awake(body) && double{bodies.slow_s[body]} >= rest_s;
+    any = any || candidate_[body];
   }
   if (!any) return Vec3::Zero();
   keep_joined_awake(bodies, joints);
   DisjointSets groups(n);  // of what rests on each other
   anchored_.assign(n, step.gravity_W.isZero(0));
-  auto rests = [&](std::uint32_t body) { return candidate_[body] || asleep(bodies, body); };
+  auto rests = [&](BodySlot body) { return candidate_[body] || asleep(bodies, body); };
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0 || m.normal_impulse() <= 0) continue;
     const bool a = rests(m.body_a), b = rests(m.body_b);
     if (a && b) {
-      groups.join(m.body_a, m.body_b);
+      groups.join(m.body_a.value, m.body_b.value);
     } else if (a && !bodies.dynamic(m.body_b)) {
       anchored_[m.body_a] = 1;
     } else if (b && !bodies.dynamic(m.body_a)) {
@@ -123,16 +120,17 @@ Vec3 Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& 
     }
   }
   anchor_by_joints(bodies, joints, groups);
-  for (std::uint32_t i = 0; i < n; ++i)
-    if (anchored_[i] && rests(i)) anchored_[groups.root(i)] = 1;
+  const auto root = [&](BodySlot body) { return BodySlot(groups.root(body.value)); };
+  for (const BodySlot body : bodies.slots())
+    if (anchored_[body] && rests(body)) anchored_[root(body)] = 1;
   Vec3 taken = Vec3::Zero();
-  for (std::uint32_t i = 0; i < n; ++i) {
-    candidate_[i] = candidate_[i] && anchored_[groups.root(i)];
-    if (!candidate_[i]) continue;
-    taken -= bodies.mass_kg[i] * bodies.velocity[i];
-    bodies.motion[i] = Motion::kAsleep;
-    bodies.velocity[i].setZero();
-    bodies.angular_velocity[i].setZero();
+  for (const BodySlot body : bodies.slots()) {
+    candidate_[body] = candidate_[body] && anchored_[root(body)];
+    if (!candidate_[body]) continue;
+    taken -= bodies.mass_kg[body] * bodies.velocity[body];
+    bodies.motion[body] = Motion::kAsleep;
+    bodies.velocity[body].setZero();
+    bodies.angular_velocity[body].setZero();
   }
   for (Manifold& m : contacts.manifolds)
     if (m.count > 0 && (candidate_[m.body_a] || candidate_[m.body_b]))
@@ -141,7 +139,7 @@ Vec3 Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& 
 }
 
 void Sleep::wake_hit(const StepContext& step, const Contacts& contacts, Bodies& bodies) const {
-  std::vector<std::uint32_t> woken;
+  std::vector<BodySlot> woken;
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0) continue;
     const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
@@ -155,7 +153,7 @@ void Sleep::wake_hit(const StepContext& step, const Contacts& contacts, Bodies& 
       break;
     }
   }
-  for (const std::uint32_t body : woken) bodies.wake(body);
+  for (const BodySlot body : woken) bodies.wake(body);
 }
 
 void Sleep::wake_changed(const StepContext& step, const Contacts& contacts, Bodies& bodies) {
@@ -166,28 +164,28 @@ void Sleep::wake_changed(const StepContext& step, const Contacts& contacts, Bodi
     if (m.count == 0) continue;
     const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
-    const std::uint32_t body = a ? m.body_a : m.body_b;
+    const BodySlot body = a ? m.body_a : m.body_b;
     const Vec3f change = step.inverse_h * m.impulse_W() - m.rest_force_W;
     change_N_[body] += std::max(0.f, change.norm() - kLoadChange * m.rest_force_W.norm());
     support_N_[body] += (a ? -1.f : 1.f) * change.dot(up_W);
   }
-  std::vector<std::uint32_t> woken, left;
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    if (!asleep(bodies, i)) continue;
-    const float weight = weight_N(bodies, i, step.gravity_W);
-    if (change_N_[i] <= kChange * weight) continue;
-    (support_N_[i] < -kChange * weight ? left : woken).push_back(i);
+  std::vector<BodySlot> woken, left;
+  for (const BodySlot body : bodies.slots()) {
+    if (!asleep(bodies, body)) continue;
+    const float weight = weight_N(bodies, body, step.gravity_W);
+    if (change_N_[body] <= kChange * weight) continue;
+    (support_N_[body] < -kChange * weight ? left : woken).push_back(body);
   }
-  for (const std::uint32_t body : woken) bodies.wake(body);
+  for (const BodySlot body : woken) bodies.wake(body);
   wake_above(std::move(left), step.gravity_W, contacts, bodies);
 }
 
-void Sleep::wake_left(std::span<const std::uint32_t> manifolds, const Vec3& gravity_W,
+void Sleep::wake_left(std::span<const ManifoldSlot> manifolds, const Vec3& gravity_W,
                       const Contacts& contacts, Bodies& bodies) {
-  std::vector<std::uint32_t> lowest;
-  for (const std::uint32_t slot : manifolds) {
+  std::vector<BodySlot> lowest;
+  for (const ManifoldSlot slot : manifolds) {
     const Manifold& m = contacts.manifolds[slot];
-    for (const std::uint32_t body : {m.body_a, m.body_b}) {
+    for (const BodySlot body : {m.body_a, m.body_b}) {
       if (!asleep(bodies, body)) continue;
       const bool carried = m.rest_force_W.norm() > kChange * weight_N(bodies, body, gravity_W);
       if (carried) lowest.push_back(body);
@@ -198,7 +196,7 @@ void Sleep::wake_left(std::span<const std::uint32_t> manifolds, const Vec3& grav
   wake_above(std::move(lowest), gravity_W, contacts, bodies);
 }
 
-void Sleep::wake_above(std::vector<std::uint32_t> lowest, const Vec3& gravity_W,
+void Sleep::wake_above(std::vector<BodySlot> lowest, const Vec3& gravity_W,
                        const Contacts& contacts, Bodies& bodies) {
   if (lowest.empty()) return;
   const Vec3f up_W = up(gravity_W);
@@ -207,21 +205,21 @@ void Sleep::wake_above(std::vector<std::uint32_t> lowest, const Vec3& gravity_W,
     for (const Manifold& m : contacts.manifolds) {
       if (m.count == 0 || !asleep(bodies, m.body_a) || !asleep(bodies, m.body_b)) continue;
       const float lift = m.rest_force_W.dot(up_W);
-      const std::uint32_t low = lift > 0 ? m.body_a : m.body_b;
-      const std::uint32_t high = lift > 0 ? m.body_b : m.body_a;
+      const BodySlot low = lift > 0 ? m.body_a : m.body_b;
+      const BodySlot high = lift > 0 ? m.body_b : m.body_a;
       if (std::abs(lift) > kChange * weight_N(bodies, high, gravity_W)) visit(low, high);
     }
   };
   first_.assign(bodies.size() + 2, 0);
-  for_each_edge([&](std::uint32_t low, std::uint32_t) { ++first_[low + 2]; });
+  for_each_edge([&](BodySlot low, BodySlot) { ++first_[low.value + 2]; });
   for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
   above_.resize(first_.back());
-  for_each_edge([&](std::uint32_t low, std::uint32_t high) { above_[first_[low + 1]++] = high; });
-  for (const std::uint32_t body : lowest) bodies.wake(body);
+  for_each_edge([&](BodySlot low, BodySlot high) { above_[first_[low.value + 1]++] = high; });
+  for (const BodySlot body : lowest) bodies.wake(body);
   while (!lowest.empty()) {
-    const std::uint32_t low = lowest.back();
+    const BodySlot low = lowest.back();
     lowest.pop_back();
-    for (std::uint32_t i = first_[low]; i < first_[low + 1]; ++i) {
+    for (std::uint32_t i = first_[low.value]; i < first_[low.value + 1]; ++i) {
       if (!asleep(bodies, above_[i])) continue;
       bodies.wake(above_[i]);
       lowest.push_back(above_[i]);

@@ -28,7 +28,7 @@ class Sleep {
   /// was their support that went.
   void wake_changed(const StepContext& step, const Contacts& contacts, Bodies& bodies);
   /// Wakes both bodies of manifolds that are about to go, and what stood on them.
-  void wake_left(std::span<const std::uint32_t> manifolds, const Vec3& gravity_W,
+  void wake_left(std::span<const ManifoldSlot> manifolds, const Vec3& gravity_W,
                  const Contacts& contacts, Bodies& bodies);
 
  private:
@@ -36,12 +36,13 @@ class Sleep {
   void anchor_by_joints(const Bodies& bodies, const Joints& joints, DisjointSets& groups);
   void keep_joined_awake(const Bodies& bodies, const Joints& joints);
   /// Wakes these and all sleepers that stand on them, by sleepers between.
-  void wake_above(std::vector<std::uint32_t> lowest, const Vec3& gravity_W,
-                  const Contacts& contacts, Bodies& bodies);
+  void wake_above(std::vector<BodySlot> lowest, const Vec3& gravity_W, const Contacts& contacts,
+                  Bodies& bodies);
 
-  std::vector<std::uint8_t> candidate_, anchored_;
-  std::vector<float> change_N_, support_N_;  ///< By body, since it fell asleep.
-  std::vector<std::uint32_t> first_, above_;
+  ByBody<std::uint8_t> candidate_, anchored_;
+  ByBody<float> change_N_, support_N_;  ///< Since it fell asleep.
+  std::vector<std::uint32_t> first_;    ///< In `above_`, by body.
+  std::vector<BodySlot> above_;
 };
 
 }  // namespace sunder::solver

@@ -34,7 +34,10 @@ class TwoBlocks : public testing::Test {
     build_manifold(pair_, bodies_, pair_motion(pair_, bodies_), normal, points, Vec3f::Zero(),
                    kReach_m, m_);
   }
-  void move_b(const Vec3& by) { bodies_.place(1, bodies_.position[1] + by, bodies_.rotation[1]); }
+  void move_b(const Vec3& by) {
+    const BodySlot b = pair_.body_b;
+    bodies_.place(b, bodies_.position[b] + by, bodies_.rotation[b]);
+  }
 
   Bodies bodies_;
   Pair pair_;

@@ -6,7 +6,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "engine/base/check.h"
 #include "engine/base/parallel.h"
 
 namespace sunder::solver {
@@ -83,15 +82,15 @@ void Bodies::resize(std::uint32_t count) {
   changed.resize(count);
   reports_load.resize(count);
   tag.resize(count);
-  first_shape.resize(count, kNone);
+  first_shape.resize(count);
 }
 
-std::uint32_t Bodies::add(const BodyDesc& desc) {
+BodySlot Bodies::add(const BodyDesc& desc) {
   if (free_slots.empty()) {
-    free_slots.push_back(size());
+    free_slots.emplace_back(size());
     resize(size() + 1);
   }
-  const std::uint32_t body = free_slots.back();
+  const BodySlot body = free_slots.back();
   free_slots.pop_back();
   motion[body] = desc.is_static ? Motion::kStatic : Motion::kAwake;
   com_R[body] = desc.com_R;
@@ -120,30 +119,30 @@ std::uint32_t Bodies::add(const BodyDesc& desc) {
   changed[body] = 1;
   reports_load[body] = desc.reports_load;
   tag[body] = desc.tag;
-  first_shape[body] = kNone;
+  first_shape[body] = {};
   return body;
 }
 
-void Bodies::remove(std::uint32_t body) {
+void Bodies::remove(BodySlot body) {
   motion[body] = Motion::kAbsent;
   ++generation[body];
   free_slots.push_back(body);
 }
 
-void Bodies::place(std::uint32_t body, const Vec3& position_W, const Quat& rotation_WB) {
+void Bodies::place(BodySlot body, const Vec3& position_W, const Quat& rotation_WB) {
   position[body] = position_W;
   rotation[body] = rotation_WB.normalized();
   rotation_f[body] = rotation[body].toRotationMatrix().cast<float>();
 }
 
-bool Bodies::finite(std::uint32_t body) const {
+bool Bodies::finite(BodySlot body) const {
   // Beyond 1e9 m/s squares no longer fit a float: as good as infinite.
   return position[body].allFinite() && rotation[body].coeffs().allFinite() &&
          velocity[body].cwiseAbs().maxCoeff() < 1e9 && velocity[body].allFinite() &&
          angular_velocity[body].cwiseAbs().maxCoeff() < 1e9 && angular_velocity[body].allFinite();
 }
 
-Vec3 Bodies::freeze(std::uint32_t body) {
+Vec3 Bodies::freeze(BodySlot body) {
   const Vec3 momentum =
       velocity[body].allFinite() ? Vec3(mass_kg[body] * velocity[body]) : Vec3(Vec3::Zero());
   motion[body] = Motion::kFrozen;
@@ -157,7 +156,7 @@ Vec3 Bodies::freeze(std::uint32_t body) {
 
 Momentum Bodies::momentum() const {
   Momentum sum;
-  for (std::uint32_t body = 0; body < size(); ++body) {
+  for (const BodySlot body : slots()) {
     if (motion[body] == Motion::kAbsent || motion[body] == Motion::kStatic) continue;
     sum.mass_kg += mass_kg[body];
     sum.momentum_Ns += mass_kg[body] * velocity[body];
@@ -165,7 +164,7 @@ Momentum Bodies::momentum() const {
   return sum;
 }
 
-void Bodies::wake(std::uint32_t body) {
+void Bodies::wake(BodySlot body) {
   if (motion[body] != Motion::kAsleep) return;
   motion[body] = Motion::kAwake;
   slow_s[body] = 0;
@@ -174,18 +173,18 @@ void Bodies::wake(std::uint32_t body) {
 
 namespace {
 
-std::uint64_t tag_key(std::uint32_t body, std::uint32_t tag) {
-  return std::uint64_t{body} << 32 | tag;
+std::uint64_t tag_key(BodySlot body, std::uint32_t tag) {
+  return std::uint64_t{body.value} << 32 | tag;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> Shapes::add(std::span<const NewShape> added, Bodies& bodies) {
-  std::vector<std::uint32_t> slots;
+std::vector<ShapeSlot> Shapes::add(std::span<const NewShape> added, Bodies& bodies) {
+  std::vector<ShapeSlot> slots;
   slots.reserve(added.size());
   for (std::size_t i = 0; i < added.size(); ++i) {
     if (free_slots.empty()) {
-      free_slots.push_back(size());
+      free_slots.emplace_back(size());
       items.emplace_back();
     }
     slots.push_back(free_slots.back());
@@ -198,38 +197,38 @@ std::vector<std::uint32_t> Shapes::add(std::span<const NewShape> added, Bodies& 
     }
   });
   for (std::size_t i = 0; i < slots.size(); ++i) {
-    const std::uint32_t s = slots[i], body = added[i].body;
+    const ShapeSlot s = slots[i];
+    const BodySlot body = added[i].body;
     items[s].next = bodies.first_shape[body];
-    if (items[s].next != kNone) items[items[s].next].previous = s;
+    if (!items[s].next.none()) items[items[s].next].previous = s;
     bodies.first_shape[body] = s;
     bodies.reach_m[body] = std::max(bodies.reach_m[body], double{items[s].reach_m});
     if (bodies.motion[body] != Motion::kStatic) continue;
     const std::uint64_t key = tag_key(body, items[s].tag);
-    if (!static_with_tag_.contains(key)) static_with_tag_.insert(key, s);
+    if (!static_with_tag_.contains(key)) static_with_tag_.insert(key, s.value);
   }
   return slots;
 }
 
-std::vector<std::uint32_t> Shapes::of_body(std::uint32_t body, const Bodies& bodies) const {
-  std::vector<std::uint32_t> slots;
-  for (std::uint32_t s = bodies.first_shape[body]; s != kNone; s = items[s].next)
-    slots.push_back(s);
+std::vector<ShapeSlot> Shapes::of_body(BodySlot body, const Bodies& bodies) const {
+  std::vector<ShapeSlot> slots;
+  for (ShapeSlot s = bodies.first_shape[body]; !s.none(); s = items[s].next) slots.push_back(s);
   return slots;
 }
 
-std::uint32_t Shapes::with_tag(std::uint32_t body, std::uint32_t tag) const {
+ShapeSlot Shapes::with_tag(BodySlot body, std::uint32_t tag) const {
   const std::uint32_t s = static_with_tag_.find(tag_key(body, tag));
   SUNDER_CHECK(s != KeyMap::kAbsent);
-  return s;
+  return ShapeSlot(s);
 }
 
-void Shapes::remove(std::span<const std::uint32_t> removed, Bodies& bodies) {
-  for (const std::uint32_t s : removed) {
+void Shapes::remove(std::span<const ShapeSlot> removed, Bodies& bodies) {
+  for (const ShapeSlot s : removed) {
     const Shape& shape = items[s];
     const std::uint64_t key = tag_key(shape.body, shape.tag);
-    if (static_with_tag_.find(key) == s) static_with_tag_.erase(key);
-    if (shape.next != kNone) items[shape.next].previous = shape.previous;
-    if (shape.previous != kNone)
+    if (static_with_tag_.find(key) == s.value) static_with_tag_.erase(key);
+    if (!shape.next.none()) items[shape.next].previous = shape.previous;
+    if (!shape.previous.none())
       items[shape.previous].next = shape.next;
     else
       bodies.first_shape[shape.body] = shape.next;

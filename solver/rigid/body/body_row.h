@@ -1,8 +1,11 @@
 // A body as the sweeps of contacts and joints see it.
 #pragma once
 
+#include <cstdint>
+
 #include "engine/base/types.h"
 #include "solver/base/wide.h"
+#include "solver/rigid/body/slots.h"
 
 namespace sunder::solver {
 
@@ -13,6 +16,9 @@ struct alignas(64) BodyRow {
   Wide base;      ///< Velocity of the substep before any contact acted.
   Wide start;     ///< Velocity when the step began.
 };
+
+/// Of a body that moves; row 0 stays still.
+inline std::uint32_t row_of(BodySlot body) { return body.value + 1; }
 
 inline Vec3f linear(const Wide& of_row) { return {of_row[0], of_row[1], of_row[2]}; }
 inline Vec3f angular(const Wide& of_row) { return {of_row[3], of_row[4], of_row[5]}; }

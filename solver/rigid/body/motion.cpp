@@ -38,7 +38,7 @@ void midpoint_step(const Mat3& inertia_B, const Mat3& inverse_B, double h, Quat&
   w_B = w1;
 }
 
-Spin spun_freely(const Bodies& bodies, std::uint32_t body, double dt_s) {
+Spin spun_freely(const Bodies& bodies, BodySlot body, double dt_s) {
   Spin spin{bodies.rotation[body],
             bodies.rotation[body].conjugate() * bodies.angular_velocity[body]};
   const double angle = spin.w_B.norm() * dt_s;
@@ -50,14 +50,14 @@ Spin spun_freely(const Bodies& bodies, std::uint32_t body, double dt_s) {
   return spin;
 }
 
-bool wobbles(const Bodies& bodies, std::uint32_t body, double dt_s) {
+bool wobbles(const Bodies& bodies, BodySlot body, double dt_s) {
   const double angle = bodies.angular_velocity[body].norm() * dt_s;
   return bodies.spins_freely[body] != 0 && angle >= kGyroscopicAngle && angle < kFastestAngle;
 }
 
 }  // namespace
 
-void fly(const StepContext& step, std::uint32_t body, Bodies& bodies) {
+void fly(const StepContext& step, BodySlot body, Bodies& bodies) {
   const double dt_s = step.dt_s;
   const Vec3 way = dt_s * (bodies.velocity[body] + 0.5 * dt_s * step.gravity_W);
   bodies.velocity[body] += dt_s * step.gravity_W;
@@ -74,7 +74,7 @@ void fly(const StepContext& step, std::uint32_t body, Bodies& bodies) {
   bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
 }
 
-Vec3 gyroscopic_change(const Bodies& bodies, std::uint32_t body, double dt_s) {
+Vec3 gyroscopic_change(const Bodies& bodies, BodySlot body, double dt_s) {
   if (!wobbles(bodies, body, dt_s)) return Vec3::Zero();
   return bodies.rotation[body] * spun_freely(bodies, body, dt_s).w_B -
          bodies.angular_velocity[body];

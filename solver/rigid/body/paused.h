@@ -11,7 +11,7 @@ namespace sunder::solver {
 class Paused {
  public:
   /// From the next stop() to the release() after it.
-  void add(std::uint32_t body) { items_.push_back({body}); }
+  void add(BodySlot body) { items_.push_back({body}); }
   /// Those that are awake fall asleep.
   void stop(Bodies& bodies) {
     std::erase_if(items_, [&](const Item& item) { return !bodies.awake(item.body); });
@@ -34,7 +34,7 @@ class Paused {
 
  private:
   struct Item {
-    std::uint32_t body = 0;
+    BodySlot body;
     Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
   };
   std::vector<Item> items_;

@@ -9,7 +9,7 @@
 namespace sunder::solver {
 namespace {
 
-double inverse_effective_mass(const Bodies& bodies, std::uint32_t body, const Vec3f& arm_W,
+double inverse_effective_mass(const Bodies& bodies, BodySlot body, const Vec3f& arm_W,
                               const Vec3f& normal_W) {
   if (!bodies.dynamic(body)) return 0;
   const Vec3f angular_B = bodies.rotation_f[body].transpose() * arm_W.cross(normal_W);
@@ -62,7 +62,7 @@ bool make_approach(const Pair& pair, const Manifold& m, const Bodies& bodies, co
 
 double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A,
                      const Vec3f& arm_B) {
-  const std::uint32_t a = m.body_a, b = m.body_b;
+  const BodySlot a = m.body_a, b = m.body_b;
   const Vec3 v_a =
       bodies.velocity[a] + bodies.angular_velocity[a].cross(Vec3(arm_A.cast<double>()));
   const Vec3 v_b =
@@ -78,7 +78,7 @@ std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bo
   for_chunks(contacts.manifolds.size(), kChunk,
              [&](std::size_t begin, std::size_t end, std::size_t c) {
                for (std::size_t i = begin; i < end; ++i) {
-                 const Manifold& m = contacts.manifolds[i];
+                 const Manifold& m = contacts.manifolds[ManifoldSlot(i)];
                  if (m.count == 0 || (!bodies.awake(m.body_a) && !bodies.awake(m.body_b))) continue;
                  const Pair& pair = contacts.pairs[m.pair];
                  Approach approach;
@@ -99,26 +99,26 @@ std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bo
 ContactsOfBodies::ContactsOfBodies(const Contacts& contacts, const Bodies& bodies)
     : first_(bodies.size() + 1, 0) {
   const auto visit = [&](auto&& use) {
-    for (std::uint32_t i = 0; i < contacts.manifolds.size(); ++i) {
+    for (const ManifoldSlot i : contacts.manifolds.slots()) {
       const Manifold& m = contacts.manifolds[i];
       if (m.count == 0) continue;
       if (bodies.dynamic(m.body_a)) use(m.body_a, i);
       if (bodies.dynamic(m.body_b)) use(m.body_b, i);
     }
   };
-  visit([&](std::uint32_t body, std::uint32_t) { ++first_[body + 1]; });
+  visit([&](BodySlot body, ManifoldSlot) { ++first_[body.value + 1]; });
   for (std::size_t body = 0; body < bodies.size(); ++body) first_[body + 1] += first_[body];
   manifolds_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  visit([&](std::uint32_t body, std::uint32_t m) { manifolds_[next[body]++] = m; });
+  visit([&](BodySlot body, ManifoldSlot m) { manifolds_[next[body.value]++] = m; });
 }
 
 std::vector<Touch> find_touches(const Contacts& contacts, const Bodies& bodies,
                                 const Shapes& shapes, const ContactsOfBodies& contacts_of_bodies,
-                                std::span<const std::uint32_t> of) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> found;  // by key
-  for (const std::uint32_t body : of)
-    for (const std::uint32_t i : contacts_of_bodies.of(body))
+                                std::span<const BodySlot> of) {
+  std::vector<std::pair<std::uint64_t, ManifoldSlot>> found;  // by key
+  for (const BodySlot body : of)
+    for (const ManifoldSlot i : contacts_of_bodies.of(body))
       found.emplace_back(contacts.pairs[contacts.manifolds[i].pair].key(), i);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

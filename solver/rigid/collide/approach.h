@@ -23,18 +23,20 @@ class ContactsOfBodies {
 
   bool empty() const { return first_.empty(); }
   void clear() { first_.clear(); }
-  std::span<const std::uint32_t> of(std::uint32_t body) const {
-    return std::span(manifolds_).subspan(first_[body], first_[body + 1] - first_[body]);
+  std::span<const ManifoldSlot> of(BodySlot body) const {
+    const std::uint32_t first = first_[body.value];
+    return std::span(manifolds_).subspan(first, first_[body.value + 1] - first);
   }
 
  private:
-  std::vector<std::uint32_t> first_, manifolds_;
+  std::vector<std::uint32_t> first_;  ///< In `manifolds_`, by body; one more than there are.
+  std::vector<ManifoldSlot> manifolds_;
 };
 
 /// The contact points of any of `bodies`, each once; in order of pair keys.
 std::vector<Touch> find_touches(const Contacts& contacts, const Bodies& bodies,
                                 const Shapes& shapes, const ContactsOfBodies& contacts_of_bodies,
-                                std::span<const std::uint32_t> of);
+                                std::span<const BodySlot> of);
 
 /// Approach speed at an arm, along the manifold's normal; > 0 when closing.
 double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A,

@@ -10,12 +10,12 @@ constexpr std::size_t kGrowth = 8;
 
 }  // namespace
 
-void BoxForest::add(std::span<const FloatBox> boxes, std::span<const std::uint32_t> items) {
+void BoxForest::add(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> items) {
   if (items.empty()) return;
-  std::vector<std::uint32_t> leaves(items.begin(), items.end());
+  std::vector<ShapeSlot> leaves(items.begin(), items.end());
   while (!trees_.empty() && trees_.back().size() < kGrowth * leaves.size()) {
-    for (const std::uint32_t item : trees_.back().leaves())
-      if (item != BoxTree::kNoItem) leaves.push_back(item);
+    for (const ShapeSlot item : trees_.back().leaves())
+      if (!item.none()) leaves.push_back(item);
     trees_.pop_back();
   }
   BoxTree& tree = trees_.emplace_back();
@@ -26,8 +26,6 @@ void BoxForest::add(std::span<const FloatBox> boxes, std::span<const std::uint32
     place_[tree.leaves()[leaf]] = {index, leaf};
 }
 
-void BoxForest::remove(std::uint32_t item) {
-  trees_[place_[item].tree].remove_leaf(place_[item].leaf);
-}
+void BoxForest::remove(ShapeSlot item) { trees_[place_[item].tree].remove_leaf(place_[item].leaf); }
 
 }  // namespace sunder::solver

@@ -7,16 +7,17 @@
 #include <span>
 #include <vector>
 
+#include "solver/rigid/body/slots.h"
 #include "solver/rigid/collide/box_tree.h"
 
 namespace sunder::solver {
 
 class BoxForest {
  public:
-  /// Adds items that are not in it; `boxes` is by item and must hold those of all items.
-  void add(std::span<const FloatBox> boxes, std::span<const std::uint32_t> items);
+  /// Adds items that are not in it; `boxes` must hold those of all items.
+  void add(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> items);
   /// Takes an item out; others are not in it any more than before.
-  void remove(std::uint32_t item);
+  void remove(ShapeSlot item);
   /// Calls hit(item) for each item whose box overlaps `query`.
   template <class Hit>
   void overlaps(const FloatBox& query, const Hit& hit) const {
@@ -28,7 +29,7 @@ class BoxForest {
     std::uint32_t tree, leaf;
   };
   std::vector<BoxTree> trees_;  ///< Large ones first.
-  std::vector<Place> place_;    ///< By item.
+  ByShape<Place> place_;
 };
 
 }  // namespace sunder::solver

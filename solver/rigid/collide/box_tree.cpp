@@ -19,9 +19,9 @@ float reduce_max(Wide v) { return -reduce_min(-v); }
 
 }  // namespace
 
-void BoxTree::build(std::span<const FloatBox> boxes, std::span<const std::uint32_t> items) {
+void BoxTree::build(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> items) {
   FloatBox all;
-  for (const std::uint32_t item : items) {
+  for (const ShapeSlot item : items) {
     const Vec3f center = 0.5f * (boxes[item].min + boxes[item].max);
     all.min = all.min.cwiseMin(center);
     all.max = all.max.cwiseMax(center);
@@ -49,7 +49,7 @@ void BoxTree::build(std::span<const FloatBox> boxes, std::span<const std::uint32
   refit(boxes);
 }
 
-void BoxTree::refit(std::span<const FloatBox> boxes) {
+void BoxTree::refit(const ByShape<FloatBox>& boxes) {
   if (items_.empty()) return;
   for_chunks(levels_[0].size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin * kLanes; i < end * kLanes; ++i)
@@ -67,7 +67,7 @@ void BoxTree::fit_inner_levels() {
 }
 
 void BoxTree::remove_leaf(std::uint32_t leaf) {
-  items_[leaf] = kNoItem;
+  items_[leaf] = {};
   FloatBox box;
   for (std::vector<Chunk>& level : levels_) {
     Chunk& chunk = level[leaf / kLanes];

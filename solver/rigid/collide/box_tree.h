@@ -8,6 +8,7 @@
 
 #include "engine/base/types.h"
 #include "solver/base/wide.h"
+#include "solver/rigid/body/slots.h"
 
 namespace sunder::solver {
 
@@ -28,20 +29,18 @@ struct FloatBox {
 
 class BoxTree {
  public:
-  /// Sorts `items` (indices into `boxes`) and builds every level.
-  void build(std::span<const FloatBox> boxes, std::span<const std::uint32_t> items);
+  /// Sorts `items` and builds every level.
+  void build(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> items);
   /// Takes in boxes that moved since build(); the order of the leaves stays.
-  void refit(std::span<const FloatBox> boxes);
+  void refit(const ByShape<FloatBox>& boxes);
   /// Calls hit(item) for each item whose box overlaps `query`.
   template <class Hit>
   void overlaps(const FloatBox& query, const Hit& hit) const;
   std::size_t size() const { return items_.size(); }
-  /// Items in leaf order; kNoItem where one was removed.
-  std::span<const std::uint32_t> leaves() const { return items_; }
+  /// Items in leaf order; none where one was removed.
+  std::span<const ShapeSlot> leaves() const { return items_; }
   /// Takes a leaf out: its box is empty from now on. Not to be refitted any more.
   void remove_leaf(std::uint32_t leaf);
-
-  static constexpr std::uint32_t kNoItem = 0xffffffff;
 
  private:
   struct Chunk {
@@ -52,7 +51,7 @@ class BoxTree {
   };
   void fit_inner_levels();
 
-  std::vector<std::uint32_t> items_;        ///< In leaf order.
+  std::vector<ShapeSlot> items_;            ///< In leaf order.
   std::vector<std::vector<Chunk>> levels_;  ///< Level 0 holds leaves; the last has one chunk.
 };
 

@@ -38,7 +38,7 @@ FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
 }
 
 FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bodies) {
-  const std::uint32_t body = shape.body;
+  const BodySlot body = shape.body;
   FloatBox box;
   if (shape.kind == ShapeDesc::Kind::kHull) {
     box = turned_bounds(shape.hull, bodies.rotation_f[body]);
@@ -74,7 +74,7 @@ FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& s
 }
 
 /// The pair of two shapes: a is the half-space, or the hull, or the lesser slot.
-FoundPair pair_of(std::uint32_t s, std::uint32_t t, const Shapes& shapes) {
+FoundPair pair_of(ShapeSlot s, ShapeSlot t, const Shapes& shapes) {
   const Shape &first = shapes[s], &second = shapes[t];
   const bool swap = first.kind != second.kind ? first.kind == ShapeDesc::Kind::kSphere ||
                                                     second.kind == ShapeDesc::Kind::kHalfSpace
@@ -84,15 +84,14 @@ FoundPair pair_of(std::uint32_t s, std::uint32_t t, const Shapes& shapes) {
 
 }  // namespace
 
-void BroadPhase::add(std::span<const std::uint32_t> added, const Shapes& shapes,
-                     const Bodies& bodies) {
+void BroadPhase::add(std::span<const ShapeSlot> added, const Shapes& shapes, const Bodies& bodies) {
   role_.resize(shapes.size(), Role::kAbsent);
   swept_.resize(shapes.size());
   fat_.resize(shapes.size());
   moved_.resize(shapes.size());
   crowded_.resize(shapes.size());
   half_space_of_.resize(shapes.size(), -1);
-  for (const std::uint32_t s : added) {
+  for (const ShapeSlot s : added) {
     fat_[s] = FloatBox();
     if (shapes[s].kind == ShapeDesc::Kind::kHalfSpace) {
       add_half_space(s, shapes, bodies);
@@ -106,8 +105,8 @@ void BroadPhase::add(std::span<const std::uint32_t> added, const Shapes& shapes,
   }
 }
 
-void BroadPhase::remove(std::span<const std::uint32_t> removed) {
-  for (const std::uint32_t s : removed) {
+void BroadPhase::remove(std::span<const ShapeSlot> removed) {
+  for (const ShapeSlot s : removed) {
     if (role_[s] == Role::kHalfSpace) {
       remove_half_space(s);
     } else if (role_[s] == Role::kMover) {
@@ -119,8 +118,8 @@ void BroadPhase::remove(std::span<const std::uint32_t> removed) {
   }
 }
 
-void BroadPhase::add_half_space(std::uint32_t s, const Shapes& shapes, const Bodies& bodies) {
-  const std::uint32_t body = shapes[s].body;
+void BroadPhase::add_half_space(ShapeSlot s, const Shapes& shapes, const Bodies& bodies) {
+  const BodySlot body = shapes[s].body;
   const Vec3 normal_W = (bodies.rotation[body] * shapes[s].normal.cast<double>()).normalized();
   const Vec3 point_W =
       bodies.position[body] + bodies.rotation[body] * shapes[s].center.cast<double>();
@@ -130,7 +129,7 @@ void BroadPhase::add_half_space(std::uint32_t s, const Shapes& shapes, const Bod
   look_again_ = true;
 }
 
-void BroadPhase::remove_half_space(std::uint32_t s) {
+void BroadPhase::remove_half_space(ShapeSlot s) {
   const auto at = static_cast<std::size_t>(half_space_of_[s]);
   half_spaces_.erase(half_spaces_.begin() + half_space_of_[s]);
   for (std::size_t i = at; i < half_spaces_.size(); ++i) --half_space_of_[half_spaces_[i].shape];
@@ -138,16 +137,16 @@ void BroadPhase::remove_half_space(std::uint32_t s) {
 }
 
 void BroadPhase::update_boxes(const StepContext& step, const Shapes& shapes, const Bodies& bodies) {
-  for (const std::uint32_t s : moved_list_) moved_[s] = 0;
+  for (const ShapeSlot s : moved_list_) moved_[s] = 0;
   moved_list_.clear();
   if (movers_changed_) {
     movers_.clear();
-    for (std::uint32_t s = 0; s < role_.size(); ++s)
+    for (const ShapeSlot s : role_.slots())
       if (role_[s] == Role::kMover) movers_.push_back(s);
   }
   for_chunks(movers_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t s = movers_[i];
+      const ShapeSlot s = movers_[i];
       const Shape& shape = shapes.items[s];
       moved_[s] = look_again_ || crowded_[s];
       if (!bodies.changed[shape.body]) continue;
@@ -158,11 +157,11 @@ void BroadPhase::update_boxes(const StepContext& step, const Shapes& shapes, con
     }
   });
   look_again_ = false;
-  for (const std::uint32_t s : movers_)
+  for (const ShapeSlot s : movers_)
     if (moved_[s]) moved_list_.push_back(s);
   for_chunks(new_statics_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t s = new_statics_[i];
+      const ShapeSlot s = new_statics_[i];
       fat_[s] = swept_[s] = swept_box(step, shapes.items[s], bodies);
       moved_[s] = 1;
     }
@@ -182,18 +181,17 @@ void BroadPhase::update_trees() {
   movers_changed_ = false;
 }
 
-std::vector<std::uint32_t> BroadPhase::pairs_with(std::span<const std::uint32_t> of,
-                                                  const Shapes& shapes,
-                                                  const KeyMap& slot_of) const {
-  std::vector<std::uint32_t> slots;
-  for (const std::uint32_t s : of) {
-    const auto consider = [&](std::uint32_t other) {
+std::vector<PairSlot> BroadPhase::pairs_with(std::span<const ShapeSlot> of, const Shapes& shapes,
+                                             const Contacts& contacts) const {
+  std::vector<PairSlot> slots;
+  for (const ShapeSlot s : of) {
+    const auto consider = [&](ShapeSlot other) {
       if (role_[other] == Role::kAbsent) return;  // gone since the tree was built
-      const std::uint32_t slot = slot_of.find(pair_of(s, other, shapes).key());
-      if (slot != KeyMap::kAbsent) slots.push_back(slot);
+      const PairSlot slot = contacts.slot(pair_of(s, other, shapes).key());
+      if (!slot.none()) slots.push_back(slot);
     };
     if (role_[s] == Role::kHalfSpace) {
-      for (const std::uint32_t other : movers_) consider(other);
+      for (const ShapeSlot other : movers_) consider(other);
       continue;
     }
     mover_tree_.overlaps(fat_[s], consider);
@@ -208,7 +206,7 @@ std::vector<std::uint32_t> BroadPhase::pairs_with(std::span<const std::uint32_t>
 
 /// Of the movers that overlap a shape in a crowd, those whose middles are within it are looked at
 /// by a share only, as equal for both of a pair as their crowds are; the next update looks again.
-void BroadPhase::thin_out(std::uint32_t shape, std::size_t neighbours, const Shapes& shapes,
+void BroadPhase::thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes,
                           const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first) {
   const std::uint64_t share = ~std::uint64_t{0} / neighbours * kCrowd;
   const auto middle = [&](const Shape& s) {
@@ -228,19 +226,19 @@ void BroadPhase::thin_out(std::uint32_t shape, std::size_t neighbours, const Sha
   found.erase(kept, found.end());
 }
 
-void BroadPhase::find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
-                            const KeyMap& slot_of, std::vector<FoundPair>& found) {
+void BroadPhase::find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies& bodies,
+                            const Contacts& contacts, std::vector<FoundPair>& found) {
   const Shape& mine = shapes[shape];
   const bool mover = bodies.dynamic(mine.body);
   const std::size_t first = found.size();
   std::size_t neighbours = 0;
-  auto consider = [&](std::uint32_t other) {
+  auto consider = [&](ShapeSlot other) {
     const Shape& theirs = shapes[other];
     ++neighbours;
     if (theirs.body == mine.body || (moved_[other] && other < shape)) return;
     if (!mover && !bodies.dynamic(theirs.body)) return;
     const FoundPair pair = pair_of(shape, other, shapes);
-    if (!slot_of.contains(pair.key())) found.push_back(pair);
+    if (contacts.slot(pair.key()).none()) found.push_back(pair);
   };
   mover_tree_.overlaps(fat_[shape], consider);
   const auto order = [&] {
@@ -268,7 +266,7 @@ void BroadPhase::update(const StepContext& step, const Shapes& shapes, const Bod
   for_chunks(moved_list_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
     found_[c].clear();
     for (std::size_t i = begin; i < end; ++i)
-      find_pairs(moved_list_[i], shapes, bodies, contacts.slot_of, found_[c]);
+      find_pairs(moved_list_[i], shapes, bodies, contacts, found_[c]);
   });
   std::size_t all = 0;
   for (std::size_t c = 0; c < chunks; ++c) all += found_[c].size();
@@ -283,7 +281,7 @@ void BroadPhase::update(const StepContext& step, const Shapes& shapes, const Bod
   }
 }
 
-bool BroadPhase::overlaps(const Pair& pair, const std::vector<FloatBox>& boxes) const {
+bool BroadPhase::overlaps(const Pair& pair, const ByShape<FloatBox>& boxes) const {
   const std::int32_t plane = half_space_of_[pair.shape_a];
   if (plane < 0) return boxes[pair.shape_a].overlaps(boxes[pair.shape_b]);
   const HalfSpace& half = half_spaces_[static_cast<std::size_t>(plane)];

@@ -16,7 +16,7 @@ namespace sunder::solver {
 
 /// Two shapes that came near: as in Pair, a is the half-space, or the hull, or the lesser slot.
 struct FoundPair {
-  std::uint32_t shape_a, shape_b;
+  ShapeSlot shape_a, shape_b;
 
   std::uint64_t key() const { return pair_key(shape_a, shape_b); }
 };
@@ -24,13 +24,13 @@ struct FoundPair {
 class BroadPhase {
  public:
   /// Takes shapes in; they are found by the next update().
-  void add(std::span<const std::uint32_t> added, const Shapes& shapes, const Bodies& bodies);
+  void add(std::span<const ShapeSlot> added, const Shapes& shapes, const Bodies& bodies);
   /// The slots of all pairs that have one of these shapes, each once, ascending. To be asked before
   /// the shapes are removed.
-  std::vector<std::uint32_t> pairs_with(std::span<const std::uint32_t> of, const Shapes& shapes,
-                                        const KeyMap& slot_of) const;
+  std::vector<PairSlot> pairs_with(std::span<const ShapeSlot> of, const Shapes& shapes,
+                                   const Contacts& contacts) const;
   /// Takes shapes out.
-  void remove(std::span<const std::uint32_t> removed);
+  void remove(std::span<const ShapeSlot> removed);
   /// Boxes of what changed, swept over the step; adds pairs that came near, in the same order for
   /// any number of threads.
   void update(const StepContext& step, const Shapes& shapes, const Bodies& bodies,
@@ -43,28 +43,28 @@ class BroadPhase {
  private:
   enum class Role : std::uint8_t { kAbsent, kMover, kStatic, kHalfSpace };
   struct HalfSpace {
-    std::uint32_t shape;
+    ShapeSlot shape;
     Vec3f normal_W;
     float d;
   };
-  void add_half_space(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies);
-  void remove_half_space(std::uint32_t shape);
+  void add_half_space(ShapeSlot shape, const Shapes& shapes, const Bodies& bodies);
+  void remove_half_space(ShapeSlot shape);
   void update_boxes(const StepContext& step, const Shapes& shapes, const Bodies& bodies);
   void update_trees();
-  void find_pairs(std::uint32_t shape, const Shapes& shapes, const Bodies& bodies,
-                  const KeyMap& slot_of, std::vector<FoundPair>& found);
-  void thin_out(std::uint32_t shape, std::size_t neighbours, const Shapes& shapes,
-                const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first);
-  bool overlaps(const Pair& pair, const std::vector<FloatBox>& boxes) const;
+  void find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies& bodies,
+                  const Contacts& contacts, std::vector<FoundPair>& found);
+  void thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes, const Bodies& bodies,
+                std::vector<FoundPair>& found, std::size_t first);
+  bool overlaps(const Pair& pair, const ByShape<FloatBox>& boxes) const;
 
-  std::vector<Role> role_;             ///< By shape slot.
-  std::vector<FloatBox> swept_, fat_;  ///< By shape slot.
-  std::vector<std::uint8_t> moved_;    ///< Left its fat box in this update.
-  std::vector<std::uint8_t> crowded_;  ///< Has neighbours that were not looked at.
-  std::vector<std::uint32_t> movers_, new_statics_, moved_list_;
+  ByShape<Role> role_;
+  ByShape<FloatBox> swept_, fat_;
+  ByShape<std::uint8_t> moved_;    ///< Left its fat box in this update.
+  ByShape<std::uint8_t> crowded_;  ///< Has neighbours that were not looked at.
+  std::vector<ShapeSlot> movers_, new_statics_, moved_list_;
   std::vector<std::vector<FoundPair>> found_;  ///< By chunk of moved shapes.
   std::vector<HalfSpace> half_spaces_;
-  std::vector<std::int32_t> half_space_of_;  ///< By shape slot; −1: not one.
+  ByShape<std::int32_t> half_space_of_;  ///< −1: not one.
   BoxTree mover_tree_;
   BoxForest static_forest_;
   bool movers_changed_ = true;

@@ -7,14 +7,13 @@
 namespace sunder::solver {
 namespace {
 
-template <class Item>
-std::uint32_t put(const Item& item, std::vector<std::uint32_t>& free_slots,
-                  std::vector<Item>& items) {
+template <class Slot, class Item>
+Slot put(const Item& item, std::vector<Slot>& free_slots, SlotVector<Slot, Item>& items) {
   if (free_slots.empty()) {
     items.push_back(item);
-    return static_cast<std::uint32_t>(items.size() - 1);
+    return Slot(items.size() - 1);
   }
-  const std::uint32_t slot = free_slots.back();
+  const Slot slot = free_slots.back();
   free_slots.pop_back();
   items[slot] = item;
   return slot;
@@ -29,7 +28,9 @@ void make_room(std::size_t more, std::size_t free_slots, std::vector<Item>& item
 
 }  // namespace
 
-void Contacts::add(const Pair& pair) { slot_of.insert(pair.key(), put(pair, free_pairs, pairs)); }
+void Contacts::add(const Pair& pair) {
+  slot_of.insert(pair.key(), put(pair, free_pairs, pairs).value);
+}
 
 void Contacts::expect_pairs(std::size_t more) {
   make_room(more, free_pairs.size(), pairs);
@@ -40,15 +41,15 @@ void Contacts::expect_manifolds(std::size_t more) {
   make_room(more, free_manifolds.size(), manifolds);
 }
 
-void Contacts::remove(std::uint32_t slot) {
+void Contacts::remove(PairSlot slot) {
   if (pairs[slot].touching()) part(slot);
   slot_of.erase(pairs[slot].key());
   pairs[slot] = Pair();
   free_pairs.push_back(slot);
 }
 
-void Contacts::touch(std::uint32_t pair, const Manifold& manifold, const Bodies& bodies) {
-  const std::uint32_t slot = put(manifold, free_manifolds, manifolds);
+void Contacts::touch(PairSlot pair, const Manifold& manifold, const Bodies& bodies) {
+  const ManifoldSlot slot = put(manifold, free_manifolds, manifolds);
   Manifold& m = manifolds[slot];
   m.pair = pair;
   m.cold = bodies.is_new[m.body_a] || bodies.is_new[m.body_b];
@@ -63,15 +64,15 @@ void Contacts::touch(std::uint32_t pair, const Manifold& manifold, const Bodies&
   if (b) body_colors[m.body_b] |= std::uint64_t{1} << m.color;
 }
 
-void Contacts::part(std::uint32_t pair) {
-  const std::uint32_t slot = pairs[pair].manifold;
+void Contacts::part(PairSlot pair) {
+  const ManifoldSlot slot = pairs[pair].manifold;
   Manifold& m = manifolds[slot];
   if (m.color < kMaxColors) {
     body_colors[m.body_a] &= ~(std::uint64_t{1} << m.color);
     body_colors[m.body_b] &= ~(std::uint64_t{1} << m.color);
   }
   m = Manifold();
-  pairs[pair].manifold = kNone;
+  pairs[pair].manifold = {};
   free_manifolds.push_back(slot);
 }
 

@@ -15,15 +15,15 @@ inline constexpr std::uint8_t kNoColor = 0xff;
 inline constexpr std::uint8_t kMaxColors = 64;                   ///< As a colour: none was free.
 inline constexpr std::size_t kSweepKeys = (kMaxColors + 1) * 4;  ///< Of manifolds that touch.
 
-inline std::uint64_t pair_key(std::uint32_t shape_a, std::uint32_t shape_b) {
-  return std::uint64_t{shape_a} << 32 | shape_b;
+inline std::uint64_t pair_key(ShapeSlot shape_a, ShapeSlot shape_b) {
+  return std::uint64_t{shape_a.value} << 32 | shape_b.value;
 }
 
 /// Two shapes whose fat boxes overlap. If their kinds differ, a is the half-space, or the hull.
 struct Pair {
-  std::uint32_t shape_a = kNone, shape_b = kNone;  ///< kNone: a free slot.
-  std::uint32_t body_a = kNone, body_b = kNone;
-  std::uint32_t manifold = kNone;  ///< kNone: not touching.
+  ShapeSlot shape_a, shape_b;  ///< None: a free slot.
+  BodySlot body_a, body_b;
+  ManifoldSlot manifold;           ///< None: not touching.
   float clearance_m = -1;          ///< Lower bound on the distance when last looked at closely.
   float margin_m = 0;              ///< Within which it matters, besides what the bodies move.
   double turned_m = 0;             ///< Of both bodies when last looked at closely.
@@ -31,8 +31,8 @@ struct Pair {
   Vec3f axis_A = Vec3f::Zero();    ///< Last axis that parted them, in A; zero if none.
   bool fresh = true;               ///< Not looked at closely yet.
 
-  bool present() const { return shape_a != kNone; }
-  bool touching() const { return manifold != kNone; }
+  bool present() const { return !shape_a.none(); }
+  bool touching() const { return !manifold.none(); }
   std::uint64_t key() const { return pair_key(shape_a, shape_b); }
 };
 
@@ -47,8 +47,8 @@ struct ManifoldPoint {
 
 /// Up to four points on one normal. Friction acts at their middle, with twist about the normal.
 struct Manifold {
-  std::uint32_t pair = kNone;  ///< kNone: a free slot.
-  std::uint32_t body_a = kNone, body_b = kNone;
+  PairSlot pair;  ///< None: a free slot.
+  BodySlot body_a, body_b;
   std::uint8_t count = 0;  ///< 0: a free slot.
   std::uint8_t color = kNoColor;
   bool normal_on_b = false;  ///< The normal is fixed to B instead of A.
@@ -99,26 +99,28 @@ struct Manifold {
 
 /// All pairs, the manifolds of those that touch, and the colours bodies have in use.
 struct Contacts {
-  std::vector<Pair> pairs;
-  std::vector<Manifold> manifolds;
-  std::vector<std::uint32_t> free_pairs, free_manifolds;
-  std::uint8_t colors = kMaxColors;        ///< That may be given out.
-  std::vector<std::uint64_t> body_colors;  ///< Bit c: a manifold of colour c touches the body.
-  std::vector<std::uint32_t>
-      cold;        ///< Manifolds that came with new bodies: see static_warm_start.h.
-  KeyMap slot_of;  ///< Pair slots by key.
+  SlotVector<PairSlot, Pair> pairs;
+  SlotVector<ManifoldSlot, Manifold> manifolds;
+  std::vector<PairSlot> free_pairs;
+  std::vector<ManifoldSlot> free_manifolds;
+  std::uint8_t colors = kMaxColors;   ///< That may be given out.
+  ByBody<std::uint64_t> body_colors;  ///< Bit c: a manifold of colour c touches the body.
+  std::vector<ManifoldSlot> cold;     ///< Came with new bodies: see static_warm_start.h.
+  KeyMap slot_of;                     ///< Pair slots by key.
 
+  /// The slot of the pair with that key, or none.
+  PairSlot slot(std::uint64_t key) const { return PairSlot(slot_of.find(key)); }
   void add(const Pair& pair);
   // Make room for so many more.
   void expect_pairs(std::size_t more);
   void expect_manifolds(std::size_t more);
   /// Removes a pair and its manifold, if it has one.
-  void remove(std::uint32_t pair);
+  void remove(PairSlot pair);
   /// The pair came to touch. Its manifold gets the least colour neither body has, or `kMaxColors`
   /// if none was free.
-  void touch(std::uint32_t pair, const Manifold& manifold, const Bodies& bodies);
+  void touch(PairSlot pair, const Manifold& manifold, const Bodies& bodies);
   /// The pair no longer touches.
-  void part(std::uint32_t pair);
+  void part(PairSlot pair);
 };
 
 }  // namespace sunder::solver

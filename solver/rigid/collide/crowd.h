@@ -12,11 +12,11 @@
 
 namespace sunder::solver {
 
-/// What the narrow phase found in a chunk of pairs, by slots.
+/// What the narrow phase found in a chunk of pairs.
 struct ContactChanges {
-  std::vector<std::pair<std::uint32_t, Manifold>> touched;
-  std::vector<std::uint32_t> parted, gone;
-  std::vector<std::uint32_t> deep;  ///< Of those that touch.
+  std::vector<std::pair<PairSlot, Manifold>> touched;
+  std::vector<PairSlot> parted, gone;
+  std::vector<PairSlot> deep;  ///< Of those that touch.
 
   void clear() { touched.clear(), parted.clear(), gone.clear(), deep.clear(); }
 };

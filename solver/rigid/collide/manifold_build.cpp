@@ -88,7 +88,7 @@ void place_points(const Mat3f& R_WA, const Mat3f& R_WB, Manifold& m) {
 }  // namespace
 
 PairMotion pair_motion(const Pair& pair, const Bodies& bodies) {
-  const std::uint32_t a = pair.body_a, b = pair.body_b;
+  const BodySlot a = pair.body_a, b = pair.body_b;
   PairMotion motion;
   motion.offset_W = (bodies.position[b] - bodies.position[a]).cast<float>();
   motion.velocity_W = (bodies.velocity[b] - bodies.velocity[a]).cast<float>();

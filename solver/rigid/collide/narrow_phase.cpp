@@ -113,7 +113,7 @@ void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const 
 Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
                const PairMotion& motion, const StepContext& step, float size_m) {
   const auto dt = static_cast<float>(step.dt_s);
-  auto spin_reach = [&](std::uint32_t body, float reach_m) {
+  auto spin_reach = [&](BodySlot body, float reach_m) {
     const auto spin = static_cast<float>(bodies.angular_velocity[body].norm());
     return std::min(1.f, spin * dt) * reach_m;
   };
@@ -178,11 +178,11 @@ bool edges_at_rest(const Shape& a, const Shape& b, const PairMotion& motion, con
 
 }  // namespace
 
-bool same_as_before(const Bodies& bodies, std::span<const StepReach> reach, const Pair& pair,
+bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, const Pair& pair,
                     const Manifold* m) {
   if (pair.fresh || (m && !(m->reusable && m->sticking)) || (!m && pair.clearance_m < 0))
     return false;
-  const std::uint32_t a = pair.body_a, b = pair.body_b;
+  const BodySlot a = pair.body_a, b = pair.body_b;
   const Vec3f offset_W = (bodies.position[b] - bodies.position[a]).cast<float>();
   const auto turned_m = static_cast<float>(bodies.turned_m[a] + bodies.turned_m[b] - pair.turned_m);
   const float moved_m = (offset_W - pair.offset_W).norm() + turned_m;

@@ -24,9 +24,8 @@ struct StepReach {
 };
 
 /// Whether a pair needs no look: it touches (`m` is given) and its bodies have not moved against
-/// each other since the last one, or it is too far apart to touch within the step. `reach` is by
-/// body slot.
-bool same_as_before(const Bodies& bodies, std::span<const StepReach> reach, const Pair& pair,
+/// each other since the last one, or it is too far apart to touch within the step.
+bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, const Pair& pair,
                     const Manifold* m);
 
 /// Brings the manifold of a pair up to date: carried along while the pair barely moves, otherwise

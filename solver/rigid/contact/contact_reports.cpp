@@ -21,7 +21,7 @@ std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodi
     if (impulse.isZero(0)) continue;
     const Vec3 point = bodies.position[m.body_a] + m.middle_of_load().cast<double>();
     for (const bool on_b : {false, true}) {
-      const std::uint32_t body = on_b ? m.body_b : m.body_a;
+      const BodySlot body = on_b ? m.body_b : m.body_a;
       if (!bodies.reports_load[body]) continue;
       const Shape& shape = shapes[on_b ? pair.shape_b : pair.shape_a];
       loads.push_back({bodies.tag[body], shape.tag, on_b ? impulse : Vec3(-impulse), point});

@@ -48,7 +48,8 @@ class ContactSolver::Stages {
 
  private:
   using Work = void (Stages::*)(std::uint32_t begin, std::uint32_t end);
-  using WorkOnOne = void (Stages::*)(std::uint32_t body_or_group);
+  using WorkOnBody = void (Stages::*)(BodySlot body);
+  using WorkOnGroup = void (Stages::*)(std::uint32_t group);
   struct Stage : StageItems {
     Work work = nullptr;
   };
@@ -56,7 +57,7 @@ class ContactSolver::Stages {
   void plan();
   /// What follows the last sweep sees it joined: the move and the kick do that themselves, so that
   /// mass splitting waits once a sweep.
-  template <WorkOnOne joint_work>
+  template <WorkOnGroup joint_work>
   void sweeps(Work work, Work last_work) {
     for (int i = 1; i <= solver_.options_.sweeps; ++i) {
       const bool last = i == solver_.options_.sweeps;
@@ -73,7 +74,7 @@ class ContactSolver::Stages {
   }
 
   void once(Work work) { stages_.push_back({{0, 1, 1}, work}); }
-  template <WorkOnOne work>
+  template <WorkOnBody work>
   void all_bodies() {
     const auto count = static_cast<std::uint32_t>(solver_.active_.size());
     stages_.push_back({{0, count, kBodyGrain}, &Stages::on_bodies<work>});
@@ -85,7 +86,7 @@ class ContactSolver::Stages {
   void each_color(Work work) {
     for (const StageItems& color : solver_.colors_) stages_.push_back({color, work});
   }
-  template <WorkOnOne work>
+  template <WorkOnGroup work>
   void each_joint_color() {
     for (const StageItems& color : solver_.joint_solver_.colors())
       stages_.push_back({color, &Stages::on_joints<work>});
@@ -94,11 +95,11 @@ class ContactSolver::Stages {
     if (!solver_.splitting_.empty()) all_bodies<&Stages::join>();
   }
 
-  template <WorkOnOne work>
+  template <WorkOnBody work>
   void on_bodies(std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) (this->*work)(solver_.active_[i]);
   }
-  template <WorkOnOne work>
+  template <WorkOnGroup work>
   void on_joints(std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) (this->*work)(i);
   }
@@ -107,26 +108,26 @@ class ContactSolver::Stages {
   void fly_all(std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) fly(step_, solver_.flying_[i], bodies_);
   }
-  BodyRow& row(std::uint32_t body) { return rows_[body + 1]; }
-  void begin(std::uint32_t body);
-  void first_kick(std::uint32_t body) {
+  BodyRow& row(BodySlot body) { return rows_[row_of(body)]; }
+  void begin(BodySlot body);
+  void first_kick(BodySlot body) {
     row(body).velocity = row(body).base = row(body).velocity + gravity_;
   }
   /// All impulses of a substep, warm start included, act on `base`: what they did to the velocity
   /// is the warm start of the next substep.
-  void kick(std::uint32_t body) {
+  void kick(BodySlot body) {
     BodyRow& r = row(body);
     const Wide impulses = r.velocity - r.base;
     r.base = r.velocity + gravity_;
     r.velocity = r.base + impulses;
   }
-  void join_and_kick(std::uint32_t body) { join(body), kick(body); }
-  void join(std::uint32_t body) { solver_.splitting_.join(body, row(body)); }
-  void join_and_move(std::uint32_t body) {
+  void join_and_kick(BodySlot body) { join(body), kick(body); }
+  void join(BodySlot body) { solver_.splitting_.join(body, row(body)); }
+  void join_and_move(BodySlot body) {
     join(body);
     row(body).position += static_cast<float>(step_.h_s) * row(body).velocity;
   }
-  void finish(std::uint32_t body);
+  void finish(BodySlot body);
 
   // Blocks of manifolds.
   void prepare(std::uint32_t begin, std::uint32_t end) {
@@ -179,14 +180,15 @@ class ContactSolver::Stages {
   }
 
   // The guard of energy.
-  void weigh(std::uint32_t body) {
+  void weigh(BodySlot body) {
     solver_.energy_guard_.weigh(body, bodies_.inverse_mass[body], row(body));
   }
   void judge(std::uint32_t, std::uint32_t) { solver_.energy_guard_.judge(solver_.active_); }
-  void scale_body(std::uint32_t body) {
+  void scale_body(BodySlot body) {
     if (!solver_.energy_guard_.objects()) return;
     BodyRow& r = row(body);
-    r.velocity = r.base + solver_.energy_guard_.share_of_row()[body + 1] * (r.velocity - r.base);
+    r.velocity =
+        r.base + solver_.energy_guard_.share_of_row()[row_of(body)] * (r.velocity - r.base);
   }
   void scale_impulses(std::uint32_t begin, std::uint32_t end) {
     if (solver_.energy_guard_.objects())
@@ -247,7 +249,7 @@ void ContactSolver::Stages::plan() {
   all_bodies<&Stages::finish>();
 }
 
-void ContactSolver::Stages::begin(std::uint32_t body) {
+void ContactSolver::Stages::begin(BodySlot body) {
   bodies_.angular_velocity[body] += gyroscopic_change(bodies_, body, step_.dt_s);
   const Mat3f& root_B = bodies_.root_B[body];
   solver_.root_W_[body] = bodies_.rotation_f[body] * root_B;
@@ -260,7 +262,7 @@ void ContactSolver::Stages::begin(std::uint32_t body) {
   r.position = Wide{};
 }
 
-void ContactSolver::Stages::finish(std::uint32_t body) {
+void ContactSolver::Stages::finish(BodySlot body) {
   const BodyRow& r = row(body);
   const Mat3f& root_W = solver_.root_W_[body];
   // Only the change goes back, so that the doubles keep what no contact touched.
@@ -320,7 +322,7 @@ void ContactSolver::collect_bodies(const Bodies& bodies) {
   root_W_.resize(bodies.size());
   active_.clear();
   flying_.clear();
-  for (std::uint32_t body = 0; body < bodies.size(); ++body)
+  for (const BodySlot body : bodies.slots())
     if (bodies.awake(body)) (order_.in_contact()[body] ? active_ : flying_).push_back(body);
 }
 

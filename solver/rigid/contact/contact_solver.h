@@ -53,11 +53,11 @@ class ContactSolver {
   JointSolver joint_solver_;
   EnergyGuard energy_guard_;
   std::unique_ptr<ContactBlocks> blocks_;
-  std::vector<StageItems> colors_;     ///< Where each colour's blocks are; what is split last.
-  std::vector<std::uint32_t> active_;  ///< Awake bodies in contact, or held by a joint.
-  std::vector<std::uint32_t> flying_;  ///< Awake bodies that touch nothing.
-  std::vector<BodyRow> rows_;          ///< By body slot + 1; row 0 stays still.
-  std::vector<Mat3f> root_W_;          ///< By body slot.
+  std::vector<StageItems> colors_;  ///< Where each colour's blocks are; what is split last.
+  std::vector<BodySlot> active_;    ///< Awake bodies in contact, or held by a joint.
+  std::vector<BodySlot> flying_;    ///< Awake bodies that touch nothing.
+  std::vector<BodyRow> rows_;       ///< As row_of().
+  ByBody<Mat3f> root_W_;
   std::vector<float> energy_;  ///< Of a sweep's changes, by manifold; none: sweeps go plainly.
 };
 

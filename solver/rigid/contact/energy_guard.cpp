@@ -19,24 +19,26 @@ double lanes_sum(const Wide& a, const Wide& b, double linear) {
 
 }  // namespace
 
-void EnergyGuard::collect(const StepContext& step, std::span<const std::uint32_t> manifolds,
-                          std::span<const std::uint32_t> active, std::span<const Pair> joined,
+void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot> manifolds,
+                          std::span<const BodySlot> active, std::span<const Pair> joined,
                           const Bodies& bodies, const Contacts& contacts) {
   const double slow_m_s = kSlowFalls * step.fall_m_s;
-  watches_ = std::ranges::any_of(active, [&](std::uint32_t body) {
+  watches_ = std::ranges::any_of(active, [&](BodySlot body) {
     const double spin_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
     return bodies.velocity[body].norm() + spin_m_s > slow_m_s;
   });
   if (!watches_) return;
   DisjointSets groups(bodies.size());
-  for (const std::uint32_t i : manifolds) {
+  for (const ManifoldSlot i : manifolds) {
     const Manifold& m = contacts.manifolds[i];
-    if (bodies.awake(m.body_a) && bodies.awake(m.body_b)) groups.join(m.body_a, m.body_b);
+    if (bodies.awake(m.body_a) && bodies.awake(m.body_b))
+      groups.join(m.body_a.value, m.body_b.value);
   }
   for (const auto& [a, b] : joined) {
-    if (bodies.awake(a) && bodies.awake(b)) groups.join(a, b);
+    if (bodies.awake(a) && bodies.awake(b)) groups.join(a.value, b.value);
   }
-  group_ = groups.roots();
+  group_.resize(bodies.size());
+  for (const BodySlot body : bodies.slots()) group_[body] = BodySlot(groups.root(body.value));
   if (!joined.empty()) leave_alone_what_swings_free(manifolds, active, joined, contacts);
   of_body_.resize(bodies.size());
   of_group_.resize(bodies.size());
@@ -44,42 +46,42 @@ void EnergyGuard::collect(const StepContext& step, std::span<const std::uint32_t
 }
 
 /// Joints alone keep energy as well as their substeps do, and would only lose by this.
-void EnergyGuard::leave_alone_what_swings_free(std::span<const std::uint32_t> manifolds,
-                                               std::span<const std::uint32_t> active,
+void EnergyGuard::leave_alone_what_swings_free(std::span<const ManifoldSlot> manifolds,
+                                               std::span<const BodySlot> active,
                                                std::span<const Pair> joined,
                                                const Contacts& contacts) {
-  std::vector<std::uint8_t> free(group_.size());
-  const auto mark = [&](std::uint32_t body, bool is_free) {
-    if (group_[body] != kNone) free[group_[body]] = is_free;
+  ByBody<std::uint8_t> free(group_.size());
+  const auto mark = [&](BodySlot body, bool is_free) {
+    if (!group_[body].none()) free[group_[body]] = is_free;
   };
   for (const auto& [a, b] : joined) mark(a, true), mark(b, true);
-  for (const std::uint32_t i : manifolds) {
+  for (const ManifoldSlot i : manifolds) {
     mark(contacts.manifolds[i].body_a, false), mark(contacts.manifolds[i].body_b, false);
   }
-  for (const std::uint32_t body : active)
-    if (free[group_[body]]) group_[body] = kNone;
+  for (const BodySlot body : active)
+    if (free[group_[body]]) group_[body] = {};
 }
 
-void EnergyGuard::weigh(std::uint32_t body, float inverse_mass, const BodyRow& row) {
+void EnergyGuard::weigh(BodySlot body, float inverse_mass, const BodyRow& row) {
   const Wide change = row.velocity - row.base;
   const double mass = 1 / double{inverse_mass};
   of_body_[body] = {lanes_sum(change, row.base, mass), 0.5 * lanes_sum(change, change, mass)};
 }
 
-void EnergyGuard::judge(std::span<const std::uint32_t> active) {
+void EnergyGuard::judge(std::span<const BodySlot> active) {
   objects_ = false;
-  for (const std::uint32_t body : active)
-    if (group_[body] != kNone) of_group_[group_[body]] = {};
-  for (const std::uint32_t body : active) {
-    if (group_[body] == kNone) continue;
+  for (const BodySlot body : active)
+    if (!group_[body].none()) of_group_[group_[body]] = {};
+  for (const BodySlot body : active) {
+    if (group_[body].none()) continue;
     Work& work = of_group_[group_[body]];
     work.first += of_body_[body].first;
     work.second += of_body_[body].second;
   }
-  for (const std::uint32_t body : active) {
-    float& share = share_[body + 1];
+  for (const BodySlot body : active) {
+    float& share = share_[row_of(body)];
     share = 1;
-    if (group_[body] == kNone) continue;
+    if (group_[body].none()) continue;
     const Work& work = of_group_[group_[body]];
     if (!(work.first + work.second > kEnergyRounding * work.second)) continue;
     share = static_cast<float>(std::max(0.0, -work.first / work.second));

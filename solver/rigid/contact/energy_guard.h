@@ -16,24 +16,24 @@ namespace sunder::solver {
 
 class EnergyGuard {
  public:
-  using Pair = std::pair<std::uint32_t, std::uint32_t>;
+  using Pair = std::pair<BodySlot, BodySlot>;
 
   /// Groups the awake bodies of these manifolds, and of these pairs in joints. What hangs in joints
   /// and touches nothing is left alone; where nothing moves fast, all are.
-  void collect(const StepContext& step, std::span<const std::uint32_t> manifolds,
-               std::span<const std::uint32_t> active, std::span<const Pair> joined,
-               const Bodies& bodies, const Contacts& contacts);
+  void collect(const StepContext& step, std::span<const ManifoldSlot> manifolds,
+               std::span<const BodySlot> active, std::span<const Pair> joined, const Bodies& bodies,
+               const Contacts& contacts);
   /// Whether any group is watched in this step.
   bool watches() const { return watches_; }
 
   /// What the impulses of a substep did to the energy of a body.
-  void weigh(std::uint32_t body, float inverse_mass, const BodyRow& row);
+  void weigh(BodySlot body, float inverse_mass, const BodyRow& row);
   /// Finds the shares of their impulses that groups may keep so that their energy is not more than
   /// it was before.
-  void judge(std::span<const std::uint32_t> active);
+  void judge(std::span<const BodySlot> active);
   /// Whether some group has to give some of its impulses back.
   bool objects() const { return objects_; }
-  /// Of the impulses on a body; by slot + 1, as rows are.
+  /// Of the impulses on a body; as row_of().
   const float* share_of_row() const { return share_.data(); }
 
  private:
@@ -42,13 +42,13 @@ class EnergyGuard {
     double first = 0, second = 0;
   };
 
-  void leave_alone_what_swings_free(std::span<const std::uint32_t> manifolds,
-                                    std::span<const std::uint32_t> active,
-                                    std::span<const Pair> joined, const Contacts& contacts);
+  void leave_alone_what_swings_free(std::span<const ManifoldSlot> manifolds,
+                                    std::span<const BodySlot> active, std::span<const Pair> joined,
+                                    const Contacts& contacts);
 
   bool watches_ = false, objects_ = false;
-  std::vector<std::uint32_t> group_;  ///< By slot, of awake bodies in contact; kNone: not watched.
-  std::vector<Work> of_body_, of_group_;
+  ByBody<BodySlot> group_;  ///< Of awake bodies in contact, by its least; none: not watched.
+  ByBody<Work> of_body_, of_group_;
   std::vector<float> share_;
 };
 

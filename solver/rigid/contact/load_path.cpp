@@ -11,19 +11,19 @@ constexpr float kLeastSlope = 0.2f;  // of a normal that bears weight, along the
 /// A body and a manifold that it stands on.
 struct Support {
   double height_m;  ///< Of the body.
-  std::uint32_t body, below;
-  std::uint32_t manifold;
+  BodySlot body, below;
+  ManifoldSlot manifold;
 };
 
-std::vector<Support> find_supports(const Vec3& up, std::span<const std::uint32_t> manifolds,
+std::vector<Support> find_supports(const Vec3& up, std::span<const ManifoldSlot> manifolds,
                                    const Bodies& bodies, const Contacts& contacts) {
   std::vector<Support> supports;
-  for (const std::uint32_t i : manifolds) {
+  for (const ManifoldSlot i : manifolds) {
     const Manifold& m = contacts.manifolds[i];
     const float slope = m.normal_W.dot(up.cast<float>());
     if (std::abs(slope) < kLeastSlope) continue;
-    const std::uint32_t body = slope > 0 ? m.body_b : m.body_a;
-    const std::uint32_t below = slope > 0 ? m.body_a : m.body_b;
+    const BodySlot body = slope > 0 ? m.body_b : m.body_a;
+    const BodySlot below = slope > 0 ? m.body_a : m.body_b;
     if (bodies.awake(body)) supports.push_back({up.dot(bodies.position[body]), body, below, i});
   }
   std::sort(supports.begin(), supports.end(), [](const Support& s, const Support& t) {
@@ -36,7 +36,7 @@ std::vector<Support> find_supports(const Vec3& up, std::span<const std::uint32_t
 struct Share {
   Manifold* manifold;
   std::size_t point;
-  std::uint32_t below;
+  BodySlot below;
   bool on_b;
   Vec3f arm, arm_below;
   float vertical = 0;
@@ -67,8 +67,8 @@ void carry(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float 
 
 }  // namespace
 
-void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds, float kept_scale,
-                  const Bodies& bodies, std::vector<BodyLoad>& loads, Contacts& contacts) {
+void follow_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds, float kept_scale,
+                  const Bodies& bodies, ByBody<BodyLoad>& loads, Contacts& contacts) {
   if (gravity_W.isZero(0)) return;
   const Vec3 up_W = -gravity_W.normalized();
   const Vec3f up = up_W.cast<float>();
@@ -80,7 +80,7 @@ void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifold
   }
   std::vector<Share> shares;
   for (std::size_t begin = 0, end = 0; begin < supports.size(); begin = end) {
-    const std::uint32_t body = supports[begin].body;
+    const BodySlot body = supports[begin].body;
     shares.clear();
     for (; end < supports.size() && supports[end].body == body; ++end) {
       const Support& s = supports[end];
@@ -105,8 +105,8 @@ void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifold
   }
 }
 
-void release_above(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
-                   const Bodies& bodies, const Contacts& contacts, std::vector<BodyLoad>& loads) {
+void release_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
+                   const Bodies& bodies, const Contacts& contacts, ByBody<BodyLoad>& loads) {
   if (gravity_W.isZero(0)) return;
   const std::vector<Support> supports =
       find_supports(-gravity_W.normalized(), manifolds, bodies, contacts);

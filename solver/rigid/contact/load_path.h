@@ -19,13 +19,13 @@ struct BodyLoad {
   bool supported = false;                   ///< By what cannot move, through others or not.
 };
 
-/// Gives the points of `manifolds` the impulses (times `kept_scale`) that hand `loads` (by body
-/// slot) down to what cannot move. What nothing supports hands down nothing.
-void follow_loads(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds, float kept_scale,
-                  const Bodies& bodies, std::vector<BodyLoad>& loads, Contacts& contacts);
+/// Gives the points of `manifolds` the impulses (times `kept_scale`) that hand `loads` down to what
+/// cannot move. What nothing supports hands down nothing.
+void follow_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds, float kept_scale,
+                  const Bodies& bodies, ByBody<BodyLoad>& loads, Contacts& contacts);
 
 /// Bodies that stand on one that is not supported are not supported either.
-void release_above(const Vec3& gravity_W, std::span<const std::uint32_t> manifolds,
-                   const Bodies& bodies, const Contacts& contacts, std::vector<BodyLoad>& loads);
+void release_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
+                   const Bodies& bodies, const Contacts& contacts, ByBody<BodyLoad>& loads);
 
 }  // namespace sunder::solver

@@ -2,7 +2,7 @@
 
 namespace sunder::solver {
 
-void MassSplitting::split(std::span<const std::uint32_t> manifolds, const Bodies& bodies,
+void MassSplitting::split(std::span<const ManifoldSlot> manifolds, const Bodies& bodies,
                           const Contacts& contacts) {
   sides_.assign(manifolds.size(), {});
   if (manifolds.empty()) return;
@@ -15,20 +15,20 @@ void MassSplitting::split(std::span<const std::uint32_t> manifolds, const Bodies
       if (bodies.awake(m.body_b)) visit(m.body_b, sides_[i].part_b, sides_[i].parts_b);
     }
   };
-  for_each_body([&](std::uint32_t body, auto&, auto&) { ++count_[body]; });
+  for_each_body([&](BodySlot body, auto&, auto&) { ++count_[body]; });
   std::uint32_t all = 0;
-  for (std::uint32_t body = 0; body < bodies.size(); ++body) {
+  for (const BodySlot body : bodies.slots()) {
     end_[body] = all;
     all += count_[body];
   }
-  for_each_body([&](std::uint32_t body, std::uint32_t& part, std::uint32_t& parts) {
+  for_each_body([&](BodySlot body, std::uint32_t& part, std::uint32_t& parts) {
     part = end_[body]++;
     parts = count_[body];
   });
   parts_.resize(all);
 }
 
-void MassSplitting::join(std::uint32_t body, BodyRow& row) const {
+void MassSplitting::join(BodySlot body, BodyRow& row) const {
   if (sides_.empty() || count_[body] == 0) return;
   const std::uint32_t end = end_[body];
   Wide sum = parts_[end - count_[body]];

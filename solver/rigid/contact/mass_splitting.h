@@ -22,7 +22,7 @@ struct SplitSides {
 class MassSplitting {
  public:
   /// Cuts awake bodies into as many parts as they have of these manifolds, in the order of these.
-  void split(std::span<const std::uint32_t> manifolds, const Bodies& bodies,
+  void split(std::span<const ManifoldSlot> manifolds, const Bodies& bodies,
              const Contacts& contacts);
   /// Nothing is split.
   bool empty() const { return sides_.empty(); }
@@ -31,12 +31,12 @@ class MassSplitting {
   /// What the parts did; for sweeps to write to.
   Wide* parts() { return parts_.data(); }
   /// Adds what a body's parts did since they were last written.
-  void join(std::uint32_t body, BodyRow& row) const;
+  void join(BodySlot body, BodyRow& row) const;
 
  private:
   std::vector<SplitSides> sides_;
-  std::vector<std::uint32_t> count_;  ///< By body slot, of its parts.
-  std::vector<std::uint32_t> end_;    ///< By body slot, of its parts in `parts_`.
+  ByBody<std::uint32_t> count_;  ///< Of its parts.
+  ByBody<std::uint32_t> end_;    ///< Of its parts in `parts_`.
   std::vector<Wide> parts_;
 };
 

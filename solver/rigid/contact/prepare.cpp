@@ -24,7 +24,7 @@ void set_columns(Triple<V> (&columns)[3], std::uint32_t lane, const Mat3f& root)
   for (int k = 0; k < 3; ++k) set_lane(columns[k], lane, root.col(k));
 }
 
-Mat3f root_now(const Bodies& bodies, std::uint32_t body) {
+Mat3f root_now(const Bodies& bodies, BodySlot body) {
   return bodies.rotation_f[body] * bodies.root_B[body];
 }
 
@@ -33,8 +33,8 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
                    ConstraintBlock<lanes>& c, GatheredBlock<lanes>& g) {
   const Bodies& bodies = step.bodies;
   const bool a = bodies.awake(m.body_a), b = bodies.awake(m.body_b);
-  c.row_a[lane] = a ? static_cast<std::int32_t>(m.body_a + 1) : 0;
-  c.row_b[lane] = b ? static_cast<std::int32_t>(m.body_b + 1) : 0;
+  c.row_a[lane] = a ? static_cast<std::int32_t>(row_of(m.body_a)) : 0;
+  c.row_b[lane] = b ? static_cast<std::int32_t>(row_of(m.body_b)) : 0;
   c.inverse_mass_a[lane] = bodies.inverse_mass[m.body_a];
   c.inverse_mass_b[lane] = bodies.inverse_mass[m.body_b];
   // A sleeper has its mass until derive() takes it out: see sleep.h.
@@ -58,7 +58,7 @@ float push_m_s(const ContactStep& step, const Manifold& m) {
 /// The overlap that is pushed apart at the share of speed that a contact has: see kCrowdOfDeep.
 float most_overlap_m(const ContactStep& step, const Manifold& m) {
   if (step.deep_contacts.empty() || !m.deep) return 1e30f;
-  const auto of = [&](std::uint32_t body) {
+  const auto of = [&](BodySlot body) {
     return step.bodies.dynamic(body) ? step.deep_contacts[body] : 0;
   };
   const std::uint32_t many = std::max(of(m.body_a), of(m.body_b));

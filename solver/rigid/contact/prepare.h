@@ -18,16 +18,15 @@ struct ContactStep {
   const StepContext& context;
   const Bodies& bodies;
   Contacts& contacts;
-  std::span<const std::uint32_t> manifolds;  ///< To solve, in the order of blocks.
-  std::uint32_t first_split;                 ///< Manifolds from here on are split,
-  std::span<const SplitSides> split;         ///< as this says of each.
-  std::span<const Mat3f> root_W;             ///< By body slot, of those awake.
+  std::span<const ManifoldSlot> manifolds;  ///< To solve, in the order of blocks.
+  std::uint32_t first_split;                ///< Manifolds from here on are split,
+  std::span<const SplitSides> split;        ///< as this says of each.
+  SpanByBody<const Mat3f> root_W;           ///< Of those awake.
   SolverRows rows;
   SoftStep soft;
-  float bounce_speed_m_s;                             ///< Slower impacts do not bounce.
-  std::span<const std::uint32_t> deep_contacts = {};  ///< By body slot; empty: there are none.
-  std::span<const std::uint8_t> loaded_contacts =
-      {};  ///< Loaded manifolds by body slot, up to kPinched.
+  float bounce_speed_m_s;                               ///< Slower impacts do not bounce.
+  SpanByBody<const std::uint32_t> deep_contacts = {};   ///< Empty: there are none.
+  SpanByBody<const std::uint8_t> loaded_contacts = {};  ///< Loaded manifolds, up to kPinched.
 };
 
 /// With more deep contacts on a body than these, each is pushed apart at a share of the fastest,

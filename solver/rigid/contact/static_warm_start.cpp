@@ -67,7 +67,7 @@ double square_of(const StaticBlock& c, const BlockLoads& a) {
 /// them against the world. What moves together, as the pieces of a slab that topples do, is not at
 /// rest either, whatever it stands on.
 double greatest_speed(const Manifold& m, const Bodies& bodies) {
-  auto velocity = [&](std::uint32_t body, const Vec3f& arm) {
+  auto velocity = [&](BodySlot body, const Vec3f& arm) {
     return Vec3(bodies.velocity[body] + bodies.angular_velocity[body].cross(arm.cast<double>()));
   };
   const Vec3 a = velocity(m.body_a, m.friction_arm_A), b = velocity(m.body_b, m.friction_arm_B);
@@ -153,10 +153,10 @@ bool StaticWarmStart::collect(const StepContext& step, const Bodies& bodies, Con
 void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies,
                                    Contacts& contacts) {
   std::uint32_t start[kSweepKeys + 1] = {};
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> resting;  // key, manifold
+  std::vector<std::pair<std::uint32_t, ManifoldSlot>> resting;  // key, manifold
   resting.reserve(contacts.cold.size());
   const double slow_m_s = 2 * step.fall_m_s;
-  for (const std::uint32_t i : std::exchange(contacts.cold, {})) {
+  for (const ManifoldSlot i : std::exchange(contacts.cold, {})) {
     Manifold& m = contacts.manifolds[i];
     if (!m.cold) continue;  // gone, or here for the second time
     m.cold = false;
@@ -201,20 +201,20 @@ void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
   root_W_.resize(bodies.size());
   concerned_.assign(bodies.size(), 0);
   concerned_bodies_.clear();
-  for (const std::uint32_t i : manifolds_) {
-    for (const std::uint32_t body : {contacts.manifolds[i].body_a, contacts.manifolds[i].body_b}) {
+  for (const ManifoldSlot i : manifolds_) {
+    for (const BodySlot body : {contacts.manifolds[i].body_a, contacts.manifolds[i].body_b}) {
       if (concerned_[body] || !bodies.awake(body)) continue;
       concerned_[body] = 1;
       concerned_bodies_.push_back(body);
-      rows_[body + 1] = BodyRow{};
-      rows_[body + 1].velocity = Wide{kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
+      rows_[row_of(body)] = BodyRow{};
+      rows_[row_of(body)].velocity = Wide{kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
       root_W_[body] = bodies.rotation_f[body] * bodies.root_B[body];
     }
   }
-  auto push = [&](std::uint32_t body, const Vec3f& impulse, const Vec3f& angular) {
+  auto push = [&](BodySlot body, const Vec3f& impulse, const Vec3f& angular) {
     if (!concerned_[body]) return;
     const Vec3f v = bodies.inverse_mass[body] * impulse, w = root_W_[body].transpose() * angular;
-    rows_[body + 1].velocity += Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
+    rows_[row_of(body)].velocity += Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
   };
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0 || !(concerned_[m.body_a] || concerned_[m.body_b])) continue;
@@ -237,9 +237,9 @@ void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
 void StaticWarmStart::estimate(const StepContext& step, const Bodies& bodies, Contacts& contacts) {
   loads_.assign(bodies.size(), {});
   const Vec3f& kick = step.kick_W;
-  for (std::uint32_t body = 0; body < bodies.size(); ++body) {
+  for (const BodySlot body : bodies.slots()) {
     if (!concerned_[body]) continue;
-    const Wide& v = rows_[body + 1].velocity;
+    const Wide& v = rows_[row_of(body)].velocity;
     const Vec3f velocity = linear(v), spin = angular(v);
     loads_[body].impulse_W = velocity / bodies.inverse_mass[body];
     loads_[body].angular_impulse_W = root_W_[body].transpose().inverse() * spin;
@@ -304,8 +304,8 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
 /// rounds were too few, or nothing can support it. Answers how many are.
 std::size_t StaticWarmStart::find_supported(double kick_m_s, const Bodies& bodies) {
   std::size_t supported = 0;
-  for (const std::uint32_t body : concerned_bodies_) {
-    const Wide& v = rows_[body + 1].velocity;
+  for (const BodySlot body : concerned_bodies_) {
+    const Wide& v = rows_[row_of(body)].velocity;
     const Vec3f velocity = linear(v), spin = angular(v);  // of unit inertia
     const double energy =
         double{velocity.squaredNorm()} + double{bodies.inverse_mass[body] * spin.squaredNorm()};
@@ -328,7 +328,7 @@ void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& 
         deepest = std::max(deepest, yield_m(c, lane, i, soft.press[c.points - 1].yield_s));
       if (deepest <= kMostRest * m.size_m) continue;
       any = true;
-      for (const std::uint32_t body : {m.body_a, m.body_b}) loads_[body].supported = false;
+      for (const BodySlot body : {m.body_a, m.body_b}) loads_[body].supported = false;
     }
   }
   if (any) release_above(gravity_W, manifolds_, bodies, contacts, loads_);
@@ -339,9 +339,7 @@ void StaticWarmStart::store(const SoftStep& soft, float kept_scale, float factor
   for (const StaticBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
-      auto supported = [&](std::uint32_t body) {
-        return !concerned_[body] || loads_[body].supported;
-      };
+      auto supported = [&](BodySlot body) { return !concerned_[body] || loads_[body].supported; };
       const float part = supported(m.body_a) && supported(m.body_b) ? factor : 0;
       store_points(c, lane, soft.press[c.points - 1].yield_s, kept_scale, part, m);
       store_friction(c, lane, soft.slide[c.points - 1].yield_s, kept_scale, part, m);

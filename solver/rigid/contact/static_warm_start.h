@@ -48,16 +48,16 @@ class StaticWarmStart {
   void store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
              Contacts& contacts) const;
 
-  std::vector<std::uint32_t> manifolds_;  ///< By colour and number of points.
+  std::vector<ManifoldSlot> manifolds_;  ///< By colour and number of points.
   std::vector<StaticBlock> blocks_;
   std::vector<StageItems> colors_;  ///< The blocks of each; the overflow last.
   std::vector<BlockLoads> change_, direction_;
   std::vector<std::pair<double, double>> square_;  ///< Of each block's change, and of its loads.
-  std::vector<BodyRow> rows_;                      ///< By body slot + 1; row 0 stays still.
-  std::vector<std::uint8_t> concerned_;            ///< By body slot.
-  std::vector<std::uint32_t> concerned_bodies_;
-  std::vector<Mat3f> root_W_;
-  std::vector<BodyLoad> loads_;  ///< By body slot.
+  std::vector<BodyRow> rows_;                      ///< As row_of().
+  ByBody<std::uint8_t> concerned_;
+  std::vector<BodySlot> concerned_bodies_;
+  ByBody<Mat3f> root_W_;
+  ByBody<BodyLoad> loads_;
 };
 
 }  // namespace sunder::solver

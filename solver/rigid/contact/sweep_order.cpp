@@ -11,16 +11,16 @@ void SweepOrder::collect(const Bodies& bodies, const Contacts& contacts) {
   points_ = 0;
   deep_contacts_.clear();
   auto for_each = [&](const auto& visit) {
-    for (std::uint32_t i = 0; i < contacts.manifolds.size(); ++i) {
+    for (const ManifoldSlot i : contacts.manifolds.slots()) {
       const Manifold& m = contacts.manifolds[i];
       if (m.count > 0 && (bodies.awake(m.body_a) || bodies.awake(m.body_b))) visit(i, m);
     }
   };
-  for_each([&](std::uint32_t, const Manifold& m) {
+  for_each([&](ManifoldSlot, const Manifold& m) {
     ++start_[m.sweep_key() + 1];
     in_contact_[m.body_a] = in_contact_[m.body_b] = 1;
     if (m.normal_impulse() > 0)
-      for (const std::uint32_t body : {m.body_a, m.body_b})
+      for (const BodySlot body : {m.body_a, m.body_b})
         loaded_contacts_[body] = std::min<std::uint8_t>(loaded_contacts_[body] + 1, kPinched);
     points_ += m.count;
     if (!m.deep) return;
@@ -31,7 +31,7 @@ void SweepOrder::collect(const Bodies& bodies, const Contacts& contacts) {
   manifolds_.resize(start_[kSweepKeys]);
   std::uint32_t next[kSweepKeys];
   std::copy_n(start_, kSweepKeys, next);
-  for_each([&](std::uint32_t i, const Manifold& m) { manifolds_[next[m.sweep_key()]++] = i; });
+  for_each([&](ManifoldSlot i, const Manifold& m) { manifolds_[next[m.sweep_key()]++] = i; });
 }
 
 }  // namespace sunder::solver

@@ -6,18 +6,16 @@
 namespace sunder::solver {
 namespace {
 
-std::uint64_t body_pair(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+std::uint64_t body_pair(BodySlot a, BodySlot b) {
+  return std::uint64_t{std::min(a, b).value} << 32 | std::max(a, b).value;
 }
 
-std::uint32_t slot_of(BodyId id, const Bodies& bodies) {
-  if (id.none()) return kNone;
-  SUNDER_CHECK(bodies.contains(id));
-  return id.slot;
+BodySlot slot_of(BodyId id, const Bodies& bodies) {
+  return id.none() ? BodySlot() : bodies.slot(id);
 }
 
-void wake_body(std::uint32_t body, Bodies& bodies) {
-  if (body == kNone) return;
+void wake_body(BodySlot body, Bodies& bodies) {
+  if (body.none()) return;
   bodies.wake(body);
   bodies.changed[body] = 1;
   bodies.slow_s[body] = 0;
@@ -39,7 +37,7 @@ void Joints::wake_ends(const Joint& joint, Bodies& bodies) const {
 void Joints::note_pairs() {
   apart_.clear();
   for (const Joint& joint : items_) {
-    if (joint.holds() && !joint.desc.collide && joint.body_a != kNone && joint.body_b != kNone)
+    if (joint.holds() && !joint.desc.collide && !joint.body_a.none() && !joint.body_b.none())
       apart_.push_back(body_pair(joint.body_a, joint.body_b));
   }
   std::ranges::sort(apart_);
@@ -64,11 +62,11 @@ JointId Joints::add(const JointDesc& desc, Bodies& bodies) {
 
 void Joints::attach(JointId id, bool end_a, BodyId body, Bodies& bodies) {
   Joint& joint = at(id);
-  const std::uint32_t slot = slot_of(body, bodies);
+  const BodySlot slot = slot_of(body, bodies);
   (end_a ? joint.desc.a : joint.desc.b) = body;
   (end_a ? joint.body_a : joint.body_b) = slot;
-  const bool lost_a = joint.body_a == kNone && !joint.desc.a.none();
-  const bool lost_b = joint.body_b == kNone && !joint.desc.b.none();
+  const bool lost_a = joint.body_a.none() && !joint.desc.a.none();
+  const bool lost_b = joint.body_b.none() && !joint.desc.b.none();
   joint.lost = lost_a || lost_b || joint.body_a == joint.body_b;
   wake_ends(joint, bodies);
   note_pairs();
@@ -83,10 +81,10 @@ void Joints::cut(JointId id, Bodies& bodies) {
   note_pairs();
 }
 
-void Joints::lose(std::uint32_t body, Bodies& bodies) {
+void Joints::lose(BodySlot body, Bodies& bodies) {
   for (Joint& joint : items_) {
     if (!joint.present || (joint.body_a != body && joint.body_b != body)) continue;
-    (joint.body_a == body ? joint.body_a : joint.body_b) = kNone;
+    (joint.body_a == body ? joint.body_a : joint.body_b) = {};
     joint.lost = true;
     wake_ends(joint, bodies);
   }
@@ -97,9 +95,9 @@ void Joints::wake(Bodies& bodies) const {
   for (bool again = !items_.empty(); again;) {
     again = false;
     const auto pass_on = [&](const Joint& joint) {
-      if (!joint.holds() || joint.body_a == kNone || joint.body_b == kNone) return;
-      const std::uint32_t a = joint.body_a, b = joint.body_b;
-      const std::uint32_t sleeper = bodies.awake(a) ? b : a;
+      if (!joint.holds() || joint.body_a.none() || joint.body_b.none()) return;
+      const BodySlot a = joint.body_a, b = joint.body_b;
+      const BodySlot sleeper = bodies.awake(a) ? b : a;
       if (!bodies.awake(a) && !bodies.awake(b)) return;
       if (bodies.motion[sleeper] != Motion::kAsleep) return;
       bodies.wake(sleeper);
@@ -110,7 +108,7 @@ void Joints::wake(Bodies& bodies) const {
   }
 }
 
-bool Joints::apart(std::uint32_t body_a, std::uint32_t body_b) const {
+bool Joints::apart(BodySlot body_a, BodySlot body_b) const {
   return !apart_.empty() && std::ranges::binary_search(apart_, body_pair(body_a, body_b));
 }
 

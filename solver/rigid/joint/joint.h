@@ -19,7 +19,7 @@ struct Joint {
   JointDesc desc;  ///< `a` and `b` as they are now.
   bool present = false;
   std::uint32_t generation = 0;
-  std::uint32_t body_a = kNone, body_b = kNone;     ///< kNone: the world, or a lost end.
+  BodySlot body_a = {}, body_b = {};                ///< None: the world, or a lost end.
   bool lost = false;                                ///< An end's body is gone: it holds nothing.
   std::array<double, kMostJointRows> impulse = {};  ///< Of the last substep, by row.
 
@@ -32,11 +32,11 @@ class Joints {
   void attach(JointId id, bool end_a, BodyId body, Bodies& bodies);
   void cut(JointId id, Bodies& bodies);
   /// Before a body goes: its ends are lost, and what they held wakes.
-  void lose(std::uint32_t body, Bodies& bodies);
+  void lose(BodySlot body, Bodies& bodies);
   /// Wakes every sleeper that is joined to something awake, through others.
   void wake(Bodies& bodies) const;
   /// Whether two bodies ignore each other because they are joined.
-  bool apart(std::uint32_t body_a, std::uint32_t body_b) const;
+  bool apart(BodySlot body_a, BodySlot body_b) const;
   /// A joint that bore too much goes, and is remembered for take_broken().
   void break_off(std::uint32_t joint, Bodies& bodies);
   std::vector<JointId> take_broken();

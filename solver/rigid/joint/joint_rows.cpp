@@ -13,8 +13,8 @@ struct End {
   Quat rotation = Quat::Identity();
 };
 
-End end_of(std::uint32_t body, const Vec3& anchor_R, const Vec3& axis_R, const Bodies& bodies) {
-  if (body == kNone) return {anchor_R, Vec3::Zero(), axis_R};
+End end_of(BodySlot body, const Vec3& anchor_R, const Vec3& axis_R, const Bodies& bodies) {
+  if (body.none()) return {anchor_R, Vec3::Zero(), axis_R};
   const Quat& q = bodies.rotation[body];
   return {bodies.position[body], q * (anchor_R - bodies.com_R[body]), q * axis_R, q};
 }
@@ -76,14 +76,14 @@ void JointWork::apply(const JointPush& p, BodyRow* body_rows) const {
 }
 
 JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bodies,
-                      std::span<const Mat3f> root_W) {
+                      SpanByBody<const Mat3f> root_W) {
   const JointDesc& desc = joint.desc;
   JointWork w;
   w.joint = index;
   w.kind = desc.kind;
-  const auto take = [&](std::uint32_t body, std::uint32_t& row, float& inverse_mass, Mat3f& root) {
-    if (body == kNone || !bodies.awake(body)) return;
-    row = body + 1;
+  const auto take = [&](BodySlot body, std::uint32_t& row, float& inverse_mass, Mat3f& root) {
+    if (body.none() || !bodies.awake(body)) return;
+    row = row_of(body);
     inverse_mass = bodies.inverse_mass[body];
     root = root_W[body];
     w.reach_m = w.reach_m > 0 ? std::min(w.reach_m, bodies.reach_m[body]) : bodies.reach_m[body];

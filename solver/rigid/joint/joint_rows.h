@@ -62,7 +62,7 @@ struct JointWork {
 
 /// A joint as the step begins.
 JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bodies,
-                      std::span<const Mat3f> root_W);
+                      SpanByBody<const Mat3f> root_W);
 /// Rows and errors as the bodies lie now.
 void refresh_rows(JointWork& work, const BodyRow* rows);
 

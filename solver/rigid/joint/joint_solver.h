@@ -18,14 +18,14 @@ namespace sunder::solver {
 
 class JointSolver {
  public:
-  /// Groups the joints that hold something awake, and marks their bodies in `in_contact`, by slot.
-  void collect(const Bodies& bodies, const Joints& joints, std::span<std::uint8_t> in_contact);
+  /// Groups the joints that hold something awake, and marks their bodies in `in_contact`.
+  void collect(const Bodies& bodies, const Joints& joints, SpanByBody<std::uint8_t> in_contact);
   bool empty() const { return groups_.empty(); }
   /// The groups of each colour: one after another, those of one in parallel.
   const std::vector<StageItems>& colors() const { return colors_; }
   /// The work on group i; `rows` and `root_W` are those of the step.
   void begin(std::uint32_t i, const Bodies& bodies, const Joints& joints,
-             std::span<const Mat3f> root_W, const BodyRow* rows);
+             SpanByBody<const Mat3f> root_W, const BodyRow* rows);
   void warm_start(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     warm_start_group(works(groups_[i]), step, rows);
   }
@@ -48,7 +48,7 @@ class JointSolver {
     scale_group(groups_[i], works(groups_[i]), step, share_of_row, rows);
   }
   /// What hangs together and may move, a joint at a time: a joint to the world twice the same body.
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& joined() const { return joined_; }
+  const std::vector<std::pair<BodySlot, BodySlot>>& joined() const { return joined_; }
   /// Hands impulses back; joints that bore too much go. The answer is the impulse on bodies from
   /// what cannot move.
   Vec3 finish(Bodies& bodies, Joints& joints);
@@ -60,7 +60,7 @@ class JointSolver {
     return std::span(works_).subspan(group.first, group.count);
   }
 
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_;
+  std::vector<std::pair<BodySlot, BodySlot>> joined_;
   std::vector<std::uint32_t> active_;  ///< Joints, island by island, ascending within one.
   std::vector<JointGroup> groups_;     ///< By colour.
   std::vector<StageItems> colors_;
