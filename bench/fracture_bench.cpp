@@ -121,20 +121,20 @@ BENCHMARK(Event_carried_out_in_a_building)
 /// Islands after 50 convexes are gone, from what is known.
 void Islands_after_a_break(benchmark::State& state) {
   const Building building(state.range(0));
-  const std::vector<std::uint32_t> gone = building.sphere.touched(building.structure);
+  const std::vector<ConvexSlot> gone = building.sphere.touched(building.structure);
   std::vector<std::uint32_t> seeds;
-  const auto is_gone = [&](std::uint32_t slot) {
+  const auto is_gone = [&](ConvexSlot slot) {
     return std::binary_search(gone.begin(), gone.end(), slot);
   };
-  for (const std::uint32_t slot : gone) {
+  for (const ConvexSlot slot : gone) {
     for (const Link& link : building.structure.links(slot)) {
-      if (!is_gone(link.other)) seeds.push_back(link.other);
+      if (!is_gone(link.other)) seeds.push_back(link.other.value);
     }
   }
   for (auto _ : state) {
     benchmark::DoNotOptimize(separate(seeds, [&](std::uint32_t node, const auto& visit) {
-      for (const Link& link : building.structure.links(node)) {
-        if (!is_gone(link.other)) visit(link.other);
+      for (const Link& link : building.structure.links(ConvexSlot(node))) {
+        if (!is_gone(link.other)) visit(link.other.value);
       }
     }));
   }

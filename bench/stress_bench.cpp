@@ -55,7 +55,7 @@ void Stress_when_the_load_has_changed(benchmark::State& state) {
   system.solve({}, kDown, 1e-3, 500, settled);
   const auto roof = static_cast<std::uint32_t>(compound.convexes.size() - 1);
   const Vec3 top = compound.convexes[roof]->solid.centroid;
-  const Load load{roof, 100.0 * side * side * side * kDown, top, Vec3::Zero()};
+  const ConvexLoad load{roof, 100.0 * side * side * side * kDown, top, Vec3::Zero()};
   SolveResult result;
   for (auto _ : state) {
     std::vector<Displacement> displacements = settled;

@@ -37,11 +37,11 @@ void append(BreakPlan island, BreakPlan& plan) {
 BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
                           const Placement& placement, const ImpactSphere& sphere,
                           std::uint64_t event, const Fit& fit) {
-  std::vector<std::uint32_t> touched = sphere.touched(structure);
+  std::vector<ConvexSlot> touched = sphere.touched(structure);
   if (touched.empty()) return {};
   Stopwatch watch;
   Box reach;
-  for (const std::uint32_t slot : touched) reach.extend(structure.convex(slot)->box);
+  for (const ConvexSlot slot : touched) reach.extend(structure.convex(slot)->box);
   const AlignedPattern aligned = align(pattern, placement, event, reach);
   const Fragments fragments = make_fragments(structure, touched, aligned, sphere, fit);
   const double clip_ms = watch.lap_ms();
@@ -68,7 +68,7 @@ BreakPlan as_pieces(Structure& structure, BreakEdit edit) {
   std::vector<std::uint32_t> index(structure.slot_count());
   for (std::uint32_t slot = 0, next = 0; slot < index.size(); ++slot) {
     index[slot] = next;
-    next += structure.has(slot) ? 1 : 0;
+    next += structure.has(ConvexSlot(slot)) ? 1 : 0;
   }
   for (ExposedFace& face : plan.exposed) {
     if (face.piece == 0) face.convex = index[face.convex];

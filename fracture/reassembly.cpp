@@ -1,7 +1,6 @@
 #include "fracture/reassembly.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -13,7 +12,7 @@
 
 namespace sunder::fracture {
 
-Reassembly::Reassembly(const Structure& structure, const std::vector<std::uint32_t>& touched,
+Reassembly::Reassembly(const Structure& structure, const std::vector<ConvexSlot>& touched,
                        const Fragments& fragments)
     : structure_(structure),
       touched_(touched),
@@ -24,13 +23,13 @@ Reassembly::Reassembly(const Structure& structure, const std::vector<std::uint32
 }
 
 void Reassembly::find_neighbours() {
-  const auto add = [&](std::uint32_t slot) {
+  const auto add = [&](ConvexSlot slot) {
     if (!is_touched(slot)) neighbours_.push_back(slot);
   };
-  for (const std::uint32_t slot : touched_) {
+  for (const ConvexSlot slot : touched_) {
     for (const Link& link : structure_.links(slot)) add(link.other);
     for (const std::uint32_t number : structure_.ghosts_of(slot)) {
-      for (const std::uint32_t other : structure_.ghost(number).of) add(other);
+      for (const std::uint32_t other : structure_.ghost(number).of) add(ConvexSlot(other));
     }
   }
   std::sort(neighbours_.begin(), neighbours_.end());
@@ -64,7 +63,7 @@ std::vector<Ghost> Reassembly::add_ghosts(std::vector<ConvexPtr>& convexes,
                                           std::vector<FaceEntry>& faces) const {
   std::vector<Ghost> ghosts = ghosts_;
   std::vector<std::uint32_t> known;
-  for (const std::uint32_t slot : neighbours_) {
+  for (const ConvexSlot slot : neighbours_) {
     for (const std::uint32_t number : structure_.ghosts_of(slot)) {
       if (!is_any_touched(structure_.ghost(number))) known.push_back(number);
     }
@@ -161,7 +160,8 @@ void Reassembly::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) 
   for (const Ghost& ghost : ghosts_) {
     for (const std::uint32_t node : ghost.of) join_rest(ghost.of[0], node);
   }
-  std::vector<std::uint32_t> seeds = neighbours_;
+  std::vector<std::uint32_t> seeds;
+  for (const ConvexSlot slot : neighbours_) seeds.push_back(slot.value);
   for (std::uint32_t i = 0; i < fragments_.size(); ++i) {
     if (fragments_[i].group == Fragment::kRest) seeds.push_back(first_fragment_ + i);
   }
@@ -170,12 +170,13 @@ void Reassembly::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) 
       for (const std::uint32_t other : it->second) visit(other);
     }
     if (is_fragment(node)) return;
-    for (const Link& link : structure_.links(node)) {
-      if (!is_touched(link.other)) visit(link.other);
+    const ConvexSlot slot(node);
+    for (const Link& link : structure_.links(slot)) {
+      if (!is_touched(link.other)) visit(link.other.value);
     }
-    for (const std::uint32_t number : structure_.ghosts_of(node)) {
+    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
       for (const std::uint32_t other : structure_.ghost(number).of) {
-        if (!is_touched(other)) visit(other);
+        if (!is_touched(ConvexSlot(other))) visit(other);
       }
     }
   });
@@ -218,15 +219,18 @@ Compound Reassembly::make_piece(const std::vector<std::uint32_t>& nodes) const {
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
     const std::uint32_t node = nodes[i];
     piece.convexes.push_back(convex(node));
-    piece.anchored.push_back(is_fragment(node) ? fragment(node).anchored
-                                               : structure_.anchored(node));
-    if (is_fragment(node)) continue;
-    for (const Link& link : structure_.links(node)) {
-      if (link.other < node || is_touched(link.other)) continue;
-      piece.bonds.push_back(
-          {i, place(link.other).second, link.face, link.other_face, link.area_m2});
+    if (is_fragment(node)) {
+      piece.anchored.push_back(fragment(node).anchored);
+      continue;
     }
-    for (const std::uint32_t number : structure_.ghosts_of(node)) {
+    const ConvexSlot slot(node);
+    piece.anchored.push_back(structure_.anchored(slot));
+    for (const Link& link : structure_.links(slot)) {
+      if (link.other < slot || is_touched(link.other)) continue;
+      piece.bonds.push_back(
+          {i, place(link.other.value).second, link.face, link.other_face, link.area_m2});
+    }
+    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
       Ghost ghost = structure_.ghost(number);
       if (ghost.of[0] != node || is_any_touched(ghost)) continue;
       for (std::uint32_t& of : ghost.of) of = place(of).second;
@@ -288,8 +292,9 @@ BreakEdit Reassembly::edit() {
   keep_rest(edit);
   edit.removed = touched_;
   for (const auto& nodes : pieces) {
-    std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(edit.removed),
-                 [&](std::uint32_t node) { return !is_fragment(node); });
+    for (const std::uint32_t node : nodes) {
+      if (!is_fragment(node)) edit.removed.emplace_back(node);
+    }
   }
   std::sort(edit.removed.begin(), edit.removed.end());
   const bool stays = structure_.size() + edit.added.size() > edit.removed.size();

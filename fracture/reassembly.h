@@ -21,7 +21,7 @@ class Reassembly {
  public:
   /// Of the fragments that the convexes in slots `touched`, ascending, were cut into. All three
   /// must outlive it.
-  Reassembly(const Structure& structure, const std::vector<std::uint32_t>& touched,
+  Reassembly(const Structure& structure, const std::vector<ConvexSlot>& touched,
              const Fragments& fragments);
 
   /// What becomes of the structure.
@@ -40,11 +40,12 @@ class Reassembly {
     int sign;
   };
 
-  bool is_touched(std::uint32_t slot) const {
+  bool is_touched(ConvexSlot slot) const {
     return std::binary_search(touched_.begin(), touched_.end(), slot);
   }
   bool is_any_touched(const Ghost& ghost) const {
-    return std::any_of(ghost.of.begin(), ghost.of.end(), [&](auto s) { return is_touched(s); });
+    return std::any_of(ghost.of.begin(), ghost.of.end(),
+                       [&](std::uint32_t slot) { return is_touched(ConvexSlot(slot)); });
   }
   bool is_fragment(std::uint32_t node) const { return node >= first_fragment_; }
   const Fragment& fragment(std::uint32_t node) const { return fragments_[node - first_fragment_]; }
@@ -54,10 +55,10 @@ class Reassembly {
   /// The node of convex number `index` in the order neighbours, fragments.
   std::uint32_t node_of(std::uint32_t index) const {
     const auto neighbours = static_cast<std::uint32_t>(neighbours_.size());
-    return index < neighbours ? neighbours_[index] : first_fragment_ + index - neighbours;
+    return index < neighbours ? neighbours_[index].value : first_fragment_ + index - neighbours;
   }
   const ConvexPtr& convex(std::uint32_t node) const {
-    return is_fragment(node) ? fragment(node).convex : structure_.convex(node);
+    return is_fragment(node) ? fragment(node).convex : structure_.convex(ConvexSlot(node));
   }
 
   void find_contacts_of_fragments();
@@ -81,14 +82,14 @@ class Reassembly {
   }
 
   const Structure& structure_;
-  const std::vector<std::uint32_t>& touched_;
+  const std::vector<ConvexSlot>& touched_;
   const std::vector<Fragment>& fragments_;
   const std::vector<Ghost>& ghosts_;  ///< Those that were cut, by nodes.
   std::uint32_t first_fragment_;
   std::vector<Contact> contacts_;
   std::vector<Correction> corrections_;
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> rest_contacts_;
-  std::vector<std::uint32_t> neighbours_;  ///< Slots beside touched ones.
+  std::vector<ConvexSlot> neighbours_;  ///< Beside touched ones.
   std::unordered_map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> places_;
 };
 

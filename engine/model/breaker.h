@@ -41,7 +41,7 @@ namespace sunder {
 struct Hit {
   Vec3 point_R = Vec3::Zero();
   Vec3 direction_R = Vec3::UnitY();  ///< Unit, the way the impact pushes (into the solid).
-  std::uint32_t convex = 0;          ///< Slot of the one that was hit.
+  ConvexSlot convex;                 ///< That was hit.
   double energy_J = 0;               ///< That the solid would have to take up.
 };
 
@@ -59,7 +59,7 @@ struct BreakCommand {
 /// A face that a break laid bare, in the rest frame R.
 struct ExposedFace {
   std::uint32_t piece = 0;
-  std::uint32_t convex = 0;  ///< Index in that piece's compound.
+  std::uint32_t convex = 0;  ///< Index in that piece's compound; in a BreakEdit maybe a slot.
   std::uint32_t face = 0;
   double area_m2 = 0;
 };
@@ -81,7 +81,7 @@ struct BreakPlan {
 
 /// What a break does to a structure, and what comes off it.
 struct BreakEdit {
-  std::vector<std::uint32_t> removed;  ///< Slots whose convexes were cut or came off; ascending.
+  std::vector<ConvexSlot> removed;  ///< Whose convexes were cut or came off; ascending.
   /// Convexes that take new slots, in this order from the structure's slot_count() on.
   std::vector<ConvexPtr> added;
   std::vector<std::uint8_t> added_anchors;
@@ -97,13 +97,14 @@ struct BreakEdit {
   const Convex& exposed_convex(const Structure& structure, const ExposedFace& face) const {
     if (face.piece > 0) return *loose.pieces[face.piece - 1].convexes[face.convex];
     const std::uint32_t slots = structure.slot_count();
-    return face.convex < slots ? *structure.convex(face.convex) : *added[face.convex - slots];
+    return face.convex < slots ? *structure.convex(ConvexSlot(face.convex))
+                               : *added[face.convex - slots];
   }
 };
 
 /// A force on a convex of a structure, in its rest frame R.
 struct Load {
-  std::uint32_t convex = 0;  ///< Slot.
+  ConvexSlot convex;
   Vec3 force_N = Vec3::Zero();
   Vec3 point_R = Vec3::Zero();
   Vec3 torque_Nm = Vec3::Zero();  ///< Besides that of the force.

@@ -33,7 +33,7 @@ ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
 
 /// Two convexes of a compound that share part of a plane (property (c) of paper 3.1).
 struct Bond {
-  std::uint32_t a = 0, b = 0;            ///< Convexes, a < b.
+  std::uint32_t a = 0, b = 0;            ///< Convexes, a < b: indices, or slots of a structure.
   std::uint32_t face_a = 0, face_b = 0;  ///< The faces that touch.
   double area_m2 = 0;                    ///< Of the overlap.
 };
@@ -44,8 +44,9 @@ struct Bond {
 /// faces are stored as any convex's, outward.
 struct Ghost {
   ConvexPtr convex;  ///< What they have in common.
-  std::vector<std::uint32_t>
-      of;  ///< Convexes, ascending. Two or more as made; breaks may leave one.
+  /// Convexes, ascending: indices, or slots of a structure. Two or more as made; breaks may leave
+  /// one.
+  std::vector<std::uint32_t> of;
   /// −1 for two convexes, +1 for three, −1 for four; 0 holds together and weighs nothing: one of
   /// its convexes is a surface convex, whose visual mesh need not reach into the overlap.
   std::int8_t sign = -1;

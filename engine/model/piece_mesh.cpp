@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -21,31 +20,30 @@ class Heaps {
  public:
   explicit Heaps(const Structure& structure) : structure_(structure) {}
 
-  static constexpr std::uint32_t kAlone = 0xffffffff;
-
-  /// The lowest slot that a convex overlaps; kAlone if it overlaps none. Faces beyond which two of
+  /// The lowest slot that a convex overlaps; none() if it overlaps none. Faces beyond which two of
   /// a heap lie are covered by the larger: nobody knows how far both cover it.
-  std::uint32_t of(std::uint32_t slot) {
-    if (structure_.ghosts_of(slot).empty()) return kAlone;
-    if (const auto known = lowest_.find(slot); known != lowest_.end()) return known->second;
-    std::vector<std::uint32_t> heap = {slot};
-    std::uint32_t least = slot;
-    lowest_[slot] = slot;
+  ConvexSlot of(ConvexSlot slot) {
+    if (structure_.ghosts_of(slot).empty()) return {};
+    if (const auto known = lowest_.find(slot.value); known != lowest_.end()) return known->second;
+    std::vector<ConvexSlot> heap = {slot};
+    ConvexSlot least = slot;
+    lowest_[slot.value] = slot;
     for (std::size_t i = 0; i < heap.size(); ++i) {
       least = std::min(least, heap[i]);
       for (const std::uint32_t number : structure_.ghosts_of(heap[i])) {
         for (const std::uint32_t other : structure_.ghost(number).of) {
-          if (lowest_.emplace(other, other).second) heap.push_back(other);
+          const ConvexSlot member(other);
+          if (lowest_.emplace(other, member).second) heap.push_back(member);
         }
       }
     }
-    for (const std::uint32_t member : heap) lowest_[member] = least;
+    for (const ConvexSlot member : heap) lowest_[member.value] = least;
     return least;
   }
 
  private:
   const Structure& structure_;
-  std::unordered_map<std::uint32_t, std::uint32_t> lowest_;
+  std::unordered_map<std::uint32_t, ConvexSlot> lowest_;
 };
 
 std::vector<std::uint8_t> covered_faces(const ConvexPolyhedron& polyhedron,
@@ -129,19 +127,19 @@ void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, M
 }  // namespace
 
 std::vector<std::vector<std::uint8_t>> hidden_faces(const Structure& structure,
-                                                    std::span<const std::uint32_t> slots) {
+                                                    std::span<const ConvexSlot> slots) {
   Heaps heaps(structure);
   std::vector<std::vector<std::uint8_t>> hidden;
   hidden.reserve(slots.size());
   std::vector<double> covered_m2;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> most_m2;  // by face and heap beyond
-  for (const std::uint32_t slot : slots) {
+  std::map<std::pair<std::uint32_t, ConvexSlot>, double> most_m2;  // by face and heap beyond
+  for (const ConvexSlot slot : slots) {
     const Convex& convex = *structure.convex(slot);
     covered_m2.assign(convex.polyhedron.faces.size(), 0.0);
     most_m2.clear();
     for (const Link& link : structure.links(slot)) {
-      const std::uint32_t heap = heaps.of(link.other);
-      if (heap == Heaps::kAlone) {
+      const ConvexSlot heap = heaps.of(link.other);
+      if (heap.none()) {
         covered_m2[link.face] += link.area_m2;
       } else {
         double& most = most_m2[{link.face, heap}];
@@ -156,9 +154,8 @@ std::vector<std::vector<std::uint8_t>> hidden_faces(const Structure& structure,
 }
 
 std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound) {
-  std::vector<std::uint32_t> all(compound.convexes.size());
-  std::iota(all.begin(), all.end(), 0u);
-  return hidden_faces(Structure(compound), all);
+  const Structure structure(compound);
+  return hidden_faces(structure, structure.slots());
 }
 
 std::shared_ptr<const Mesh> make_mesh(const Convex& convex,

@@ -16,7 +16,7 @@ namespace sunder {
 /// For each of some convexes of a structure, a flag for each face of its polyhedron: 1 where bonds
 /// cover the whole of it, or of the cap of the visual mesh that lies in it.
 std::vector<std::vector<std::uint8_t>> hidden_faces(const Structure& structure,
-                                                    std::span<const std::uint32_t> slots);
+                                                    std::span<const ConvexSlot> slots);
 /// The same for all convexes of a compound.
 std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound);
 

@@ -26,21 +26,20 @@ Structure::Structure(const Compound& compound) {
   size_ = slot_count();
   for (const Bond& bond : compound.bonds) link(bond);
   for (const Ghost& ghost : compound.ghosts) add_ghost(ghost);
-  std::vector<std::uint32_t> all(slots_.size());
-  std::iota(all.begin(), all.end(), 0u);
-  add_level(std::move(all));
+  add_level(slots());
 }
 
 void Structure::link(const Bond& bond) {
-  slots_[bond.a].links.push_back({bond.b, bond.face_a, bond.face_b, bond.area_m2});
-  slots_[bond.b].links.push_back({bond.a, bond.face_b, bond.face_a, bond.area_m2});
+  slots_[bond.a].links.push_back({ConvexSlot(bond.b), bond.face_a, bond.face_b, bond.area_m2});
+  slots_[bond.b].links.push_back({ConvexSlot(bond.a), bond.face_b, bond.face_a, bond.area_m2});
   ++bonds_;
 }
 
 void Structure::unlink(const Bond& bond) {
   const auto is_it = [&](std::uint32_t other, std::uint32_t face, std::uint32_t other_face) {
     return [=](const Link& link) {
-      return std::tie(link.other, link.face, link.other_face) == std::tie(other, face, other_face);
+      return std::tie(link.other.value, link.face, link.other_face) ==
+             std::tie(other, face, other_face);
     };
   };
   bonds_ -= std::erase_if(slots_[bond.a].links, is_it(bond.b, bond.face_a, bond.face_b));
@@ -59,22 +58,30 @@ void Structure::remove_ghost(std::uint32_t number) {
   ghosts_[number] = {};
 }
 
-void Structure::add_level(std::vector<std::uint32_t> slots) {
+void Structure::add_level(std::vector<ConvexSlot> slots) {
   while (!levels_.empty() && levels_.back().slots.size() < 2 * slots.size()) {
     slots.insert(slots.end(), levels_.back().slots.begin(), levels_.back().slots.end());
     levels_.pop_back();
   }
-  std::erase_if(slots, [&](std::uint32_t slot) { return !slots_[slot].convex; });
+  std::erase_if(slots, [&](ConvexSlot slot) { return !has(slot); });
   if (slots.empty()) return;
   std::sort(slots.begin(), slots.end());
   std::vector<Box> boxes;
   boxes.reserve(slots.size());
-  for (const std::uint32_t slot : slots) boxes.push_back(slots_[slot].convex->box);
+  for (const ConvexSlot slot : slots) boxes.push_back(convex(slot)->box);
   levels_.push_back({Bvh(boxes), std::move(slots)});
 }
 
-std::vector<std::uint32_t> Structure::within(const Vec3& center_R, double radius_m) const {
-  std::vector<std::uint32_t> found, items;
+std::vector<ConvexSlot> Structure::slots() const {
+  std::vector<ConvexSlot> slots;
+  slots.reserve(size_);
+  for_each([&](ConvexSlot slot, const Convex&) { slots.push_back(slot); });
+  return slots;
+}
+
+std::vector<ConvexSlot> Structure::within(const Vec3& center_R, double radius_m) const {
+  std::vector<ConvexSlot> found;
+  std::vector<std::uint32_t> items;
   const bool is_all = radius_m == std::numeric_limits<double>::infinity();
   for (const Level& level : levels_) {
     items.clear();
@@ -85,17 +92,18 @@ std::vector<std::uint32_t> Structure::within(const Vec3& center_R, double radius
       level.tree.within(center_R, radius_m, items);
     }
     for (const std::uint32_t item : items) {
-      if (slots_[level.slots[item]].convex) found.push_back(level.slots[item]);
+      if (has(level.slots[item])) found.push_back(level.slots[item]);
     }
   }
   std::sort(found.begin(), found.end());
   return found;
 }
 
-void Structure::remove_slot(std::uint32_t slot) {
-  Slot& gone = slots_[slot];
+void Structure::remove_slot(ConvexSlot slot) {
+  Slot& gone = slots_[slot.value];
   for (const Link& link : gone.links) {
-    std::erase_if(slots_[link.other].links, [&](const Link& back) { return back.other == slot; });
+    std::erase_if(slots_[link.other.value].links,
+                  [&](const Link& back) { return back.other == slot; });
   }
   bonds_ -= gone.links.size();
   while (!gone.ghosts.empty()) remove_ghost(gone.ghosts.back());
@@ -107,10 +115,10 @@ void Structure::remove_slot(std::uint32_t slot) {
 void Structure::apply(const BreakEdit& edit) {
   for (const Bond& bond : edit.cut) unlink(bond);
   if (!edit.changed) return;
-  for (const std::uint32_t slot : edit.removed) remove_slot(slot);
-  std::vector<std::uint32_t> fresh;
+  for (const ConvexSlot slot : edit.removed) remove_slot(slot);
+  std::vector<ConvexSlot> fresh;
   for (std::size_t i = 0; i < edit.added.size(); ++i) {
-    fresh.push_back(slot_count());
+    fresh.push_back(ConvexSlot(slot_count()));
     slots_.push_back({edit.added[i], edit.added_anchors[i], {}, {}});
     anchored_ += edit.added_anchors[i] != 0 ? 1 : 0;
   }
@@ -120,9 +128,9 @@ void Structure::apply(const BreakEdit& edit) {
   add_level(std::move(fresh));
 }
 
-void Structure::loosen(std::uint32_t slot) {
-  anchored_ -= slots_[slot].anchored != 0 ? 1 : 0;
-  slots_[slot].anchored = 0;
+void Structure::loosen(ConvexSlot slot) {
+  anchored_ -= anchored(slot) != 0 ? 1 : 0;
+  slots_[slot.value].anchored = 0;
 }
 
 Compound Structure::compound() const {
@@ -138,8 +146,9 @@ Compound Structure::compound() const {
   for (std::uint32_t i = 0; i < slot_count(); ++i) {
     of_slot.clear();
     for (const Link& link : slots_[i].links) {
-      if (i > link.other) continue;
-      of_slot.push_back({index[i], index[link.other], link.face, link.other_face, link.area_m2});
+      if (i > link.other.value) continue;
+      of_slot.push_back(
+          {index[i], index[link.other.value], link.face, link.other_face, link.area_m2});
     }
     std::sort(of_slot.begin(), of_slot.end(), [](const Bond& x, const Bond& y) {
       return std::tie(x.b, x.face_a, x.face_b) < std::tie(y.b, y.face_a, y.face_b);
@@ -168,13 +177,13 @@ double Structure::bytes_per_convex() const {
 
 Box bounds(const Structure& structure) {
   Box box;
-  structure.for_each([&](std::uint32_t, const Convex& convex) { box.extend(convex.box); });
+  structure.for_each([&](ConvexSlot, const Convex& convex) { box.extend(convex.box); });
   return box;
 }
 
 double distance_outside(const Structure& structure, const Vec3& point_R) {
   double least = std::numeric_limits<double>::infinity();
-  structure.for_each([&](std::uint32_t, const Convex& convex) {
+  structure.for_each([&](ConvexSlot, const Convex& convex) {
     least = std::min(least, distance_outside(convex, point_R));
   });
   return least;

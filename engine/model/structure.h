@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/types.h"
 #include "engine/geometry/bvh.h"
 #include "engine/model/compound.h"
 
@@ -16,9 +17,13 @@ namespace sunder {
 
 struct BreakEdit;
 
+/// A convex of a structure; Structure::compound() numbers those that are left anew.
+struct ConvexSlotTag;
+using ConvexSlot = Index<ConvexSlotTag>;
+
 /// A contact as seen from one of its convexes.
 struct Link {
-  std::uint32_t other = 0;  ///< Slot.
+  ConvexSlot other;
   std::uint32_t face = 0;
   std::uint32_t other_face = 0;
   double area_m2 = 0;
@@ -41,31 +46,37 @@ class Structure {
   /// Whether the world holds any of them.
   bool is_anchored() const { return anchored_ > 0; }
   /// Whether a slot is there and has a convex.
-  bool has(std::uint32_t slot) const { return slot < slots_.size() && slots_[slot].convex; }
+  bool has(ConvexSlot slot) const {
+    return slot.value < slots_.size() && slots_[slot.value].convex;
+  }
   /// Null where the convex is gone.
-  const ConvexPtr& convex(std::uint32_t slot) const { return slots_[slot].convex; }
+  const ConvexPtr& convex(ConvexSlot slot) const { return slots_[slot.value].convex; }
   /// As in Compound.
-  std::uint8_t anchored(std::uint32_t slot) const { return slots_[slot].anchored; }
+  std::uint8_t anchored(ConvexSlot slot) const { return slots_[slot.value].anchored; }
   /// The contacts of a convex, in no order.
-  std::span<const Link> links(std::uint32_t slot) const { return slots_[slot].links; }
+  std::span<const Link> links(ConvexSlot slot) const { return slots_[slot.value].links; }
   /// The numbers of the ghosts of a convex; ascending.
-  std::span<const std::uint32_t> ghosts_of(std::uint32_t slot) const { return slots_[slot].ghosts; }
+  std::span<const std::uint32_t> ghosts_of(ConvexSlot slot) const {
+    return slots_[slot.value].ghosts;
+  }
   /// By number; its convexes are slots.
   const Ghost& ghost(std::uint32_t number) const { return ghosts_[number]; }
   /// Calls `use` with each slot that has a convex, and the convex; ascending.
   template <class Use>
   void for_each(const Use& use) const {
-    for (std::uint32_t slot = 0; slot < slot_count(); ++slot) {
-      if (slots_[slot].convex) use(slot, *slots_[slot].convex);
+    for (std::uint32_t s = 0; s < slot_count(); ++s) {
+      if (slots_[s].convex) use(ConvexSlot(s), *slots_[s].convex);
     }
   }
+  /// Slots that have a convex; ascending.
+  std::vector<ConvexSlot> slots() const;
 
   /// Slots whose boxes come within `radius_m` of a point, ascending; all if it is infinite.
-  std::vector<std::uint32_t> within(const Vec3& center_R, double radius_m) const;
+  std::vector<ConvexSlot> within(const Vec3& center_R, double radius_m) const;
   /// Carries a break out, in time proportional to what it changes.
   void apply(const BreakEdit& edit);
   /// The world lets go of a convex.
-  void loosen(std::uint32_t slot);
+  void loosen(ConvexSlot slot);
   /// What is left, in the order of the slots.
   Compound compound() const;
   /// Bytes of memory for each convex, its geometry included.
@@ -82,15 +93,15 @@ class Structure {
   /// one before, so that slots are seldom sorted anew (Bentley and Saxe 1980).
   struct Level {
     Bvh tree;
-    std::vector<std::uint32_t> slots;
+    std::vector<ConvexSlot> slots;
   };
 
   void link(const Bond& bond);
   void unlink(const Bond& bond);
   void add_ghost(Ghost ghost);
   void remove_ghost(std::uint32_t number);
-  void remove_slot(std::uint32_t slot);
-  void add_level(std::vector<std::uint32_t> slots);
+  void remove_slot(ConvexSlot slot);
+  void add_level(std::vector<ConvexSlot> slots);
 
   std::vector<Slot> slots_;
   std::vector<Ghost> ghosts_;  ///< Numbers are not used again.

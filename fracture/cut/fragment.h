@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "engine/model/compound.h"
+#include "engine/model/structure.h"
 
 namespace sunder::fracture {
 
@@ -13,8 +13,8 @@ struct Fragment {
   static constexpr std::uint32_t kRest = 0xffffffff;
 
   ConvexPtr convex;
-  std::uint32_t source = 0;  ///< The slot of the convex that it came from.
-  std::uint32_t cell = 0;    ///< As in CellPart.
+  ConvexSlot source;       ///< Of the convex that it came from.
+  std::uint32_t cell = 0;  ///< As in CellPart.
   std::uint32_t group = kRest;
   std::uint8_t anchored = 0;
 };

@@ -119,7 +119,7 @@ class Welder {
 
 }  // namespace
 
-Fragments make_fragments(const Structure& structure, std::vector<std::uint32_t>& touched,
+Fragments make_fragments(const Structure& structure, std::vector<ConvexSlot>& touched,
                          const AlignedPattern& pattern, const ImpactSphere& sphere,
                          const Fit& fit) {
   std::vector<Intersection> cut(touched.size());
@@ -131,7 +131,7 @@ Fragments make_fragments(const Structure& structure, std::vector<std::uint32_t>&
   Fragments fragments;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cut.size(); ++i) {
-    const std::uint32_t source = touched[i];
+    const ConvexSlot source = touched[i];
     const Convex& parent = *structure.convex(source);
     fragments.failed += cut[i].failed ? 1 : 0;
     const CellPart& first = cut[i].parts[0];

@@ -21,7 +21,7 @@ struct Fragments {
 /// Cuts the convexes in slots `touched`, welds full cells, and groups by colour what the sphere
 /// touches; what overlaps stays together. Convexes that it turns out to leave whole and in place
 /// are taken out of `touched`.
-Fragments make_fragments(const Structure& structure, std::vector<std::uint32_t>& touched,
+Fragments make_fragments(const Structure& structure, std::vector<ConvexSlot>& touched,
                          const AlignedPattern& pattern, const ImpactSphere& sphere,
                          const Fit& fit = {});
 

@@ -26,7 +26,7 @@ double outside(const Convex& convex, const Vec3& point) {
 /// Cuts ghosts and finds their convexes' parts.
 class GhostCutter {
  public:
-  GhostCutter(const Structure& structure, const std::vector<std::uint32_t>& touched,
+  GhostCutter(const Structure& structure, const std::vector<ConvexSlot>& touched,
               const AlignedPattern& pattern, const std::vector<Fragment>& fragments)
       : structure_(structure), touched_(touched), pattern_(pattern), fragments_(fragments) {}
 
@@ -42,7 +42,8 @@ class GhostCutter {
     for (const CellPart& part : intersection.parts) {
       const Vec3& center = part.convex->solid.centroid;
       std::vector<std::uint32_t> of;
-      for (const std::uint32_t slot : ghost.of) {
+      for (const std::uint32_t overlapped : ghost.of) {
+        const ConvexSlot slot(overlapped);
         of.push_back(part_of(slot, part.cell, center));
         if (of.back() != kNone) continue;
         // A sliver went to another cell, and takes its overlaps with it: it is counted there.
@@ -59,14 +60,14 @@ class GhostCutter {
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-  bool is_cut(std::uint32_t slot) const {
+  bool is_cut(ConvexSlot slot) const {
     return std::binary_search(touched_.begin(), touched_.end(), slot);
   }
 
-  std::span<const Fragment> parts_of(std::uint32_t slot) const {
-    const auto less = [](const Fragment& part, std::uint32_t s) { return part.source < s; };
-    const auto first = std::lower_bound(fragments_.begin(), fragments_.end(), slot, less);
-    const auto last = std::lower_bound(first, fragments_.end(), slot + 1, less);
+  std::span<const Fragment> parts_of(ConvexSlot slot) const {
+    const auto less = [](const Fragment& part, std::uint32_t s) { return part.source.value < s; };
+    const auto first = std::lower_bound(fragments_.begin(), fragments_.end(), slot.value, less);
+    const auto last = std::lower_bound(first, fragments_.end(), slot.value + 1, less);
     return {first, last};
   }
 
@@ -75,8 +76,8 @@ class GhostCutter {
   }
 
   /// The part of a convex in a cell, where there is a point in it; kNone if the cell has none.
-  std::uint32_t part_of(std::uint32_t slot, std::uint32_t cell, const Vec3& point) const {
-    if (!is_cut(slot)) return slot;
+  std::uint32_t part_of(ConvexSlot slot, std::uint32_t cell, const Vec3& point) const {
+    if (!is_cut(slot)) return slot.value;
     const std::span<const Fragment> parts = parts_of(slot);
     if (parts.size() == 1) return node_of(parts[0]);  // it may have been left whole
     std::uint32_t best = kNone;
@@ -91,7 +92,7 @@ class GhostCutter {
   }
 
   /// Of the parts of a convex, the one that a point is deepest in.
-  std::uint32_t nearest(std::uint32_t slot, const Vec3& point) const {
+  std::uint32_t nearest(ConvexSlot slot, const Vec3& point) const {
     std::uint32_t best = kNone;
     double least = std::numeric_limits<double>::infinity();
     for (const Fragment& part : parts_of(slot)) {
@@ -108,9 +109,9 @@ class GhostCutter {
     std::uint32_t number;
     const Fragment* fragment;  ///< Null: a convex that was not cut.
   };
-  std::vector<Node> nodes_of(std::uint32_t slot) const {
+  std::vector<Node> nodes_of(ConvexSlot slot) const {
     std::vector<Node> nodes;
-    if (!is_cut(slot)) nodes.push_back({structure_.convex(slot), slot, nullptr});
+    if (!is_cut(slot)) nodes.push_back({structure_.convex(slot), slot.value, nullptr});
     for (const Fragment& part : parts_of(slot))
       nodes.push_back({part.convex, node_of(part), &part});
     return nodes;
@@ -118,8 +119,8 @@ class GhostCutter {
 
   /// Surface convexes are fitted to their visual meshes anew: where their parts still overlap.
   void meet(const Ghost& ghost, std::vector<Ghost>& parts) const {
-    for (const Node& a : nodes_of(ghost.of.front())) {
-      for (const Node& b : nodes_of(ghost.of.back())) {
+    for (const Node& a : nodes_of(ConvexSlot(ghost.of.front()))) {
+      for (const Node& b : nodes_of(ConvexSlot(ghost.of.back()))) {
         if (a.fragment && b.fragment && a.fragment->cell != b.fragment->cell) continue;
         const Vec3 size = a.convex->box.extent().cwiseMin(b.convex->box.extent());
         ConvexPolyhedron common =
@@ -133,18 +134,18 @@ class GhostCutter {
   }
 
   const Structure& structure_;
-  const std::vector<std::uint32_t>& touched_;
+  const std::vector<ConvexSlot>& touched_;
   const AlignedPattern& pattern_;
   const std::vector<Fragment>& fragments_;
 };
 
 }  // namespace
 
-std::vector<Ghost> cut_ghosts(const Structure& structure, const std::vector<std::uint32_t>& touched,
+std::vector<Ghost> cut_ghosts(const Structure& structure, const std::vector<ConvexSlot>& touched,
                               const AlignedPattern& pattern, const std::vector<Fragment>& fragments,
                               double& debris_volume_m3) {
   std::vector<std::uint32_t> old;
-  for (const std::uint32_t slot : touched) {
+  for (const ConvexSlot slot : touched) {
     const std::span<const std::uint32_t> of_slot = structure.ghosts_of(slot);
     old.insert(old.end(), of_slot.begin(), of_slot.end());
   }

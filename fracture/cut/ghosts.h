@@ -14,7 +14,7 @@ namespace sunder::fracture {
 /// slot_count() + i for fragment i. Where the sliver of a convex went to another cell, its overlaps
 /// go with it and name it alone, so that volumes add up and none is negative. Adds what is too
 /// small to `debris_volume_m3`.
-std::vector<Ghost> cut_ghosts(const Structure& structure, const std::vector<std::uint32_t>& touched,
+std::vector<Ghost> cut_ghosts(const Structure& structure, const std::vector<ConvexSlot>& touched,
                               const AlignedPattern& pattern, const std::vector<Fragment>& fragments,
                               double& debris_volume_m3);
 

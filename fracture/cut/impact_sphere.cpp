@@ -17,9 +17,9 @@ bool ImpactSphere::touches(const Convex& convex) const {
          distance(center_R, convex.polyhedron) <= radius_m;
 }
 
-std::vector<std::uint32_t> ImpactSphere::touched(const Structure& structure) const {
-  std::vector<std::uint32_t> slots = structure.within(center_R, radius_m);
-  std::erase_if(slots, [&](std::uint32_t slot) { return !touches(*structure.convex(slot)); });
+std::vector<ConvexSlot> ImpactSphere::touched(const Structure& structure) const {
+  std::vector<ConvexSlot> slots = structure.within(center_R, radius_m);
+  std::erase_if(slots, [&](ConvexSlot slot) { return !touches(*structure.convex(slot)); });
   return slots;
 }
 

@@ -1,7 +1,6 @@
 // Where a fracture reaches.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "engine/model/structure.h"
@@ -18,7 +17,7 @@ struct ImpactSphere {
   /// Whether a convex reaches into it.
   bool touches(const Convex& convex) const;
   /// Slots of a structure whose convexes it touches, ascending.
-  std::vector<std::uint32_t> touched(const Structure& structure) const;
+  std::vector<ConvexSlot> touched(const Structure& structure) const;
 };
 
 }  // namespace sunder::fracture

@@ -73,12 +73,12 @@ void ConvexMasses::add_loose(std::vector<std::uint32_t> convexes) {
   loose_.push_back(std::move(loose));
 }
 
-void ConvexMasses::balance(std::span<const Load> loads, const Vec3& gravity_R,
+void ConvexMasses::balance(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
                            std::vector<Vec3>& forces_N, std::vector<Vec3>& torques_Nm) const {
   forces_N.resize(centroids_.size());
   torques_Nm.assign(centroids_.size(), Vec3::Zero());
   for (std::size_t c = 0; c < centroids_.size(); ++c) forces_N[c] = masses_kg_[c] * gravity_R;
-  for (const Load& load : loads) {
+  for (const ConvexLoad& load : loads) {
     forces_N[load.convex] += load.force_N;
     torques_Nm[load.convex] +=
         load.torque_Nm + (load.point_R - centroids_[load.convex]).cross(load.force_N);
@@ -97,10 +97,10 @@ void ConvexMasses::balance(std::span<const Load> loads, const Vec3& gravity_R,
   }
 }
 
-double ConvexMasses::applied_N(std::span<const Load> loads, const Vec3& gravity_R) const {
+double ConvexMasses::applied_N(std::span<const ConvexLoad> loads, const Vec3& gravity_R) const {
   double applied_N = 0;
   for (const double mass : masses_kg_) applied_N += mass * gravity_R.norm();
-  for (const Load& load : loads) applied_N += load.force_N.norm();
+  for (const ConvexLoad& load : loads) applied_N += load.force_N.norm();
   return applied_N;
 }
 

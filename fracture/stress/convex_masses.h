@@ -7,9 +7,17 @@
 #include <span>
 #include <vector>
 
-#include "engine/model/breaker.h"
+#include "engine/model/compound.h"
 
 namespace sunder::fracture {
+
+/// As a Load, on a convex of a compound.
+struct ConvexLoad {
+  std::uint32_t convex = 0;  ///< Index.
+  Vec3 force_N = Vec3::Zero();
+  Vec3 point_R = Vec3::Zero();
+  Vec3 torque_Nm = Vec3::Zero();
+};
 
 /// Masses, centroids and inertias per convex, and the islands that nothing anchors.
 class ConvexMasses {
@@ -27,10 +35,10 @@ class ConvexMasses {
   const std::vector<std::uint8_t>& fixed() const { return fixed_; }
   /// Forces on convexes and torques about their centroids: loads and weight, less what accelerates
   /// a loose island as a whole.
-  void balance(std::span<const Load> loads, const Vec3& gravity_R, std::vector<Vec3>& forces_N,
-               std::vector<Vec3>& torques_Nm) const;
+  void balance(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
+               std::vector<Vec3>& forces_N, std::vector<Vec3>& torques_Nm) const;
   /// The sizes of all loads and weights, summed: what rounding is measured by.
-  double applied_N(std::span<const Load> loads, const Vec3& gravity_R) const;
+  double applied_N(std::span<const ConvexLoad> loads, const Vec3& gravity_R) const;
 
  private:
   /// Convexes that hang together without an anchor.

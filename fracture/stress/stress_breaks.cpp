@@ -32,7 +32,7 @@ constexpr double kWorthALook = 0.6;
 
 /// What is handed back to the next solve.
 struct Memory final : StressMemory {
-  std::vector<std::uint32_t> slots;  ///< Per convex.
+  std::vector<ConvexSlot> slots;  ///< Per convex.
   std::vector<ConvexPtr> convexes;
   std::vector<std::uint8_t> anchored;
   std::vector<Bond> bonds;
@@ -74,7 +74,7 @@ constexpr std::uint32_t kNew = StressOrigin::kNew;
 /// Where the convexes and bonds of a compound, with these slots, were in what the memory is of; few
 /// are known if that was no earlier state of the same structure.
 StressOrigin origin_in(const Memory& old, const Compound& compound,
-                       const std::vector<std::uint32_t>& slots) {
+                       const std::vector<ConvexSlot>& slots) {
   StressOrigin origin;
   std::uint32_t was = 0;
   for (std::uint32_t c = 0; c < slots.size(); ++c) {
@@ -100,12 +100,14 @@ StressOrigin origin_in(const Memory& old, const Compound& compound,
 class StressBreaks {
  public:
   StressBreaks(const Structure& structure, const LoadCase& load)
-      : compound_(structure.compound()), load_(load), memory_(std::make_shared<Memory>()) {
-    structure.for_each([&](std::uint32_t slot, const Convex&) { slots_.push_back(slot); });
-    loads_.assign(load.loads.begin(), load.loads.end());
-    for (Load& one : loads_) {
+      : compound_(structure.compound()),
+        slots_(structure.slots()),
+        load_(load),
+        memory_(std::make_shared<Memory>()) {
+    for (const Load& one : load.loads) {
       const auto at = std::lower_bound(slots_.begin(), slots_.end(), one.convex);
-      one.convex = static_cast<std::uint32_t>(at - slots_.begin());
+      const auto convex = static_cast<std::uint32_t>(at - slots_.begin());
+      loads_.push_back({convex, one.force_N, one.point_R, one.torque_Nm});
     }
   }
 
@@ -302,7 +304,7 @@ class StressBreaks {
   }
 
   Bond by_slots(const Bond& bond) const {
-    return {slots_[bond.a], slots_[bond.b], bond.face_a, bond.face_b, bond.area_m2};
+    return {slots_[bond.a].value, slots_[bond.b].value, bond.face_a, bond.face_b, bond.area_m2};
   }
 
   /// Islands but one come off, as pieces in the order of their first convex.
@@ -319,8 +321,9 @@ class StressBreaks {
     BreakPlan& plan = edit.loose;
     plan.pieces.resize(islands - 1);
     plan.untouched = static_cast<std::uint32_t>(island.size());
-    std::vector<std::uint32_t> place = slots_;
+    std::vector<std::uint32_t> place(island.size());
     for (std::uint32_t c = 0; c < island.size(); ++c) {
+      place[c] = slots_[c].value;
       if (island[c] == stays) continue;
       Compound& piece = plan.pieces[piece_of(c) - 1];
       edit.removed.push_back(slots_[c]);
@@ -347,10 +350,10 @@ class StressBreaks {
     }
   }
 
-  Compound compound_;                 ///< Less the bonds that are cut.
-  std::vector<std::uint32_t> slots_;  ///< Per convex.
+  Compound compound_;              ///< Less the bonds that are cut.
+  std::vector<ConvexSlot> slots_;  ///< Per convex.
   const LoadCase& load_;
-  std::vector<Load> loads_;  ///< On convexes, not slots.
+  std::vector<ConvexLoad> loads_;
   std::shared_ptr<Memory> memory_;
   std::uint64_t most_work_ = 0;
   std::vector<Bond> cut_;

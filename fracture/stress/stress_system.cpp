@@ -214,7 +214,7 @@ void StressSystem::mark_changes(const Edited& edited, SpringEdit& edit) const {
   }
 }
 
-SolveResult StressSystem::solve(std::span<const Load> loads, const Vec3& gravity_R,
+SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
                                 double tolerance, int most_iterations,
                                 std::vector<Displacement>& displacements) const {
   displacements.resize(masses_.size());

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/model/breaker.h"
+#include "engine/model/compound.h"
 #include "fracture/stress/bond_geometry.h"
 #include "fracture/stress/convex_masses.h"
 #include "fracture/stress/multigrid.h"
@@ -61,7 +61,7 @@ class StressSystem {
   /// What an iteration costs, in visits of springs.
   std::uint64_t work() const { return springs_; }
   /// Improves the displacements, one per convex, under loads and weight.
-  SolveResult solve(std::span<const Load> loads, const Vec3& gravity_R, double tolerance,
+  SolveResult solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, double tolerance,
                     int most_iterations, std::vector<Displacement>& displacements) const;
 
   /// No less than any stress over the bond's own area.

@@ -74,11 +74,13 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
   hit.direction_R =
       inward.norm() > 1e-9 * box.extent().norm() ? inward.normalized() : Vec3(-Vec3::UnitY());
   double nearest = kInfinity;
-  for (std::uint32_t c = 0; c < compound.convexes.size(); ++c) {
+  std::size_t nearest_convex = 0;
+  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
     const double distance = (compound.convexes[c]->solid.centroid - hit.point_R).norm();
-    if (distance < nearest) hit.convex = c;
+    if (distance < nearest) nearest_convex = c;
     nearest = std::min(nearest, distance);
   }
+  hit.convex = ConvexSlot(nearest_convex);
   const Vec3 reach =
       (box.max - hit.point_R).cwiseAbs().cwiseMax((box.min - hit.point_R).cwiseAbs());
   if (material.pattern.kind == PatternSpec::Kind::kBrick) {
@@ -86,7 +88,7 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
   }
   const auto breaker = fracture::make_pattern_breaker();
   BreakCommand command =
-      breaker->command(*compound.convexes[hit.convex], material, hit, kEvent, options.seed);
+      breaker->command(*compound.convexes[nearest_convex], material, hit, kEvent, options.seed);
   using Kind = PatternSpec::Kind;
   const Kind kind = material.pattern.kind;
   if (!options.radius_m &&

@@ -180,7 +180,7 @@ class ScriptedBreaker final : public Breaker {
     BreakEdit edit;
     edit.changed = structure.size() > 1;
     if (!edit.changed) return edit;
-    structure.for_each([&](std::uint32_t slot, const Convex&) {
+    structure.for_each([&](ConvexSlot slot, const Convex&) {
       edit.removed.push_back(slot);
       edit.loose.pieces.push_back({{structure.convex(slot)}, {structure.anchored(slot)}, {}, {}});
     });

@@ -138,7 +138,7 @@ TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_impact) {
   Material glass;
   glass.pattern = web(6, 12);
   glass.impact_radius_m = 0.4;
-  const Hit hit{Vec3(0.3, -0.2, 0.003), Vec3(0.6, 0, -0.8), 0, 1};
+  const Hit hit{Vec3(0.3, -0.2, 0.003), Vec3(0.6, 0, -0.8), ConvexSlot(0), 1};
   const BreakCommand command = breaker->command(*pane.convexes[0], glass, hit, 1, 42);
   const Vec3 axis = command.X_RP.rotation * Vec3::UnitY();
   EXPECT_NEAR(std::abs(axis.z()), 1, 1e-12);
@@ -163,8 +163,8 @@ TEST(Fracture, uses_the_pattern_of_the_blows_strength) {
   stone.impact_radius_m = 0.5;
   stone.stronger = {{100, voronoi(20), 0.7}, {1000, web(3, 6), 0.9}};
   const auto radius = [&](double energy_J) {
-    return breaker->command(*box.convexes[0], stone, {Vec3(0, 1, 0), Vec3(0, -1, 0), 0, energy_J},
-                            1, 1);
+    const Hit hit{Vec3(0, 1, 0), Vec3(0, -1, 0), ConvexSlot(0), energy_J};
+    return breaker->command(*box.convexes[0], stone, hit, 1, 1);
   };
   EXPECT_EQ(radius(99).radius_m, 0.5);
   EXPECT_EQ(radius(100).radius_m, 0.7);

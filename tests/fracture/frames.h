@@ -71,7 +71,7 @@ inline StressSystem system_of(const Compound& compound, const std::vector<Materi
 }
 
 /// Stress under own weight and loads, solved as the simulation solves it.
-inline BondStress worst_stress(const Compound& compound, std::vector<Load> loads = {},
+inline BondStress worst_stress(const Compound& compound, std::vector<ConvexLoad> loads = {},
                                const Vec3& gravity = kDown, double tolerance = 1e-3) {
   const StressSystem system = system_of(compound, stone());
   std::vector<Displacement> displacements;

@@ -167,7 +167,7 @@ TEST(Group, keeps_cells_of_a_colour_together_and_what_is_outside_the_sphere_with
   join_colors(pattern, 3, 5);
   const Structure wall(grid_compound(8, 1, 8, Vec3::Constant(.5)));
   const ImpactSphere sphere{Vec3(2, .25, 2), .8};
-  std::vector<std::uint32_t> touched = sphere.touched(wall);
+  std::vector<ConvexSlot> touched = sphere.touched(wall);
   const AlignedPattern aligned = align(pattern, {Mat3::Identity(), sphere.center_R}, 1, kWorld);
   const Fragments fragments = make_fragments(wall, touched, aligned, sphere);
   ASSERT_FALSE(fragments.all.empty());

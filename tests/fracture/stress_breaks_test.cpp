@@ -41,7 +41,7 @@ constexpr double kLength = 4, kWidth = 0.4, kRootStrength = 1e6;
 constexpr double kSnaps_N = kRootStrength * kWidth * kWidth * kWidth / (6 * kLength);
 
 std::vector<Load> at_tip(const Compound& bar, double force_N) {
-  const auto tip = static_cast<std::uint32_t>(bar.convexes.size() - 1);
+  const ConvexSlot tip(bar.convexes.size() - 1);
   return {{tip, Vec3(0, -force_N, 0), Vec3(kLength, kWidth / 2, kWidth / 2)}};
 }
 
@@ -179,7 +179,7 @@ TEST(StressBreaks, AnyCompoundGivesPiecesThatAddUpAndTheSameForAnyNumberOfThread
     for (std::uint8_t& anchored : compound.anchored) anchored = random.uniform() < 0.05;
     std::vector<Load> loads;
     for (int i = 0; i < 5; ++i) {
-      const auto convex = random.below(static_cast<std::uint32_t>(compound.convexes.size()));
+      const ConvexSlot convex(random.below(static_cast<std::uint32_t>(compound.convexes.size())));
       const double size = std::pow(10.0, random.uniform(-3, 9));
       loads.push_back(
           {convex, size * random.direction(), random.uniform(0, 9) * random.direction()});

@@ -19,7 +19,7 @@ TEST(Stress, ACantileversRootCarriesWhatBeamTheorySays) {
     EXPECT_NEAR(worst_stress(compound).tension_Pa / own, 1, 0.1) << across;
 
     const auto tip = static_cast<std::uint32_t>(compound.convexes.size() - 1);
-    const Load load{tip, Vec3(0, -1000, 0), Vec3(length, width / 2, width / 2)};
+    const ConvexLoad load{tip, Vec3(0, -1000, 0), Vec3(length, width / 2, width / 2)};
     const double bending = 6 * 1000 * length / (width * width * width);
     EXPECT_NEAR(worst_stress(compound, {load}, Vec3::Zero()).tension_Pa / bending, 1, 0.1)
         << across;
@@ -56,7 +56,7 @@ TEST(Stress, APortalsCornersCarryWhatFrameTheorySays) {
   add_grid(Vec3(low, beam, 0), Vec3(high, beam + t, t), 31 * n, n, n, false, parts);
   const Compound compound = make_compound(std::move(parts));
   // The beam alone is loaded, as in the formula.
-  std::vector<Load> loads;
+  std::vector<ConvexLoad> loads;
   for (std::uint32_t c = 0; c < compound.convexes.size(); ++c) {
     const MassProperties& solid = compound.convexes[c]->solid;
     const double y = solid.centroid.y();
@@ -95,7 +95,7 @@ TEST(Stress, AnArchCarriesWhatTheElasticCentreSays) {
     ring(k, pi, pi + step, true);
   }
   const Compound compound = make_compound(std::move(parts));
-  std::vector<Load> loads;
+  std::vector<ConvexLoad> loads;
   for (std::uint32_t c = 0; c < compound.convexes.size(); ++c) {
     const Box& box = compound.convexes[c]->box;
     if (box.min.x() < 1e-6 && box.max.x() > -1e-6 && box.max.y() > radius + 0.4 * t) {
@@ -103,7 +103,7 @@ TEST(Stress, AnArchCarriesWhatTheElasticCentreSays) {
     }
   }
   ASSERT_EQ(loads.size(), 2u);
-  for (Load& load : loads) load.force_N.y() = -load_N / 2;
+  for (ConvexLoad& load : loads) load.force_N.y() = -load_N / 2;
   const double thrust = load_N * (4 - pi) / (pi * pi - 8);
   const double crown = load_N * radius / pi - thrust * radius * (1 - 2 / pi);
   const double expected = std::abs(crown) * 6 / (t * t * t) - thrust / (t * t);
@@ -159,7 +159,7 @@ TEST(Stress, AFreeRodThatIsPushedFeelsWhatItsRestWeighs) {
   std::vector<Part> parts;
   add_grid(Vec3::Zero(), Vec3(4, 0.5, 0.5), 8, 1, 1, false, parts);
   const Compound compound = make_compound(std::move(parts));
-  const Load push{0, Vec3(1000, 0, 0), Vec3(0, 0.25, 0.25)};
+  const ConvexLoad push{0, Vec3(1000, 0, 0), Vec3(0, 0.25, 0.25)};
   const StressSystem system = system_of(compound, stone());
   std::vector<Displacement> displacements;
   EXPECT_TRUE(system.solve(std::span(&push, 1), kDown, 1e-6, 500, displacements).converged);

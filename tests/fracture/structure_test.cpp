@@ -33,8 +33,8 @@ void expect_as_rebuilt(const Structure& structure, Random& random) {
   const Box box = bounds(structure);
   const Vec3 at = box.center() + 0.5 * box.extent().norm() * random.direction();
   const double radius = random.uniform() * box.extent().norm();
-  std::vector<std::uint32_t> near;
-  structure.for_each([&](std::uint32_t slot, const Convex& convex) {
+  std::vector<ConvexSlot> near;
+  structure.for_each([&](ConvexSlot slot, const Convex& convex) {
     const Vec3 gap = (convex.box.min - at).cwiseMax(at - convex.box.max).cwiseMax(0.0);
     if (gap.norm() <= radius) near.push_back(slot);
   });
@@ -78,8 +78,8 @@ TEST(Structure, loses_a_contact_that_is_cut_on_both_sides) {
   edit.cut = {structure.compound().bonds[1]};
   structure.apply(edit);
   EXPECT_EQ(structure.bond_count(), 1u);
-  EXPECT_EQ(structure.links(1).size(), 1u);
-  EXPECT_TRUE(structure.links(2).empty());
+  EXPECT_EQ(structure.links(ConvexSlot(1)).size(), 1u);
+  EXPECT_TRUE(structure.links(ConvexSlot(2)).empty());
   EXPECT_EQ(structure.size(), 3u);
 }
 

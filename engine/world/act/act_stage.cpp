@@ -75,14 +75,14 @@ void loosen(World& world, const Box& region_W) {
   for (Actor& actor : world.actors) {
     if (!actor.is_static) continue;
     const Pose X_WB = states[actor.body].X_WB;
-    std::vector<std::uint32_t> slots;
-    actor.structure.for_each([&](std::uint32_t slot, const Convex& convex) {
+    std::vector<ConvexSlot> slots;
+    actor.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
       const Vec3 at_W = X_WB * (convex.solid.centroid - actor.weight.com_R);
       const bool inside = (at_W.array() >= region_W.min.array()).all() &&
                           (at_W.array() <= region_W.max.array()).all();
       if (inside && actor.structure.anchored(slot) != 0) slots.push_back(slot);
     });
-    for (const std::uint32_t slot : slots) actor.structure.loosen(slot);
+    for (const ConvexSlot slot : slots) actor.structure.loosen(slot);
     if (!slots.empty()) loosened.push_back(actor.key);
   }
   for (const std::uint32_t key : loosened) {

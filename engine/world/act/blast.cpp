@@ -36,11 +36,11 @@ Vec3 impulse_Ns_m2(const Blast& blast, const Vec3& point_W) {
 }
 
 /// On the faces of a convex that nothing covers.
-Push push_on(const Blast& blast, const Actor& actor, std::uint32_t slot, const Pose& X_WR) {
+Push push_on(const Blast& blast, const Actor& actor, ConvexSlot slot, const Pose& X_WR) {
   Push push;
   const ConvexPolyhedron& hull = actor.structure.convex(slot)->polyhedron;
   for (std::size_t f = 0; f < hull.faces.size(); ++f) {
-    if (actor.hidden[slot][f] != 0) continue;
+    if (actor.hidden[slot.value][f] != 0) continue;
     Vec3 middle_R = Vec3::Zero();
     const auto corners = hull.face_corners(f);
     for (const std::uint32_t corner : corners) middle_R += hull.vertices[corner];
@@ -79,27 +79,29 @@ Impact blow_on(const World& world, const Burst& burst, const Actor& actor, const
   if (!reaches(blast, actor, X_WR)) return impact;
   const Structure& structure = actor.structure;
   std::vector<Push> pushes(structure.slot_count());
-  std::uint32_t hardest = 0;
-  structure.for_each([&](std::uint32_t slot, const Convex& convex) {
-    pushes[slot] = push_on(blast, actor, slot, X_WR);
-    if (was_tried(world, burst, convex, pushes[slot])) pushes[slot] = {};
-    if (pushes[slot].weight_Ns > pushes[hardest].weight_Ns) hardest = slot;
+  ConvexSlot hardest(0);
+  structure.for_each([&](ConvexSlot slot, const Convex& convex) {
+    Push& push = pushes[slot.value];
+    push = push_on(blast, actor, slot, X_WR);
+    if (was_tried(world, burst, convex, push)) push = {};
+    if (push.weight_Ns > pushes[hardest.value].weight_Ns) hardest = slot;
   });
-  if (pushes.empty() || pushes[hardest].weight_Ns <= 0) return impact;
+  if (pushes.empty() || pushes[hardest.value].weight_Ns <= 0) return impact;
   const Material& material = world.material(structure.convex(hardest)->material);
   if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) return impact;
   impact.key = actor.key;
   impact.convex = hardest;
-  impact.point_W = pushes[hardest].point_W();
+  impact.point_W = pushes[hardest.value].point_W();
   Vec3 impulse_W = Vec3::Zero();
   double energy_J = 0;
-  structure.for_each([&](std::uint32_t slot, const Convex& convex) {
-    const bool near = pushes[slot].weight_Ns > 0 &&
-                      (pushes[slot].point_W() - impact.point_W).norm() <= material.impact_radius_m;
+  structure.for_each([&](ConvexSlot slot, const Convex& convex) {
+    const Push& push = pushes[slot.value];
+    const bool near =
+        push.weight_Ns > 0 && (push.point_W() - impact.point_W).norm() <= material.impact_radius_m;
     if (!near) return;
     const double mass_kg = world.material(convex.material).density_kg_m3 * convex.solid.volume_m3;
-    impulse_W += pushes[slot].impulse_W;
-    energy_J += 0.5 * pushes[slot].impulse_W.squaredNorm() / mass_kg;
+    impulse_W += push.impulse_W;
+    energy_J += 0.5 * push.impulse_W.squaredNorm() / mass_kg;
   });
   if (impulse_W.norm() < material.strength_Ns || impulse_W.norm() <= 0) return impact;
   impact.direction_W = impulse_W.normalized();
@@ -111,7 +113,7 @@ void push_away(World& world, const Blast& blast, const Actor& actor) {
   const Pose X_WR = rest_pose(actor, world.physics->state(actor.body).X_WB);
   if (!reaches(blast, actor, X_WR)) return;
   Push push;
-  actor.structure.for_each([&](std::uint32_t slot, const Convex&) {
+  actor.structure.for_each([&](ConvexSlot slot, const Convex&) {
     const Push part = push_on(blast, actor, slot, X_WR);
     push.impulse_W += part.impulse_W;
     push.weighted_point_W += part.weighted_point_W;

@@ -16,11 +16,9 @@
 
 namespace sunder {
 
-inline constexpr std::uint32_t kNoConvex = 0xffffffff;
-
-/// What presses on a convex (a slot): force in the rest frame, torque about its centroid.
+/// What presses on a convex: force in the rest frame, torque about its centroid.
 struct Press {
-  std::uint32_t convex = 0;
+  ConvexSlot convex;
   Vec3 force_R = Vec3::Zero();
   Vec3 torque_R = Vec3::Zero();
 };

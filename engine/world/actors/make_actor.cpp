@@ -61,7 +61,7 @@ Actor make_actor(World& world, const Compound& compound) {
   return actor;
 }
 
-ShapeDesc shape_of(const World& world, const Actor& actor, std::uint32_t slot) {
+ShapeDesc shape_of(const World& world, const Actor& actor, ConvexSlot slot) {
   const Convex& convex = *actor.structure.convex(slot);
   const Material& material = world.material(convex.material);
   ShapeDesc shape;
@@ -69,7 +69,7 @@ ShapeDesc shape_of(const World& world, const Actor& actor, std::uint32_t slot) {
   shape.friction = material.friction;
   shape.restitution = material.restitution;
   shape.rolling = material.rolling;
-  shape.tag = slot;
+  shape.tag = slot.value;
   return shape;
 }
 
@@ -84,9 +84,8 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
     body.angular_velocity_W = motion.field.angular_velocity_W;
     body.velocity_W = motion.field(body.X_WB.position);
   }
-  actor.structure.for_each([&](std::uint32_t slot, const Convex&) {
-    body.shapes.push_back(shape_of(world, actor, slot));
-  });
+  actor.structure.for_each(
+      [&](ConvexSlot slot, const Convex&) { body.shapes.push_back(shape_of(world, actor, slot)); });
   body.tag = actor.key;
   body.reports_load = actor.stress.breakable;
   return body;

@@ -13,8 +13,8 @@ namespace sunder {
 Actor make_actor(World& world, const Compound& compound);
 /// Its body, moving with the field (static bodies do not move).
 BodyDesc describe(const World& world, const Actor& actor, const Motion& motion);
-/// The shape of one of its convexes.
-ShapeDesc shape_of(const World& world, const Actor& actor, std::uint32_t slot);
+/// The shape of one of its convexes; its tag is the slot.
+ShapeDesc shape_of(const World& world, const Actor& actor, ConvexSlot slot);
 /// The least energy and impulse that could break it.
 void set_least(const World& world, Actor& actor);
 

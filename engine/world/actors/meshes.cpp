@@ -1,7 +1,6 @@
 #include "engine/world/actors/meshes.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -24,31 +23,29 @@ std::shared_ptr<const MeshStore> Meshes::publish() {
 }
 
 void Meshes::add_to(std::span<Actor> actors, const DrawnBefore& old) {
-  std::vector<std::uint32_t> all;
   for (Actor& actor : actors) {
-    const std::uint32_t count = actor.structure.slot_count();
-    all.resize(count);
-    std::iota(all.begin(), all.end(), 0u);
-    actor.hidden = hidden_faces(actor.structure, all);
-    actor.meshes.assign(count, kUndrawn);
-    for (std::uint32_t c = 0; c < count; ++c) {
-      const auto known = old.find(actor.structure.convex(c).get());
-      if (known != old.end() && known->second.hidden == actor.hidden[c]) {
-        actor.meshes[c] = known->second.mesh;
+    actor.hidden = hidden_faces(actor.structure, actor.structure.slots());
+    actor.meshes.assign(actor.structure.slot_count(), kUndrawn);
+    actor.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
+      MeshIndex& mesh = actor.meshes[slot.value];
+      const auto known = old.find(&convex);
+      if (known != old.end() && known->second.hidden == actor.hidden[slot.value]) {
+        mesh = known->second.mesh;
       }
-      if (actor.meshes[c] == kUndrawn) undrawn_.push_back({actor.key, c});
-    }
+      if (mesh == kUndrawn) undrawn_.push_back({actor.key, slot});
+    });
   }
 }
 
-void Meshes::renew(Actor& actor, std::span<const std::uint32_t> slots) {
+void Meshes::renew(Actor& actor, std::span<const ConvexSlot> slots) {
   std::vector<std::vector<std::uint8_t>> hidden = hidden_faces(actor.structure, slots);
   actor.hidden.resize(actor.structure.slot_count());
   actor.meshes.resize(actor.structure.slot_count());
   for (std::size_t i = 0; i < slots.size(); ++i) {
-    if (actor.hidden[slots[i]] == hidden[i]) continue;
-    actor.hidden[slots[i]] = std::move(hidden[i]);
-    actor.meshes[slots[i]] = kUndrawn;
+    std::vector<std::uint8_t>& before = actor.hidden[slots[i].value];
+    if (before == hidden[i]) continue;
+    before = std::move(hidden[i]);
+    actor.meshes[slots[i].value] = kUndrawn;
     undrawn_.push_back({actor.key, slots[i]});
   }
 }
@@ -59,17 +56,18 @@ void Meshes::draw(Actors& actors) {
   todo.erase(std::unique(todo.begin(), todo.end()), todo.end());
   std::erase_if(todo, [&](const Undrawn& one) {
     const Actor* actor = actors.find(one.key);
-    return !actor || actor->meshes[one.slot] != kUndrawn;
+    return !actor || actor->meshes[one.slot.value] != kUndrawn;
   });
   std::vector<std::shared_ptr<const Mesh>> made(todo.size());
   for_chunks(todo.size(), 8, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       const Actor& actor = *actors.find(todo[i].key);
-      made[i] = make_mesh(*actor.structure.convex(todo[i].slot), actor.hidden[todo[i].slot]);
+      const ConvexSlot slot = todo[i].slot;
+      made[i] = make_mesh(*actor.structure.convex(slot), actor.hidden[slot.value]);
     }
   });
   for (std::size_t i = 0; i < todo.size(); ++i) {
-    MeshIndex& mesh = actors.find(todo[i].key)->meshes[todo[i].slot];
+    MeshIndex& mesh = actors.find(todo[i].key)->meshes[todo[i].slot.value];
     mesh = made[i] ? add(std::move(made[i])) : MeshIndex();
   }
 }

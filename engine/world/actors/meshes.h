@@ -25,7 +25,7 @@ class Meshes {
   void add_to(std::span<Actor> actors, const DrawnBefore& old);
   /// Draws convexes of an actor anew whose faces are hidden otherwise than before; slots may be
   /// new.
-  void renew(Actor& actor, std::span<const std::uint32_t> slots);
+  void renew(Actor& actor, std::span<const ConvexSlot> slots);
   /// Makes the meshes that are still missing.
   void draw(Actors& actors);
   /// All there are, for a frame: they stay as they are.
@@ -35,7 +35,7 @@ class Meshes {
   /// A convex of an actor that is to be drawn anew.
   struct Undrawn {
     std::uint32_t key = 0;
-    std::uint32_t slot = 0;
+    ConvexSlot slot;
     auto operator<=>(const Undrawn&) const = default;
   };
 

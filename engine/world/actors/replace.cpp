@@ -40,7 +40,7 @@ Vec3 debris_momentum(const Actor& parent, std::span<const Actor> pieces, const M
 template <class Visit>
 void for_each_change(const Structure& structure, const BreakEdit& edit, const Visit& visit) {
   std::vector<std::uint32_t> ghosts;
-  for (const std::uint32_t slot : edit.removed) {
+  for (const ConvexSlot slot : edit.removed) {
     visit(*structure.convex(slot), 1.0);
     const auto of_slot = structure.ghosts_of(slot);
     ghosts.insert(ghosts.end(), of_slot.begin(), of_slot.end());
@@ -57,32 +57,36 @@ void for_each_change(const Structure& structure, const BreakEdit& edit, const Vi
 
 /// Slots that may look otherwise after the edit: beside what goes, or beside what overlaps that;
 /// and the new ones.
-std::vector<std::uint32_t> changed_looks(const Structure& structure, const BreakEdit& edit) {
-  std::vector<std::uint32_t> slots, heap;
-  const auto add_neighbours = [&](std::uint32_t slot) {
+std::vector<ConvexSlot> changed_looks(const Structure& structure, const BreakEdit& edit) {
+  std::vector<ConvexSlot> slots, heap;
+  const auto add_neighbours = [&](ConvexSlot slot) {
     for (const Link& link : structure.links(slot)) slots.push_back(link.other);
   };
-  const auto add_overlapped = [&](std::uint32_t slot) {
+  const auto add_overlapped = [&](ConvexSlot slot) {
     for (const std::uint32_t number : structure.ghosts_of(slot)) {
-      for (const std::uint32_t other : structure.ghost(number).of) heap.push_back(other);
+      for (const std::uint32_t other : structure.ghost(number).of) heap.emplace_back(other);
     }
   };
-  for (const std::uint32_t slot : edit.removed) {
+  for (const ConvexSlot slot : edit.removed) {
     add_neighbours(slot);
     add_overlapped(slot);
   }
-  for (const Bond& bond : edit.cut) slots.insert(slots.end(), {bond.a, bond.b});
+  for (const Bond& bond : edit.cut)
+    slots.insert(slots.end(), {ConvexSlot(bond.a), ConvexSlot(bond.b)});
   std::unordered_set<std::uint32_t> known;
   for (std::size_t i = 0; i < heap.size(); ++i) {
-    if (!known.insert(heap[i]).second) continue;
+    if (!known.insert(heap[i].value).second) continue;
     slots.push_back(heap[i]);
     add_neighbours(heap[i]);
     add_overlapped(heap[i]);
   }
   std::ranges::sort(slots);
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
-  std::erase_if(slots, [&](auto slot) { return std::ranges::binary_search(edit.removed, slot); });
-  for (std::uint32_t i = 0; i < edit.added.size(); ++i) slots.push_back(structure.slot_count() + i);
+  std::erase_if(slots,
+                [&](ConvexSlot slot) { return std::ranges::binary_search(edit.removed, slot); });
+  for (std::size_t i = 0; i < edit.added.size(); ++i) {
+    slots.emplace_back(structure.slot_count() + i);
+  }
   return slots;
 }
 
@@ -108,28 +112,29 @@ struct Pieces {
   }
 };
 
-DrawnBefore looks_of(const Actor& actor, std::span<const std::uint32_t> slots) {
+DrawnBefore looks_of(const Actor& actor, std::span<const ConvexSlot> slots) {
   DrawnBefore looks;
-  for (const std::uint32_t slot : slots) {
-    looks[actor.structure.convex(slot).get()] = {actor.meshes[slot], actor.hidden[slot]};
+  for (const ConvexSlot slot : slots) {
+    looks[actor.structure.convex(slot).get()] = {actor.meshes[slot.value],
+                                                 actor.hidden[slot.value]};
   }
   return looks;
 }
 
 /// Takes the convexes that went out of the body of what stands, and of what is known of it.
-void stay(World& world, Actor& actor, const BreakEdit& edit,
-          std::span<const std::uint32_t> changed) {
+void stay(World& world, Actor& actor, const BreakEdit& edit, std::span<const ConvexSlot> changed) {
+  std::vector<std::uint32_t> removed_tags;
+  for (const ConvexSlot slot : edit.removed) {
+    removed_tags.push_back(slot.value);
+    actor.meshes[slot.value] = {};
+    actor.hidden[slot.value] = {};
+  }
   std::vector<ShapeDesc> shapes;
-  for (std::uint32_t slot =
-           actor.structure.slot_count() - static_cast<std::uint32_t>(edit.added.size());
-       slot < actor.structure.slot_count(); ++slot) {
-    shapes.push_back(shape_of(world, actor, slot));
+  const std::uint32_t slots = actor.structure.slot_count();
+  for (std::size_t slot = slots - edit.added.size(); slot < slots; ++slot) {
+    shapes.push_back(shape_of(world, actor, ConvexSlot(slot)));
   }
-  if (edit.changed) world.physics->edit({actor.body, edit.removed, shapes});
-  for (const std::uint32_t slot : edit.removed) {
-    actor.meshes[slot] = {};
-    actor.hidden[slot] = {};
-  }
+  if (edit.changed) world.physics->edit({actor.body, removed_tags, shapes});
   world.meshes.renew(actor, changed);
   set_least(world, actor);
   const auto is_gone = [&](const Press& press) { return !actor.structure.has(press.convex); };
@@ -153,7 +158,7 @@ bool has_room(const World& world, const BreakEdit& edit) {
 void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
   Actor& parent = *world.actors.find(key);
   const Motion motion = motion_of(parent, world.physics->state(parent.body));
-  std::vector<std::uint32_t> changed;
+  std::vector<ConvexSlot> changed;
   if (parent.is_static) changed = changed_looks(parent.structure, edit);
   DrawnBefore looks = looks_of(parent, edit.removed);
   double left_kg = 0, left_m3 = 0;
@@ -170,9 +175,9 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
   world.ledger.debris_mass_kg += stays ? left_kg : parent.weight.mass_kg;
   if (!stays && !parent.structure.empty()) {
     const Compound rest = parent.structure.compound();
-    parent.structure.for_each([&](std::uint32_t slot, const Convex& convex) {
-      if (slot >= parent.meshes.size()) return;  // new
-      looks[&convex] = {parent.meshes[slot], parent.hidden[slot]};
+    parent.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
+      if (slot.value >= parent.meshes.size()) return;  // new
+      looks[&convex] = {parent.meshes[slot.value], parent.hidden[slot.value]};
     });
     keys[0] = pieces.add(world, rest, parent, motion);
   }

@@ -19,12 +19,13 @@ void add_impacts(const World& world, Trial& trial) {
   for (std::uint32_t i = 0; i < trial.loads.size(); ++i) {
     const ProbeLoad& load = trial.loads[i];
     const Actor& actor = *world.actors.find(trial.probe.bodies()[load.body].key);
-    const Material& material = world.material(actor.structure.convex(load.shape)->material);
+    const ConvexSlot slot(load.shape);
+    const Material& material = world.material(actor.structure.convex(slot)->material);
     if (!material.breakable() || load.impulse_Ns < material.strength_Ns) continue;
     PlannedBreak planned;
     planned.load = i;
     planned.impact.key = actor.key;
-    planned.impact.convex = load.shape;
+    planned.impact.convex = slot;
     planned.impact.point_W = states[actor.body].X_WB.position + load.arm_W;
     planned.impact.direction_W = load.direction_W;
     planned.impact.energy_J = load.work_J;
@@ -42,9 +43,12 @@ bool is_stale(const World& world, const Trial& trial, std::span<const std::uint3
     const Actor* actor = world.actors.find(key);
     if (!actor) return true;
     const auto index = static_cast<std::uint32_t>(body - bodies.begin());
+    const auto is_gone = [&](std::uint32_t shape) {
+      return !actor->structure.has(ConvexSlot(shape));
+    };
     for (const ProbeContact& contact : trial.probe.contacts()) {
-      if (contact.a == index && !actor->structure.has(contact.shape_a)) return true;
-      if (contact.b == index && !actor->structure.has(contact.shape_b)) return true;
+      if (contact.a == index && is_gone(contact.shape_a)) return true;
+      if (contact.b == index && is_gone(contact.shape_b)) return true;
     }
   }
   return false;

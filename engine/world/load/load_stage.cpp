@@ -19,6 +19,7 @@ constexpr double kTrifle = 1e-5;
 // Work to reserve for an actor, in visits of each of its bonds; what is left over goes to others.
 constexpr std::uint64_t kReserve = 300;
 constexpr std::size_t kLarge = 1000;  // convexes of an actor that takes all threads for itself
+constexpr ConvexSlot kAfterAll;       // none() is greater than any slot
 
 double weight_N(const World& world, double mass_kg) {
   return mass_kg * world.scene.gravity_W.norm();
@@ -34,7 +35,7 @@ std::vector<Press> averaged(const World& world, const Actor& actor, const std::v
   for (auto it = now.begin(); it != now.end() || old != end;) {
     Press press;
     press.convex =
-        std::min(it != now.end() ? it->convex : kNoConvex, old != end ? old->convex : kNoConvex);
+        std::min(it != now.end() ? it->convex : kAfterAll, old != end ? old->convex : kAfterAll);
     if (old != end && old->convex == press.convex) {
       press.force_R += (1 - share) * old->force_R;
       press.torque_R += (1 - share) * old->torque_R;
@@ -54,8 +55,8 @@ bool changed(const World& world, const Actor& actor) {
   const double trifle = kTrifle * weight_N(world, actor.weight.mass_kg);
   const std::vector<Press>&x = actor.stress.judged, &y = actor.stress.pressing;
   for (std::size_t i = 0, j = 0; i < x.size() || j < y.size();) {
-    const std::uint32_t convex =
-        std::min(i < x.size() ? x[i].convex : kNoConvex, j < y.size() ? y[j].convex : kNoConvex);
+    const ConvexSlot convex =
+        std::min(i < x.size() ? x[i].convex : kAfterAll, j < y.size() ? y[j].convex : kAfterAll);
     Press before, after;
     if (i < x.size() && x[i].convex == convex) before = x[i++];
     if (j < y.size() && y[j].convex == convex) after = y[j++];
@@ -78,10 +79,11 @@ std::vector<std::vector<Press>> presses(const World& world) {
   const double dt = world.clock.dt_s;
   for (const ContactLoad& contact : world.physics->contact_loads()) {
     const Actor* actor = world.actors.find(contact.body_tag);
-    if (!actor || !actor->structure.has(contact.shape_tag)) continue;
+    const ConvexSlot slot(contact.shape_tag);
+    if (!actor || !actor->structure.has(slot)) continue;
     const Pose X_WB = states[actor->body].X_WB;
     Press press;
-    press.convex = contact.shape_tag;
+    press.convex = slot;
     press.force_R = X_WB.rotation.conjugate() * contact.impulse_W / dt;
     const Vec3 point_R = X_WB.inverse() * contact.point_W + actor->weight.com_R;
     const Vec3 centroid = actor->structure.convex(press.convex)->solid.centroid;

@@ -86,7 +86,7 @@ Surroundings surroundings(const World& world) {
                        !actor.is_static && !state.asleep};
       const auto body = static_cast<std::uint32_t>(i);
       ObstacleShape* shape = &all.shapes[first[i]];
-      actor.structure.for_each([&](std::uint32_t, const Convex& convex) {
+      actor.structure.for_each([&](ConvexSlot, const Convex& convex) {
         *shape++ = {body, &convex.polyhedron, convex.box, convex.solid.volume_m3, 0};
       });
       if (actor.structure.empty()) {
