@@ -44,7 +44,7 @@ fs::path resolve(const std::string& file_or_name, const fs::path& folder) {
 /// Without building the scene.
 std::string description(const fs::path& file) {
   const Value document = parse_toml(read_text(file), file.string());
-  const Value* scene = find(std::get<Table>(document.data), "scene");
+  const Value* scene = find(document, "scene");
   const Value* text = scene ? find(as_table(*scene, "[scene]"), "description") : nullptr;
   const std::string* line = text ? std::get_if<std::string>(&text->data) : nullptr;
   return line ? *line : "(no description)";

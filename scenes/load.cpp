@@ -24,16 +24,6 @@ namespace {
 constexpr double kFrame = 1.0 / 60;
 constexpr double kFoundationDepth = 0.3;  // m
 
-const Preset& preset_of(const std::string& name) {
-  std::vector<std::string_view> names;
-  for (const Preset& preset : presets()) {
-    if (preset.name == name) return preset;
-    names.push_back(preset.name);
-  }
-  throw InputError("--preset " + name + ": unknown preset" + did_you_mean(name, names) +
-                   "; allowed: " + join(names, " | "));
-}
-
 /// The loader's state: the document and the scene it is becoming.
 class Loader {
  public:
@@ -55,7 +45,7 @@ class Loader {
 
   template <class T>
   void read_table(const Keys<T>& keys, std::string_view name, T& object) {
-    if (const Value* table = find(std::get<Table>(document_.data), name)) {
+    if (const Value* table = find(document_, name)) {
       read(keys, *table, scene_.materials, object);
     }
   }
@@ -79,10 +69,11 @@ class Loader {
 Scene Loader::load(const LoadOptions& options) {
   const Schema& s = schema();
   check_known(document_, s.top.table, {s.top.keys});
-  const Value* scene = find(std::get<Table>(document_.data), "scene");
+  const Value* scene = find(document_, "scene");
   if (!scene) throw InputError(document_.where + ": missing table [scene]");
   read(s.scene, *scene, {}, scene_);
-  const Preset& preset = preset_of(options.preset);
+  const Preset& preset =
+      find_named(presets(), options.preset, "--preset " + options.preset + ": unknown preset");
   scene_.accuracy = preset.accuracy;
   scene_.solver.sweeps = preset.sweeps;
   read_accuracy();
@@ -102,10 +93,9 @@ Scene Loader::load(const LoadOptions& options) {
   check_references();
   for (const Value* table : tables(document_, "joint"))
     scene_.joints.push_back(read_joint(*table, scene_));
-  if (const Value* table = find(std::get<Table>(document_.data), "script"))
-    read_script(*table, scene_);
+  if (const Value* table = find(document_, "script")) read_script(*table, scene_);
   aim();
-  if (scene_.planar) check_planar(scene_, find(std::get<Table>(scene->data), "planar")->where);
+  if (scene_.planar) check_planar(scene_, find(*scene, "planar")->where);
   std::size_t bodies = scene_.solids.size() + scene_.balls.size() + scene_.shots.size();
   for (const Shot& shot : scene_.shots) bodies += shot.links.size();
   if (bodies > scene_.limits.bodies) {
@@ -117,22 +107,21 @@ Scene Loader::load(const LoadOptions& options) {
 
 void Loader::read_accuracy() {
   read_table(schema().accuracy, "accuracy", scene_.accuracy);
+  const Value* table = find(document_, "accuracy");
   double& dt = scene_.accuracy.dt_s;
   const double steps = std::round(kFrame / dt);
   if (std::abs(steps * dt - kFrame) > 1e-6 * kFrame) {
-    const Value& table = *find(std::get<Table>(document_.data), "accuracy");
     throw InputError(
-        find(std::get<Table>(table.data), "dt_s")->where +
+        find(*table, "dt_s")->where +
         ": dt_s in [accuracy] does not divide a frame of 1/60 s; allowed: 1/60, 1/120, "
         "1/180 and so on");
   }
   dt = kFrame / steps;
   if (scene_.accuracy.error_target_m <= 0) return;
-  const Value& table = *find(std::get<Table>(document_.data), "accuracy");
-  const Value* substeps = find(std::get<Table>(table.data), "substeps");
-  if (!substeps) return;
-  throw InputError(substeps->where +
-                   ": substeps in [accuracy] is given beside error_target_m; keep one");
+  if (const Value* substeps = find(*table, "substeps")) {
+    throw InputError(substeps->where +
+                     ": substeps in [accuracy] is given beside error_target_m; keep one");
+  }
 }
 
 /// Substeps from what is to stand, once it is known.
@@ -170,22 +159,15 @@ void Loader::add_materials(const Value& document, const std::filesystem::path& f
                           [&](const Material& m) { return m.name == name; });
     };
     const auto parent = named(head.like.empty() ? head.name : head.like);
-    if (!head.like.empty() && parent == all.end()) {
-      std::vector<std::string_view> names;
-      for (const Material& m : all) names.push_back(m.name);
-      throw InputError(find(std::get<Table>(table->data), "like")->where + ": unknown material '" +
-                       head.like + "'" + did_you_mean(head.like, names) +
-                       "; there are: " + join(names));
-    }
+    if (!head.like.empty()) find_material(head.like, find(*table, "like")->where, all);
     Material material = parent == all.end() ? Material() : *parent;
     material.name = head.name;
     read_keys(*table, s.material.table, s.material.keys, {}, &material);
-    const Table& entries = std::get<Table>(table->data);
-    if (const Value* v = find(entries, "pattern")) read_pattern(*v, folder, material.pattern);
+    if (const Value* v = find(*table, "pattern")) read_pattern(*v, folder, material.pattern);
     read_stronger(*table, folder, material);
-    if (const Value* v = find(entries, "crumbling")) read_crumbling(*v, material.crumbling);
-    if (const Value* v = find(entries, "surface")) read(s.look, *v, {}, material.surface);
-    if (const Value* v = find(entries, "interior")) read(s.look, *v, {}, material.interior);
+    if (const Value* v = find(*table, "crumbling")) read_crumbling(*v, material.crumbling);
+    if (const Value* v = find(*table, "surface")) read(s.look, *v, {}, material.surface);
+    if (const Value* v = find(*table, "interior")) read(s.look, *v, {}, material.interior);
     const auto namesake = named(head.name);
     if (namesake == all.end()) {
       all.push_back(material);
@@ -215,21 +197,13 @@ void add_foundation(std::vector<Piece>& pieces, MaterialIndex material) {
   }
 }
 
-const StructureType& structure_named(const std::string& name, const Value& table) {
-  std::vector<std::string_view> names;
-  for (const StructureType& structure : structures()) {
-    if (structure.name == name) return structure;
-    names.push_back(structure.name);
-  }
-  throw InputError(find(std::get<Table>(table.data), "structure")->where + ": unknown structure '" +
-                   name + "'" + did_you_mean(name, names) + "; allowed: " + join(names, " | "));
-}
-
 void Loader::add_solid(const Value& table) {
   const Keys<SolidHead>& keys = schema().solid;
   SolidHead head;
   read_keys(table, keys.table, keys.keys, {}, &head);
-  const StructureType& structure = structure_named(head.structure, table);
+  const StructureType& structure =
+      find_named(structures(), head.structure,
+                 find(table, "structure")->where + ": unknown structure '" + head.structure + "'");
   const std::string name = std::string(keys.table) + " " + head.structure;
   check_known(table, name, {keys.keys, structure.keys});
   const std::shared_ptr<void> parameters = structure.parameters();
@@ -288,7 +262,7 @@ void Loader::add_ball(const Value& table) {
 void Loader::give_names(const Value& parent, std::initializer_list<std::string_view> keys) {
   for (const std::string_view key : keys) {
     for (const Value* table : tables(parent, key)) {
-      const Value* name = find(std::get<Table>(table->data), "name");
+      const Value* name = find(*table, "name");
       const std::string* text = name ? std::get_if<std::string>(&name->data) : nullptr;
       if (text && !text->empty()) names_.give(*text, name->where);
     }
@@ -298,7 +272,7 @@ void Loader::give_names(const Value& parent, std::initializer_list<std::string_v
 /// What has a name keeps it; the parts of one thing are numbered.
 void Loader::name_solids() {
   give_names(document_, {"solid", "body", "ball"});
-  if (const Value* script = find(std::get<Table>(document_.data), "script")) {
+  if (const Value* script = find(document_, "script")) {
     as_table(*script, "[script]");
     give_names(*script, {"shot", "wrecking_ball"});
   }
@@ -317,13 +291,13 @@ void Loader::check_references() const {
                          std::initializer_list<std::string_view> keys) {
     for (const Value* table : tables(parent, array)) {
       for (const std::string_view key : keys) {
-        const Value* name = find(std::get<Table>(table->data), key);
+        const Value* name = find(*table, key);
         if (name) names_.check_reference(*name);
       }
     }
   };
   check(document_, "joint", {"a", "b"});
-  const Value* script = find(std::get<Table>(document_.data), "script");
+  const Value* script = find(document_, "script");
   if (!script) return;
   check(*script, "remove", {"name"});
   check(*script, "drive", {"name"});

@@ -9,8 +9,18 @@
 namespace sunder::scenes {
 namespace {
 
-template <class Vector>
-std::string show(const Vector& v) {
+std::string show(bool given) { return given ? "true" : "false"; }
+std::string show(double number) { return format(number); }
+std::string show(const std::string& text) { return text.empty() ? "none" : text; }
+std::string show(const MaterialRef& material) { return show(material.name); }
+std::string show(const CountOrFile&) { return "automatic"; }
+std::string show(const Fit& fit) { return name_of(fit); }
+template <class Integer>
+requires std::is_integral_v<Integer> std::string show(Integer number) {
+  return std::to_string(number);
+}
+template <class Scalar>
+std::string show(const Eigen::Matrix<Scalar, 3, 1>& v) {
   std::string text;
   for (int i = 0; i < 3; ++i) {
     text += (i == 0 ? "[" : ", ") + format(static_cast<double>(v[i]));
@@ -24,34 +34,9 @@ std::string default_of(const Key& key, void* fresh) {
   if (key.required) return "required";
   if (key.optional || key.kind == Kind::kTable) return "none";
   if (key.kind == Kind::kChoice) return std::string(key.choices[key.chosen(fresh)]);
-  const void* field = key.field(fresh);
-  const auto text = [](const std::string& s) { return s.empty() ? "none" : s; };
-  switch (key.kind) {
-    case Kind::kBool:
-      return *static_cast<const bool*>(field) ? "true" : "false";
-    case Kind::kInteger:
-      return std::to_string(*static_cast<const int*>(field));
-    case Kind::kCount:
-      return std::to_string(*static_cast<const std::uint32_t*>(field));
-    case Kind::kSeed:
-      return std::to_string(*static_cast<const std::uint64_t*>(field));
-    case Kind::kNumber:
-      return format(*static_cast<const double*>(field));
-    case Kind::kVector:
-      return show(*static_cast<const Vec3*>(field));
-    case Kind::kColor:
-      return show(*static_cast<const Vec3f*>(field));
-    case Kind::kText:
-      return text(*static_cast<const std::string*>(field));
-    case Kind::kMaterial:
-      return text(static_cast<const MaterialRef*>(field)->name);
-    case Kind::kCountOrFile:
-      return "automatic";
-    case Kind::kFit:
-      return name_of(*static_cast<const Fit*>(field));
-    default:
-      return "";
-  }
+  std::string text;
+  use_field(key, fresh, [&](const auto& field) { text = show(field); });
+  return text;
 }
 
 /// A bar would end the cell of a Markdown table.

@@ -36,7 +36,7 @@ Keys<JointTable> make_keys() {
 }
 
 [[noreturn]] void fail(const Value& table, std::string_view key, const std::string& what) {
-  const Value* value = find(std::get<Table>(table.data), key);
+  const Value* value = find(table, key);
   throw InputError((value ? value->where : table.where) + ": " + what);
 }
 
@@ -91,13 +91,12 @@ Joint read_joint(const Value& table, const Scene& scene) {
   JointTable given;
   read(joint_keys(), table, {}, given);
   check(table, given);
-  const Table& entries = std::get<Table>(table.data);
   Joint joint;
   joint.kind = given.kind;
   joint.at_W = given.at;
   joint.to_W = given.to.value_or(given.at);
-  joint.a = thing_named(scene, given.a, *find(entries, "a"), given.at);
-  if (given.b) joint.b = thing_named(scene, *given.b, *find(entries, "b"), joint.to_W);
+  joint.a = thing_named(scene, given.a, *find(table, "a"), given.at);
+  if (given.b) joint.b = thing_named(scene, *given.b, *find(table, "b"), joint.to_W);
   if (joint.a == joint.b) fail(table, "b", "a and b in [[joint]] are the same thing");
   if (is_fixed(scene, joint.a) && is_fixed(scene, joint.b)) {
     fail(table, "a", "neither end of this [[joint]] can move: the world holds both");

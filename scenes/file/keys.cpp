@@ -48,24 +48,6 @@ struct Reading {
     return number * scale;
   }
 
-  template <class Integer>
-  Integer integer() const {
-    if (!std::holds_alternative<std::int64_t>(value.data)) fail();
-    return static_cast<Integer>(number(value));
-  }
-
-  template <class Vector>
-  Vector vector() const {
-    const Array* array = std::get_if<Array>(&value.data);
-    if (!array || array->size() != 3) fail();
-    Vector vector;
-    for (int i = 0; i < 3; ++i) {
-      vector[i] =
-          static_cast<typename Vector::Scalar>(number((*array)[static_cast<std::size_t>(i)]));
-    }
-    return vector;
-  }
-
   template <class T>
   const T& exactly() const {
     const T* exact = std::get_if<T>(&value.data);
@@ -79,69 +61,45 @@ struct Reading {
     return static_cast<std::size_t>(found - key.choices.begin());
   }
 
-  Fit fit() const {
+  void read(bool& to) const { to = exactly<bool>(); }
+  void read(double& to) const { to = number(value); }
+  void read(MaterialRef& to) const { to.name = exactly<std::string>(); }
+  void read(std::string& to) const {
+    if (exactly<std::string>().empty()) fail();
+    to = exactly<std::string>();
+  }
+  void read(Fit& to) const {
     const std::optional<Fit> fit = parse_fit(exactly<std::string>());
     if (!fit) fail();
-    return *fit;
+    to = *fit;
   }
-
-  std::string text() const {
-    const std::string& text = exactly<std::string>();
-    if (text.empty()) fail();
-    return text;
+  void read(CountOrFile& to) const {
+    to = {};
+    if (std::holds_alternative<std::string>(value.data)) {
+      read(to.file);
+    } else {
+      read(to.count);
+    }
+  }
+  template <class Integer>
+  requires std::is_integral_v<Integer>
+  void read(Integer& to) const {
+    if (!std::holds_alternative<std::int64_t>(value.data)) fail();
+    to = static_cast<Integer>(number(value));
+  }
+  template <class Scalar>
+  void read(Eigen::Matrix<Scalar, 3, 1>& to) const {
+    const Array* array = std::get_if<Array>(&value.data);
+    if (!array || array->size() != 3) fail();
+    for (int i = 0; i < 3; ++i) {
+      to[i] = static_cast<Scalar>(number((*array)[static_cast<std::size_t>(i)]));
+    }
   }
 };
 
 void store(const Reading& reading, void* object) {
-  using Kind = Key::Kind;
-  const Key& key = reading.key;
-  switch (key.kind) {
-    case Kind::kBool:
-      *static_cast<bool*>(key.field(object)) = reading.exactly<bool>();
-      break;
-    case Kind::kInteger:
-      *static_cast<int*>(key.field(object)) = reading.integer<int>();
-      break;
-    case Kind::kCount:
-      *static_cast<std::uint32_t*>(key.field(object)) = reading.integer<std::uint32_t>();
-      break;
-    case Kind::kSeed:
-      *static_cast<std::uint64_t*>(key.field(object)) = reading.integer<std::uint64_t>();
-      break;
-    case Kind::kNumber:
-      *static_cast<double*>(key.field(object)) = reading.number(reading.value);
-      break;
-    case Kind::kVector:
-      *static_cast<Vec3*>(key.field(object)) = reading.vector<Vec3>();
-      break;
-    case Kind::kColor:
-      *static_cast<Vec3f*>(key.field(object)) = reading.vector<Vec3f>();
-      break;
-    case Kind::kText:
-      *static_cast<std::string*>(key.field(object)) = reading.text();
-      break;
-    case Kind::kMaterial:
-      static_cast<MaterialRef*>(key.field(object))->name = reading.exactly<std::string>();
-      break;
-    case Kind::kCountOrFile: {
-      auto& either = *static_cast<CountOrFile*>(key.field(object));
-      either = {};
-      if (std::holds_alternative<std::string>(reading.value.data)) {
-        either.file = reading.text();
-      } else {
-        either.count = reading.integer<std::uint32_t>();
-      }
-      break;
-    }
-    case Kind::kFit:
-      *static_cast<Fit*>(key.field(object)) = reading.fit();
-      break;
-    case Kind::kChoice:
-      key.choose(object, reading.choice());
-      break;
-    case Kind::kTable:
-      break;
-  }
+  if (reading.key.kind == Key::Kind::kChoice) reading.key.choose(object, reading.choice());
+  use_field(reading.key, object, [&](auto& field) { reading.read(field); });
 }
 
 /// An angle's key as it is when given in degrees, under that name; limits to a hundredth.
@@ -174,13 +132,10 @@ std::size_t edits(std::string_view a, std::string_view b) {
 
 MaterialIndex find_material(std::string_view name, const std::string& where,
                             std::span<const Material> materials) {
-  std::vector<std::string_view> names;
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (materials[i].name == name) return MaterialIndex(i);
-    names.push_back(materials[i].name);
-  }
-  throw InputError(where + ": unknown material '" + std::string(name) + "'" +
-                   did_you_mean(name, names) + "; there are: " + join(names));
+  const Material& found =
+      find_named(materials, name, where + ": unknown material '" + std::string(name) + "'",
+                 "; there are: ", ", ");
+  return MaterialIndex(static_cast<std::size_t>(&found - materials.data()));
 }
 
 std::string degrees_name(const Key& key) {
@@ -302,7 +257,7 @@ const Table& as_table(const Value& value, std::string_view name) {
 }
 
 std::vector<const Value*> tables(const Value& parent, std::string_view key) {
-  const Value* value = find(std::get<Table>(parent.data), key);
+  const Value* value = find(parent, key);
   if (!value) return {};
   const std::string name = "[[" + std::string(key) + "]]";
   const Array* array = std::get_if<Array>(&value->data);

@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "engine/base/check.h"
 #include "engine/base/types.h"
 #include "engine/model/material.h"
 #include "scenes/file/value.h"
@@ -39,7 +40,7 @@ struct Range {
 
 /// One key: its name, where it is stored and what is allowed.
 struct Key {
-  enum class Kind {
+  enum class Kind {  // those before kChoice as in detail::FieldTypes
     kBool,
     kInteger,   ///< int
     kCount,     ///< std::uint32_t
@@ -92,21 +93,24 @@ struct Unwrapped<std::optional<T>> {
   using type = T;
 };
 
-template <class T>
-constexpr Key::Kind kind_of() {
-  using Kind = Key::Kind;
-  if constexpr (std::is_same_v<T, bool>) return Kind::kBool;
-  if constexpr (std::is_same_v<T, int>) return Kind::kInteger;
-  if constexpr (std::is_same_v<T, std::uint32_t>) return Kind::kCount;
-  if constexpr (std::is_same_v<T, std::uint64_t>) return Kind::kSeed;
-  if constexpr (std::is_same_v<T, double>) return Kind::kNumber;
-  if constexpr (std::is_same_v<T, Vec3>) return Kind::kVector;
-  if constexpr (std::is_same_v<T, Vec3f>) return Kind::kColor;
-  if constexpr (std::is_same_v<T, std::string>) return Kind::kText;
-  if constexpr (std::is_same_v<T, MaterialRef>) return Kind::kMaterial;
-  if constexpr (std::is_same_v<T, CountOrFile>) return Kind::kCountOrFile;
-  if constexpr (std::is_same_v<T, Fit>) return Kind::kFit;
-  if constexpr (std::is_enum_v<T>) return Kind::kChoice;
+/// What keys are stored in, in the order of their kinds.
+template <class... T>
+struct TypeList {};
+using FieldTypes = TypeList<bool, int, std::uint32_t, std::uint64_t, double, Vec3, Vec3f,
+                            std::string, MaterialRef, Fit, CountOrFile>;
+
+template <class Field, class... T>
+constexpr Key::Kind kind_of(TypeList<T...>) {
+  int kind = 0;
+  static_assert((std::is_same_v<Field, T> || ...) || std::is_enum_v<Field>);
+  ((std::is_same_v<Field, T> || (++kind, false)) || ...);
+  return static_cast<Key::Kind>(kind);  // after all of them comes kChoice
+}
+
+template <class Use, class... T>
+void use_field(Key::Kind kind, void* field, const Use& use, TypeList<T...>) {
+  int i = 0;
+  ((i++ == static_cast<int>(kind) ? use(*static_cast<T*>(field)) : void()), ...);
 }
 
 }  // namespace detail
@@ -119,7 +123,7 @@ Key key(std::string_view name, std::string_view unit, Range range, std::string_v
   using Bare = typename detail::Unwrapped<Field>::type;
   Key key;
   key.name = name;
-  key.kind = detail::kind_of<Bare>();
+  key.kind = detail::kind_of<Bare>(detail::FieldTypes());
   key.unit = unit;
   key.range = range;
   key.help = help;
@@ -157,6 +161,13 @@ Key choice(std::string_view name, std::span<const std::string_view> choices,
   return key;
 }
 
+/// Calls `use` with what a key of `object` is stored in; choices and tables are passed over.
+template <class Use>
+void use_field(const Key& key, void* object, const Use& use) {
+  if (key.kind >= Key::Kind::kChoice) return;
+  detail::use_field(key.kind, key.field(object), use, detail::FieldTypes());
+}
+
 /// A key that holds a table (or an array of them) with keys of its own.
 inline Key table_key(std::string_view name, std::string_view help) {
   Key key;
@@ -191,14 +202,26 @@ void read(const Keys<T>& keys, const Value& table, std::span<const Material> mat
   read_keys(table, keys.table, keys.keys, materials, &object);
 }
 
-/// The material of that name. Throws InputError, beginning with `where`, if there is none.
-MaterialIndex find_material(std::string_view name, const std::string& where,
-                            std::span<const Material> materials);
-
 /// "; did you mean 'x'?", or nothing if no candidate is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
 /// "a, b, c"
 std::string join(std::span<const std::string_view> words, std::string_view separator = ", ");
+
+/// The one of that name. Throws InputError if there is none: `complaint`, and which there are.
+template <class T>
+const T& find_named(std::span<const T> all, std::string_view name, const std::string& complaint,
+                    const std::string& list = "; allowed: ", std::string_view separator = " | ") {
+  std::vector<std::string_view> names;
+  for (const T& one : all) {
+    if (one.name == name) return one;
+    names.push_back(one.name);
+  }
+  throw InputError(complaint + did_you_mean(name, names) + list + join(names, separator));
+}
+
+/// The material of that name. Throws InputError, beginning with `where`, if there is none.
+MaterialIndex find_material(std::string_view name, const std::string& where,
+                            std::span<const Material> materials);
 
 /// What a key allows, for errors and the reference: "a number from 0 to 1".
 std::string allowed(const Key& key);

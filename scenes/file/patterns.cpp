@@ -13,16 +13,15 @@ constexpr int kMostAlongGrid = 30;
 
 void read_pattern(const Value& table, const std::filesystem::path& folder, PatternSpec& pattern) {
   read(schema().pattern, table, {}, pattern);
-  const Table& entries = std::get<Table>(table.data);
   using Kind = PatternSpec::Kind;
   if (pattern.kind == Kind::kGrid && pattern.cells > kMostAlongGrid) {
-    const Value* cells = find(entries, "cells");
+    const Value* cells = find(table, "cells");
     throw InputError((cells ? *cells : table).where + ": cells in [material.pattern] is " +
                      std::to_string(pattern.cells) + " along each side of a grid; allowed: 2 to " +
                      std::to_string(kMostAlongGrid));
   }
   if (pattern.kind != Kind::kFile) return;
-  const Value* file = find(entries, "file");
+  const Value* file = find(table, "file");
   if (pattern.file.empty()) {
     throw InputError(table.where +
                      ": kind = \"file\" in [material.pattern] needs file = \"X.obj\"");
@@ -36,12 +35,12 @@ void read_pattern(const Value& table, const std::filesystem::path& folder, Patte
 }
 
 void read_stronger(const Value& table, const std::filesystem::path& folder, Material& material) {
-  if (!find(std::get<Table>(table.data), "stronger")) return;
+  if (!find(table, "stronger")) return;
   material.stronger.clear();
   for (const Value* entry : tables(table, "stronger")) {
     StrongerImpact impact{0, material.pattern, material.impact_radius_m};
     read(schema().stronger, *entry, {}, impact);
-    if (const Value* pattern = find(std::get<Table>(entry->data), "pattern")) {
+    if (const Value* pattern = find(*entry, "pattern")) {
       read_pattern(*pattern, folder, impact.pattern);
     }
     if (!material.stronger.empty() && impact.energy_J <= material.stronger.back().energy_J) {

@@ -181,15 +181,15 @@ Keys<WreckingBallTable> wrecking_ball_keys() {
            key<&Given::name>("name", "Shown in messages.")}};
 }
 
-Keys<BlastTable> blast_keys() {
+Keys<Blast> blast_keys() {
   return {"[[script.blast]]",
-          {key<&BlastTable::time_s>("time_s", "s", kTime, "When.").must(),
-           key<&BlastTable::at>("at", "m", kPlace, "Its centre.").must(),
-           key<&BlastTable::radius_m>("radius_m", "m", Range{0.01, 1000},
-                                      "How far it reaches; nothing stands in its way."),
-           key<&BlastTable::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0, 1e9},
-                                           "On a face turned to the centre, there; less with "
-                                           "distance and slant.")}};
+          {key<&Blast::time_s>("time_s", "s", kTime, "When.").must(),
+           key<&Blast::center_W>("at", "m", kPlace, "Its centre.").must(),
+           key<&Blast::radius_m>("radius_m", "m", Range{0.01, 1000},
+                                 "How far it reaches; nothing stands in its way."),
+           key<&Blast::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0, 1e9},
+                                      "On a face turned to the centre, there; less with "
+                                      "distance and slant.")}};
 }
 
 Keys<RemoveTable> remove_keys() {

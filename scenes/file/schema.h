@@ -64,13 +64,6 @@ struct ShotTable {
   MaterialRef material{"steel", {}};
 };
 
-struct BlastTable {
-  double time_s = 0;
-  Vec3 at = Vec3::Zero();
-  double radius_m = 4;
-  double impulse_Ns_m2 = 1000;
-};
-
 struct RemoveTable {
   double time_s = 0;
   std::optional<std::string> name;
@@ -116,7 +109,7 @@ struct Schema {
   Keys<Script> script;
   Keys<ShotTable> shot;
   Keys<WreckingBallTable> wrecking_ball;
-  Keys<BlastTable> blast;
+  Keys<Blast> blast;
   Keys<RemoveTable> remove;
   Keys<DriveTable> drive;
 };

@@ -26,9 +26,7 @@ void add_wrecking_ball(const Value& table, Scene& scene) {
 }
 
 void add_blast(const Value& table, Scene& scene) {
-  BlastTable given;
-  read(schema().blast, table, {}, given);
-  scene.blasts.push_back({given.time_s, given.at, given.radius_m, given.impulse_Ns_m2});
+  read(schema().blast, table, {}, scene.blasts.emplace_back());
 }
 
 void add_removal(const Value& table, Scene& scene) {
@@ -41,7 +39,7 @@ void add_removal(const Value& table, Scene& scene) {
   Removal removal;
   removal.time_s = given.time_s;
   if (given.name) {
-    removal.roots = roots_named(scene, *given.name, *find(std::get<Table>(table.data), "name"));
+    removal.roots = roots_named(scene, *given.name, *find(table, "name"));
   } else {
     removal.anchors_W.extend(*given.from);
     removal.anchors_W.extend(*given.to);
@@ -55,7 +53,7 @@ void add_drive(const Value& table, Scene& scene) {
   if (given.until_s <= given.time_s) {
     throw InputError(table.where + ": until_s in [[script.drive]] is not after time_s");
   }
-  const Value& name = *find(std::get<Table>(table.data), "name");
+  const Value& name = *find(table, "name");
   std::vector<std::uint32_t> roots = roots_named(scene, given.name, name);
   if (std::ranges::all_of(roots, [&](std::uint32_t root) { return is_anchored(scene, root); })) {
     throw InputError(

@@ -121,6 +121,10 @@ const Value* find(const Table& table, std::string_view key) {
   return nullptr;
 }
 
+const Value* find(const Value& table, std::string_view key) {
+  return find(std::get<Table>(table.data), key);
+}
+
 std::string describe(const Value& value) {
   struct Describe {
     std::string operator()(bool b) const { return b ? "true" : "false"; }

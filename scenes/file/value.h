@@ -28,6 +28,7 @@ struct Entry {
 
 /// The value of a key; null if the table has none.
 const Value* find(const Table& table, std::string_view key);
+const Value* find(const Value& table, std::string_view key);
 /// "the string \"x\"", "the number 3", "an array of 2": for error messages.
 std::string describe(const Value& value);
 
