@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/check.h"
+#include "engine/base/types.h"
 
 namespace sunder {
 
@@ -28,6 +29,23 @@ class ByteWriter {
     put(static_cast<std::uint32_t>(text.size()));
     for (const char c : text) put(c);
   }
+  template <class Scalar, int size>
+  void put(const Eigen::Matrix<Scalar, size, 1>& vector) {
+    for (const Scalar number : vector) put(number);
+  }
+  /// One after another.
+  template <class First, class Second, class... More>
+  void put(const First& first, const Second& second, const More&... more) {
+    put(first);
+    put(second);
+    (put(more), ...);
+  }
+  /// Their count, then each.
+  template <class T>
+  void put_list(const std::vector<T>& list) {
+    put(static_cast<std::uint32_t>(list.size()));
+    for (const T& value : list) put(value);
+  }
   std::vector<std::byte> bytes;
 };
 
@@ -44,6 +62,18 @@ class ByteReader {
     std::memcpy(&value, bytes_.data() + at_, sizeof(T));
     at_ += sizeof(T);
     return value;
+  }
+  /// The next values, into these.
+  template <class... T>
+  void take_to(T&... values) {
+    (take_one(values), ...);
+  }
+  /// As ByteWriter::put_list() wrote it.
+  template <class T>
+  std::vector<T> take_list() {
+    std::vector<T> list(take_count(sizeof(T)));
+    for (T& value : list) take_one(value);
+    return list;
   }
   std::string take_text() {
     const auto size = take_count(1);
@@ -66,6 +96,15 @@ class ByteReader {
   bool at_end() const { return at_ == bytes_.size(); }
 
  private:
+  template <class T>
+  void take_one(T& value) {
+    value = take<T>();
+  }
+  void take_one(std::string& text) { text = take_text(); }
+  template <class Scalar, int size>
+  void take_one(Eigen::Matrix<Scalar, size, 1>& vector) {
+    for (Scalar& number : vector) number = take<Scalar>();
+  }
   void need(std::size_t size) const {
     if (bytes_.size() - at_ < size) throw InputError(file_ + ": the file is cut short or corrupt");
   }

@@ -8,39 +8,11 @@
 namespace sunder {
 namespace {
 
-template <class Vector>
-void put_vector(ByteWriter& out, const Vector& v) {
-  for (Eigen::Index i = 0; i < v.size(); ++i) out.put(v[i]);
-}
-template <class Vector>
-Vector take_vector(ByteReader& in) {
-  Vector v;
-  for (Eigen::Index i = 0; i < v.size(); ++i) v[i] = in.take<typename Vector::Scalar>();
-  return v;
-}
-
-template <class Vector>
-void put_vectors(ByteWriter& out, const std::vector<Vector>& list) {
-  out.put(static_cast<std::uint32_t>(list.size()));
-  for (const Vector& v : list) put_vector(out, v);
-}
-template <class Vector>
-std::vector<Vector> take_vectors(ByteReader& in) {
-  std::vector<Vector> list(in.take_count(sizeof(Vector)));
-  for (Vector& v : list) v = take_vector<Vector>(in);
-  return list;
-}
-
-void put_indices(ByteWriter& out, const std::vector<std::uint32_t>& list) {
-  out.put(static_cast<std::uint32_t>(list.size()));
-  for (const std::uint32_t index : list) out.put(index);
-}
 /// Throws unless all are below `limit`.
 std::vector<std::uint32_t> take_indices(ByteReader& in, std::size_t limit,
                                         const std::string& file) {
-  std::vector<std::uint32_t> list(in.take_count(4));
-  for (std::uint32_t& index : list) {
-    index = in.take<std::uint32_t>();
+  std::vector<std::uint32_t> list = in.take_list<std::uint32_t>();
+  for (const std::uint32_t index : list) {
     if (index >= limit) throw InputError(file + ": corrupt: an index is out of range");
   }
   return list;
@@ -49,16 +21,11 @@ std::vector<std::uint32_t> take_indices(ByteReader& in, std::size_t limit,
 /// Of faces of either kind of surface: where they are and what they are called.
 template <class Face>
 void put_plane(ByteWriter& out, const Face& face) {
-  put_vector(out, face.plane.normal);
-  out.put(face.plane.d);
-  out.put(face.id.value);
-  out.put(static_cast<std::uint8_t>(face.kind));
+  out.put(face.plane.normal, face.plane.d, face.id.value, static_cast<std::uint8_t>(face.kind));
 }
 template <class Face>
 void take_plane(ByteReader& in, Face& face) {
-  face.plane.normal = take_vector<Vec3>(in);
-  face.plane.d = in.take<double>();
-  face.id.value = in.take<std::uint64_t>();
+  in.take_to(face.plane.normal, face.plane.d, face.id.value);
   face.kind = in.take<std::uint8_t>() == 0 ? FaceKind::kSurface : FaceKind::kInterior;
 }
 
@@ -67,28 +34,26 @@ void check(bool good, const std::string& file) {
 }
 
 void put(ByteWriter& out, const ConvexPolyhedron& shape) {
-  put_vectors(out, shape.vertices);
-  put_indices(out, shape.corners);
-  put_vectors(out, shape.corner_normals);
+  out.put_list(shape.vertices);
+  out.put_list(shape.corners);
+  out.put_list(shape.corner_normals);
   out.put(static_cast<std::uint32_t>(shape.faces.size()));
   for (const ConvexPolyhedron::Face& face : shape.faces) {
     put_plane(out, face);
-    out.put(face.first_corner);
-    out.put(face.corner_count);
+    out.put(face.first_corner, face.corner_count);
   }
 }
 
 ConvexPolyhedron take_polyhedron(ByteReader& in, const std::string& file) {
   ConvexPolyhedron shape;
-  shape.vertices = take_vectors<Vec3>(in);
+  shape.vertices = in.take_list<Vec3>();
   shape.corners = take_indices(in, shape.vertices.size(), file);
-  shape.corner_normals = take_vectors<Vec3f>(in);
+  shape.corner_normals = in.take_list<Vec3f>();
   shape.faces.resize(in.take_count(8));
   std::size_t corners = 0;
   for (ConvexPolyhedron::Face& face : shape.faces) {
     take_plane(in, face);
-    face.first_corner = in.take<std::uint32_t>();
-    face.corner_count = in.take<std::uint32_t>();
+    in.take_to(face.first_corner, face.corner_count);
     check(face.first_corner == corners && face.corner_count >= 3, file);
     corners += face.corner_count;
   }
@@ -98,10 +63,10 @@ ConvexPolyhedron take_polyhedron(ByteReader& in, const std::string& file) {
 }
 
 void put(ByteWriter& out, const PolygonMesh& mesh) {
-  put_vectors(out, mesh.vertices);
-  put_indices(out, mesh.corners);
-  put_vectors(out, mesh.corner_normals);
-  put_vectors(out, mesh.corner_uvs);
+  out.put_list(mesh.vertices);
+  out.put_list(mesh.corners);
+  out.put_list(mesh.corner_normals);
+  out.put_list(mesh.corner_uvs);
   out.put(static_cast<std::uint32_t>(mesh.contours.size()));
   for (const PolygonMesh::Contour& contour : mesh.contours) out.put(contour.corner_count);
   out.put(static_cast<std::uint32_t>(mesh.faces.size()));
@@ -113,10 +78,10 @@ void put(ByteWriter& out, const PolygonMesh& mesh) {
 
 PolygonMesh take_mesh(ByteReader& in, const std::string& file) {
   PolygonMesh mesh;
-  mesh.vertices = take_vectors<Vec3>(in);
+  mesh.vertices = in.take_list<Vec3>();
   mesh.corners = take_indices(in, mesh.vertices.size(), file);
-  mesh.corner_normals = take_vectors<Vec3f>(in);
-  mesh.corner_uvs = take_vectors<Vec2f>(in);
+  mesh.corner_normals = in.take_list<Vec3f>();
+  mesh.corner_uvs = in.take_list<Vec2f>();
   mesh.contours.resize(in.take_count(4));
   std::size_t corners = 0, contours = 0;
   for (PolygonMesh::Contour& contour : mesh.contours) {
@@ -164,13 +129,12 @@ void put(ByteWriter& out, const Compound& compound) {
   }
   out.put(static_cast<std::uint32_t>(compound.bonds.size()));
   for (const Bond& bond : compound.bonds) {
-    for (const std::uint32_t value : {bond.a, bond.b, bond.face_a, bond.face_b}) out.put(value);
-    out.put(bond.area_m2);
+    out.put(bond.a, bond.b, bond.face_a, bond.face_b, bond.area_m2);
   }
   out.put(static_cast<std::uint32_t>(compound.ghosts.size()));
   for (const Ghost& ghost : compound.ghosts) {
     put(out, *ghost.convex);
-    put_indices(out, ghost.of);
+    out.put_list(ghost.of);
     out.put(ghost.sign);
   }
 }
@@ -188,10 +152,7 @@ Compound take_compound(ByteReader& in, const std::string& file) {
   };
   compound.bonds.resize(in.take_count(24));
   for (Bond& bond : compound.bonds) {
-    for (std::uint32_t* value : {&bond.a, &bond.b, &bond.face_a, &bond.face_b}) {
-      *value = in.take<std::uint32_t>();
-    }
-    bond.area_m2 = in.take<double>();
+    in.take_to(bond.a, bond.b, bond.face_a, bond.face_b, bond.area_m2);
     check(bond.a < bond.b && bond.face_a < faces(bond.a) && bond.face_b < faces(bond.b), file);
   }
   compound.ghosts.resize(in.take_count(8));

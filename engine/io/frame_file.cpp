@@ -21,18 +21,13 @@ constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refuse
 constexpr int kLevel = 19;                      // written once, kept for years
 
 void put(ByteWriter& out, const FrameBody& body) {
-  out.put(body.key);
-  put(out, body.X_WB.position);
-  for (int i = 0; i < 4; ++i) out.put(body.X_WB.rotation.coeffs()[i]);
-  put(out, body.com_R);
-  out.put(static_cast<std::uint8_t>(body.is_static));
+  out.put(body.key, body.X_WB.position, body.X_WB.rotation.coeffs(), body.com_R,
+          static_cast<std::uint8_t>(body.is_static));
 }
+
 FrameBody take_body(ByteReader& in) {
   FrameBody body;
-  body.key = in.take<std::uint64_t>();
-  body.X_WB.position = take_vec3(in);
-  for (int i = 0; i < 4; ++i) body.X_WB.rotation.coeffs()[i] = in.take<double>();
-  body.com_R = take_vec3(in);
+  in.take_to(body.key, body.X_WB.position, body.X_WB.rotation.coeffs(), body.com_R);
   body.is_static = in.take<std::uint8_t>() != 0;
   return body;
 }
@@ -69,8 +64,7 @@ std::vector<std::uint32_t> drawn_meshes(const Frame& frame, std::vector<std::uin
 
 std::vector<std::byte> content_of(const Frame& frame) {
   ByteWriter out;
-  out.put(frame.index);
-  out.put(frame.time_s);
+  out.put(frame.index, frame.time_s);
   put(out, frame.view);
   put(out, *frame.materials);
   std::vector<std::uint32_t> drawn;
@@ -81,8 +75,7 @@ std::vector<std::byte> content_of(const Frame& frame) {
   for (const FrameBody& body : frame.bodies) put(out, body);
   out.put(static_cast<std::uint32_t>(frame.instances.size()));
   for (const Instance& instance : frame.instances) {
-    out.put(new_of_old[instance.mesh.value]);
-    out.put(instance.body);
+    out.put(new_of_old[instance.mesh.value], instance.body);
   }
   put_codes(out, frame.debris);
   put_codes(out, frame.dust);
@@ -93,8 +86,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
                   bool has_particles) {
   ByteReader in(content, file);
   auto frame = std::make_shared<Frame>();
-  frame->index = in.take<std::uint64_t>();
-  frame->time_s = in.take<double>();
+  in.take_to(frame->index, frame->time_s);
   frame->view = take_view(in);
   std::vector<Material> materials = take_materials(in);
   auto meshes = std::make_shared<MeshStore>(in.take_count(kLeastMeshBytes));
@@ -105,8 +97,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
   for (FrameBody& body : frame->bodies) body = take_body(in);
   frame->instances.resize(in.take_count(8));
   for (Instance& instance : frame->instances) {
-    instance.mesh = MeshIndex(in.take<std::uint32_t>());
-    instance.body = in.take<std::uint32_t>();
+    in.take_to(instance.mesh, instance.body);
     if (instance.mesh.value >= meshes->size() || instance.body >= frame->bodies.size()) {
       throw InputError(file + ": corrupt: an instance names no mesh or body");
     }

@@ -6,9 +6,6 @@
 
 namespace sunder {
 
-void put(ByteWriter& out, const Vec3& v);
-Vec3 take_vec3(ByteReader& in);
-
 void put(ByteWriter& out, const View& view);
 View take_view(ByteReader& in);
 

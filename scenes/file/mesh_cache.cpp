@@ -15,9 +15,7 @@ constexpr std::uint64_t kVersion = 2;
 template <class Vectors>
 void put_all(ByteWriter& out, const Vectors& vectors) {
   out.put(std::uint64_t{vectors.size()});
-  for (const auto& vector : vectors) {
-    for (Eigen::Index i = 0; i < vector.size(); ++i) out.put(vector[i]);
-  }
+  for (const auto& vector : vectors) out.put(vector);
 }
 
 std::filesystem::path entry(std::uint64_t key) {
@@ -27,14 +25,10 @@ std::filesystem::path entry(std::uint64_t key) {
 }
 
 void put(ByteWriter& out, const MeshSolid& solid) {
-  out.put(std::uint64_t{solid.vertices});
-  out.put(std::uint64_t{solid.faces});
-  out.put(solid.closed);
+  out.put(std::uint64_t{solid.vertices}, std::uint64_t{solid.faces}, solid.closed);
   out.put(static_cast<std::uint32_t>(solid.repairs.size()));
   for (const Repair& repair : solid.repairs) {
-    out.put(repair.name);
-    out.put(std::uint64_t{repair.count});
-    out.put(repair.harmless);
+    out.put(repair.name, std::uint64_t{repair.count}, repair.harmless);
   }
   fracture::VacdFigures figures = *solid.vacd;
   figures.split_ms = figures.total_ms = 0;  // of another day: the same mesh, the same bytes
@@ -44,15 +38,9 @@ void put(ByteWriter& out, const MeshSolid& solid) {
 
 MeshSolid take(ByteReader& in, const std::string& file) {
   MeshSolid solid;
-  solid.vertices = in.take<std::uint64_t>();
-  solid.faces = in.take<std::uint64_t>();
-  solid.closed = in.take<bool>();
+  in.take_to(solid.vertices, solid.faces, solid.closed);
   solid.repairs.resize(in.take_count(4));
-  for (Repair& repair : solid.repairs) {
-    repair.name = in.take_text();
-    repair.count = in.take<std::uint64_t>();
-    repair.harmless = in.take<bool>();
-  }
+  for (Repair& repair : solid.repairs) in.take_to(repair.name, repair.count, repair.harmless);
   solid.vacd = in.take<fracture::VacdFigures>();
   solid.compound = take_compound(in, file);
   if (!in.at_end()) throw InputError(file + ": corrupt: too long");
@@ -71,11 +59,7 @@ std::uint64_t cache_key(const RawMesh& mesh, const fracture::VacdOptions& vacd,
   for (const std::uint32_t corner : mesh.corners) all.put(corner);
   for (const RawMesh::Polygon& polygon : mesh.polygons) all.put(polygon.corner_count);
   put_all(all, vacd.nodes);
-  all.put(vacd.node_count.value_or(0));
-  all.put(vacd.convexes);
-  all.put(vacd.fit.kind);
-  all.put(vacd.fit.vertex_count);
-  all.put(repair);
+  all.put(vacd.node_count.value_or(0), vacd.convexes, vacd.fit.kind, vacd.fit.vertex_count, repair);
   return hash_bytes(all.bytes);
 }
 

@@ -136,13 +136,7 @@ class GlbWriter {
                          {"componentType", view == kIndices ? kUnsigned : kFloat},
                          {"count", items.size()},
                          {"type", type}});
-    for (const Item& item : items) {
-      if constexpr (std::is_arithmetic_v<Item>) {
-        views_[view].put(item);
-      } else {
-        for (Eigen::Index i = 0; i < item.size(); ++i) views_[view].put(item[i]);
-      }
-    }
+    for (const Item& item : items) views_[view].put(item);
     return static_cast<int>(accessors.size()) - 1;
   }
 

@@ -167,44 +167,25 @@ std::vector<Particle> read_particles(ByteReader& in, const std::string& file, Ta
 void write_report(ByteWriter& out, const Frame& frame) {
   const FrameReport& report = frame.report;
   out.put(report.counts);
-  for (const double value :
-       {report.mass_kg, report.kinetic_J, report.potential_J, report.momentum_residual}) {
-    out.put(value);
-  }
-  for (const std::uint32_t value :
-       {report.carried_over, report.limits_hit, report.aged, report.frozen, report.joints_lost}) {
-    out.put(value);
-  }
+  out.put(report.mass_kg, report.kinetic_J, report.potential_J, report.momentum_residual);
+  out.put(report.carried_over, report.limits_hit, report.aged, report.frozen, report.joints_lost);
   out.put(static_cast<std::uint32_t>(frame.breaks.size()));
   for (const BreakEvent& event : frame.breaks) {
-    out.put(event.time_s);
-    out.put(event.body_key);
-    put(out, event.point_W);
-    out.put(event.energy_J);
-    out.put(event.new_area_m2);
-    out.put(event.pieces);
+    out.put(event.time_s, event.body_key, event.point_W, event.energy_J, event.new_area_m2,
+            event.pieces);
   }
 }
 
 void read_report(ByteReader& in, Frame& frame) {
   FrameReport& report = frame.report;
-  report.counts = in.take<Counts>();
-  for (double* value :
-       {&report.mass_kg, &report.kinetic_J, &report.potential_J, &report.momentum_residual}) {
-    *value = in.take<double>();
-  }
-  for (std::uint32_t* value : {&report.carried_over, &report.limits_hit, &report.aged,
-                               &report.frozen, &report.joints_lost}) {
-    *value = in.take<std::uint32_t>();
-  }
+  in.take_to(report.counts, report.mass_kg, report.kinetic_J, report.potential_J,
+             report.momentum_residual);
+  in.take_to(report.carried_over, report.limits_hit, report.aged, report.frozen,
+             report.joints_lost);
   frame.breaks.resize(in.take_count(60));
   for (BreakEvent& event : frame.breaks) {
-    event.time_s = in.take<double>();
-    event.body_key = in.take<std::uint64_t>();
-    event.point_W = take_vec3(in);
-    event.energy_J = in.take<double>();
-    event.new_area_m2 = in.take<double>();
-    event.pieces = in.take<std::uint32_t>();
+    in.take_to(event.time_s, event.body_key, event.point_W, event.energy_J, event.new_area_m2,
+               event.pieces);
   }
 }
 
@@ -228,9 +209,7 @@ void FrameCoder::reset() {
 }
 
 void FrameCoder::write(ByteWriter& out, const Frame& frame) {
-  out.put(frame.index);
-  out.put(frame.time_s);
-  out.put(hash_state(frame));
+  out.put(frame.index, frame.time_s, hash_state(frame));
   out.put(static_cast<std::uint32_t>(frame.meshes->size()));
   put(out, frame.view);
   write_report(out, frame);
@@ -260,8 +239,7 @@ void FrameCoder::write_instances(ByteWriter& out, const Frame& frame,
   out.put(static_cast<std::uint32_t>(changed.size()));
   for (const std::uint32_t b : changed) {
     out.put(b);
-    out.put(static_cast<std::uint32_t>(meshes[b].size()));
-    for (const std::uint32_t mesh : meshes[b]) out.put(mesh);
+    out.put_list(meshes[b]);
   }
   meshes_ = std::move(meshes);
   keys_.clear();
@@ -272,10 +250,7 @@ TakeFrame FrameCoder::read(const std::vector<std::byte>& bytes, const std::strin
   ByteReader in(bytes, file);
   TakeFrame take;
   Frame& frame = take.frame;
-  frame.index = in.take<std::uint64_t>();
-  frame.time_s = in.take<double>();
-  frame.recorded_hash = in.take<std::uint64_t>();
-  take.meshes = in.take<std::uint32_t>();
+  in.take_to(frame.index, frame.time_s, frame.recorded_hash, take.meshes);
   frame.view = take_view(in);
   read_report(in, frame);
   std::vector<std::uint32_t> before;
@@ -302,9 +277,8 @@ void FrameCoder::read_instances(ByteReader& in, const std::string& file,
   for (std::uint32_t i = 0; i < changed; ++i) {
     const auto b = in.take<std::uint32_t>();
     if (b >= meshes.size()) throw InputError(file + ": corrupt: meshes of no body");
-    meshes[b].resize(in.take_count(4));
-    for (std::uint32_t& mesh : meshes[b]) {
-      mesh = in.take<std::uint32_t>();
+    meshes[b] = in.take_list<std::uint32_t>();
+    for (const std::uint32_t mesh : meshes[b]) {
       if (mesh >= take.meshes) throw InputError(file + ": corrupt: a body shows no mesh");
     }
   }

@@ -123,9 +123,7 @@ bool TakeReader::Playback::read_index() {
     ByteReader in(content, file_);
     while (!in.at_end()) {
       BlockPlace place;
-      place.offset = in.take<std::uint64_t>();
-      place.kind = in.take<BlockKind>();
-      place.first = in.take<std::uint32_t>();
+      in.take_to(place.offset, place.kind, place.first);
       note(place);
     }
   } catch (const InputError&) {

@@ -90,11 +90,7 @@ void TakeWriter::Recording::finish() {
   stop();
   if (failure_) std::rethrow_exception(failure_);
   ByteWriter index;
-  for (const BlockPlace& place : places_) {
-    index.put(place.offset);
-    index.put(place.kind);
-    index.put(place.first);
-  }
+  for (const BlockPlace& place : places_) index.put(place.offset, place.kind, place.first);
   const std::uint64_t at = offset_;
   other_packer_.restart();
   append(BlockKind::kIndex, 0, index.bytes.size(), other_packer_.pack(index.bytes));
