@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <numeric>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -41,44 +42,16 @@ struct Statistics::Series {
     for (const FrameReport& report : reports) worst = std::max(worst, report.momentum_residual);
     return worst;
   }
-  std::uint32_t limits_hit() const {
-    std::uint32_t sum = 0;
-    for (const FrameReport& report : reports) sum += report.limits_hit;
-    return sum;
-  }
-  std::uint32_t aged() const {
-    std::uint32_t sum = 0;
-    for (const FrameReport& report : reports) sum += report.aged;
-    return sum;
-  }
-  std::uint32_t joints_lost() const {
-    std::uint32_t sum = 0;
-    for (const FrameReport& report : reports) sum += report.joints_lost;
-    return sum;
-  }
-  std::uint32_t carried_over() const {
-    std::uint32_t sum = 0;
-    for (const FrameReport& report : reports) sum += report.carried_over;
-    return sum;
-  }
-  std::uint32_t failed() const {
-    std::uint32_t sum = 0;
-    for (const FrameReport& report : reports) sum += report.failed;
-    return sum;
+  std::uint32_t sum(std::uint32_t FrameReport::*figure) const {
+    std::uint32_t total = 0;
+    for (const FrameReport& report : reports) total += report.*figure;
+    return total;
   }
 };
 
 namespace {
 
 constexpr std::size_t kBusiestFrames = 120;  // two seconds
-
-std::string cpu_name() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  }
-  return "unknown";
-}
 
 /// p95 of the two seconds whose p95 is largest.
 double busiest_p95(const std::vector<double>& frame_ms) {
@@ -91,24 +64,24 @@ double busiest_p95(const std::vector<double>& frame_ms) {
   return worst;
 }
 
+constexpr std::pair<const char*, std::uint32_t Counts::*> kCounts[] = {
+    {"bodies", &Counts::bodies},     {"awake", &Counts::awake},
+    {"convexes", &Counts::convexes}, {"compounds", &Counts::compounds},
+    {"contacts", &Counts::contacts}, {"debris", &Counts::debris},
+    {"dust", &Counts::dust}};
+
 Json counts_json(const Counts& counts) {
-  return {{"bodies", counts.bodies},     {"awake", counts.awake},
-          {"convexes", counts.convexes}, {"compounds", counts.compounds},
-          {"contacts", counts.contacts}, {"debris", counts.debris},
-          {"dust", counts.dust}};
+  Json json;
+  for (const auto& [name, count] : kCounts) json[name] = counts.*count;
+  return json;
 }
 
 Counts peak_of(const std::vector<FrameReport>& reports) {
   Counts peak;
   for (const FrameReport& report : reports) {
-    const Counts& c = report.counts;
-    peak.bodies = std::max(peak.bodies, c.bodies);
-    peak.awake = std::max(peak.awake, c.awake);
-    peak.convexes = std::max(peak.convexes, c.convexes);
-    peak.compounds = std::max(peak.compounds, c.compounds);
-    peak.contacts = std::max(peak.contacts, c.contacts);
-    peak.debris = std::max(peak.debris, c.debris);
-    peak.dust = std::max(peak.dust, c.dust);
+    for (const auto& [name, count] : kCounts) {
+      peak.*count = std::max(peak.*count, report.counts.*count);
+    }
   }
   return peak;
 }
@@ -135,6 +108,14 @@ Json frame_json(const FrameReport& report, double ms) {
 }
 
 }  // namespace
+
+std::string cpu_name() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
 
 double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
@@ -189,13 +170,11 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
                    {"busiest_2s_p95_ms", busiest_p95(frame_ms)}};
   json["counts"] = counts_json(s.last.counts);
   json["peak"] = counts_json(peak_of(s.reports));
-  json["fractures"] = {{"events", s.fracture_ms.size()},
-                       {"pieces", s.pieces},
-                       {"p50_ms", quantile(s.fracture_ms, 0.5)},
-                       {"p99_ms", quantile(s.fracture_ms, 0.99)},
-                       {"max_ms", quantile(s.fracture_ms, 1)},
-                       {"carried_over", s.carried_over()},
-                       {"failed", s.failed()}};
+  json["fractures"] = {
+      {"events", s.fracture_ms.size()},         {"pieces", s.pieces},
+      {"p50_ms", quantile(s.fracture_ms, 0.5)}, {"p99_ms", quantile(s.fracture_ms, 0.99)},
+      {"max_ms", quantile(s.fracture_ms, 1)},   {"carried_over", s.sum(&FrameReport::carried_over)},
+      {"failed", s.sum(&FrameReport::failed)}};
   const std::vector<double> depth = s.penetrations();
   json["penetration_m"] = {
       {"p50", quantile(depth, 0.5)}, {"p99", quantile(depth, 0.99)}, {"max", quantile(depth, 1)}};
@@ -203,9 +182,9 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["energy_J"] = {{"kinetic", s.last.kinetic_J}, {"potential", s.last.potential_J}};
   json["momentum_residual"] = s.momentum_residual();
   json["mass_kg"] = {{"initial", s.first.mass_kg}, {"final", s.last.mass_kg}};
-  json["limits_hit"] = s.limits_hit();
-  json["aged"] = s.aged();
-  json["joints_lost"] = s.joints_lost();
+  json["limits_hit"] = s.sum(&FrameReport::limits_hit);
+  json["aged"] = s.sum(&FrameReport::aged);
+  json["joints_lost"] = s.sum(&FrameReport::joints_lost);
   json["modelled"] = s.info.modelled;
   json["warnings"] = s.info.warnings;
   json["cpu"] = cpu_name();
@@ -239,7 +218,7 @@ std::string Statistics::table() const {
   text += line("penetration p50 %.2f mm, p99 %.2f mm, max %.2f mm\n", 1e3 * quantile(depth, 0.5),
                1e3 * quantile(depth, 0.99), 1e3 * quantile(depth, 1));
   text += line("mass %.6f kg -> %.6f kg, momentum residual %.1e, limits hit %u\n", s.first.mass_kg,
-               s.last.mass_kg, s.momentum_residual(), s.limits_hit());
+               s.last.mass_kg, s.momentum_residual(), s.sum(&FrameReport::limits_hit));
   return text;
 }
 

@@ -36,6 +36,9 @@ struct RunInfo {
   std::vector<std::string> warnings = {};
 };
 
+/// The processor this runs on, as it calls itself.
+std::string cpu_name();
+
 /// The q-th quantile (0..1) by the nearest-rank rule; 0 of nothing.
 double quantile(std::vector<double> values, double q);
 

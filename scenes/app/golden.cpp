@@ -6,6 +6,7 @@
 
 #include "engine/base/check.h"
 #include "engine/io/frame_file.h"
+#include "engine/io/statistics.h"
 #include "render/image/golden_report.h"
 #include "render/renderer.h"
 #include "scenes/app/golden_file.h"

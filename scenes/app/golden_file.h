@@ -47,7 +47,6 @@ std::string format_results(const std::vector<GoldenResult>& results);
 
 /// 16 hexadecimal digits over size and pixels.
 std::string pixel_hash(const render::Image& image);
-std::string cpu_name();
 /// The same picture in a smaller file: meshes that no instance shows are dropped.
 Frame without_unused_meshes(const Frame& frame);
 
