@@ -38,19 +38,16 @@ struct Spec {
   void need(bool right_count) const {
     if (!right_count) refuse(kPatternHelp);
   }
-  int whole(std::size_t i, double low, double high, const char* name) const {
-    if (sizes[i] != std::floor(sizes[i]) || sizes[i] < low || sizes[i] > high) {
-      refuse(std::string(name) + " to be a whole number from " + scenes::format(low) + " to " +
-             scenes::format(high));
-    }
-    return static_cast<int>(sizes[i]);
-  }
-  double real(std::size_t i, double low, double high, const char* name) const {
-    if (sizes[i] < low || sizes[i] > high) {
-      refuse(std::string(name) + " to be a number from " + scenes::format(low) + " to " +
-             scenes::format(high));
+  double real(std::size_t i, double low, double high, const char* name,
+              bool is_whole = false) const {
+    if (sizes[i] < low || sizes[i] > high || (is_whole && sizes[i] != std::floor(sizes[i]))) {
+      refuse(std::string(name) + " to be a " + (is_whole ? "whole " : "") + "number from " +
+             scenes::format(low) + " to " + scenes::format(high));
     }
     return sizes[i];
+  }
+  int whole(std::size_t i, double low, double high, const char* name) const {
+    return static_cast<int>(real(i, low, high, name, true));
   }
 };
 
