@@ -7,6 +7,7 @@
 #include "engine/base/trace.h"
 #include "render/gl/context.h"
 #include "render/gl/objects.h"
+#include "render/gl/units.h"
 #include "render/image/antialias.h"
 #include "render/image/hud.h"
 #include "render/passes/chips.h"
@@ -14,7 +15,6 @@
 #include "render/passes/pieces.h"
 #include "render/passes/puffs.h"
 #include "render/passes/tiles.h"
-#include "render/passes/units.h"
 #include "render/passes/viewpoint.h"
 #include "render/shaders/shader_sources.h"
 
@@ -56,38 +56,32 @@ Programs make_programs(const GlTable& gl) {
       make_program(gl, "composite", {common_glsl, screen_vert}, {common_glsl, composite_frag});
   p.dusty = make_program(gl, "dusty composite", {common_glsl, screen_vert},
                          {common_glsl, "#define DUSTY\n", composite_frag});
-  for (const GLuint program : {p.matte, p.shiny, p.glass, p.ground}) {
-    set_sampler(gl, program, "shadow_map", kShadowUnit);
-  }
-  for (const GLuint program : {p.shadow, p.zenith, p.matte, p.shiny, p.glass}) {
-    set_sampler(gl, program, "slots", kSlotUnit);
-  }
-  for (const GLuint program : {p.matte, p.shiny, p.glass})
-    set_sampler(gl, program, "materials", kMaterialUnit);
-  for (const GLuint program : {p.matte, p.shiny, p.ground, p.sky}) {
-    set_sampler(gl, program, "tiles", kTileUnit);
-  }
-  set_sampler(gl, p.occlusion, "depths", kDepthUnit);
-  set_sampler(gl, p.occlusion, "zenith_map", kZenithUnit);
-  set_sampler(gl, p.blur, "occlusion", kOpenUnit);
-  for (const GLuint program : {p.composite, p.dusty}) {
-    set_sampler(gl, program, "lights", kLightUnit);
-    set_sampler(gl, program, "depths", kDepthUnit);
-    set_sampler(gl, program, "occlusion", kBlurUnit);
-  }
-  set_sampler(gl, p.dusty, "dust", kDustUnit);
   return p;
 }
 
-void bind_texture(const GlTable& gl, Unit unit, GLuint texture) {
+/// What is bound from here on is on that unit, and stays there.
+void take_unit(const GlTable& gl, Unit unit) {
   gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-  gl.BindTexture(GL_TEXTURE_2D, texture);
+}
+
+/// To draw into, and then to read on a unit of its own.
+Target make_target(const GlTable& gl, Unit unit, GLenum format, int width, int height,
+                   GLuint depth = 0) {
+  take_unit(gl, unit);
+  const GLuint texture = make_texture(gl, format, width, height);
+  return {make_framebuffer(gl, texture, depth), width, height};
+}
+
+Target make_shadow_target(const GlTable& gl, Unit unit, int texels) {
+  take_unit(gl, unit);
+  const GLuint texture = make_shadow_texture(gl, texels);
+  return {make_framebuffer(gl, 0, texture), texels, texels};
 }
 
 void upload_tiles(const GlTable& gl) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
-  gl.ActiveTexture(GL_TEXTURE0 + kTileUnit);
+  take_unit(gl, kTileUnit);
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
   const std::vector<std::uint8_t> texels = bake_tiles();
   gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, kTileSize, kTileSize, kTiles, 0, GL_RGBA,
@@ -152,37 +146,24 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   const int h = options.height;
   const int half_w = (w + 1) / 2;
   const int half_h = (h + 1) / 2;
-  const GLuint shadow_map = make_shadow_texture(gl, kShadowTexels);
-  const GLuint zenith_map = make_shadow_texture(gl, kZenithTexels);
-  const GLuint depth = make_texture(gl, GL_DEPTH_COMPONENT24, w, h, Filter::kNearest);
-  const GLuint lights = make_texture(gl, GL_RGBA16F, w, h, Filter::kNearest);
-  const GLuint occlusion = make_texture(gl, GL_RG16F, half_w, half_h, Filter::kNearest);
-  const GLuint smooth = make_texture(gl, GL_RG16F, half_w, half_h, Filter::kNearest);
-  const GLuint veil = make_texture(gl, GL_RGBA16F, half_w, half_h, Filter::kNearest);
-  const GLuint final = make_texture(gl, GL_RGBA8, w, h, Filter::kNearest);
-  bind_texture(gl, kShadowUnit, shadow_map);
-  bind_texture(gl, kZenithUnit, zenith_map);
-  bind_texture(gl, kDepthUnit, depth);
-  bind_texture(gl, kLightUnit, lights);
-  bind_texture(gl, kOpenUnit, occlusion);
-  bind_texture(gl, kBlurUnit, smooth);
-  bind_texture(gl, kDustUnit, veil);
-  shadow = {make_framebuffer(gl, 0, shadow_map), kShadowTexels, kShadowTexels};
-  zenith = {make_framebuffer(gl, 0, zenith_map), kZenithTexels, kZenithTexels};
-  light = {make_framebuffer(gl, lights, depth), w, h};
-  open = {make_framebuffer(gl, occlusion, 0), half_w, half_h};
-  blurred = {make_framebuffer(gl, smooth, 0), half_w, half_h};
-  dust = {make_framebuffer(gl, veil, 0), half_w, half_h};
-  picture = {make_framebuffer(gl, final, 0), w, h};
+  picture = {make_framebuffer(gl, make_texture(gl, GL_RGBA8, w, h), 0), w, h};
+  shadow = make_shadow_target(gl, kShadowUnit, kShadowTexels);
+  zenith = make_shadow_target(gl, kZenithUnit, kZenithTexels);
+  take_unit(gl, kDepthUnit);
+  const GLuint depth = make_texture(gl, GL_DEPTH_COMPONENT24, w, h);
+  light = make_target(gl, kLightUnit, GL_RGBA16F, w, h, depth);
+  open = make_target(gl, kOpenUnit, GL_RG16F, half_w, half_h);
+  blurred = make_target(gl, kBlurUnit, GL_RG16F, half_w, half_h);
+  dust = make_target(gl, kDustUnit, GL_RGBA16F, half_w, half_h);
   pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
 
   upload_tiles(gl);
-  gl.ActiveTexture(GL_TEXTURE0 + kSlotUnit);
+  take_unit(gl, kSlotUnit);
   gl.BindTexture(GL_TEXTURE_BUFFER, pieces.slot_texture());
   GLuint look_texture = 0;
   gl.GenTextures(1, &look_texture);
   gl.GenBuffers(1, &material_buffer);
-  gl.ActiveTexture(GL_TEXTURE0 + kMaterialUnit);
+  take_unit(gl, kMaterialUnit);
   gl.BindBuffer(GL_TEXTURE_BUFFER, material_buffer);
   gl.BindTexture(GL_TEXTURE_BUFFER, look_texture);
   gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, material_buffer);
@@ -209,14 +190,11 @@ void Renderer::Impl::done(const char* pass) {
 }
 
 void Renderer::Impl::upload(const Frame& frame) {
-  gl.ActiveTexture(GL_TEXTURE0 + kSlotUnit);
+  take_unit(gl, kSlotUnit);
   pieces.update(frame);
   if (frame.materials != materials) {
     materials = frame.materials;
-    const std::vector<float> texels = material_rows(*materials);
-    gl.BindBuffer(GL_TEXTURE_BUFFER, material_buffer);
-    gl.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(texels.size() * sizeof(float)),
-                  texels.data(), GL_STATIC_DRAW);
+    fill_buffer(gl, GL_TEXTURE_BUFFER, material_buffer, material_rows(*materials), GL_STATIC_DRAW);
   }
   const FrameUniforms uniforms =
       make_uniforms(frame.view, pieces.casters(), options.width, options.height);

@@ -1,8 +1,7 @@
 #include "render/gl/objects.h"
 
-#include <vector>
-
 #include "engine/base/check.h"
+#include "render/gl/units.h"
 
 namespace sunder::render {
 namespace {
@@ -53,16 +52,24 @@ GLuint make_program(const GlTable& gl, const char* name,
   }
   const GLuint block = gl.GetUniformBlockIndex(program, "Frame");
   if (block != GL_INVALID_INDEX) gl.UniformBlockBinding(program, block, 0);
+  gl.UseProgram(program);
+  for (GLint unit = 0; const char* const sampler : kSamplers) {  // those it has not are passed over
+    gl.Uniform1i(gl.GetUniformLocation(program, sampler), unit++);
+  }
   return program;
 }
 
-void set_sampler(const GlTable& gl, GLuint program, const char* sampler, int unit) {
-  gl.UseProgram(program);
-  gl.Uniform1i(gl.GetUniformLocation(program, sampler), unit);
+void set_attributes(const GlTable& gl, GLuint first, std::size_t stride,
+                    std::initializer_list<Attribute> attributes, std::size_t start) {
+  for (GLuint index = first; const Attribute& attribute : attributes) {
+    gl.EnableVertexAttribArray(index);
+    gl.VertexAttribPointer(index++, attribute.floats, GL_FLOAT, GL_FALSE,
+                           static_cast<GLsizei>(stride), buffer_offset(start + attribute.place));
+  }
 }
 
-GLuint make_texture(const GlTable& gl, GLenum format, int width, int height, Filter filter) {
-  const GLuint texture = new_texture(gl, filter == Filter::kLinear ? GL_LINEAR : GL_NEAREST);
+GLuint make_texture(const GlTable& gl, GLenum format, int width, int height) {
+  const GLuint texture = new_texture(gl, GL_NEAREST);
   const bool depth = format == GL_DEPTH_COMPONENT24;
   gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0,
                 depth ? GL_DEPTH_COMPONENT : GL_RGBA, depth ? GL_UNSIGNED_INT : GL_UNSIGNED_BYTE,

@@ -7,7 +7,6 @@
 #include "engine/geometry/convex_polyhedron.h"
 #include "engine/geometry/hull.h"
 #include "render/gl/objects.h"
-#include "render/passes/units.h"
 #include "render/shaders/shader_sources.h"
 
 namespace sunder::render {
@@ -69,10 +68,6 @@ Chips::Chips(const GlTable& gl) : gl_(gl) {
       make_program(gl, "chips", {common_glsl, chips_vert}, {common_glsl, shadow_glsl, pieces_frag});
   shadow_program_ = make_program(gl, "chips' shadow", {common_glsl, "#define SHADOW\n", chips_vert},
                                  {common_glsl, nothing_frag});
-  set_sampler(gl, program_, "shadow_map", kShadowUnit);
-  set_sampler(gl, program_, "materials", kMaterialUnit);
-  set_sampler(gl, program_, "tiles", kTileUnit);
-
   std::vector<ChipVertex> vertices;
   for (std::size_t v = 0; v < variants_.size(); ++v) {
     const std::vector<ChipVertex> chip = make_chip(v);
@@ -84,15 +79,9 @@ Chips::Chips(const GlTable& gl) : gl_(gl) {
   gl_.GenBuffers(1, &vertex_buffer_);
   gl_.GenBuffers(1, &instance_buffer_);
   gl_.BindVertexArray(vertex_array_);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(ChipVertex)),
-                 vertices.data(), GL_STATIC_DRAW);
-  constexpr GLsizei kStride = sizeof(ChipVertex);
-  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride,
-                          buffer_offset(offsetof(ChipVertex, position)));
-  gl_.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, kStride,
-                          buffer_offset(offsetof(ChipVertex, normal)));
-  for (const GLuint attribute : {0u, 1u, 2u, 3u, 4u}) gl_.EnableVertexAttribArray(attribute);
+  fill_buffer(gl_, GL_ARRAY_BUFFER, vertex_buffer_, vertices, GL_STATIC_DRAW);
+  set_attributes(gl_, 0, sizeof(ChipVertex),
+                 {{3, offsetof(ChipVertex, position)}, {3, offsetof(ChipVertex, normal)}});
   for (const GLuint attribute : {2u, 3u, 4u}) gl_.VertexAttribDivisor(attribute, 1);
 }
 
@@ -118,9 +107,7 @@ void Chips::update(const Frame& frame, float pixels_a_radian, float shadow_texel
   }
   instances_ = all.size();
   if (all.empty()) return;
-  gl_.BindBuffer(GL_ARRAY_BUFFER, instance_buffer_);
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size() * sizeof(ChipInstance)),
-                 all.data(), GL_STREAM_DRAW);
+  fill_buffer(gl_, GL_ARRAY_BUFFER, instance_buffer_, all, GL_STREAM_DRAW);
 }
 
 void Chips::draw_shadows() const { draw(shadow_program_, &Variant::casters); }
@@ -130,16 +117,13 @@ void Chips::draw(GLuint program, std::size_t Variant::*count) const {
   gl_.UseProgram(program);
   gl_.BindVertexArray(vertex_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, instance_buffer_);
-  constexpr GLsizei kStride = sizeof(ChipInstance);
   for (const Variant& variant : variants_) {
     if (variant.*count == 0) continue;
-    const std::size_t at = variant.first * sizeof(ChipInstance);
-    gl_.VertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, kStride,
-                            buffer_offset(at + offsetof(ChipInstance, place)));
-    gl_.VertexAttribPointer(3, 4, GL_FLOAT, GL_FALSE, kStride,
-                            buffer_offset(at + offsetof(ChipInstance, rotation)));
-    gl_.VertexAttribPointer(4, 1, GL_FLOAT, GL_FALSE, kStride,
-                            buffer_offset(at + offsetof(ChipInstance, material)));
+    set_attributes(gl_, 2, sizeof(ChipInstance),
+                   {{4, offsetof(ChipInstance, place)},
+                    {4, offsetof(ChipInstance, rotation)},
+                    {1, offsetof(ChipInstance, material)}},
+                   variant.first * sizeof(ChipInstance));
     gl_.DrawArraysInstanced(GL_TRIANGLES, variant.first_vertex, variant.vertices,
                             static_cast<GLsizei>(variant.*count));
   }

@@ -23,7 +23,6 @@ GLsizeiptr bytes(std::size_t count, std::size_t size) {
   return static_cast<GLsizeiptr>(count * size);
 }
 
-/// A buffer offset, in the form GL wants it.
 Pieces::Group group_of(const Material& material) {
   switch (material.surface.texture) {
     case Texture::kGlass:
@@ -47,13 +46,10 @@ Pieces::Pieces(const GlTable& gl) : gl_(gl) {
   gl_.BindVertexArray(vertex_array_);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
-  for (const GLuint attribute : {0u, 1u, 2u}) gl_.EnableVertexAttribArray(attribute);
-  constexpr GLsizei kStride = sizeof(GpuVertex);
-  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride,
-                          buffer_offset(offsetof(GpuVertex, position)));
-  gl_.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, kStride,
-                          buffer_offset(offsetof(GpuVertex, normal)));
-  gl_.VertexAttribIPointer(2, 1, GL_UNSIGNED_INT, kStride,
+  set_attributes(gl_, 0, sizeof(GpuVertex),
+                 {{3, offsetof(GpuVertex, position)}, {3, offsetof(GpuVertex, normal)}});
+  gl_.EnableVertexAttribArray(2);
+  gl_.VertexAttribIPointer(2, 1, GL_UNSIGNED_INT, sizeof(GpuVertex),
                            buffer_offset(offsetof(GpuVertex, piece)));
   gl_.BindBuffer(GL_TEXTURE_BUFFER, slot_buffer_);
   gl_.BindTexture(GL_TEXTURE_BUFFER, slot_texture_);
@@ -188,9 +184,7 @@ void Pieces::place(const Frame& frame) {
   for (std::size_t g = 0; g < placed.size(); ++g) {
     draws_[g] = ordered(placed[g], static_cast<Group>(g) != Group::kGlass);
   }
-  gl_.BindBuffer(GL_TEXTURE_BUFFER, slot_buffer_);
-  gl_.BufferData(GL_TEXTURE_BUFFER, bytes(slot_texels_.size(), sizeof(float)), slot_texels_.data(),
-                 GL_STREAM_DRAW);
+  fill_buffer(gl_, GL_TEXTURE_BUFFER, slot_buffer_, slot_texels_, GL_STREAM_DRAW);
 }
 
 Pieces::Draws Pieces::ordered(std::vector<Placed>& placed, bool near_first) const {

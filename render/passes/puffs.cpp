@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "render/gl/objects.h"
-#include "render/passes/units.h"
 #include "render/shaders/shader_sources.h"
 
 namespace sunder::render {
@@ -17,29 +16,19 @@ struct PuffInstance {
   float look[4];   ///< Cosine and sine of its turn in the picture; opacity; material.
 };
 
-const void* offset(std::size_t byte) { return reinterpret_cast<const void*>(byte); }
-
 }  // namespace
 
 Puffs::Puffs(const GlTable& gl) : gl_(gl) {
   using namespace shader_sources;
   program_ =
       make_program(gl, "puffs", {common_glsl, shadow_glsl, puffs_vert}, {common_glsl, puffs_frag});
-  set_sampler(gl, program_, "shadow_map", kShadowUnit);
-  set_sampler(gl, program_, "materials", kMaterialUnit);
-  set_sampler(gl, program_, "tiles", kTileUnit);
-  set_sampler(gl, program_, "distances", kOpenUnit);
   gl_.GenVertexArrays(1, &vertex_array_);
   gl_.GenBuffers(1, &buffer_);
   gl_.BindVertexArray(vertex_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_);
-  constexpr GLsizei kStride = sizeof(PuffInstance);
-  gl_.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, kStride, offset(offsetof(PuffInstance, place)));
-  gl_.VertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, kStride, offset(offsetof(PuffInstance, look)));
-  for (const GLuint attribute : {0u, 1u}) {
-    gl_.EnableVertexAttribArray(attribute);
-    gl_.VertexAttribDivisor(attribute, 1);
-  }
+  set_attributes(gl_, 0, sizeof(PuffInstance),
+                 {{4, offsetof(PuffInstance, place)}, {4, offsetof(PuffInstance, look)}});
+  for (const GLuint attribute : {0u, 1u}) gl_.VertexAttribDivisor(attribute, 1);
 }
 
 void Puffs::update(const Frame& frame) {
@@ -75,9 +64,7 @@ void Puffs::update(const Frame& frame) {
   }
   count_ = static_cast<GLsizei>(instances.size());
   if (count_ == 0) return;
-  gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_);
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances.size() * sizeof(PuffInstance)),
-                 instances.data(), GL_STREAM_DRAW);
+  fill_buffer(gl_, GL_ARRAY_BUFFER, buffer_, instances, GL_STREAM_DRAW);
 }
 
 void Puffs::draw() const {

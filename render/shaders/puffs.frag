@@ -1,6 +1,6 @@
 // Soft towards its rim, towards what stands in it and towards the eye; thicker in clots.
 uniform sampler2DArray tiles;
-uniform sampler2D distances;  // green: along the view, of what stands there
+uniform sampler2D openness;  // green: along the view, of what stands there
 in vec2 on;
 in vec2 cloud;
 in float lit;
@@ -13,7 +13,7 @@ void main() {
   if (squared >= 1.0) discard;
   float body = 1.0 - squared;
   float clot = texture(tiles, vec3(cloud, 6.0)).r;
-  float gap = texelFetch(distances, ivec2(gl_FragCoord.xy), 0).g - puff.x;
+  float gap = texelFetch(openness, ivec2(gl_FragCoord.xy), 0).g - puff.x;
   float clear_of = clamp(0.5 + gap / puff.y, 0.0, 1.0) * clamp(2.0 * puff.x - 0.6, 0.0, 1.0);
   float density = body * body * smoothstep(0.15, 0.85, clot + 0.25 * body);
   float alpha = puff.z * density * clear_of;
