@@ -6,10 +6,10 @@
 //   convergence_bench [--csv]
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <string>
 #include <vector>
 
+#include "bench/flags.h"
 #include "bench/piles.h"
 #include "solver/rigid/rigid_physics.h"
 
@@ -58,20 +58,25 @@ void freeze(Pile& set, double time_s) {
   }
 }
 
-/// Velocities after one step, scaled so that squares are energies; none by no sweeps.
+/// Velocities scaled so that squares are energies, of body after body.
+void add_scaled(const BodyDesc& body, const Quat& rotation_WB, const Vec3& velocity_W,
+                const Vec3& angular_velocity_W, std::vector<double>& all) {
+  const Vec3 linear = std::sqrt(body.mass_kg) * velocity_W;
+  const Vec3 spin_B = rotation_WB.conjugate() * angular_velocity_W;
+  const Vec3 angular = body.inertia_B.diagonal().cwiseSqrt().cwiseProduct(spin_B);
+  for (const Vec3& part : {linear, angular}) all.insert(all.end(), part.begin(), part.end());
+}
+
+/// After one step; none by no sweeps.
 std::vector<double> solved(const Pile& set, int colors, int sweeps) {
   World world = make_world(set, colors, sweeps);
   world.physics->collide(kDt_s);
   world.physics->solve(kDt_s, 1);
   std::vector<double> all;
   for (std::size_t i = 0; i < set.bodies.size(); ++i) {
-    const BodyDesc& body = set.bodies[i];
-    if (body.is_static) continue;
+    if (set.bodies[i].is_static) continue;
     const BodyState state = world.physics->state(world.ids[i]);
-    const Vec3 linear = std::sqrt(body.mass_kg) * state.velocity_W;
-    const Vec3 spin_B = state.X_WB.rotation.conjugate() * state.angular_velocity_W;
-    const Vec3 angular = body.inertia_B.diagonal().cwiseSqrt().cwiseProduct(spin_B);
-    for (const Vec3& part : {linear, angular}) all.insert(all.end(), part.begin(), part.end());
+    add_scaled(set.bodies[i], state.X_WB.rotation, state.velocity_W, state.angular_velocity_W, all);
   }
   return all;
 }
@@ -81,10 +86,8 @@ std::vector<double> flown(const Pile& set) {
   std::vector<double> all;
   for (const BodyDesc& body : set.bodies) {
     if (body.is_static) continue;
-    const Vec3 linear = std::sqrt(body.mass_kg) * (body.velocity_W - Vec3(0, 9.81 * kDt_s, 0));
-    const Vec3 spin_B = body.X_WB.rotation.conjugate() * body.angular_velocity_W;
-    const Vec3 angular = body.inertia_B.diagonal().cwiseSqrt().cwiseProduct(spin_B);
-    for (const Vec3& part : {linear, angular}) all.insert(all.end(), part.begin(), part.end());
+    add_scaled(body, body.X_WB.rotation, body.velocity_W - Vec3(0, 9.81 * kDt_s, 0),
+               body.angular_velocity_W, all);
   }
   return all;
 }
@@ -119,8 +122,8 @@ void measure(const char* name, Pile set, double time_s, double friction, bool cs
 }  // namespace sunder::solver
 
 int main(int argc, char** argv) {
-  const bool csv = argc == 2 && std::strcmp(argv[1], "--csv") == 0;
-  if (argc > 1 && !csv) {
+  bool csv = false;
+  if (!sunder::bench::read_flags(argc, argv, {{"--csv", &csv}})) {
     std::fprintf(stderr, "usage: %s [--csv]\n", argv[0]);
     return 2;
   }

@@ -8,12 +8,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "bench/cpu_time.h"
+#include "bench/flags.h"
 #include "bench/piles.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
@@ -176,36 +176,18 @@ void run_all(const Options& options) {
 }
 
 bool parse(int argc, char** argv, Options& options) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string flag = argv[i];
-    if (flag == "--sleep") {
-      options.sleep = true;
-      continue;
-    }
-    if (i + 1 >= argc) return false;
-    const std::string value = argv[++i];
-    if (flag == "--scene")
-      options.scene = value;
-    else if (flag == "--threads")
-      options.threads = std::atoi(value.c_str());
-    else if (flag == "--substeps")
-      options.substeps = std::atoi(value.c_str());
-    else if (flag == "--sweeps")
-      options.sweeps = std::atoi(value.c_str());
-    else if (flag == "--colors")
-      options.colors = std::atoi(value.c_str());
-    else if (flag == "--lanes")
-      options.lanes = std::atoi(value.c_str());
-    else if (flag == "--frames")
-      options.frames = std::atoi(value.c_str());
-    else if (flag == "--seed")
-      options.seed = std::atoi(value.c_str());
-    else if (flag == "--rate")
-      options.rate_Hz = std::atof(value.c_str());
-    else
-      return false;
-  }
-  return options.threads > 0 && options.substeps > 0 && options.sweeps > 0 && options.colors >= 0 &&
+  return bench::read_flags(argc, argv,
+                           {{"--scene", &options.scene},
+                            {"--threads", &options.threads},
+                            {"--substeps", &options.substeps},
+                            {"--sweeps", &options.sweeps},
+                            {"--colors", &options.colors},
+                            {"--lanes", &options.lanes},
+                            {"--frames", &options.frames},
+                            {"--seed", &options.seed},
+                            {"--rate", &options.rate_Hz},
+                            {"--sleep", &options.sleep}}) &&
+         options.threads > 0 && options.substeps > 0 && options.sweeps > 0 && options.colors >= 0 &&
          options.colors <= 64 && options.lanes >= 0 && options.rate_Hz >= 60;
 }
 

@@ -13,11 +13,12 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "bench/flags.h"
 #include "bench/piles.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
@@ -236,24 +237,17 @@ int run(const std::vector<int>& sides, int colors) {
 }  // namespace sunder::solver
 
 int main(int argc, char** argv) {
-  std::vector<int> sides;
+  std::string list;
   int colors = 64;
   bool grows = false;
-  for (int i = 1; i < argc; ++i) {
-    const bool last = i + 1 == argc;
-    if (!last && std::strcmp(argv[i], "--colors") == 0) {
-      colors = std::atoi(argv[++i]);
-    } else if (std::strcmp(argv[i], "--growth") == 0) {
-      grows = true;
-    } else if (!last && std::strcmp(argv[i], "--sides") == 0) {
-      for (const char* text = argv[++i]; text && *text;
-           text = std::strchr(text, ',') ? std::strchr(text, ',') + 1 : nullptr)
-        sides.push_back(std::atoi(text));
-    } else {
-      std::fprintf(stderr, "usage: %s [--sides A,B,...] [--colors 0..64] [--growth]\n", argv[0]);
-      return 2;
-    }
+  if (!sunder::bench::read_flags(
+          argc, argv, {{"--sides", &list}, {"--colors", &colors}, {"--growth", &grows}})) {
+    std::fprintf(stderr, "usage: %s [--sides A,B,...] [--colors 0..64] [--growth]\n", argv[0]);
+    return 2;
   }
+  std::vector<int> sides;
+  std::stringstream words(list);
+  for (std::string side; std::getline(words, side, ',');) sides.push_back(std::atoi(side.c_str()));
   using sunder::solver::growth, sunder::solver::run;
   if (grows) return growth(sides.empty() ? std::vector{10, 14, 22, 31, 46} : sides);
   return run(sides.empty() ? std::vector{10, 20, 46} : sides, colors);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bench/cpu_time.h"
+#include "bench/flags.h"
 #include "bench/peers/peer.h"
 #include "bench/peers/penetration.h"
 #include "bench/piles.h"
@@ -170,24 +171,12 @@ void run_all(const Options& options) {
 }
 
 bool parse(int argc, char** argv, Options& options) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string flag = argv[i];
-    if (flag == "--defaults") {
-      options.defaults = true;
-      continue;
-    }
-    if (i + 1 >= argc) return false;
-    const std::string value = argv[++i];
-    if (flag == "--hulls")
-      options.hulls = std::atoi(value.c_str());
-    else if (flag == "--frames")
-      options.frames = std::atoi(value.c_str());
-    else if (flag == "--engine")
-      options.engine = value;
-    else
-      return false;
-  }
-  return options.hulls > 0 && options.frames > 0;
+  return read_flags(argc, argv,
+                    {{"--hulls", &options.hulls},
+                     {"--frames", &options.frames},
+                     {"--engine", &options.engine},
+                     {"--defaults", &options.defaults}}) &&
+         options.hulls > 0 && options.frames > 0;
 }
 
 }  // namespace
