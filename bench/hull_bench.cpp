@@ -1,11 +1,11 @@
 // Figure 13: how tight fits of a convex are, and what they cost. The table first, then the times.
 // SUNDER_MESHES names the folder with good/bunny_12k.off; a bumpy ball stands in where it is not.
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 #include <benchmark/benchmark.h>
 
+#include "bench/real_mesh.h"
 #include "engine/base/random.h"
 #include "engine/geometry/approximate_hull.h"
 #include "engine/geometry/hull.h"
@@ -15,11 +15,7 @@ namespace sunder {
 namespace {
 
 std::vector<Vec3> load_points() {
-  const char* folder = std::getenv("SUNDER_MESHES");
-  const auto beside = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-  const std::filesystem::path file =
-      (folder ? std::filesystem::path(folder) : beside / "shared" / "meshes") / "good" /
-      "bunny_12k.off";
+  const std::filesystem::path file = bench::real_mesh("bunny_12k.off");
   if (std::filesystem::exists(file)) return read_mesh(file).vertices;
   std::printf("no %s: measuring a bumpy ball instead\n", file.c_str());
   Random random(1);

@@ -1,12 +1,12 @@
 // Decomposition of real meshes: how tight the hulls are, then what it costs. SUNDER_MESHES names
 // the folder with the set good/; without it there is nothing to measure.
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 
 #include <benchmark/benchmark.h>
 
+#include "bench/real_mesh.h"
 #include "engine/io/mesh/mesh_reader.h"
 #include "fracture/vacd/vacd.h"
 
@@ -15,16 +15,10 @@ namespace {
 
 constexpr Fit kTightFit{Fit::Kind::kHull, 64};
 
-std::filesystem::path file_of(const std::string& name) {
-  const char* folder = std::getenv("SUNDER_MESHES");
-  const auto beside = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-  return (folder ? std::filesystem::path(folder) : beside / "shared" / "meshes") / "good" / name;
-}
-
 const RepairedMesh& mesh(const std::string& name) {
   static std::map<std::string, RepairedMesh> loaded;
   RepairedMesh& mesh = loaded[name];
-  if (mesh.shells.empty()) mesh = repair_mesh(read_mesh(file_of(name)), name);
+  if (mesh.shells.empty()) mesh = repair_mesh(read_mesh(bench::real_mesh(name)), name);
   return mesh;
 }
 
@@ -82,7 +76,7 @@ BENCHMARK_CAPTURE(tight, fertility, "fertility_9k.off")->Arg(64)->Unit(benchmark
 
 int main(int count, char** arguments) {
   benchmark::Initialize(&count, arguments);
-  if (!std::filesystem::exists(sunder::fracture::file_of("bunny_12k.off"))) {
+  if (!std::filesystem::exists(sunder::bench::real_mesh("bunny_12k.off"))) {
     std::printf("no real meshes: set SUNDER_MESHES\n");
     return 0;
   }

@@ -5,12 +5,11 @@
 // The marks: dragon_80k in 12 nodes hit by 50 cells in a quarter of its size 10 ms; bunny_12k whole
 // by 20 cells 8 ms, by 100 cells 25 ms. Time is that of both cores; CPU that of the first. What is
 // drawn of the pieces is made by the step afterwards, and measured on its own.
-#include <cstdlib>
-#include <filesystem>
 #include <limits>
 
 #include <benchmark/benchmark.h>
 
+#include "bench/real_mesh.h"
 #include "engine/base/parallel.h"
 #include "engine/geometry/repair/repair.h"
 #include "engine/io/mesh/mesh_reader.h"
@@ -23,11 +22,9 @@ namespace sunder::fracture {
 namespace {
 
 Compound decomposed(const std::string& name, std::uint32_t nodes) {
-  const char* folder = std::getenv("SUNDER_MESHES");
-  const auto file = std::filesystem::path(folder ? folder : "../shared/meshes") / "good" / name;
   VacdOptions options;
   options.node_count = nodes;
-  return decompose(repair_mesh(read_mesh(file), name), options).compound;
+  return decompose(repair_mesh(read_mesh(bench::real_mesh(name)), name), options).compound;
 }
 
 /// One event on a structure made ready, with a pattern made ready, as in a running simulation.
