@@ -16,10 +16,22 @@ namespace {
 
 const Vec3 kDown(0, -9.81, 0);
 
-StressSystem system_of(const Compound& compound, const std::vector<Material>& materials) {
+StressSystem system_of(const Compound& compound) {
   std::vector<BondGeometry> geometry;
   for (const Bond& bond : compound.bonds) geometry.push_back(bond_geometry(compound, bond));
-  return StressSystem(compound, std::move(geometry), materials);
+  return StressSystem(compound, std::move(geometry), std::vector<Material>(1));
+}
+
+/// The block that a benchmark's arguments ask for; sets the threads.
+Compound block_of(const benchmark::State& state) {
+  set_threads(static_cast<int>(state.range(0)));
+  const auto side = static_cast<int>(state.range(1));
+  return grid_compound(side, side, side, Vec3::Ones(), true);
+}
+
+void show(benchmark::State& state, const SolveResult& result) {
+  state.counters["iterations"] = result.iterations;
+  state.counters["residual"] = result.residual;
 }
 
 /// Threads, then convexes along an edge of the block.
@@ -31,47 +43,39 @@ void arguments(benchmark::internal::Benchmark* bench) {
 }
 
 void Stress_from_nothing(benchmark::State& state) {
-  set_threads(static_cast<int>(state.range(0)));
-  const auto side = static_cast<int>(state.range(1));
-  const StressSystem system =
-      system_of(grid_compound(side, side, side, Vec3::Ones(), true), {Material()});
+  const StressSystem system = system_of(block_of(state));
   SolveResult result;
   for (auto _ : state) {
     std::vector<Displacement> displacements;
     result = system.solve({}, kDown, 1e-3, 500, displacements);
   }
-  state.counters["iterations"] = result.iterations;
-  state.counters["residual"] = result.residual;
+  show(state, result);
 }
 BENCHMARK(Stress_from_nothing)->Apply(arguments);
 
 /// A tenth of its weight comes to stand on a corner of the roof.
 void Stress_when_the_load_has_changed(benchmark::State& state) {
-  set_threads(static_cast<int>(state.range(0)));
-  const auto side = static_cast<int>(state.range(1));
-  const Compound compound = grid_compound(side, side, side, Vec3::Ones(), true);
-  const StressSystem system = system_of(compound, {Material()});
+  const Compound compound = block_of(state);
+  const StressSystem system = system_of(compound);
   std::vector<Displacement> settled;
   system.solve({}, kDown, 1e-3, 500, settled);
   const auto roof = static_cast<std::uint32_t>(compound.convexes.size() - 1);
   const Vec3 top = compound.convexes[roof]->solid.centroid;
-  const ConvexLoad load{roof, 100.0 * side * side * side * kDown, top, Vec3::Zero()};
+  const ConvexLoad load{roof, 100.0 * static_cast<double>(compound.convexes.size()) * kDown, top,
+                        Vec3::Zero()};
   SolveResult result;
   for (auto _ : state) {
     std::vector<Displacement> displacements = settled;
     result = system.solve(std::span(&load, 1), kDown, 1e-3, 500, displacements);
   }
-  state.counters["iterations"] = result.iterations;
-  state.counters["residual"] = result.residual;
+  show(state, result);
 }
 BENCHMARK(Stress_when_the_load_has_changed)->Apply(arguments);
 
 /// All that follows a break: the bonds' shapes and the levels made anew.
 void Set_up_after_a_break(benchmark::State& state) {
-  set_threads(static_cast<int>(state.range(0)));
-  const auto side = static_cast<int>(state.range(1));
-  const Compound compound = grid_compound(side, side, side, Vec3::Ones(), true);
-  for (auto _ : state) benchmark::DoNotOptimize(system_of(compound, {Material()}));
+  const Compound compound = block_of(state);
+  for (auto _ : state) benchmark::DoNotOptimize(system_of(compound));
 }
 BENCHMARK(Set_up_after_a_break)->Apply(arguments);
 
