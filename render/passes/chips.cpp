@@ -105,7 +105,6 @@ void Chips::update(const Frame& frame, float pixels_a_radian, float shadow_texel
     all.insert(all.end(), others[v].begin(), others[v].end());
     variant.count = all.size() - variant.first;
   }
-  instances_ = all.size();
   if (all.empty()) return;
   fill_buffer(gl_, GL_ARRAY_BUFFER, instance_buffer_, all, GL_STREAM_DRAW);
 }

@@ -17,7 +17,6 @@ class Chips {
   /// Uploads where the frame's debris is; what is behind the eye or far below a pixel is left out.
   /// `shadow_texel_m`: smaller chips cast no shadow.
   void update(const Frame& frame, float pixels_a_radian, float shadow_texel_m);
-  bool any() const { return instances_ > 0; }
   /// Into the sun's shadow map.
   void draw_shadows() const;
   void draw() const;
@@ -40,7 +39,6 @@ class Chips {
   GLuint vertex_buffer_ = 0;
   GLuint instance_buffer_ = 0;
   std::array<Variant, kDebrisVariants> variants_;
-  std::size_t instances_ = 0;
 };
 
 }  // namespace sunder::render
