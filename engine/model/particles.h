@@ -100,7 +100,7 @@ struct ParticleLimits {
 };
 
 /// Of one kind. emitted + ignored counts all that was asked for; alive = emitted − gone.
-struct ParticleBooks {
+struct ParticleLedger {
   std::uint32_t alive = 0;
   std::uint32_t awake = 0;    ///< Of those alive.
   std::uint64_t emitted = 0;  ///< Since the start.
@@ -109,8 +109,8 @@ struct ParticleBooks {
 };
 
 struct ParticleReport {
-  ParticleBooks debris;
-  ParticleBooks dust;
+  ParticleLedger debris;
+  ParticleLedger dust;
   std::uint32_t air_cells = 0;       ///< 0 without dust.
   std::uint32_t air_iterations = 0;  ///< Of the last pressure solve.
 };

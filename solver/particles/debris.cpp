@@ -379,8 +379,8 @@ DebrisView Debris::view() const {
   return {position_W_, rotation_WD_, drawn_radius_m_, variant_, material_};
 }
 
-ParticleBooks Debris::ledger() const {
-  ParticleBooks ledger = ledger_;
+ParticleLedger Debris::ledger() const {
+  ParticleLedger ledger = ledger_;
   ledger.alive = static_cast<std::uint32_t>(position_W_.size());
   ledger.awake = static_cast<std::uint32_t>(awake_.size());
   return ledger;

@@ -34,7 +34,7 @@ class Debris {
   std::uint32_t room() const { return limit_ - static_cast<std::uint32_t>(position_W_.size()); }
   void advance(double dt_s, const Obstacles& obstacles);
   DebrisView view() const;
-  ParticleBooks ledger() const;
+  ParticleLedger ledger() const;
 
  private:
   enum class State : std::uint8_t { kAwake, kAsleep, kFading };
@@ -71,7 +71,7 @@ class Debris {
 
   std::uint32_t limit_;
   Vec3 gravity_W_;
-  ParticleBooks ledger_;
+  ParticleLedger ledger_;
   std::uint64_t next_rest_ = 0;
 
   std::vector<Vec3f> position_W_, velocity_W_, angular_velocity_W_;

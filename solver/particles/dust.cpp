@@ -273,8 +273,8 @@ DustView Dust::view() const {
   return {position_W_, rotation_WD_, radius_m_, opacity_, age_s_, material_};
 }
 
-ParticleBooks Dust::ledger() const {
-  ParticleBooks ledger = ledger_;
+ParticleLedger Dust::ledger() const {
+  ParticleLedger ledger = ledger_;
   ledger.alive = ledger.awake = static_cast<std::uint32_t>(position_W_.size());
   return ledger;
 }

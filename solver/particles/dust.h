@@ -34,7 +34,7 @@ class Dust {
   std::uint32_t room() const { return limit_ - static_cast<std::uint32_t>(position_W_.size()); }
   void advance(double dt_s, const Obstacles& obstacles);
   DustView view() const;
-  ParticleBooks ledger() const;
+  ParticleLedger ledger() const;
   /// Null without dust.
   const Air* air() const { return flow_ ? &flow_->air : nullptr; }
 
@@ -71,7 +71,7 @@ class Dust {
   Vec3f down_W_;
   Vec3i air_cells_;              ///< At most.
   Vec3i worth_ = Vec3i::Zero();  ///< As many as so many puffs are worth, whatever their cloud.
-  ParticleBooks ledger_;
+  ParticleLedger ledger_;
   std::optional<Flow> flow_;
   std::vector<float> sorted_m_;
   std::vector<std::uint32_t> cell_;   ///< Of the air that holds a puff, or kOutside.

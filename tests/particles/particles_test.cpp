@@ -76,7 +76,7 @@ std::uint64_t hash_of_a_run(int thread_count) {
     obstacles.advance(kDt);
     particles->advance(kDt, obstacles.view());
     hash = combine(hash, hash_of(*particles));
-    const ParticleBooks ledger = particles->report().debris;
+    const ParticleLedger ledger = particles->report().debris;
     asleep = std::max(asleep, ledger.alive - ledger.awake);
   }
   const ParticleReport report = particles->report();
