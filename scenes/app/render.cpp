@@ -1,6 +1,7 @@
 // sunder render: a scene, a take or one stored frame becomes a video or images.
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/io/figures.h"
