@@ -101,10 +101,10 @@ void Simulation::advance() {
     work();
     world.ledger.report.stage_ms[static_cast<int>(stage)] += watch.ms();
   };
-  std::vector<Impact> blows;  // of blasts
-  timed(Stage::kAct, [&] { blows = parts.act.run(world); });
+  std::vector<Impact> impacts;  // of blasts
+  timed(Stage::kAct, [&] { impacts = parts.act.run(world); });
   timed(Stage::kCollide, [&] { world.physics->collide(world.clock.horizon_s()); });
-  timed(Stage::kBreak, [&] { parts.breaks.run(world, breaker, blows); });
+  timed(Stage::kBreak, [&] { parts.breaks.run(world, breaker, impacts); });
   timed(Stage::kAct, [&] { parts.act.push(world); });
   timed(Stage::kSolve, [&] { solve(world); });
   timed(Stage::kLoad, [&] { parts.loads.run(world, breaker); });

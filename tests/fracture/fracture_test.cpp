@@ -155,7 +155,7 @@ TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_impact) {
   EXPECT_EQ(at_the_impact, 12);
 }
 
-TEST(Fracture, uses_the_pattern_of_the_blows_strength) {
+TEST(Fracture, uses_the_pattern_of_the_impacts_strength) {
   const auto breaker = make_pattern_breaker();
   const Compound box = box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1));
   Material stone;

@@ -181,7 +181,7 @@ TEST(Ghosts, keep_the_truths_when_a_column_breaks_under_its_roof) {
   }
 }
 
-TEST(Ghosts, hold_a_column_to_the_roof_that_the_blow_does_not_reach) {
+TEST(Ghosts, hold_a_column_to_the_roof_that_the_impact_does_not_reach) {
   const Compound pair =
       compound_of({{Vec3(0, 0, 0), Vec3(1, 4, 1)}, {Vec3(-1, 3.5, -1), Vec3(2, 5, 2)}});
   const BreakPlan plan = break_compound(pair, impact(Vec3(.5, 2.4, .5), 1, 40));

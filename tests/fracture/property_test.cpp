@@ -60,7 +60,7 @@ PatternSpec random_pattern(Random& random) {
 
 /// Breaks of all kinds; a third of them snapped to the solid's corners, faces and axes, where
 /// planes of the pattern run through vertices and along faces.
-BreakCommand random_blow(Random& random, const Compound& solid, std::uint64_t event) {
+BreakCommand random_impact(Random& random, const Compound& solid, std::uint64_t event) {
   BreakCommand command;
   command.event = event;
   command.seed = random.bits();
@@ -94,7 +94,7 @@ TEST(Truths, hold_over_ten_thousand_random_breaks) {
     for (std::size_t seed = begin; seed < end; ++seed) {
       Random random(seed, 11);
       const Compound solid = random_solid(random, seed);
-      const BreakCommand command = random_blow(random, solid, seed + 1);
+      const BreakCommand command = random_impact(random, solid, seed + 1);
       const BreakPlan plan = break_compound(solid, command);
       problems[seed] = broken_truth(solid, plan);
       pieces[seed] = static_cast<std::uint32_t>(plan.pieces.size());
@@ -130,7 +130,7 @@ TEST(Truths, hold_where_convexes_overlap_over_three_generations) {
     for (std::uint64_t generation = 1; generation <= 3; ++generation) {
       const std::size_t which = random.below(static_cast<std::uint32_t>(solids.size()));
       const Compound target = solids[which];
-      const BreakCommand command = random_blow(random, target, 10 * seed + generation);
+      const BreakCommand command = random_impact(random, target, 10 * seed + generation);
       const BreakPlan plan = break_compound(target, command);
       ASSERT_EQ(broken_truth(target, plan), "") << "seed " << seed << " generation " << generation;
       EXPECT_EQ(plan.failed, 0u);

@@ -158,13 +158,13 @@ std::vector<Impact> ActStage::run(World& world) {
   for (const Blast& blast : take_due(world.clock, world.scene.blasts, next_blast_)) {
     bursts_.push_back(light(blast, world.clock));
   }
-  std::vector<Impact> blows;
+  std::vector<Impact> impacts;
   for (Burst& burst : bursts_) {
     const std::vector<Impact> of_burst = blows_of(world, burst);
-    blows.insert(blows.end(), of_burst.begin(), of_burst.end());
+    impacts.insert(impacts.end(), of_burst.begin(), of_burst.end());
   }
   age(world);
-  return blows;
+  return impacts;
 }
 
 void ActStage::push(World& world) {

@@ -72,7 +72,7 @@ bool was_tried(const World& world, const Burst& burst, const Convex& convex, con
 
 /// The impact that a blast amounts to, where it presses hardest; of no energy if it cannot break
 /// it.
-Impact blow_on(const World& world, const Burst& burst, const Actor& actor, const Pose& X_WB) {
+Impact impact_of(const World& world, const Burst& burst, const Actor& actor, const Pose& X_WB) {
   const Blast& blast = burst.blast;
   Impact impact;
   const Pose X_WR = rest_pose(actor, X_WB);
@@ -136,14 +136,14 @@ Burst light(const Blast& blast, const Clock& clock) {
 
 std::vector<Impact> blows_of(const World& world, Burst& burst) {
   const BodyStates states = world.physics->states();
-  std::vector<Impact> blows;
+  std::vector<Impact> impacts;
   for (const Actor& actor : world.actors) {
-    const Impact blow = blow_on(world, burst, actor, states[actor.body].X_WB);
-    if (blow.energy_J <= 0) continue;
-    blows.push_back(blow);
+    const Impact impact = impact_of(world, burst, actor, states[actor.body].X_WB);
+    if (impact.energy_J <= 0) continue;
+    impacts.push_back(impact);
   }
-  for (const Impact& blow : blows) burst.tried_W.push_back(blow.point_W);
-  return blows;
+  for (const Impact& impact : impacts) burst.tried_W.push_back(impact.point_W);
+  return impacts;
 }
 
 void push_by(World& world, const Blast& blast) {

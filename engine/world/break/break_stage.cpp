@@ -134,13 +134,13 @@ bool BreakStage::take_on(const World& world, const Breaker& breaker, std::span<P
 }
 
 bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
-                                 std::span<const Impact> blows) {
-  for (const Impact& blow : blows) {
-    const auto same = [&](const Impact& known) { return known.key == blow.key; };
-    if (std::ranges::none_of(blows_waiting_, same)) blows_waiting_.push_back(blow);
+                                 std::span<const Impact> impacts) {
+  for (const Impact& impact : impacts) {
+    const auto same = [&](const Impact& known) { return known.key == impact.key; };
+    if (std::ranges::none_of(impacts_waiting_, same)) impacts_waiting_.push_back(impact);
   }
   std::vector<PlannedBreak> all;
-  for (const Impact& impact : std::exchange(blows_waiting_, {})) {
+  for (const Impact& impact : std::exchange(impacts_waiting_, {})) {
     const Actor* actor = world.actors.find(impact.key);
     if (!actor || !actor->structure.has(impact.convex)) continue;
     PlannedBreak planned;
@@ -148,7 +148,7 @@ bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
     if (take_on(world, breaker, std::span(&planned, 1))) {
       all.push_back(std::move(planned));
     } else {
-      blows_waiting_.push_back(impact);
+      impacts_waiting_.push_back(impact);
     }
   }
   std::vector<PlannedBreak*> pointers;
@@ -201,9 +201,9 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
   return again;
 }
 
-void BreakStage::run(World& world, const Breaker& breaker, std::span<const Impact> blows) {
+void BreakStage::run(World& world, const Breaker& breaker, std::span<const Impact> impacts) {
   const auto collide = [&] { world.physics->collide(world.clock.horizon_s()); };
-  if (break_by_blasts(world, breaker, blows)) collide();
+  if (break_by_blasts(world, breaker, impacts)) collide();
   waiting_room_.begin_step(world.actors);
   for (int round = 0; round <= kRounds; ++round) {
     const bool in_time = round < kRounds;
@@ -223,7 +223,7 @@ void BreakStage::run(World& world, const Breaker& breaker, std::span<const Impac
 }
 
 std::uint32_t BreakStage::waiting() const {
-  return static_cast<std::uint32_t>(blows_waiting_.size()) + waiting_room_.clusters();
+  return static_cast<std::uint32_t>(impacts_waiting_.size()) + waiting_room_.clusters();
 }
 
 }  // namespace sunder

@@ -50,9 +50,9 @@ class BreakStage {
   explicit BreakStage(const Limits& limits) : budget_(limits.parts_a_frame) {}
 
   void begin_frame() { budget_.begin_frame(); }
-  /// Breaks what `blows` of blasts, and what approaches, can break; contacts are found anew after
+  /// Breaks what `impacts` of blasts, and what approaches, can break; contacts are found anew after
   /// every round of breaks.
-  void run(World& world, const Breaker& breaker, std::span<const Impact> blows);
+  void run(World& world, const Breaker& breaker, std::span<const Impact> impacts);
   /// Impacts that wait for a later step's budget.
   std::uint32_t waiting() const;
 
@@ -60,7 +60,7 @@ class BreakStage {
   /// Makes impacts ready to be planned, and spends what they cost; false if that is too much.
   bool take_on(const World& world, const Breaker& breaker, std::span<PlannedBreak> all);
   /// Impacts that come with an energy of their own; true if something broke.
-  bool break_by_blasts(World& world, const Breaker& breaker, std::span<const Impact> blows);
+  bool break_by_blasts(World& world, const Breaker& breaker, std::span<const Impact> impacts);
   /// Follows all probes until each has broken something or come to the end of the step, or has to
   /// wait (if it is not `in_time`, or too costly); true if another round is due. What another trial
   /// has broken meanwhile is hit again in that round, as what became of it.
@@ -68,7 +68,7 @@ class BreakStage {
 
   BreakBudget budget_;
   std::uint64_t next_event_ = 1;
-  std::vector<Impact> blows_waiting_;  ///< Over the frame's budget: decided first in the next.
+  std::vector<Impact> impacts_waiting_;  ///< Over the frame's budget: decided first in the next.
   WaitingRoom waiting_room_;
 };
 
