@@ -74,10 +74,12 @@ void fly(const StepContext& step, BodySlot body, Bodies& bodies) {
   bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
 }
 
-Vec3 gyroscopic_change(const Bodies& bodies, BodySlot body, double dt_s) {
-  if (!wobbles(bodies, body, dt_s)) return Vec3::Zero();
-  return bodies.rotation[body] * spun_freely(bodies, body, dt_s).w_B -
-         bodies.angular_velocity[body];
+FreeRotation free_rotation(const Bodies& bodies, BodySlot body, double dt_s) {
+  const Quat& R_WB = bodies.rotation[body];
+  const Vec3& w_W = bodies.angular_velocity[body];
+  if (!wobbles(bodies, body, dt_s)) return {rotation_by(dt_s * w_W) * R_WB, w_W};
+  const Spin spin = spun_freely(bodies, body, dt_s);
+  return {spin.rotation, R_WB * spin.w_B};
 }
 
 }  // namespace sunder::solver

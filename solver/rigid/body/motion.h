@@ -10,9 +10,12 @@ namespace sunder::solver {
 /// angular momentum (implicit midpoint on the group; both are quadratic invariants of it).
 void fly(const StepContext& step, BodySlot body, Bodies& bodies);
 
-/// What free rotation over dt_s adds to the angular velocity of an uneven body as the body sees it
-/// (the gyroscopic term, given in W at today's rotation); zero where it is too slow to matter. It
-/// keeps the energy, provided that the velocity then turns with the body.
-Vec3 gyroscopic_change(const Bodies& bodies, BodySlot body, double dt_s);
+/// A step of rotation without impulses: where it ends, and the angular velocity then, as the body
+/// sees it but given in W at today's rotation (it keeps the energy if it then turns with the body).
+struct FreeRotation {
+  Quat R_WB;
+  Vec3 angular_velocity_W;
+};
+FreeRotation free_rotation(const Bodies& bodies, BodySlot body, double dt_s);
 
 }  // namespace sunder::solver

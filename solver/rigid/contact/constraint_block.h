@@ -28,11 +28,12 @@ struct PointLanes {
   WideOf<lanes> impulse;
 };
 
-/// What only bouncing needs of a point.
+/// What only rebounds need.
 template <std::uint32_t lanes>
 struct ReboundLanes {
-  WideOf<lanes> speed;         ///< To leave with; 0: none.
-  WideOf<lanes> most_impulse;  ///< Of a substep.
+  WideOf<lanes> restitution;
+  WideOf<lanes> fall_m_s2;  ///< With which gravity closes the contact.
+  float least_m_s = 0;      ///< Slower impacts do not rebound.
 };
 
 /// What only split manifolds need.
@@ -67,7 +68,7 @@ struct alignas(64) ConstraintBlock {
   std::uint32_t points = 0;  ///< Of each manifold.
   bool split = false;
   bool summed = false;  ///< Some lane touches something immovable, or that bears load.
-  bool bouncy = false;  ///< Some point has a rebound.
+  bool bouncy = false;  ///< Some lane has restitution.
   bool rolls = false;   ///< Some lane resists rolling.
   alignas(4 * lanes) WideOf<lanes> inverse_mass_a;
   WideOf<lanes> inverse_mass_b;
@@ -84,7 +85,7 @@ struct alignas(64) ConstraintBlock {
 
   Wide3Of<lanes> total;        ///< Impulse on b over the step, if summed.
   WideOf<lanes> outside_sign;  ///< +1: a is immovable, −1: b is.
-  std::array<ReboundLanes<lanes>, 4> rebound;
+  ReboundLanes<lanes> rebound;
   SplitLanes<lanes> parts;
   RollLanes<lanes> roll;
 };

@@ -19,6 +19,13 @@ class BlocksOf final : public ContactBlocks {
     const std::size_t blocks = manifolds / kWidth + kMaxColors;
     if (blocks > blocks_.capacity()) blocks_.reserve(std::max(blocks, 2 * blocks_.size()));
   }
+  void follow_bodies(bool wanted) override { arms_.resize(wanted ? used_ : 0); }
+  void follow(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::follow(blocks_[i], arms_[i], step.rows);
+  }
+  void settle(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::settle(blocks_[i], arms_[i], step.rows);
+  }
   void remember() override { search_.resize(used_); }
   void add(std::uint32_t first, std::uint32_t count, std::uint32_t points, bool split) override {
     for (std::uint32_t i = 0; i < count; i += kWidth) {
@@ -35,7 +42,7 @@ class BlocksOf final : public ContactBlocks {
   void prepare(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) {
       if (i + 1 < end) fetch_manifolds(blocks_[i + 1], step);
-      prepare_block(step, blocks_[i]);
+      prepare_block(step, blocks_[i], arms_.empty() ? nullptr : &arms_[i]);
     }
   }
   void warm_start(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
@@ -57,7 +64,16 @@ class BlocksOf final : public ContactBlocks {
     for (std::uint32_t i = begin; i < end; ++i) solver::sum_impulses(blocks_[i]);
   }
   void scale_impulses(std::uint32_t begin, std::uint32_t end, const float* share_of_row) override {
-    for (std::uint32_t i = begin; i < end; ++i) solver::scale_impulses(blocks_[i], share_of_row);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      ArmLanes<kWidth>* const arms = arms_.empty() ? nullptr : &arms_[i];
+      solver::scale_impulses(blocks_[i], arms, share_of_row);
+    }
+  }
+  void take_way_back(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                     const float* share_of_row) override {
+    const auto h_s = static_cast<float>(step.context.h_s);
+    for (std::uint32_t i = begin; i < end; ++i)
+      solver::take_way_back(blocks_[i], arms_[i], step.rows, share_of_row, h_s);
   }
   void mark(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::mark(blocks_[i], search_[i]);
@@ -73,8 +89,11 @@ class BlocksOf final : public ContactBlocks {
     for (std::uint32_t i = begin; i < end; ++i)
       solver::go_on(blocks_[i], search_[i], step.rows, beta);
   }
-  void bounce(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
-    for (std::uint32_t i = begin; i < end; ++i) solver::bounce(blocks_[i], step.rows);
+  bool strike(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    const auto h_s = static_cast<float>(step.context.h_s);
+    bool any = false;
+    for (std::uint32_t i = begin; i < end; ++i) any |= solver::strike(blocks_[i], step.rows, h_s);
+    return any;
   }
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -112,6 +131,7 @@ class BlocksOf final : public ContactBlocks {
   }
 
   std::vector<ConstraintBlock<kWidth>> blocks_;
+  std::vector<ArmLanes<kWidth>> arms_;
   std::vector<SearchLanes<kWidth>> search_;
   std::uint32_t used_ = 0;
 };

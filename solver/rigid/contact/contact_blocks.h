@@ -32,6 +32,13 @@ class ContactBlocks {
   /// To be called after it: see sweep.h.
   virtual void scale_impulses(std::uint32_t begin, std::uint32_t end,
                               const float* share_of_row) = 0;
+  virtual void take_way_back(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                             const float* share_of_row) = 0;
+  /// Makes room for arms that follow the bodies (see sweep.h), once all blocks are added; or does
+  /// without.
+  virtual void follow_bodies(bool wanted) = 0;
+  virtual void follow(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
+  virtual void settle(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
   /// Makes room for what conjugate gradients remember, once all blocks are added.
   virtual void remember() = 0;
   // Conjugate gradients, of blocks that are not split (see sweep.h). `energy` is by manifold.
@@ -39,7 +46,8 @@ class ContactBlocks {
   virtual void measure(std::uint32_t begin, std::uint32_t end, float* energy) const = 0;
   virtual void go_on(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
                      float beta) = 0;
-  virtual void bounce(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
+  /// False if nothing was struck.
+  virtual bool strike(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
   virtual void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
 
   /// On bodies, over the step, from what cannot move.

@@ -1,6 +1,9 @@
 // Read first: ContactSolver::Stages::plan(), the list of the stages of a solve.
 #include "solver/rigid/contact/contact_solver.h"
 
+#include <algorithm>
+#include <atomic>
+
 #include "engine/base/nncg.h"
 #include "engine/base/rotation.h"
 #include "solver/rigid/body/motion.h"
@@ -10,6 +13,8 @@ namespace {
 
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
+constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
+constexpr double kMoves = 1e-5;    // in a step, of a body's reach: less is rest
 
 }  // namespace
 
@@ -73,6 +78,14 @@ class ContactSolver::Stages {
     }
   }
 
+  /// Before sweeps, which let nothing meet with any speed.
+  void strikes() {
+    if (!solver_.order_.bouncy()) return;
+    for (int round = 0; round < kStrikeRounds; ++round) {
+      once(round == 0 ? &Stages::first_strikes : &Stages::begin_strikes);
+      each_color(&Stages::strike);
+    }
+  }
   void once(Work work) { stages_.push_back({{0, 1, 1}, work}); }
   template <WorkOnBody work>
   void all_bodies() {
@@ -128,6 +141,7 @@ class ContactSolver::Stages {
     row(body).position += static_cast<float>(step_.h_s) * row(body).velocity;
   }
   void finish(BodySlot body);
+  Quat rotation_now(BodySlot body, const Vec3& angle_W) const;
 
   // Blocks of manifolds.
   void prepare(std::uint32_t begin, std::uint32_t end) {
@@ -135,6 +149,12 @@ class ContactSolver::Stages {
   }
   void warm_start(std::uint32_t begin, std::uint32_t end) {
     solver_.blocks_->warm_start(begin, end, contact_step_);
+  }
+  void follow(std::uint32_t begin, std::uint32_t end) {
+    solver_.blocks_->follow(begin, end, contact_step_);
+  }
+  void settle(std::uint32_t begin, std::uint32_t end) {
+    solver_.blocks_->settle(begin, end, contact_step_);
   }
   void sweep_biased(std::uint32_t begin, std::uint32_t end) {
     solver_.blocks_->sweep_biased(begin, end, contact_step_);
@@ -146,8 +166,11 @@ class ContactSolver::Stages {
     sweep_relaxed(begin, end);
     solver_.blocks_->sum_impulses(begin, end);
   }
-  void bounce(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->bounce(begin, end, contact_step_);
+  /// Another round, if the last one struck something: what it struck may now meet a neighbour.
+  void first_strikes(std::uint32_t, std::uint32_t) { strikes_on_ = true, struck_ = 0; }
+  void begin_strikes(std::uint32_t, std::uint32_t) { strikes_on_ = struck_.exchange(0) != 0; }
+  void strike(std::uint32_t begin, std::uint32_t end) {
+    if (strikes_on_ && solver_.blocks_->strike(begin, end, contact_step_)) struck_ = 1;
   }
   void store(std::uint32_t begin, std::uint32_t end) {
     solver_.blocks_->store(begin, end, contact_step_);
@@ -194,6 +217,11 @@ class ContactSolver::Stages {
     if (solver_.energy_guard_.objects())
       solver_.blocks_->scale_impulses(begin, end, solver_.energy_guard_.share_of_row());
   }
+  void take_way_back(std::uint32_t begin, std::uint32_t end) {
+    if (solver_.energy_guard_.objects())
+      solver_.blocks_->take_way_back(begin, end, contact_step_,
+                                     solver_.energy_guard_.share_of_row());
+  }
   void scale_joints(std::uint32_t i) {
     if (solver_.energy_guard_.objects())
       solver_.joint_solver_.scale_impulses(i, step_, solver_.energy_guard_.share_of_row(), rows_);
@@ -208,6 +236,8 @@ class ContactSolver::Stages {
   Wide gravity_;  ///< What it does to a row's velocity in a substep.
   ContactStep contact_step_;
   std::vector<Stage> stages_;
+  bool strikes_on_ = false;
+  std::atomic<int> struck_ = 0;  ///< In this round of strikes.
   Nncg nncg_;
   float beta_ = 0;
 };
@@ -229,10 +259,14 @@ void ContactSolver::Stages::plan() {
       join_if_split();
     } else {
       joined ? all_bodies<&Stages::kick>() : all_bodies<&Stages::join_and_kick>();
+      if (solver_.moving_) each_color(&Stages::settle), join_if_split();
     }
+    strikes();
     sweeps<&Stages::push_joints>(&Stages::sweep_biased, &Stages::sweep_biased);
     all_bodies<&Stages::join_and_move>();
+    if (solver_.moving_) all_blocks(&Stages::follow);
     each_joint_color<&Stages::refresh_joints>();
+    strikes();
     sweeps<&Stages::relax_joints>(&Stages::sweep_relaxed, &Stages::sweep_last);
     if (joined || s + 1 == step_.substeps) join_if_split();
     each_joint_color<&Stages::test_joints>();
@@ -240,17 +274,21 @@ void ContactSolver::Stages::plan() {
     all_bodies<&Stages::weigh>();
     once(&Stages::judge);
     all_bodies<&Stages::scale_body>();
+    if (solver_.moving_) each_color(&Stages::take_way_back);
     all_blocks(&Stages::scale_impulses);
     each_joint_color<&Stages::scale_joints>();
   }
-  each_color(&Stages::bounce);
-  join_if_split();
   all_blocks(&Stages::store);
   all_bodies<&Stages::finish>();
 }
 
 void ContactSolver::Stages::begin(BodySlot body) {
-  bodies_.angular_velocity[body] += gyroscopic_change(bodies_, body, step_.dt_s);
+  const Mat3 R_WB(bodies_.rotation[body]);
+  solver_.spin_W_[body] =
+      R_WB * bodies_.inertia_B[body] * R_WB.transpose() * bodies_.angular_velocity[body];
+  const FreeRotation free = free_rotation(bodies_, body, step_.dt_s);
+  solver_.free_rotation_[body] = free.R_WB;
+  bodies_.angular_velocity[body] = free.angular_velocity_W;
   const Mat3f& root_B = bodies_.root_B[body];
   solver_.root_W_[body] = bodies_.rotation_f[body] * root_B;
   const Vec3 spin_B = bodies_.rotation[body].conjugate() * bodies_.angular_velocity[body];
@@ -265,19 +303,33 @@ void ContactSolver::Stages::begin(BodySlot body) {
 void ContactSolver::Stages::finish(BodySlot body) {
   const BodyRow& r = row(body);
   const Mat3f& root_W = solver_.root_W_[body];
+  const Mat3 R_WB_then(bodies_.rotation[body]);
   // Only the change goes back, so that the doubles keep what no contact touched.
   const Wide change = r.velocity - r.start;
   bodies_.velocity[body] += linear(change).cast<double>();
-  bodies_.angular_velocity[body] += (root_W * angular(change)).cast<double>();
   const Vec3f way = linear(r.position);
   const Vec3f angle = root_W * angular(r.position);
-  const Quat rotation = rotation_by(angle.cast<double>());
-  // Energy is that of the velocity as an uneven body sees it, so it turns with the body.
-  if (bodies_.spins_freely[body])
-    bodies_.angular_velocity[body] = rotation * bodies_.angular_velocity[body];
   bodies_.place(body, bodies_.position[body] + way.cast<double>(),
-                rotation * bodies_.rotation[body]);
+                rotation_now(body, angle.cast<double>()));
   bodies_.turned_m[body] += 1.1 * double{angle.norm()} * bodies_.reach_m[body];
+  // Angular momentum is what it was and what the impulses added, whatever way the body now lies.
+  const Mat3& inertia_B = bodies_.inertia_B[body];
+  const Mat3 R_WB(bodies_.rotation[body]);
+  const Vec3 added_B = inertia_B * (bodies_.root_B[body] * angular(change)).cast<double>();
+  const Vec3 spin_W = solver_.spin_W_[body] + R_WB_then * added_B;
+  bodies_.angular_velocity[body] = R_WB * (inertia_B.inverse() * (R_WB.transpose() * spin_W));
+}
+
+/// After turning by `angle_W` in all. What impulses add to free rotation is put on top of it where
+/// it is less than what a constant angular velocity would get wrong of that.
+Quat ContactSolver::Stages::rotation_now(BodySlot body, const Vec3& angle_W) const {
+  const Quat& R_WB = bodies_.rotation[body];
+  const Quat& free = solver_.free_rotation_[body];
+  const Vec3 start_W = (solver_.root_W_[body] * angular(rows_[row_of(body)].start)).cast<double>();
+  const Vec3 alone_W = step_.dt_s * start_W, more_W = angle_W - alone_W;
+  const Quat wrong = free * (rotation_by(alone_W) * R_WB).conjugate();
+  return more_W.squaredNorm() < 4 * wrong.vec().squaredNorm() ? rotation_by(more_W) * free
+                                                              : rotation_by(angle_W) * R_WB;
 }
 
 ContactSolver::ContactSolver(const ContactSolverOptions& options)
@@ -293,6 +345,10 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   energy_.resize(accelerated ? order_.manifolds().size() : 0);
   joint_solver_.collect(bodies, joints, order_.in_contact());
   collect_bodies(bodies);
+  moving_ = std::ranges::any_of(active_, [&](BodySlot body) {
+    return bodies.velocity[body].norm() * step.dt_s > kMoves * bodies.reach_m[body];
+  });
+  blocks_->follow_bodies(moving_);
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(), bodies,
                         contacts);
   Stages(*this, step, bodies, contacts, joints).run();
@@ -320,6 +376,8 @@ void ContactSolver::collect_bodies(const Bodies& bodies) {
   rows_.resize(bodies.size() + 1);
   rows_[0] = BodyRow{};
   root_W_.resize(bodies.size());
+  spin_W_.resize(bodies.size());
+  free_rotation_.resize(bodies.size());
   active_.clear();
   flying_.clear();
   for (const BodySlot body : bodies.slots())

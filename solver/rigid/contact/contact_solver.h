@@ -58,7 +58,10 @@ class ContactSolver {
   std::vector<BodySlot> flying_;    ///< Awake bodies that touch nothing.
   std::vector<BodyRow> rows_;       ///< As row_of().
   ByBody<Mat3f> root_W_;
-  std::vector<float> energy_;  ///< Of a sweep's changes, by manifold; none: sweeps go plainly.
+  ByBody<Vec3> spin_W_;         ///< Angular momentum when the step began.
+  ByBody<Quat> free_rotation_;  ///< Where bodies would have turned without impulses.
+  bool moving_ = false;         ///< Some body in contact moves: arms follow.
+  std::vector<float> energy_;   ///< Of a sweep's changes, by manifold; none: sweeps go plainly.
 };
 
 }  // namespace sunder::solver

@@ -58,13 +58,28 @@ SUNDER_INLINE void set_tangents(ConstraintBlock<lanes>& c) {
   c.tangent_2 = cross(c.normal, c.tangent_1);
 }
 
+/// Lets both sides act at one point: see ArmLanes.
 template <std::uint32_t lanes>
-SUNDER_INLINE void derive_friction(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+SUNDER_INLINE void meet(GatheredBlock<lanes>& g, const ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
-  c.slide_1_a = to_root(g.root_a, cross(g.friction_arm_a, c.tangent_1));
-  c.slide_1_b = to_root(g.root_b, cross(g.friction_arm_b, c.tangent_1));
-  c.slide_2_a = to_root(g.root_a, cross(g.friction_arm_a, c.tangent_2));
-  c.slide_2_b = to_root(g.root_b, cross(g.friction_arm_b, c.tangent_2));
+  const V zero = {}, one = splat<V>(1);
+  g.gap = g.offset + g.friction_arm_b - g.friction_arm_a;
+  const V near = dot(g.gap, g.gap) > g.most ? zero : one;
+  g.bridged = g.gap * near;
+  const V by_a = near * g.share_a, by_b = near * (one - g.share_a);
+  const auto meet_at = [&](Wide3Of<lanes>& arm_a, Wide3Of<lanes>& arm_b) {
+    const Wide3Of<lanes> gap = g.offset + arm_b - arm_a;
+    arm_a = arm_a + gap * by_a;
+    arm_b = arm_b - gap * by_b;
+  };
+  meet_at(g.friction_arm_a, g.friction_arm_b);
+  for (std::uint32_t i = 0; i < c.points; ++i) meet_at(g.arm_a[i], g.arm_b[i]);
+}
+
+/// Effective masses of sliding.
+template <std::uint32_t lanes>
+SUNDER_INLINE void weigh_slide(ConstraintBlock<lanes>& c) {
+  using V = WideOf<lanes>;
   const V inverse_mass = c.inverse_mass_a + c.inverse_mass_b;
   const Response<V> angular_1 = {dot(c.slide_1_a, c.slide_1_a), dot(c.slide_1_b, c.slide_1_b)};
   const Response<V> angular_2 = {dot(c.slide_2_a, c.slide_2_a), dot(c.slide_2_b, c.slide_2_b)};
@@ -77,6 +92,15 @@ SUNDER_INLINE void derive_friction(const GatheredBlock<lanes>& g, ConstraintBloc
     c.parts.slide_split_scale =
         split_scale(c, {c.inverse_mass_a + c.inverse_mass_a + angular_1.a + angular_2.a,
                         c.inverse_mass_b + c.inverse_mass_b + angular_1.b + angular_2.b});
+}
+
+template <std::uint32_t lanes>
+SUNDER_INLINE void derive_friction(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
+  c.slide_1_a = to_root(g.root_a, cross(g.friction_arm_a, c.tangent_1));
+  c.slide_1_b = to_root(g.root_b, cross(g.friction_arm_b, c.tangent_1));
+  c.slide_2_a = to_root(g.root_a, cross(g.friction_arm_a, c.tangent_2));
+  c.slide_2_b = to_root(g.root_b, cross(g.friction_arm_b, c.tangent_2));
+  weigh_slide(c);
   c.twist_a = to_root(g.root_a, c.normal);
   c.twist_b = to_root(g.root_b, c.normal);
   c.twist_mass = reciprocal(dot(c.twist_a, c.twist_a) + dot(c.twist_b, c.twist_b));
@@ -98,20 +122,6 @@ SUNDER_INLINE void derive_roll(const GatheredBlock<lanes>& g, ConstraintBlock<la
   r.mass_11 = k22 * scale, r.mass_12 = -k12 * scale, r.mass_22 = k11 * scale;
   r.impulse_1 = dot(g.roll_impulse, c.tangent_1);
   r.impulse_2 = dot(g.roll_impulse, c.tangent_2);
-}
-
-/// The speed at which the point will have closed its gap, by energy, times restitution.
-template <std::uint32_t lanes>
-SUNDER_INLINE WideOf<lanes> rebound_of(const GatheredBlock<lanes>& g,
-                                       const ConstraintBlock<lanes>& c, const PointLanes<lanes>& p,
-                                       WideOf<lanes> u) {
-  using V = WideOf<lanes>;
-  const V zero = {};
-  const V fall = max(zero, -dot(c.normal, g.gravity)) * max(zero, p.separation);
-  const V speed = sqrt(u * u + fall + fall);
-  const auto bounces =
-      (u < splat<V>(-g.bounce_speed_m_s)) & (g.restitution > zero) & (p.mass > zero);
-  return bounces ? speed * g.restitution : zero;
 }
 
 template <std::uint32_t lanes>
@@ -143,17 +153,6 @@ SUNDER_INLINE void derive_springs(const GatheredBlock<lanes>& g, ConstraintBlock
   for (std::uint32_t i = 0; i < c.points; ++i) c.parts.press_split_scale[i] *= g.compliance_scale;
 }
 
-template <bool kSplit, std::uint32_t lanes>
-SUNDER_INLINE void derive_rebounds(const GatheredBlock<lanes>& g, const SolverRows& bodies,
-                                   ConstraintBlock<lanes>& c) {
-  const Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
-  for (std::uint32_t i = 0; i < c.points; ++i) {
-    const PointLanes<lanes>& p = c.point[i];
-    c.rebound[i].speed = rebound_of(g, c, p, v.along(c.normal, p.angular_a, p.angular_b));
-    c.bouncy = c.bouncy || any(c.rebound[i].speed > WideOf<lanes>{});
-  }
-}
-
 /// Sleepers stay where they are: no response to any impulse.
 template <std::uint32_t lanes>
 SUNDER_INLINE void fix_sleepers(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
@@ -168,30 +167,116 @@ SUNDER_INLINE void fix_sleepers(const GatheredBlock<lanes>& g, ConstraintBlock<l
 }
 
 template <std::uint32_t lanes>
-void derive(GatheredBlock<lanes>& g, const SolverRows& bodies, ConstraintBlock<lanes>& c) {
+void derive(GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
   if (c.split) split_bodies(g, c);
   set_tangents(c);
+  meet(g, c);
   derive_friction(g, c);
   if (c.rolls) derive_roll(g, c);
   derive_points(g, c);
   derive_springs(g, c);
-  if (any(g.restitution > WideOf<lanes>{}))
-    c.split ? derive_rebounds<true>(g, bodies, c) : derive_rebounds<false>(g, bodies, c);
+  c.rebound.fall_m_s2 = max(WideOf<lanes>{}, -dot(c.normal, g.gravity));
   if (g.sleepers) fix_sleepers(g, c);
+}
+
+template <bool kSplit, std::uint32_t lanes>
+SUNDER_INLINE void follow_as(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
+                             const SolverRows& bodies) {
+  using V = WideOf<lanes>;
+  using V3 = Wide3Of<lanes>;
+  const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
+  const V zero = {}, one = splat<V>(1);
+  const V3 gap = arms.gap + (x.b.linear - x.a.linear);
+  const V near = dot(gap, gap) > arms.most ? zero : one;
+  V3 more = gap * near - arms.bridged;
+  const auto moved = dot(more, more) > arms.least;
+  const V follows = moved ? one : zero;
+  arms.owed_a = arms.owed_b = V3{};
+  arms.moved_by = (c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
+                   c.tangent_2 * c.slide_impulse_2) *
+                  near;
+  if (!any(follows > zero)) return;
+  more = more * follows;
+  arms.bridged = arms.bridged + more;
+  const V3 shift_a = more * arms.share_a, shift_b = more * (arms.share_a - one);
+  // All arms of a side shift alike, so all Jacobians along one direction change alike. Separations
+  // and drifts stay what they are.
+  const auto shift = [&](const V3& direction, V3& by_a, V3& by_b) {
+    by_a = to_root(arms.root_a, cross(shift_a, direction));
+    by_b = to_root(arms.root_b, cross(shift_b, direction));
+    return dot(by_b, x.b.angular) - dot(by_a, x.a.angular);
+  };
+  V3 by_a, by_b;
+  const V pressed = shift(c.normal, by_a, by_b), load = total_impulse(c);
+  arms.owed_a = by_a * load, arms.owed_b = by_b * load;
+  // What meets a sleeper stays as soft as it was: see sleep.h.
+  const auto both = (c.inverse_mass_a > zero) & (c.inverse_mass_b > zero) & (follows > zero);
+  const V inverse_mass = c.inverse_mass_a + c.inverse_mass_b;
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    PointLanes<lanes>& p = c.point[i];
+    p.angular_a = p.angular_a + by_a, p.angular_b = p.angular_b + by_b;
+    p.separation = p.separation - pressed;
+    const Response<V> angular = {dot(p.angular_a, p.angular_a), dot(p.angular_b, p.angular_b)};
+    p.mass = both ? reciprocal(inverse_mass + angular.a + angular.b) : p.mass;
+  }
+  c.drift_1 = c.drift_1 - shift(c.tangent_1, by_a, by_b);
+  c.slide_1_a = c.slide_1_a + by_a, c.slide_1_b = c.slide_1_b + by_b;
+  arms.owed_a = arms.owed_a + by_a * c.slide_impulse_1;
+  arms.owed_b = arms.owed_b + by_b * c.slide_impulse_1;
+  c.drift_2 = c.drift_2 - shift(c.tangent_2, by_a, by_b);
+  c.slide_2_a = c.slide_2_a + by_a, c.slide_2_b = c.slide_2_b + by_b;
+  arms.owed_a = arms.owed_a + by_a * c.slide_impulse_2;
+  arms.owed_b = arms.owed_b + by_b * c.slide_impulse_2;
+  const V slide_11 = c.slide_11, slide_12 = c.slide_12, slide_22 = c.slide_22;
+  weigh_slide(c);
+  c.slide_11 = both ? c.slide_11 : slide_11;
+  c.slide_12 = both ? c.slide_12 : slide_12;
+  c.slide_22 = both ? c.slide_22 : slide_22;
+  arms.owes = true;
+}
+
+template <std::uint32_t lanes>
+void follow(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& bodies) {
+  c.split ? follow_as<true>(c, arms, bodies) : follow_as<false>(c, arms, bodies);
+}
+
+template <bool kSplit, std::uint32_t lanes>
+SUNDER_INLINE void settle_as(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
+                             const SolverRows& bodies) {
+  Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
+  if (arms.owes) {
+    v.a.angular = v.a.angular - arms.owed_a;
+    v.b.angular = v.b.angular + arms.owed_b;
+  }
+  store(c, v, bodies);
+  arms.owes = false;
+}
+
+template <std::uint32_t lanes>
+void settle(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& bodies) {
+  // Every split block leaves its changes, or older ones would be summed again.
+  if (c.split)
+    settle_as<true>(c, arms, bodies);
+  else if (arms.owes)
+    settle_as<false>(c, arms, bodies);
 }
 
 /// Compiles all kernels for so many lanes.
 #define SUNDER_SWEEP_KERNELS(lanes)                                                            \
-  template void derive(GatheredBlock<lanes>&, const SolverRows&, ConstraintBlock<lanes>&);     \
+  template void derive(GatheredBlock<lanes>&, ConstraintBlock<lanes>&);                        \
+  template void follow(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&);          \
+  template void settle(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&);          \
   template void warm_start(ConstraintBlock<lanes>&, const SolverRows&);                        \
   template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);     \
   template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);    \
   template void sum_impulses(ConstraintBlock<lanes>&);                                         \
-  template void scale_impulses(ConstraintBlock<lanes>&, const float*);                         \
+  template void scale_impulses(ConstraintBlock<lanes>&, ArmLanes<lanes>*, const float*);       \
+  template void take_way_back(const ConstraintBlock<lanes>&, const ArmLanes<lanes>&,           \
+                              const SolverRows&, const float*, float);                         \
   template void mark(const ConstraintBlock<lanes>&, SearchLanes<lanes>&);                      \
   template void measure(const ConstraintBlock<lanes>&, const SearchLanes<lanes>&, float*);     \
   template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float); \
-  template void bounce(ConstraintBlock<lanes>&, const SolverRows&);                            \
+  template bool strike(ConstraintBlock<lanes>&, const SolverRows&, float);                     \
   template void separations_now(const ConstraintBlock<lanes>&, const SolverRows&, float(*)[lanes]);
 
 }  // namespace sunder::solver

@@ -19,6 +19,9 @@ constexpr float kLeastCompliance = 0.1f;  // beyond, sweeps do not keep up
 constexpr float kLeastProp = 0.5f;  // of what is not pinched: what stands on it bounces at 0.3
 constexpr float kComplianceStep = 0.97f;  // a step
 
+constexpr float kWidestGap = 4;     // of the inner radius: what is farther off has yet to meet
+constexpr float kLeastWay = 3e-6f;  // of that: what bodies move past each other unheeded
+
 template <class V>
 void set_columns(Triple<V> (&columns)[3], std::uint32_t lane, const Mat3f& root) {
   for (int k = 0; k < 3; ++k) set_lane(columns[k], lane, root.col(k));
@@ -47,6 +50,10 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
     set_columns(g.root_b, lane, b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
   c.summed = c.summed || !a || !b || bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b];
   c.outside_sign[lane] = (a ? 0.f : 1.f) - (b ? 0.f : 1.f);
+  set_lane(g.offset, lane,
+           Vec3f((bodies.position[m.body_b] - bodies.position[m.body_a]).cast<float>()));
+  g.share_a[lane] = m.normal_on_b ? 0 : 1;
+  g.most[lane] = kWidestGap * kWidestGap * m.size_m * m.size_m;
   set_lane(g.gravity, lane,
            ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }
@@ -80,7 +87,8 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
   c.roll.arm[lane] = m.rolling_m;
   c.rolls = c.rolls || m.rolling_m > 0;
   set_lane(g.roll_impulse, lane, step.context.impulse_scale * m.roll_impulse_W);
-  g.restitution[lane] = m.restitution;
+  c.rebound.restitution[lane] = m.restitution;
+  c.bouncy = c.bouncy || m.restitution > 0;
   g.compliance_scale[lane] = m.compliance_scale;
   c.push_m_s[lane] = push_m_s(step, m);
   const float most_overlap = most_overlap_m(step, m);
@@ -96,14 +104,14 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
 }  // namespace
 
 template <std::uint32_t lanes>
-void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c) {
+void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<lanes>* arms) {
   const std::uint32_t first = c.first, count = c.count;
   const std::uint32_t points = c.points;
   const bool split = c.split;
   c = ConstraintBlock<lanes>{};
   c.first = first, c.count = count, c.points = points, c.split = split;
   GatheredBlock<lanes> g;
-  g.bounce_speed_m_s = step.bounce_speed_m_s;
+  c.rebound.least_m_s = step.rebound_m_s;
   g.press = step.soft.press[points - 1];
   for (std::uint32_t lane = 0; lane < lanes; ++lane) g.parts_a[lane] = g.parts_b[lane] = 1;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
@@ -116,7 +124,17 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c) {
     g.parts_a[lane] = static_cast<float>(sides.parts_a);
     g.parts_b[lane] = static_cast<float>(sides.parts_b);
   }
-  derive(g, step.rows, c);
+  derive(g, c);
+  if (!arms) return;
+  *arms = {};
+  for (int k = 0; k < 3; ++k) {
+    arms->root_a[k] = g.root_a[k] * g.awake_a;
+    arms->root_b[k] = g.root_b[k] * g.awake_b;
+  }
+  arms->share_a = g.share_a, arms->most = g.most;
+  arms->gap = g.gap, arms->bridged = g.bridged;
+  for (std::uint32_t lane = 0; lane < lanes; ++lane)
+    arms->least[lane] = kLeastWay * kLeastWay * g.most[lane];
 }
 
 /// How soft a contact should be for the load it bears, approached from how soft it was.
@@ -162,8 +180,8 @@ void store_block(const ContactStep& step, const ConstraintBlock<lanes>& c) {
   }
 }
 
-#define SUNDER_PREPARE(lanes)                                               \
-  template void prepare_block(const ContactStep&, ConstraintBlock<lanes>&); \
+#define SUNDER_PREPARE(lanes)                                                                 \
+  template void prepare_block(const ContactStep&, ConstraintBlock<lanes>&, ArmLanes<lanes>*); \
   template void store_block(const ContactStep&, const ConstraintBlock<lanes>&);
 SUNDER_PREPARE(1)
 SUNDER_PREPARE(4)

@@ -24,7 +24,7 @@ struct ContactStep {
   SpanByBody<const Mat3f> root_W;           ///< Of those awake.
   SolverRows rows;
   SoftStep soft;
-  float bounce_speed_m_s;                               ///< Slower impacts do not bounce.
+  float rebound_m_s;                                    ///< Slower impacts do not rebound.
   SpanByBody<const std::uint32_t> deep_contacts = {};   ///< Empty: there are none.
   SpanByBody<const std::uint8_t> loaded_contacts = {};  ///< Loaded manifolds, up to kPinched.
 };
@@ -33,9 +33,11 @@ struct ContactStep {
 /// all of them together as fast as so many would be: however many lie in one place.
 inline constexpr std::uint32_t kCrowdOfDeep = 8, kDeepTogether = 2;
 
-/// Fills everything but `first`, `count`, `points` and `split`, which say what goes in.
+/// Fills everything but `first`, `count`, `points` and `split`, which say what goes in; and `arms`,
+/// if they are to follow the bodies.
 template <std::uint32_t lanes>
-void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& block);
+void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& block,
+                   ArmLanes<lanes>* arms = nullptr);
 
 /// Hands impulses and final separations back to the manifolds, and lets friction anchors go where
 /// the patch slid.

@@ -12,6 +12,23 @@ struct SolverRows {
   Wide* parts = nullptr;  ///< What split manifolds did to their bodies, to be summed.
 };
 
+/// How the arms of a block's impulses follow its bodies within a step. An impulse and its
+/// counterpart act at one point, where the body whose corners touch the other's face has it; or the
+/// two would change the sum of angular momentum by what the bodies move past each other.
+template <std::uint32_t lanes>
+struct alignas(64) ArmLanes {
+  alignas(4 * lanes) Wide3Of<lanes> root_a[3] = {};  ///< Columns; zero where it takes no impulse.
+  Wide3Of<lanes> root_b[3] = {};
+  WideOf<lanes> share_a = {};  ///< Of a gap that arms of a bridge; those of b bridge the rest.
+  WideOf<lanes> least = {};    ///< Square of a change of the gap too small to follow.
+  WideOf<lanes> most = {};     ///< Square of a gap too wide to bridge: they are still to meet.
+  Wide3Of<lanes> gap = {};     ///< From a's point of friction to b's when the step began.
+  Wide3Of<lanes> bridged = {};
+  Wide3Of<lanes> moved_by = {};             ///< Impulse on b with which the bodies last moved.
+  Wide3Of<lanes> owed_a = {}, owed_b = {};  ///< What impulses would do with the new arms, besides.
+  bool owes = false;
+};
+
 /// What a block is made of, besides what is stored in it.
 template <std::uint32_t lanes>
 struct alignas(64) GatheredBlock {
@@ -19,20 +36,27 @@ struct alignas(64) GatheredBlock {
   Wide3Of<lanes> drift = {}, slide_impulse = {}, friction_arm_a = {}, friction_arm_b = {};
   Wide3Of<lanes> roll_impulse = {};
   Wide3Of<lanes> arm_a[4] = {}, arm_b[4] = {};
-  Wide3Of<lanes> gravity = {};  ///< Acceleration of b from a.
-  WideOf<lanes> restitution = {};
+  Wide3Of<lanes> offset = {};             ///< Of b's centre from a's.
+  WideOf<lanes> share_a = {}, most = {};  ///< As in ArmLanes.
+  Wide3Of<lanes> gap = {}, bridged = {};
+  Wide3Of<lanes> gravity = {};          ///< Acceleration of b from a.
   Softness press;                       ///< By the number of points.
   WideOf<lanes> compliance_scale = {};  ///< Of the springs that press.
   WideOf<lanes> awake_a = {}, awake_b = {};
   WideOf<lanes> parts_a = {}, parts_b = {};  ///< Into which a split block cuts its bodies.
-  float bounce_speed_m_s = 0;                ///< Slower impacts do not bounce.
   bool sleepers = false;
 };
 
 /// Works out Jacobians and masses.
 template <std::uint32_t lanes>
-void derive(GatheredBlock<lanes>& gathered, const SolverRows& bodies,
-            ConstraintBlock<lanes>& block);
+void derive(GatheredBlock<lanes>& gathered, ConstraintBlock<lanes>& block);
+/// After the bodies moved: Jacobians and masses with arms that followed them. What impulses of this
+/// substep did with the old arms stands; what they would do besides is owed to the next.
+template <std::uint32_t lanes>
+void follow(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies);
+/// Once a substep has begun with the impulses of the one before: what follow() left owed.
+template <std::uint32_t lanes>
+void settle(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies);
 /// Applies last step's impulses.
 template <std::uint32_t lanes>
 void warm_start(ConstraintBlock<lanes>& block, const SolverRows& bodies);
@@ -48,7 +72,13 @@ void sum_impulses(ConstraintBlock<lanes>& block);
 /// Takes impulses of the substep back but for the shares of their bodies, by row. To be called
 /// after their sum.
 template <std::uint32_t lanes>
-void scale_impulses(ConstraintBlock<lanes>& block, const float* share_of_row);
+void scale_impulses(ConstraintBlock<lanes>& block, ArmLanes<lanes>* arms,
+                    const float* share_of_row);
+/// Bodies moved with impulses of which they keep a share: takes back what that changed of the sum
+/// of angular momentum, half from each. Before scale_impulses(); not of split blocks.
+template <std::uint32_t lanes>
+void take_way_back(const ConstraintBlock<lanes>& block, const ArmLanes<lanes>& arms,
+                   const SolverRows& bodies, const float* share_of_row, float h_s);
 /// What conjugate gradients remember of a block, by impulse: those of its points, of sliding, of
 /// twist.
 template <std::uint32_t lanes>
@@ -66,9 +96,12 @@ void measure(const ConstraintBlock<lanes>& block, const SearchLanes<lanes>& sear
 template <std::uint32_t lanes>
 void go_on(ConstraintBlock<lanes>& block, SearchLanes<lanes>& search, const SolverRows& bodies,
            float beta);
-/// Once, after all substeps: points that took an impulse leave with their rebound velocity.
+/// Strikes the contacts that close within a substep of `h_s` and rebound: all points of one at
+/// once, one contact after the other (Newton's law of impact, with friction). What a strike does is
+/// no part of the impulses that are kept. False if none closes; those of split blocks do not
+/// rebound.
 template <std::uint32_t lanes>
-void bounce(ConstraintBlock<lanes>& block, const SolverRows& bodies);
+bool strike(ConstraintBlock<lanes>& block, const SolverRows& bodies, float h_s);
 /// Writes the separation of every point now, by point and lane.
 template <std::uint32_t lanes>
 void separations_now(const ConstraintBlock<lanes>& block, const SolverRows& bodies,

@@ -48,11 +48,12 @@ struct Pairs {
 
 template <std::uint32_t lanes>
 SUNDER_INLINE void store_side(const Motion6<WideOf<lanes>>& v, const std::int32_t* index,
-                              const bool* active, BodyRow* rows) {
+                              const bool* active, BodyRow* rows,
+                              Wide BodyRow::*member = &BodyRow::velocity) {
   float* row[lanes];
   bool wanted[lanes];
   for (std::uint32_t i = 0; i < lanes; ++i) {
-    row[i] = reinterpret_cast<float*>(&rows[index[i]].velocity);
+    row[i] = reinterpret_cast<float*>(&(rows[index[i]].*member));
     wanted[i] = index[i] != 0 && (!active || active[i]);
   }
   store_rows(v, row, wanted);
@@ -219,12 +220,6 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
   }
 }
 
-template <std::uint32_t lanes>
-SUNDER_INLINE void note_impacts(ConstraintBlock<lanes>& c) {
-  for (std::uint32_t i = 0; i < c.points; ++i)
-    c.rebound[i].most_impulse = max(c.rebound[i].most_impulse, c.point[i].impulse);
-}
-
 template <bool kBiased, bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE void sweep(ConstraintBlock<lanes>& c, const SolverRows& bodies,
                          const SoftStep& soft) {
@@ -235,7 +230,6 @@ SUNDER_INLINE void sweep(ConstraintBlock<lanes>& c, const SolverRows& bodies,
   if (c.rolls) roll(c, v);
   press<kBiased>(c, v, x, soft);
   store(c, v, bodies);
-  if (c.bouncy) note_impacts(c);
 }
 
 template <std::uint32_t lanes>
@@ -255,12 +249,19 @@ void sum_impulses(ConstraintBlock<lanes>& c) {
             c.tangent_2 * c.slide_impulse_2;
 }
 
+/// Of the impulses that the bodies of a lane keep.
 template <std::uint32_t lanes>
-void scale_impulses(ConstraintBlock<lanes>& c, const float* share_of_row) {
-  using V = WideOf<lanes>;
-  V share = {};
+SUNDER_INLINE WideOf<lanes> share_of(const ConstraintBlock<lanes>& c, const float* share_of_row) {
+  WideOf<lanes> share = {};
   for (std::uint32_t lane = 0; lane < lanes; ++lane)
     share[lane] = share_of_row[c.row_a[lane] != 0 ? c.row_a[lane] : c.row_b[lane]];
+  return share;
+}
+
+template <std::uint32_t lanes>
+void scale_impulses(ConstraintBlock<lanes>& c, ArmLanes<lanes>* arms, const float* share_of_row) {
+  using V = WideOf<lanes>;
+  const V share = share_of<lanes>(c, share_of_row);
   if (c.summed) {
     const Wide3Of<lanes> was = c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
                                c.tangent_2 * c.slide_impulse_2;
@@ -269,6 +270,28 @@ void scale_impulses(ConstraintBlock<lanes>& c, const float* share_of_row) {
   for (std::uint32_t i = 0; i < c.points; ++i) c.point[i].impulse *= share;
   c.slide_impulse_1 *= share, c.slide_impulse_2 *= share, c.twist_impulse *= share;
   if (c.rolls) c.roll.impulse_1 *= share, c.roll.impulse_2 *= share;
+  if (arms) arms->owed_a = arms->owed_a * share, arms->owed_b = arms->owed_b * share;
+}
+
+template <std::uint32_t lanes>
+void take_way_back(const ConstraintBlock<lanes>& c, const ArmLanes<lanes>& arms,
+                   const SolverRows& bodies, const float* share_of_row, float h_s) {
+  if (c.split) return;
+  using V = WideOf<lanes>;
+  const V given_back = splat<V>(0.5f * h_s) * (splat<V>(1) - share_of<lanes>(c, share_of_row));
+  Pairs<lanes, false> base(c, bodies, &BodyRow::base), v(c, bodies, &BodyRow::velocity);
+  const Wide3Of<lanes> spin = cross(base.b.linear - base.a.linear, arms.moved_by) * given_back;
+  const auto to_root = [&](const Wide3Of<lanes>(&root)[3]) {
+    return Wide3Of<lanes>{dot(root[0], spin), dot(root[1], spin), dot(root[2], spin)};
+  };
+  const Wide3Of<lanes> by_a = to_root(arms.root_a), by_b = to_root(arms.root_b);
+  for (Pairs<lanes, false>* pair : {&base, &v}) {
+    pair->a.angular = pair->a.angular + by_a;
+    pair->b.angular = pair->b.angular + by_b;
+  }
+  store(c, v, bodies);
+  store_side<lanes>(base.a, c.row_a, nullptr, bodies.rows, &BodyRow::base);
+  store_side<lanes>(base.b, c.row_b, nullptr, bodies.rows, &BodyRow::base);
 }
 
 template <bool kSplit, std::uint32_t lanes>
@@ -336,32 +359,94 @@ void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRo
   store(c, v, bodies);
 }
 
-template <bool kSplit, std::uint32_t lanes>
-SUNDER_INLINE void bounce_as(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
+/// The speed to leave with at a separation s, so that it rebounds as if it had been struck at none;
+/// negative where it does not close within the substep.
+template <std::uint32_t lanes>
+SUNDER_INLINE WideOf<lanes> leaving_speed(const ConstraintBlock<lanes>& c, WideOf<lanes> mass,
+                                          WideOf<lanes> s, WideOf<lanes> u, float h_s) {
   using V = WideOf<lanes>;
-  Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
-  const V zero = {};
-  bool active[lanes] = {};
-  for (std::uint32_t i = 0; i < c.points; ++i) {
-    const PointLanes<lanes>& p = c.point[i];
-    const ReboundLanes<lanes>& r = c.rebound[i];
-    const V u = v.along(c.normal, p.angular_a, p.angular_b);
-    const auto leaves = (r.speed > zero) & (r.most_impulse > zero);
-    const V change = leaves ? max(zero, p.mass * (r.speed - u)) : zero;
-    v.push(c, c.normal, p.angular_a, p.angular_b, change);
-    c.total = c.total + c.normal * change;
-    for (std::uint32_t lane = 0; lane < lanes; ++lane) active[lane] |= change[lane] > 0;
-  }
-  store(c, v, bodies, active);
+  const V zero = {}, e = c.rebound.restitution;
+  const V fallen = splat<V>(2) * c.rebound.fall_m_s2 * max(zero, s);
+  const V square = e * e * (u * u + fallen) - fallen;
+  const auto closes = (mass > zero) & (u < zero) & (s + u * splat<V>(h_s) < zero);
+  const auto rebounds = closes & (u < splat<V>(-c.rebound.least_m_s)) & (square > zero);
+  return rebounds ? sqrt(rebounds ? square : splat<V>(1)) : closes ? zero : splat<V>(-1);
 }
 
 template <std::uint32_t lanes>
-void bounce(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
-  // Every split block leaves its changes, or older ones would be summed again.
-  if (c.split)
-    bounce_as<true>(c, bodies);
-  else if (c.bouncy)
-    bounce_as<false>(c, bodies);
+bool strike(ConstraintBlock<lanes>& c, const SolverRows& bodies, float h_s) {
+  using V = WideOf<lanes>;
+  if (!c.bouncy || c.split) return false;
+  constexpr int kRounds = 16;
+  const V zero = {};
+  const Pairs<lanes, false> was(c, bodies, &BodyRow::velocity);
+  const Pairs<lanes, false> x(c, bodies, &BodyRow::position);
+  Pairs<lanes, false> v = was;
+  V leaves[4], impulse[4] = {}, fastest = zero;
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    const PointLanes<lanes>& p = c.point[i];
+    const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
+    leaves[i] = leaving_speed(c, p.mass, s, v.along(c.normal, p.angular_a, p.angular_b), h_s);
+    fastest = max(fastest, leaves[i]);
+  }
+  if (!any(fastest > zero)) return false;
+  V slide_1 = zero, slide_2 = zero;
+  for (int round = 0; round < kRounds; ++round) {
+    V sum = zero;
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const PointLanes<lanes>& p = c.point[i];
+      const auto struck = (fastest > zero) & (leaves[i] > splat<V>(-0.5f));
+      const V u = v.along(c.normal, p.angular_a, p.angular_b);
+      const V next = struck ? max(zero, impulse[i] + p.mass * (leaves[i] - u)) : zero;
+      v.push(c, c.normal, p.angular_a, p.angular_b, next - impulse[i]);
+      impulse[i] = next;
+      sum += next;
+    }
+    const V limit = c.friction * sum;
+    const V u1 = v.along(c.tangent_1, c.slide_1_a, c.slide_1_b);
+    const V u2 = v.along(c.tangent_2, c.slide_2_a, c.slide_2_b);
+    V next_1 = slide_1 - (c.slide_11 * u1 + c.slide_12 * u2);
+    V next_2 = slide_2 - (c.slide_12 * u1 + c.slide_22 * u2);
+    const V square = next_1 * next_1 + next_2 * next_2;
+    const auto slips = square > limit * limit;
+    const V scale = slips ? limit / sqrt(slips ? square : splat<V>(1)) : splat<V>(1);
+    next_1 *= scale, next_2 *= scale;
+    v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, next_1 - slide_1);
+    v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, next_2 - slide_2);
+    slide_1 = next_1, slide_2 = next_2;
+  }
+  // Newton's law with friction may gain energy (Kane): what would is scaled down until it does not.
+  V first = zero,
+    both = zero;  // twice the work of the impulses at the speeds before, and on average
+  const auto work = [&](const V& pushed, const Wide3Of<lanes>& direction,
+                        const Wide3Of<lanes>& on_a, const Wide3Of<lanes>& on_b) {
+    const V before = was.along(direction, on_a, on_b), after = v.along(direction, on_a, on_b);
+    first += pushed * (before + before), both += pushed * (before + after);
+  };
+  for (std::uint32_t i = 0; i < c.points; ++i)
+    work(impulse[i], c.normal, c.point[i].angular_a, c.point[i].angular_b);
+  work(slide_1, c.tangent_1, c.slide_1_a, c.slide_1_b);
+  work(slide_2, c.tangent_2, c.slide_2_a, c.slide_2_b);
+  const auto gains = (both > zero) & (both - first > zero);
+  const V kept = gains ? max(zero, -first / (gains ? both - first : splat<V>(1))) : splat<V>(1);
+  const auto scaled = [&](Motion6<V>& now, const Motion6<V>& then) {
+    now.linear = then.linear + (now.linear - then.linear) * kept;
+    now.angular = then.angular + (now.angular - then.angular) * kept;
+  };
+  scaled(v.a, was.a), scaled(v.b, was.b);
+  for (std::uint32_t i = 0; i < c.points; ++i) c.total = c.total + c.normal * (impulse[i] * kept);
+  c.total = c.total + (c.tangent_1 * slide_1 + c.tangent_2 * slide_2) * kept;
+  Pairs<lanes, false> base(c, bodies, &BodyRow::base);
+  base.a.linear = base.a.linear + (v.a.linear - was.a.linear);
+  base.a.angular = base.a.angular + (v.a.angular - was.a.angular);
+  base.b.linear = base.b.linear + (v.b.linear - was.b.linear);
+  base.b.angular = base.b.angular + (v.b.angular - was.b.angular);
+  bool active[lanes];
+  for (std::uint32_t lane = 0; lane < lanes; ++lane) active[lane] = fastest[lane] > 0;
+  store(c, v, bodies, active);
+  store_side<lanes>(base.a, c.row_a, active, bodies.rows, &BodyRow::base);
+  store_side<lanes>(base.b, c.row_b, active, bodies.rows, &BodyRow::base);
+  return true;
 }
 
 template <std::uint32_t lanes>

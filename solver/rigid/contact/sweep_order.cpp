@@ -9,6 +9,7 @@ void SweepOrder::collect(const Bodies& bodies, const Contacts& contacts) {
   in_contact_.assign(bodies.size(), 0);
   loaded_contacts_.assign(bodies.size(), 0);
   points_ = 0;
+  bouncy_ = false;
   deep_contacts_.clear();
   auto for_each = [&](const auto& visit) {
     for (const ManifoldSlot i : contacts.manifolds.slots()) {
@@ -23,6 +24,7 @@ void SweepOrder::collect(const Bodies& bodies, const Contacts& contacts) {
       for (const BodySlot body : {m.body_a, m.body_b})
         loaded_contacts_[body] = std::min<std::uint8_t>(loaded_contacts_[body] + 1, kPinched);
     points_ += m.count;
+    bouncy_ = bouncy_ || m.restitution > 0;
     if (!m.deep) return;
     deep_contacts_.resize(bodies.size());
     ++deep_contacts_[m.body_a], ++deep_contacts_[m.body_b];

@@ -32,6 +32,8 @@ class SweepOrder {
   /// From here on, manifolds have no colour.
   std::uint32_t first_split() const { return begin(kMaxColors, 4); }
   std::uint32_t points() const { return points_; }
+  /// Whether any of them has restitution.
+  bool bouncy() const { return bouncy_; }
   SpanByBody<std::uint8_t> in_contact() { return in_contact_; }
   /// Loaded manifolds, at most kPinched.
   SpanByBody<const std::uint8_t> loaded_contacts() const { return loaded_contacts_; }
@@ -42,6 +44,7 @@ class SweepOrder {
   std::vector<ManifoldSlot> manifolds_;
   std::uint32_t start_[kSweepKeys + 1] = {};  ///< In `manifolds_`, by sweep_key().
   std::uint32_t points_ = 0;
+  bool bouncy_ = false;
   ByBody<std::uint8_t> in_contact_, loaded_contacts_;
   ByBody<std::uint32_t> deep_contacts_;
 };

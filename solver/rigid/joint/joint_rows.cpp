@@ -117,7 +117,10 @@ void refresh_rows(JointWork& w, const BodyRow* rows) {
     place_row(w, arm_a, arm_b, direction, length - w.length_m);
     return;
   }
-  for (int i = 0; i < 3; ++i) place_row(w, arm_a, arm_b, Vec3::Unit(i), gap[i]);
+  // Both ends push at one point, midway between the anchors: across a gap an impulse and its
+  // counterpart would be a couple, which spins the pair up or down.
+  const Vec3 to_a = arm_a + 0.5 * gap, to_b = arm_b - 0.5 * gap;
+  for (int i = 0; i < 3; ++i) place_row(w, to_a, to_b, Vec3::Unit(i), gap[i]);
   if (w.kind == JointDesc::Kind::kHinge) {
     const Vec3 axis = rotation_a * w.axis_a, lean = axis.cross(rotation_b * w.axis_b);
     const Vec3 side = rotation_a * w.side_a, other = axis.cross(side);
