@@ -14,6 +14,7 @@ namespace {
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
 constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
+constexpr double kResolvedTurn = 1;  // rad in a step
 constexpr double kMoves = 1e-5;    // in a step, of a body's reach: less is rest
 
 }  // namespace
@@ -266,7 +267,6 @@ void ContactSolver::Stages::plan() {
     all_bodies<&Stages::join_and_move>();
     if (solver_.moving_) all_blocks(&Stages::follow);
     each_joint_color<&Stages::refresh_joints>();
-    strikes();
     sweeps<&Stages::relax_joints>(&Stages::sweep_relaxed, &Stages::sweep_last);
     if (joined || s + 1 == step_.substeps) join_if_split();
     each_joint_color<&Stages::test_joints>();
@@ -303,20 +303,28 @@ void ContactSolver::Stages::begin(BodySlot body) {
 void ContactSolver::Stages::finish(BodySlot body) {
   const BodyRow& r = row(body);
   const Mat3f& root_W = solver_.root_W_[body];
-  const Mat3 R_WB_then(bodies_.rotation[body]);
   // Only the change goes back, so that the doubles keep what no contact touched.
   const Wide change = r.velocity - r.start;
+  const Vec3 angle_W = (root_W * angular(r.position)).cast<double>();
+  const Vec3 added_W = (root_W * angular(change)).cast<double>();
   bodies_.velocity[body] += linear(change).cast<double>();
-  const Vec3f way = linear(r.position);
-  const Vec3f angle = root_W * angular(r.position);
-  bodies_.place(body, bodies_.position[body] + way.cast<double>(),
-                rotation_now(body, angle.cast<double>()));
-  bodies_.turned_m[body] += 1.1 * double{angle.norm()} * bodies_.reach_m[body];
-  // Angular momentum is what it was and what the impulses added, whatever way the body now lies.
+  bodies_.angular_velocity[body] += added_W;
+  bodies_.turned_m[body] += 1.1 * angle_W.norm() * bodies_.reach_m[body];
+  const Vec3 position_W = bodies_.position[body] + linear(r.position).cast<double>();
+  // What turns too fast for its angular momentum to be followed keeps its energy.
+  if (angle_W.norm() > kResolvedTurn) {
+    const Quat turn = rotation_by(angle_W);
+    bodies_.place(body, position_W, turn * bodies_.rotation[body]);
+    bodies_.angular_velocity[body] = turn * bodies_.angular_velocity[body];
+    return;
+  }
+  // Angular momentum is what it was and what impulses added, whatever way the body now lies.
   const Mat3& inertia_B = bodies_.inertia_B[body];
+  const Mat3 R_WB_then(bodies_.rotation[body]);
+  bodies_.place(body, position_W, rotation_now(body, angle_W));
   const Mat3 R_WB(bodies_.rotation[body]);
-  const Vec3 added_B = inertia_B * (bodies_.root_B[body] * angular(change)).cast<double>();
-  const Vec3 spin_W = solver_.spin_W_[body] + R_WB_then * added_B;
+  const Vec3 spin_W =
+      solver_.spin_W_[body] + R_WB_then * (inertia_B * (R_WB_then.transpose() * added_W));
   bodies_.angular_velocity[body] = R_WB * (inertia_B.inverse() * (R_WB.transpose() * spin_W));
 }
 

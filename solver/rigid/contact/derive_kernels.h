@@ -81,17 +81,22 @@ template <std::uint32_t lanes>
 SUNDER_INLINE void weigh_slide(ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
   const V inverse_mass = c.inverse_mass_a + c.inverse_mass_b;
-  const Response<V> angular_1 = {dot(c.slide_1_a, c.slide_1_a), dot(c.slide_1_b, c.slide_1_b)};
-  const Response<V> angular_2 = {dot(c.slide_2_a, c.slide_2_a), dot(c.slide_2_b, c.slide_2_b)};
-  const V k11 = inverse_mass + angular_1.a + angular_1.b;
-  const V k22 = inverse_mass + angular_2.a + angular_2.b;
+  const V k11 = inverse_mass + dot(c.slide_1_a, c.slide_1_a) + dot(c.slide_1_b, c.slide_1_b);
+  const V k22 = inverse_mass + dot(c.slide_2_a, c.slide_2_a) + dot(c.slide_2_b, c.slide_2_b);
   const V k12 = dot(c.slide_1_a, c.slide_2_a) + dot(c.slide_1_b, c.slide_2_b);
   const V scale = reciprocal(k11 * k22 - k12 * k12);
   c.slide_11 = k22 * scale, c.slide_12 = -k12 * scale, c.slide_22 = k11 * scale;
-  if (c.split)
-    c.parts.slide_split_scale =
-        split_scale(c, {c.inverse_mass_a + c.inverse_mass_a + angular_1.a + angular_2.a,
-                        c.inverse_mass_b + c.inverse_mass_b + angular_1.b + angular_2.b});
+}
+
+/// How much softer sliding parts are than sliding bodies.
+template <std::uint32_t lanes>
+SUNDER_INLINE void scale_slide_of_parts(ConstraintBlock<lanes>& c) {
+  const auto of = [](const WideOf<lanes>& inverse_mass, const Wide3Of<lanes>& angular_1,
+                     const Wide3Of<lanes>& angular_2) {
+    return inverse_mass + inverse_mass + dot(angular_1, angular_1) + dot(angular_2, angular_2);
+  };
+  c.parts.slide_split_scale = split_scale(c, {of(c.inverse_mass_a, c.slide_1_a, c.slide_2_a),
+                                              of(c.inverse_mass_b, c.slide_1_b, c.slide_2_b)});
 }
 
 template <std::uint32_t lanes>
@@ -101,6 +106,7 @@ SUNDER_INLINE void derive_friction(const GatheredBlock<lanes>& g, ConstraintBloc
   c.slide_2_a = to_root(g.root_a, cross(g.friction_arm_a, c.tangent_2));
   c.slide_2_b = to_root(g.root_b, cross(g.friction_arm_b, c.tangent_2));
   weigh_slide(c);
+  if (c.split) scale_slide_of_parts(c);
   c.twist_a = to_root(g.root_a, c.normal);
   c.twist_b = to_root(g.root_b, c.normal);
   c.twist_mass = reciprocal(dot(c.twist_a, c.twist_a) + dot(c.twist_b, c.twist_b));

@@ -213,6 +213,11 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
     } else {
       u += apart ? s * soft.inverse_h : zero;
       change = -p.mass * u;
+      // What is yet to rebound is left to the strike of the next substep.
+      if (c.bouncy) {
+        const auto rebounds = apart & (c.rebound.restitution > zero);
+        change = rebounds ? (p.impulse > zero ? change : zero) : change;
+      }
     }
     const V next = max(zero, p.impulse + change);
     v.push(c, c.normal, p.angular_a, p.angular_b, next - p.impulse);
@@ -360,15 +365,15 @@ void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRo
 }
 
 /// The speed to leave with at a separation s, so that it rebounds as if it had been struck at none;
-/// negative where it does not close within the substep.
+/// negative where it does not close.
 template <std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> leaving_speed(const ConstraintBlock<lanes>& c, WideOf<lanes> mass,
-                                          WideOf<lanes> s, WideOf<lanes> u, float h_s) {
+                                          WideOf<lanes> s, WideOf<lanes> u) {
   using V = WideOf<lanes>;
   const V zero = {}, e = c.rebound.restitution;
   const V fallen = splat<V>(2) * c.rebound.fall_m_s2 * max(zero, s);
   const V square = e * e * (u * u + fallen) - fallen;
-  const auto closes = (mass > zero) & (u < zero) & (s + u * splat<V>(h_s) < zero);
+  const auto closes = (mass > zero) & (u < zero);
   const auto rebounds = closes & (u < splat<V>(-c.rebound.least_m_s)) & (square > zero);
   return rebounds ? sqrt(rebounds ? square : splat<V>(1)) : closes ? zero : splat<V>(-1);
 }
@@ -379,15 +384,18 @@ bool strike(ConstraintBlock<lanes>& c, const SolverRows& bodies, float h_s) {
   if (!c.bouncy || c.split) return false;
   constexpr int kRounds = 16;
   const V zero = {};
-  const Pairs<lanes, false> was(c, bodies, &BodyRow::velocity);
+  const Pairs<lanes, false> was(c, bodies, &BodyRow::base);
   const Pairs<lanes, false> x(c, bodies, &BodyRow::position);
   Pairs<lanes, false> v = was;
   V leaves[4], impulse[4] = {}, fastest = zero;
   for (std::uint32_t i = 0; i < c.points; ++i) {
     const PointLanes<lanes>& p = c.point[i];
     const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
-    leaves[i] = leaving_speed(c, p.mass, s, v.along(c.normal, p.angular_a, p.angular_b), h_s);
-    fastest = max(fastest, leaves[i]);
+    const V u = v.along(c.normal, p.angular_a, p.angular_b);
+    // What closes within this substep is struck, and with it what would close in the next.
+    leaves[i] = leaving_speed<lanes>(c, p.mass, s, u);
+    leaves[i] = s + u * splat<V>(2 * h_s) < zero ? leaves[i] : splat<V>(-1);
+    fastest = max(fastest, s + u * splat<V>(h_s) < zero ? leaves[i] : zero);
   }
   if (!any(fastest > zero)) return false;
   V slide_1 = zero, slide_2 = zero;
@@ -436,16 +444,16 @@ bool strike(ConstraintBlock<lanes>& c, const SolverRows& bodies, float h_s) {
   scaled(v.a, was.a), scaled(v.b, was.b);
   for (std::uint32_t i = 0; i < c.points; ++i) c.total = c.total + c.normal * (impulse[i] * kept);
   c.total = c.total + (c.tangent_1 * slide_1 + c.tangent_2 * slide_2) * kept;
-  Pairs<lanes, false> base(c, bodies, &BodyRow::base);
-  base.a.linear = base.a.linear + (v.a.linear - was.a.linear);
-  base.a.angular = base.a.angular + (v.a.angular - was.a.angular);
-  base.b.linear = base.b.linear + (v.b.linear - was.b.linear);
-  base.b.angular = base.b.angular + (v.b.angular - was.b.angular);
+  Pairs<lanes, false> now(c, bodies, &BodyRow::velocity);
+  now.a.linear = now.a.linear + (v.a.linear - was.a.linear);
+  now.a.angular = now.a.angular + (v.a.angular - was.a.angular);
+  now.b.linear = now.b.linear + (v.b.linear - was.b.linear);
+  now.b.angular = now.b.angular + (v.b.angular - was.b.angular);
   bool active[lanes];
   for (std::uint32_t lane = 0; lane < lanes; ++lane) active[lane] = fastest[lane] > 0;
-  store(c, v, bodies, active);
-  store_side<lanes>(base.a, c.row_a, active, bodies.rows, &BodyRow::base);
-  store_side<lanes>(base.b, c.row_b, active, bodies.rows, &BodyRow::base);
+  store(c, now, bodies, active);
+  store_side<lanes>(v.a, c.row_a, active, bodies.rows, &BodyRow::base);
+  store_side<lanes>(v.b, c.row_b, active, bodies.rows, &BodyRow::base);
   return true;
 }
 
