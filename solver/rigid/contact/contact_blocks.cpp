@@ -21,7 +21,9 @@ class BlocksOf final : public ContactBlocks {
   }
   void follow_bodies(bool wanted) override { arms_.resize(wanted ? used_ : 0); }
   void follow(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
-    for (std::uint32_t i = begin; i < end; ++i) solver::follow(blocks_[i], arms_[i], step.rows);
+    const auto h_s = static_cast<float>(step.context.h_s);
+    for (std::uint32_t i = begin; i < end; ++i)
+      solver::follow(blocks_[i], arms_[i], step.rows, h_s);
   }
   void settle(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::settle(blocks_[i], arms_[i], step.rows);
@@ -68,12 +70,6 @@ class BlocksOf final : public ContactBlocks {
       ArmLanes<kWidth>* const arms = arms_.empty() ? nullptr : &arms_[i];
       solver::scale_impulses(blocks_[i], arms, share_of_row);
     }
-  }
-  void take_way_back(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
-                     const float* share_of_row) override {
-    const auto h_s = static_cast<float>(step.context.h_s);
-    for (std::uint32_t i = begin; i < end; ++i)
-      solver::take_way_back(blocks_[i], arms_[i], step.rows, share_of_row, h_s);
   }
   void mark(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::mark(blocks_[i], search_[i]);

@@ -14,7 +14,6 @@ namespace {
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
 constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
-constexpr double kResolvedTurn = 1;  // rad in a step
 constexpr double kMoves = 1e-5;    // in a step, of a body's reach: less is rest
 
 }  // namespace
@@ -31,6 +30,7 @@ class ContactSolver::Stages {
         joints_(joints),
         rows_(solver.rows_.data()),
         accelerated_(!solver.energy_.empty()),
+        guarded_(solver.energy_guard_.watches()),
         gravity_{step.kick_W.x(), step.kick_W.y(), step.kick_W.z(), 0, 0, 0, 0, 0},
         contact_step_{step,
                       bodies,
@@ -81,7 +81,7 @@ class ContactSolver::Stages {
 
   /// Before sweeps, which let nothing meet with any speed.
   void strikes() {
-    if (!solver_.order_.bouncy()) return;
+    if (!solver_.order_.bouncy() || getenv("NOSTRIKE")) return;
     for (int round = 0; round < kStrikeRounds; ++round) {
       once(round == 0 ? &Stages::first_strikes : &Stages::begin_strikes);
       each_color(&Stages::strike);
@@ -125,7 +125,9 @@ class ContactSolver::Stages {
   BodyRow& row(BodySlot body) { return rows_[row_of(body)]; }
   void begin(BodySlot body);
   void first_kick(BodySlot body) {
-    row(body).velocity = row(body).base = row(body).velocity + gravity_;
+    BodyRow& r = row(body);
+    r.velocity = r.base = r.velocity + gravity_;
+    if (guarded_) solver_.energy_guard_.weigh_base(body, bodies_.inverse_mass[body], r);
   }
   /// All impulses of a substep, warm start included, act on `base`: what they did to the velocity
   /// is the warm start of the next substep.
@@ -134,13 +136,16 @@ class ContactSolver::Stages {
     const Wide impulses = r.velocity - r.base;
     r.base = r.velocity + gravity_;
     r.velocity = r.base + impulses;
+    if (guarded_) solver_.energy_guard_.weigh_base(body, bodies_.inverse_mass[body], r);
   }
   void join_and_kick(BodySlot body) { join(body), kick(body); }
   void join(BodySlot body) { solver_.splitting_.join(body, row(body)); }
   void join_and_move(BodySlot body) {
     join(body);
     row(body).position += static_cast<float>(step_.h_s) * row(body).velocity;
+    solver_.moved_[body] = row(body).velocity;
   }
+  void turn(BodySlot body);
   void finish(BodySlot body);
   Quat rotation_now(BodySlot body, const Vec3& angle_W) const;
 
@@ -207,21 +212,18 @@ class ContactSolver::Stages {
   void weigh(BodySlot body) {
     solver_.energy_guard_.weigh(body, bodies_.inverse_mass[body], row(body));
   }
+  void decide(std::uint32_t, std::uint32_t) { solver_.energy_guard_.decide(solver_.active_); }
   void judge(std::uint32_t, std::uint32_t) { solver_.energy_guard_.judge(solver_.active_); }
   void scale_body(BodySlot body) {
     if (!solver_.energy_guard_.objects()) return;
     BodyRow& r = row(body);
-    r.velocity =
-        r.base + solver_.energy_guard_.share_of_row()[row_of(body)] * (r.velocity - r.base);
+    const float share = solver_.energy_guard_.share_of_row()[row_of(body)];
+    r.velocity = r.base + share * (r.velocity - r.base);
+    r.position -= static_cast<float>(step_.h_s) * (1 - share) * (solver_.moved_[body] - r.base);
   }
   void scale_impulses(std::uint32_t begin, std::uint32_t end) {
     if (solver_.energy_guard_.objects())
       solver_.blocks_->scale_impulses(begin, end, solver_.energy_guard_.share_of_row());
-  }
-  void take_way_back(std::uint32_t begin, std::uint32_t end) {
-    if (solver_.energy_guard_.objects())
-      solver_.blocks_->take_way_back(begin, end, contact_step_,
-                                     solver_.energy_guard_.share_of_row());
   }
   void scale_joints(std::uint32_t i) {
     if (solver_.energy_guard_.objects())
@@ -233,7 +235,7 @@ class ContactSolver::Stages {
   Bodies& bodies_;
   Joints& joints_;
   BodyRow* rows_;
-  bool accelerated_;
+  bool accelerated_, guarded_;
   Wide gravity_;  ///< What it does to a row's velocity in a substep.
   ContactStep contact_step_;
   std::vector<Stage> stages_;
@@ -247,8 +249,8 @@ void ContactSolver::Stages::plan() {
   const auto flying = static_cast<std::uint32_t>(solver_.flying_.size());
   stages_.push_back({{0, flying, kBodyGrain}, &Stages::fly_all});
   if (solver_.active_.empty()) return;
-  const bool joints = !solver_.joint_solver_.empty(), guarded = solver_.energy_guard_.watches();
-  const bool joined = joints || guarded;  // before the kick: what comes between needs it
+  const bool joints = !solver_.joint_solver_.empty();
+  const bool joined = joints || guarded_;  // before the kick: what comes between needs it
   all_bodies<&Stages::begin>();
   all_blocks(&Stages::prepare);
   each_joint_color<&Stages::begin_joints>();
@@ -258,6 +260,7 @@ void ContactSolver::Stages::plan() {
       each_joint_color<&Stages::warm_start_joints>();
       each_color(&Stages::warm_start);
       join_if_split();
+      if (solver_.moving_) all_blocks(&Stages::follow);
     } else {
       joined ? all_bodies<&Stages::kick>() : all_bodies<&Stages::join_and_kick>();
       if (solver_.moving_) each_color(&Stages::settle), join_if_split();
@@ -270,15 +273,16 @@ void ContactSolver::Stages::plan() {
     sweeps<&Stages::relax_joints>(&Stages::sweep_relaxed, &Stages::sweep_last);
     if (joined || s + 1 == step_.substeps) join_if_split();
     each_joint_color<&Stages::test_joints>();
-    if (!guarded) continue;
+    if (!guarded_) continue;
     all_bodies<&Stages::weigh>();
     once(&Stages::judge);
     all_bodies<&Stages::scale_body>();
-    if (solver_.moving_) each_color(&Stages::take_way_back);
     all_blocks(&Stages::scale_impulses);
     each_joint_color<&Stages::scale_joints>();
   }
   all_blocks(&Stages::store);
+  all_bodies<&Stages::turn>();
+  if (guarded_) once(&Stages::decide);
   all_bodies<&Stages::finish>();
 }
 
@@ -287,7 +291,7 @@ void ContactSolver::Stages::begin(BodySlot body) {
   solver_.spin_W_[body] =
       R_WB * bodies_.inertia_B[body] * R_WB.transpose() * bodies_.angular_velocity[body];
   const FreeRotation free = free_rotation(bodies_, body, step_.dt_s);
-  solver_.free_rotation_[body] = free.R_WB;
+  solver_.free_[body] = free;
   bodies_.angular_velocity[body] = free.angular_velocity_W;
   const Mat3f& root_B = bodies_.root_B[body];
   solver_.root_W_[body] = bodies_.rotation_f[body] * root_B;
@@ -300,39 +304,48 @@ void ContactSolver::Stages::begin(BodySlot body) {
   r.position = Wide{};
 }
 
-void ContactSolver::Stages::finish(BodySlot body) {
+/// Angular momentum is what it was and what impulses added, whatever way the body now lies: to be
+/// asked for, since a step that is too coarse for that makes energy.
+void ContactSolver::Stages::turn(BodySlot body) {
   const BodyRow& r = row(body);
   const Mat3f& root_W = solver_.root_W_[body];
+  const Quat& R_WB_then = bodies_.rotation[body];
+  const Mat3& inertia_B = bodies_.inertia_B[body];
+  const Vec3 added_W = (root_W * angular(r.velocity - r.start)).cast<double>();
+  const Quat R_WB = rotation_now(body, (root_W * angular(r.position)).cast<double>());
+  const Vec3 spin_W =
+      solver_.spin_W_[body] + R_WB_then * (inertia_B * (R_WB_then.conjugate() * added_W));
+  const Vec3 w_W = R_WB * (inertia_B.inverse() * (R_WB.conjugate() * spin_W));
+  solver_.free_[body] = {R_WB, w_W};
+  const double left_J = 0.5 * double{angular(r.velocity).squaredNorm()};
+  if (guarded_) solver_.energy_guard_.ask(body, 0.5 * w_W.dot(spin_W) - left_J);
+}
+
+void ContactSolver::Stages::finish(BodySlot body) {
+  const BodyRow& r = row(body);
   // Only the change goes back, so that the doubles keep what no contact touched.
   const Wide change = r.velocity - r.start;
+  const Mat3f& root_W = solver_.root_W_[body];
   const Vec3 angle_W = (root_W * angular(r.position)).cast<double>();
-  const Vec3 added_W = (root_W * angular(change)).cast<double>();
   bodies_.velocity[body] += linear(change).cast<double>();
-  bodies_.angular_velocity[body] += added_W;
   bodies_.turned_m[body] += 1.1 * angle_W.norm() * bodies_.reach_m[body];
   const Vec3 position_W = bodies_.position[body] + linear(r.position).cast<double>();
-  // What turns too fast for its angular momentum to be followed keeps its energy.
-  if (angle_W.norm() > kResolvedTurn) {
+  if (!guarded_ || solver_.energy_guard_.grants(body)) {
+    bodies_.place(body, position_W, solver_.free_[body].R_WB);
+    bodies_.angular_velocity[body] = solver_.free_[body].angular_velocity_W;
+  } else {
     const Quat turn = rotation_by(angle_W);
+    const Vec3 added_W = (root_W * angular(change)).cast<double>();
     bodies_.place(body, position_W, turn * bodies_.rotation[body]);
-    bodies_.angular_velocity[body] = turn * bodies_.angular_velocity[body];
-    return;
+    bodies_.angular_velocity[body] = turn * (bodies_.angular_velocity[body] + added_W);
   }
-  // Angular momentum is what it was and what impulses added, whatever way the body now lies.
-  const Mat3& inertia_B = bodies_.inertia_B[body];
-  const Mat3 R_WB_then(bodies_.rotation[body]);
-  bodies_.place(body, position_W, rotation_now(body, angle_W));
-  const Mat3 R_WB(bodies_.rotation[body]);
-  const Vec3 spin_W =
-      solver_.spin_W_[body] + R_WB_then * (inertia_B * (R_WB_then.transpose() * added_W));
-  bodies_.angular_velocity[body] = R_WB * (inertia_B.inverse() * (R_WB.transpose() * spin_W));
 }
 
 /// After turning by `angle_W` in all. What impulses add to free rotation is put on top of it where
 /// it is less than what a constant angular velocity would get wrong of that.
 Quat ContactSolver::Stages::rotation_now(BodySlot body, const Vec3& angle_W) const {
   const Quat& R_WB = bodies_.rotation[body];
-  const Quat& free = solver_.free_rotation_[body];
+  const Quat& free = solver_.free_[body].R_WB;
   const Vec3 start_W = (solver_.root_W_[body] * angular(rows_[row_of(body)].start)).cast<double>();
   const Vec3 alone_W = step_.dt_s * start_W, more_W = angle_W - alone_W;
   const Quat wrong = free * (rotation_by(alone_W) * R_WB).conjugate();
@@ -356,6 +369,7 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   moving_ = std::ranges::any_of(active_, [&](BodySlot body) {
     return bodies.velocity[body].norm() * step.dt_s > kMoves * bodies.reach_m[body];
   });
+  moving_ = moving_ && !getenv("NOMOVE");
   blocks_->follow_bodies(moving_);
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(), bodies,
                         contacts);
@@ -385,7 +399,8 @@ void ContactSolver::collect_bodies(const Bodies& bodies) {
   rows_[0] = BodyRow{};
   root_W_.resize(bodies.size());
   spin_W_.resize(bodies.size());
-  free_rotation_.resize(bodies.size());
+  free_.resize(bodies.size());
+  moved_.resize(bodies.size());
   active_.clear();
   flying_.clear();
   for (const BodySlot body : bodies.slots())

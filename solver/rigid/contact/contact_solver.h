@@ -8,6 +8,7 @@
 
 #include "solver/base/stage_runner.h"
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/motion.h"
 #include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/contact/contact_blocks.h"
@@ -59,7 +60,8 @@ class ContactSolver {
   std::vector<BodyRow> rows_;       ///< As row_of().
   ByBody<Mat3f> root_W_;
   ByBody<Vec3> spin_W_;         ///< Angular momentum when the step began.
-  ByBody<Quat> free_rotation_;  ///< Where bodies would have turned without impulses.
+  ByBody<FreeRotation> free_;   ///< How bodies turn without impulses; at the end, with them.
+  ByBody<Wide> moved_;          ///< Velocities with which bodies moved in this substep.
   bool moving_ = false;         ///< Some body in contact moves: arms follow.
   std::vector<float> energy_;   ///< Of a sweep's changes, by manifold; none: sweeps go plainly.
 };

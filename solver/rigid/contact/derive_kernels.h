@@ -62,11 +62,8 @@ SUNDER_INLINE void set_tangents(ConstraintBlock<lanes>& c) {
 template <std::uint32_t lanes>
 SUNDER_INLINE void meet(GatheredBlock<lanes>& g, const ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
-  const V zero = {}, one = splat<V>(1);
   g.gap = g.offset + g.friction_arm_b - g.friction_arm_a;
-  const V near = dot(g.gap, g.gap) > g.most ? zero : one;
-  g.bridged = g.gap * near;
-  const V by_a = near * g.share_a, by_b = near * (one - g.share_a);
+  const V by_a = g.share_a, by_b = splat<V>(1) - g.share_a;
   const auto meet_at = [&](Wide3Of<lanes>& arm_a, Wide3Of<lanes>& arm_b) {
     const Wide3Of<lanes> gap = g.offset + arm_b - arm_a;
     arm_a = arm_a + gap * by_a;
@@ -185,65 +182,104 @@ void derive(GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
   if (g.sleepers) fix_sleepers(g, c);
 }
 
+/// Both Jacobians of one direction.
+template <class V>
+struct Reach {
+  Triple<V>&a, &b;
+
+  SUNDER_INLINE V with(const Reach& other) const { return dot(a, other.a) + dot(b, other.b); }
+  SUNDER_INLINE void add(const Triple<V>& to_a, const Triple<V>& to_b) { a = a + to_a, b = b + to_b; }
+};
+
+/// Lets arms bridge this gap, where that is positive. All arms of a side shift alike, so all
+/// Jacobians along one direction change alike. Separations and drifts stay what they are; masses
+/// change by what moves, so that what meets a sleeper stays as soft as it was: see sleep.h.
 template <bool kSplit, std::uint32_t lanes>
-SUNDER_INLINE void follow_as(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
-                             const SolverRows& bodies) {
+SUNDER_INLINE void bridge(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const Wide3Of<lanes>& gap,
+                          const Pairs<lanes, kSplit>& x, const WideOf<lanes>& where) {
   using V = WideOf<lanes>;
   using V3 = Wide3Of<lanes>;
-  const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
   const V zero = {}, one = splat<V>(1);
-  const V3 gap = arms.gap + (x.b.linear - x.a.linear);
-  const V near = dot(gap, gap) > arms.most ? zero : one;
-  V3 more = gap * near - arms.bridged;
-  const auto moved = dot(more, more) > arms.least;
-  const V follows = moved ? one : zero;
   arms.owed_a = arms.owed_b = V3{};
-  arms.moved_by = (c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
-                   c.tangent_2 * c.slide_impulse_2) *
-                  near;
+  V3 more = gap - arms.bridged;
+  const V follows = (where > zero) & (dot(more, more) > arms.least) ? one : zero;
   if (!any(follows > zero)) return;
   more = more * follows;
   arms.bridged = arms.bridged + more;
   const V3 shift_a = more * arms.share_a, shift_b = more * (arms.share_a - one);
-  // All arms of a side shift alike, so all Jacobians along one direction change alike. Separations
-  // and drifts stay what they are.
-  const auto shift = [&](const V3& direction, V3& by_a, V3& by_b) {
+  V3 by_a, by_b;
+  const auto shift = [&](const V3& direction, const V& impulse) {
     by_a = to_root(arms.root_a, cross(shift_a, direction));
     by_b = to_root(arms.root_b, cross(shift_b, direction));
+    arms.owed_a = arms.owed_a + by_a * impulse, arms.owed_b = arms.owed_b + by_b * impulse;
     return dot(by_b, x.b.angular) - dot(by_a, x.a.angular);
   };
-  V3 by_a, by_b;
-  const V pressed = shift(c.normal, by_a, by_b), load = total_impulse(c);
-  arms.owed_a = by_a * load, arms.owed_b = by_b * load;
-  // What meets a sleeper stays as soft as it was: see sleep.h.
-  const auto both = (c.inverse_mass_a > zero) & (c.inverse_mass_b > zero) & (follows > zero);
-  const V inverse_mass = c.inverse_mass_a + c.inverse_mass_b;
+  const V pressed = shift(c.normal, total_impulse(c));
   for (std::uint32_t i = 0; i < c.points; ++i) {
     PointLanes<lanes>& p = c.point[i];
-    p.angular_a = p.angular_a + by_a, p.angular_b = p.angular_b + by_b;
+    Reach<V> reach{p.angular_a, p.angular_b};
+    const V was = reach.with(reach);
+    reach.add(by_a, by_b);
     p.separation = p.separation - pressed;
-    const Response<V> angular = {dot(p.angular_a, p.angular_a), dot(p.angular_b, p.angular_b)};
-    p.mass = both ? reciprocal(inverse_mass + angular.a + angular.b) : p.mass;
+    p.mass = p.mass / (one + p.mass * (reach.with(reach) - was));
   }
-  c.drift_1 = c.drift_1 - shift(c.tangent_1, by_a, by_b);
-  c.slide_1_a = c.slide_1_a + by_a, c.slide_1_b = c.slide_1_b + by_b;
-  arms.owed_a = arms.owed_a + by_a * c.slide_impulse_1;
-  arms.owed_b = arms.owed_b + by_b * c.slide_impulse_1;
-  c.drift_2 = c.drift_2 - shift(c.tangent_2, by_a, by_b);
-  c.slide_2_a = c.slide_2_a + by_a, c.slide_2_b = c.slide_2_b + by_b;
-  arms.owed_a = arms.owed_a + by_a * c.slide_impulse_2;
-  arms.owed_b = arms.owed_b + by_b * c.slide_impulse_2;
-  const V slide_11 = c.slide_11, slide_12 = c.slide_12, slide_22 = c.slide_22;
-  weigh_slide(c);
-  c.slide_11 = both ? c.slide_11 : slide_11;
-  c.slide_12 = both ? c.slide_12 : slide_12;
-  c.slide_22 = both ? c.slide_22 : slide_22;
+  Reach<V> slide_1{c.slide_1_a, c.slide_1_b}, slide_2{c.slide_2_a, c.slide_2_b};
+  const V was_11 = slide_1.with(slide_1), was_12 = slide_1.with(slide_2),
+          was_22 = slide_2.with(slide_2);
+  c.drift_1 = c.drift_1 - shift(c.tangent_1, c.slide_impulse_1);
+  slide_1.add(by_a, by_b);
+  c.drift_2 = c.drift_2 - shift(c.tangent_2, c.slide_impulse_2);
+  slide_2.add(by_a, by_b);
+  const V scale = reciprocal(c.slide_11 * c.slide_22 - c.slide_12 * c.slide_12);
+  const V k11 = c.slide_22 * scale + (slide_1.with(slide_1) - was_11);
+  const V k12 = (slide_1.with(slide_2) - was_12) - c.slide_12 * scale;
+  const V k22 = c.slide_11 * scale + (slide_2.with(slide_2) - was_22);
+  const V inverse = reciprocal(k11 * k22 - k12 * k12);
+  c.slide_11 = follows > zero ? k22 * inverse : c.slide_11;
+  c.slide_12 = follows > zero ? -k12 * inverse : c.slide_12;
+  c.slide_22 = follows > zero ? k11 * inverse : c.slide_22;
   arms.owes = true;
 }
 
+/// When in a substep the first point of what is apart and bears nothing meets; 0: never.
+template <bool kSplit, std::uint32_t lanes>
+SUNDER_INLINE WideOf<lanes> meets_after(const ConstraintBlock<lanes>& c,
+                                        const Pairs<lanes, kSplit>& x,
+                                        const Pairs<lanes, kSplit>& v, float h_s) {
+  using V = WideOf<lanes>;
+  const V zero = {}, one = splat<V>(1), h = splat<V>(h_s);
+  V first = total_impulse(c) > zero ? zero : h;
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    const PointLanes<lanes>& p = c.point[i];
+    const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
+    const V u = v.along(c.normal, p.angular_a, p.angular_b);
+    const V after = s / (u < zero ? -u : one);
+    first = s > zero ? (u < zero ? min(first, after) : first) : zero;
+  }
+  return first < h ? first : zero;
+}
+
+template <bool kSplit, std::uint32_t lanes>
+SUNDER_INLINE void follow_as(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
+                             const SolverRows& bodies, float h_s) {
+  using V = WideOf<lanes>;
+  const V zero = {}, one = splat<V>(1);
+  const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
+  Wide3Of<lanes> gap = arms.gap + (x.b.linear - x.a.linear);
+  V wanted = c.point[0].mass;
+  const V wide = dot(gap, gap) > arms.wide ? one : zero;
+  if (any(wide > zero)) {
+    const Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
+    const V after = meets_after<kSplit>(c, x, v, h_s) * wide;
+    gap = gap + (v.b.linear - v.a.linear) * after;
+    wanted = wide > zero ? after : wanted;
+  }
+  bridge(c, arms, gap, x, wanted);
+}
+
 template <std::uint32_t lanes>
-void follow(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& bodies) {
-  c.split ? follow_as<true>(c, arms, bodies) : follow_as<false>(c, arms, bodies);
+void follow(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& bodies, float h_s) {
+  c.split ? follow_as<true>(c, arms, bodies, h_s) : follow_as<false>(c, arms, bodies, h_s);
 }
 
 template <bool kSplit, std::uint32_t lanes>
@@ -270,15 +306,13 @@ void settle(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
 /// Compiles all kernels for so many lanes.
 #define SUNDER_SWEEP_KERNELS(lanes)                                                            \
   template void derive(GatheredBlock<lanes>&, ConstraintBlock<lanes>&);                        \
-  template void follow(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&);          \
+  template void follow(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);   \
   template void settle(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&);          \
   template void warm_start(ConstraintBlock<lanes>&, const SolverRows&);                        \
   template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);     \
   template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);    \
   template void sum_impulses(ConstraintBlock<lanes>&);                                         \
   template void scale_impulses(ConstraintBlock<lanes>&, ArmLanes<lanes>*, const float*);       \
-  template void take_way_back(const ConstraintBlock<lanes>&, const ArmLanes<lanes>&,           \
-                              const SolverRows&, const float*, float);                         \
   template void mark(const ConstraintBlock<lanes>&, SearchLanes<lanes>&);                      \
   template void measure(const ConstraintBlock<lanes>&, const SearchLanes<lanes>&, float*);     \
   template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float); \

@@ -41,7 +41,7 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
   for (const BodySlot body : bodies.slots()) group_[body] = BodySlot(groups.root(body.value));
   if (!joined.empty()) leave_alone_what_swings_free(manifolds, active, joined, contacts);
   of_body_.resize(bodies.size());
-  of_group_.resize(bodies.size());
+  of_group_.assign(bodies.size(), {});
   share_.assign(bodies.size() + 1, 1);
 }
 
@@ -62,31 +62,54 @@ void EnergyGuard::leave_alone_what_swings_free(std::span<const ManifoldSlot> man
     if (free[group_[body]]) group_[body] = {};
 }
 
+void EnergyGuard::weigh_base(BodySlot body, float inverse_mass, const BodyRow& row) {
+  of_body_[body].struck_J = -0.5 * lanes_sum(row.base, row.base, 1 / double{inverse_mass});
+}
+
 void EnergyGuard::weigh(BodySlot body, float inverse_mass, const BodyRow& row) {
   const Wide change = row.velocity - row.base;
   const double mass = 1 / double{inverse_mass};
-  of_body_[body] = {lanes_sum(change, row.base, mass), 0.5 * lanes_sum(change, change, mass)};
+  Work& work = of_body_[body];
+  work.first = lanes_sum(change, row.base, mass);
+  work.second = 0.5 * lanes_sum(change, change, mass);
+  work.struck_J += 0.5 * lanes_sum(row.base, row.base, mass);
 }
 
 void EnergyGuard::judge(std::span<const BodySlot> active) {
   objects_ = false;
   for (const BodySlot body : active)
-    if (!group_[body].none()) of_group_[group_[body]] = {};
+    if (!group_[body].none()) of_group_[group_[body]].first = of_group_[group_[body]].second = 0;
   for (const BodySlot body : active) {
     if (group_[body].none()) continue;
     Work& work = of_group_[group_[body]];
     work.first += of_body_[body].first;
     work.second += of_body_[body].second;
+    work.made_J += of_body_[body].struck_J;
   }
   for (const BodySlot body : active) {
     float& share = share_[row_of(body)];
     share = 1;
     if (group_[body].none()) continue;
-    const Work& work = of_group_[group_[body]];
-    if (!(work.first + work.second > kEnergyRounding * work.second)) continue;
-    share = static_cast<float>(std::max(0.0, -work.first / work.second));
-    objects_ = true;
+    Work& work = of_group_[group_[body]];
+    if (work.first + work.second > kEnergyRounding * work.second) {
+      share = static_cast<float>(std::max(0.0, -work.first / work.second));
+      objects_ = true;
+    } else if (group_[body] == body) {
+      work.made_J += work.first + work.second;
+    }
   }
+}
+
+void EnergyGuard::decide(std::span<const BodySlot> active) {
+  if (!watches_) return;
+  for (const BodySlot body : active)
+    if (!group_[body].none())
+      of_group_[group_[body]].made_J += std::max(0.0, of_body_[body].made_J);
+}
+
+bool EnergyGuard::grants(BodySlot body) const {
+  if (!watches_ || group_[body].none() || of_body_[body].made_J <= 0) return true;
+  return of_group_[group_[body]].made_J <= 0;
 }
 
 }  // namespace sunder::solver

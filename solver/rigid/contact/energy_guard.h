@@ -26,7 +26,9 @@ class EnergyGuard {
   /// Whether any group is watched in this step.
   bool watches() const { return watches_; }
 
-  /// What the impulses of a substep did to the energy of a body.
+  /// Before the strikes of a substep.
+  void weigh_base(BodySlot body, float inverse_mass, const BodyRow& row);
+  /// What strikes, and the other impulses of a substep, did to the energy of a body.
   void weigh(BodySlot body, float inverse_mass, const BodyRow& row);
   /// Finds the shares of their impulses that groups may keep so that their energy is not more than
   /// it was before.
@@ -36,10 +38,19 @@ class EnergyGuard {
   /// Of the impulses on a body; as row_of().
   const float* share_of_row() const { return share_.data(); }
 
+  /// After the last substep: a body turns on with its angular momentum, which adds this to its
+  /// energy; or else with its energy.
+  void ask(BodySlot body, double made_J) { of_body_[body].made_J = made_J; }
+  void decide(std::span<const BodySlot> active);
+  /// Whether its group can pay that, and what others of it ask, with what its contacts took.
+  bool grants(BodySlot body) const;
+
  private:
   /// Energy of a share s of the impulses: s·first + s²·second.
   struct Work {
     double first = 0, second = 0;
+    double struck_J = 0;  ///< By strikes, in the substep.
+    double made_J = 0;    ///< Of a group: in the step so far.
   };
 
   void leave_alone_what_swings_free(std::span<const ManifoldSlot> manifolds,

@@ -19,8 +19,7 @@ constexpr float kLeastCompliance = 0.1f;  // beyond, sweeps do not keep up
 constexpr float kLeastProp = 0.5f;  // of what is not pinched: what stands on it bounces at 0.3
 constexpr float kComplianceStep = 0.97f;  // a step
 
-constexpr float kWidestGap = 4;     // of the inner radius: what is farther off has yet to meet
-constexpr float kLeastWay = 3e-6f;  // of that: what bodies move past each other unheeded
+constexpr float kLeastWay = 1e-5f;  // of the inner radius: what bodies move on unheeded
 
 template <class V>
 void set_columns(Triple<V> (&columns)[3], std::uint32_t lane, const Mat3f& root) {
@@ -53,7 +52,6 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   set_lane(g.offset, lane,
            Vec3f((bodies.position[m.body_b] - bodies.position[m.body_a]).cast<float>()));
   g.share_a[lane] = m.normal_on_b ? 0 : 1;
-  g.most[lane] = kWidestGap * kWidestGap * m.size_m * m.size_m;
   set_lane(g.gravity, lane,
            ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }
@@ -131,10 +129,13 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
     arms->root_a[k] = g.root_a[k] * g.awake_a;
     arms->root_b[k] = g.root_b[k] * g.awake_b;
   }
-  arms->share_a = g.share_a, arms->most = g.most;
-  arms->gap = g.gap, arms->bridged = g.bridged;
-  for (std::uint32_t lane = 0; lane < lanes; ++lane)
-    arms->least[lane] = kLeastWay * kLeastWay * g.most[lane];
+  arms->share_a = g.share_a;
+  arms->gap = arms->bridged = g.gap;
+  for (std::uint32_t lane = 0; lane < count; ++lane) {
+    const float size_m = step.contacts.manifolds[step.manifolds[first + lane]].size_m;
+    arms->wide[lane] = 1.0f * size_m * size_m;
+    arms->least[lane] = kLeastWay * kLeastWay * size_m * size_m;
+  }
 }
 
 /// How soft a contact should be for the load it bears, approached from how soft it was.

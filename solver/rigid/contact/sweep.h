@@ -19,12 +19,11 @@ template <std::uint32_t lanes>
 struct alignas(64) ArmLanes {
   alignas(4 * lanes) Wide3Of<lanes> root_a[3] = {};  ///< Columns; zero where it takes no impulse.
   Wide3Of<lanes> root_b[3] = {};
-  WideOf<lanes> share_a = {};  ///< Of a gap that arms of a bridge; those of b bridge the rest.
+  WideOf<lanes> share_a = {};  ///< Of the gap that arms of a bridge; those of b bridge the rest.
   WideOf<lanes> least = {};    ///< Square of a change of the gap too small to follow.
-  WideOf<lanes> most = {};     ///< Square of a gap too wide to bridge: they are still to meet.
+  WideOf<lanes> wide = {};     ///< Square of a gap that no body spans.
   Wide3Of<lanes> gap = {};     ///< From a's point of friction to b's when the step began.
   Wide3Of<lanes> bridged = {};
-  Wide3Of<lanes> moved_by = {};             ///< Impulse on b with which the bodies last moved.
   Wide3Of<lanes> owed_a = {}, owed_b = {};  ///< What impulses would do with the new arms, besides.
   bool owes = false;
 };
@@ -37,8 +36,8 @@ struct alignas(64) GatheredBlock {
   Wide3Of<lanes> roll_impulse = {};
   Wide3Of<lanes> arm_a[4] = {}, arm_b[4] = {};
   Wide3Of<lanes> offset = {};             ///< Of b's centre from a's.
-  WideOf<lanes> share_a = {}, most = {};  ///< As in ArmLanes.
-  Wide3Of<lanes> gap = {}, bridged = {};
+  WideOf<lanes> share_a = {};             ///< As in ArmLanes.
+  Wide3Of<lanes> gap = {};
   Wide3Of<lanes> gravity = {};          ///< Acceleration of b from a.
   Softness press;                       ///< By the number of points.
   WideOf<lanes> compliance_scale = {};  ///< Of the springs that press.
@@ -50,10 +49,12 @@ struct alignas(64) GatheredBlock {
 /// Works out Jacobians and masses.
 template <std::uint32_t lanes>
 void derive(GatheredBlock<lanes>& gathered, ConstraintBlock<lanes>& block);
-/// After the bodies moved: Jacobians and masses with arms that followed them. What impulses of this
-/// substep did with the old arms stands; what they would do besides is owed to the next.
+/// After the bodies moved: Jacobians and masses with arms that followed them, or, where they are
+/// still far from each other, aim at where they meet within a substep of `h_s`. What impulses of
+/// this substep did with the old arms stands; what they would do besides is owed to the next.
 template <std::uint32_t lanes>
-void follow(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies);
+void follow(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
+            float h_s);
 /// Once a substep has begun with the impulses of the one before: what follow() left owed.
 template <std::uint32_t lanes>
 void settle(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies);
@@ -74,11 +75,6 @@ void sum_impulses(ConstraintBlock<lanes>& block);
 template <std::uint32_t lanes>
 void scale_impulses(ConstraintBlock<lanes>& block, ArmLanes<lanes>* arms,
                     const float* share_of_row);
-/// Bodies moved with impulses of which they keep a share: takes back what that changed of the sum
-/// of angular momentum, half from each. Before scale_impulses(); not of split blocks.
-template <std::uint32_t lanes>
-void take_way_back(const ConstraintBlock<lanes>& block, const ArmLanes<lanes>& arms,
-                   const SolverRows& bodies, const float* share_of_row, float h_s);
 /// What conjugate gradients remember of a block, by impulse: those of its points, of sliding, of
 /// twist.
 template <std::uint32_t lanes>

@@ -278,27 +278,6 @@ void scale_impulses(ConstraintBlock<lanes>& c, ArmLanes<lanes>* arms, const floa
   if (arms) arms->owed_a = arms->owed_a * share, arms->owed_b = arms->owed_b * share;
 }
 
-template <std::uint32_t lanes>
-void take_way_back(const ConstraintBlock<lanes>& c, const ArmLanes<lanes>& arms,
-                   const SolverRows& bodies, const float* share_of_row, float h_s) {
-  if (c.split) return;
-  using V = WideOf<lanes>;
-  const V given_back = splat<V>(0.5f * h_s) * (splat<V>(1) - share_of<lanes>(c, share_of_row));
-  Pairs<lanes, false> base(c, bodies, &BodyRow::base), v(c, bodies, &BodyRow::velocity);
-  const Wide3Of<lanes> spin = cross(base.b.linear - base.a.linear, arms.moved_by) * given_back;
-  const auto to_root = [&](const Wide3Of<lanes>(&root)[3]) {
-    return Wide3Of<lanes>{dot(root[0], spin), dot(root[1], spin), dot(root[2], spin)};
-  };
-  const Wide3Of<lanes> by_a = to_root(arms.root_a), by_b = to_root(arms.root_b);
-  for (Pairs<lanes, false>* pair : {&base, &v}) {
-    pair->a.angular = pair->a.angular + by_a;
-    pair->b.angular = pair->b.angular + by_b;
-  }
-  store(c, v, bodies);
-  store_side<lanes>(base.a, c.row_a, nullptr, bodies.rows, &BodyRow::base);
-  store_side<lanes>(base.b, c.row_b, nullptr, bodies.rows, &BodyRow::base);
-}
-
 template <bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE void warm_start_as(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
   Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
@@ -368,14 +347,15 @@ void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRo
 /// negative where it does not close.
 template <std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> leaving_speed(const ConstraintBlock<lanes>& c, WideOf<lanes> mass,
-                                          WideOf<lanes> s, WideOf<lanes> u) {
+                                          WideOf<lanes> s, WideOf<lanes> u, float h_s) {
   using V = WideOf<lanes>;
-  const V zero = {}, e = c.rebound.restitution;
+  const V zero = {}, e = c.rebound.restitution, kick = splat<V>(0.5f * h_s) * c.rebound.fall_m_s2;
   const V fallen = splat<V>(2) * c.rebound.fall_m_s2 * max(zero, s);
-  const V square = e * e * (u * u + fallen) - fallen;
+  // At s the velocity is halfway between those before and after the kick.
+  const V fast = u + kick, square = e * e * (fast * fast + fallen) - fallen;
   const auto closes = (mass > zero) & (u < zero);
-  const auto rebounds = closes & (u < splat<V>(-c.rebound.least_m_s)) & (square > zero);
-  return rebounds ? sqrt(rebounds ? square : splat<V>(1)) : closes ? zero : splat<V>(-1);
+  const auto rebounds = closes & (u < splat<V>(-c.rebound.least_m_s)) & (square > kick * kick);
+  return rebounds ? sqrt(rebounds ? square : splat<V>(1)) - kick : closes ? zero : splat<V>(-1);
 }
 
 template <std::uint32_t lanes>
@@ -393,7 +373,7 @@ bool strike(ConstraintBlock<lanes>& c, const SolverRows& bodies, float h_s) {
     const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
     const V u = v.along(c.normal, p.angular_a, p.angular_b);
     // What closes within this substep is struck, and with it what would close in the next.
-    leaves[i] = leaving_speed<lanes>(c, p.mass, s, u);
+    leaves[i] = leaving_speed<lanes>(c, p.mass, s, u, h_s);
     leaves[i] = s + u * splat<V>(2 * h_s) < zero ? leaves[i] : splat<V>(-1);
     fastest = max(fastest, s + u * splat<V>(h_s) < zero ? leaves[i] : zero);
   }
