@@ -14,6 +14,7 @@ constexpr double kGyroscopicAngle = 1e-4;
 constexpr double kLargestAngle = 0.1;  // rad in one midpoint step
 constexpr double kFastestAngle = 100;  // rad in a step; faster, no rule follows it
 constexpr int kMidpointRounds = 12;
+constexpr int kEnergyRounds = 6;
 
 struct Spin {
   Quat rotation;
@@ -80,6 +81,26 @@ FreeRotation free_rotation(const Bodies& bodies, BodySlot body, double dt_s) {
   if (!wobbles(bodies, body, dt_s)) return {rotation_by(dt_s * w_W) * R_WB, w_W};
   const Spin spin = spun_freely(bodies, body, dt_s);
   return {spin.rotation, R_WB * spin.w_B};
+}
+
+Quat rotation_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W,
+                          double energy_J, double reach_rad) {
+  const Mat3 inverse_B = inertia_B.inverse();
+  Quat R_WX = R_WB;
+  double left_rad = reach_rad;
+  for (int round = 0; round < kEnergyRounds; ++round) {
+    const Vec3 w_W = R_WX * (inverse_B * (R_WX.conjugate() * spin_W));
+    const double excess_J = 0.5 * spin_W.dot(w_W) - energy_J;
+    if (excess_J <= 0) return R_WX;
+    // To turn by δ adds δ·(ω × L).
+    const Vec3 slope = w_W.cross(spin_W);
+    if (!(slope.squaredNorm() > 0)) break;
+    const Vec3 turn = -1.0001 * excess_J / slope.squaredNorm() * slope;
+    left_rad -= turn.norm();
+    if (left_rad < 0) break;
+    R_WX = rotation_by(turn) * R_WX;
+  }
+  return R_WB;
 }
 
 }  // namespace sunder::solver

@@ -18,4 +18,9 @@ struct FreeRotation {
 };
 FreeRotation free_rotation(const Bodies& bodies, BodySlot body, double dt_s);
 
+/// A rotation near R_WB, by at most `reach_rad`, in which a body of this angular momentum (W) has no
+/// more than this energy; R_WB itself if there is none.
+Quat rotation_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W,
+                          double energy_J, double reach_rad);
+
 }  // namespace sunder::solver

@@ -219,6 +219,7 @@ class ContactSolver::Stages {
     BodyRow& r = row(body);
     const float share = solver_.energy_guard_.share_of_row()[row_of(body)];
     r.velocity = r.base + share * (r.velocity - r.base);
+    if (solver_.joined_[body]) return;  // or its joints would not meet
     r.position -= static_cast<float>(step_.h_s) * (1 - share) * (solver_.moved_[body] - r.base);
   }
   void scale_impulses(std::uint32_t begin, std::uint32_t end) {
@@ -333,7 +334,15 @@ void ContactSolver::Stages::finish(BodySlot body) {
   if (!guarded_ || solver_.energy_guard_.grants(body)) {
     bodies_.place(body, position_W, solver_.free_[body].R_WB);
     bodies_.angular_velocity[body] = solver_.free_[body].angular_velocity_W;
-  } else {
+  } else if (const Mat3& I=bodies_.inertia_B[body]; true) {
+    FreeRotation& f = solver_.free_[body];
+    const Vec3 spin_W = f.R_WB * (I * (f.R_WB.conjugate() * f.angular_velocity_W));
+    const double E = 0.5 * double{angular(r.velocity).squaredNorm()};
+    const Quat R = rotation_with_energy(I, f.R_WB, spin_W, E, (getenv("REACH")?atof(getenv("REACH")):1.0) * angle_W.norm());
+    const Vec3 w = R * (I.inverse() * (R.conjugate() * spin_W));
+    if (0.5*w.dot(spin_W) <= E) {
+    bodies_.place(body, position_W, R);
+    bodies_.angular_velocity[body] = w; return; }
     const Quat turn = rotation_by(angle_W);
     const Vec3 added_W = (root_W * angular(change)).cast<double>();
     bodies_.place(body, position_W, turn * bodies_.rotation[body]);
@@ -366,6 +375,11 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   energy_.resize(accelerated ? order_.manifolds().size() : 0);
   joint_solver_.collect(bodies, joints, order_.in_contact());
   collect_bodies(bodies);
+  joined_.assign(bodies.size(), 0);
+  for (const auto& [a, b] : joint_solver_.joined()) {
+    if (!a.none()) joined_[a] = 1;
+    if (!b.none()) joined_[b] = 1;
+  }
   moving_ = std::ranges::any_of(active_, [&](BodySlot body) {
     return bodies.velocity[body].norm() * step.dt_s > kMoves * bodies.reach_m[body];
   });

@@ -61,6 +61,7 @@ class ContactSolver {
   ByBody<Mat3f> root_W_;
   ByBody<Vec3> spin_W_;         ///< Angular momentum when the step began.
   ByBody<FreeRotation> free_;   ///< How bodies turn without impulses; at the end, with them.
+  ByBody<std::uint8_t> joined_;
   ByBody<Wide> moved_;          ///< Velocities with which bodies moved in this substep.
   bool moving_ = false;         ///< Some body in contact moves: arms follow.
   std::vector<float> energy_;   ///< Of a sweep's changes, by manifold; none: sweeps go plainly.
