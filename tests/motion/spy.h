@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/motion/forwarding.h"
+#include "bench/truths/forwarding_physics.h"
 
 namespace sunder::tests {
 

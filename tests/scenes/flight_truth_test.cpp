@@ -8,7 +8,7 @@
 #include "fracture/pattern_breaker.h"
 #include "scenes/load.h"
 #include "solver/rigid/rigid_physics.h"
-#include "tests/motion/forwarding.h"
+#include "bench/truths/forwarding_physics.h"
 
 namespace sunder::tests {
 namespace {

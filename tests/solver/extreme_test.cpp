@@ -10,7 +10,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
-#include "tests/solver/rigid_world.h"
+#include "bench/truths/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

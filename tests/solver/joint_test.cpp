@@ -5,7 +5,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/trigonometry.h"
-#include "tests/solver/presets.h"
+#include "bench/truths/presets.h"
 
 namespace sunder::solver {
 namespace {
@@ -14,21 +14,6 @@ using W = RigidWorld;
 using Kind = JointDesc::Kind;
 constexpr double kDt_s = 1.0 / 120;  // the preset `accurate`
 constexpr int kSubsteps = 8;
-
-/// A joint of bodies where they are now, at a place in the world. No id: the world.
-JointDesc joint_at(const RigidWorld& world, Kind kind, BodyId a, BodyId b, const Vec3& at_W,
-                   const Vec3& axis_W = Vec3::UnitZ()) {
-  JointDesc joint;
-  joint.kind = kind;
-  joint.a = a, joint.b = b;
-  const Pose X_WA = a.none() ? Pose{} : world.state(a).X_WB;
-  const Pose X_WB = b.none() ? Pose{} : world.state(b).X_WB;
-  joint.anchor_a_R = X_WA.inverse() * at_W, joint.anchor_b_R = X_WB.inverse() * at_W;
-  joint.axis_a_R = X_WA.rotation.conjugate() * axis_W;
-  joint.axis_b_R = X_WB.rotation.conjugate() * axis_W;
-  joint.rotation_RaRb = X_WA.rotation.conjugate() * X_WB.rotation;
-  return joint;
-}
 
 /// How far the ends of a joint are apart.
 double gap(const RigidWorld& world, const JointDesc& joint) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
-#include "tests/solver/rigid_world.h"
+#include "bench/truths/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

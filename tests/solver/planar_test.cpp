@@ -7,7 +7,7 @@
 #include "engine/geometry/hull.h"
 #include "engine/geometry/prism.h"
 #include "solver/planar/planar_physics.h"
-#include "tests/solver/rigid_world.h"
+#include "bench/truths/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

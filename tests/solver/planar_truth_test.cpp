@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/planar/planar_physics.h"
-#include "tests/solver/presets.h"
+#include "bench/truths/presets.h"
 
 namespace sunder::solver {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/geometry/hull.h"
-#include "tests/solver/rigid_world.h"
+#include "bench/truths/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/trigonometry.h"
-#include "tests/solver/presets.h"
+#include "bench/truths/presets.h"
 
 namespace sunder::solver {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/geometry/hull.h"
 #include "solver/rigid/collide/patch.h"
-#include "tests/solver/rigid_world.h"
+#include "bench/truths/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/geometry/hull.h"
-#include "tests/solver/rigid_world.h"
+#include "bench/truths/rigid_world.h"
 
 namespace sunder::solver {
 namespace {
