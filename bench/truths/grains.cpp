@@ -55,9 +55,9 @@ double domino_scales(const Preset& preset) {
   return domino_speed(preset, 0.1) / domino_speed(preset, 0.8) - 1;
 }
 
-/// The cone that a column of grain, 1.5 times as high as it is wide from its axis, becomes.
+/// What a column of a thousand grains becomes, 1.5 times as high as its radius.
 struct Heap {
-  double runout = 0;     ///< What its radius grew, of what it was.
+  double runout = 0;     ///< How far 98 % of the grains lie out, over the column's radius, less 1.
   double slope_deg = 0;  ///< Of its side.
 };
 constexpr double kRadius_m = 0.25, kAspect = 1.5;
@@ -88,8 +88,8 @@ Heap collapse(const Preset& preset) {
     wall.X_WB.position = kRadius_m * out;
     walls.push_back(world.add(wall));
   }
-  const std::vector<BodyId> grains = pour(world, 600);
-  world.run(2);
+  const std::vector<BodyId> grains = pour(world, 1400);
+  world.run(2.5);
   // What lies above the height that the aspect asks for is taken away.
   std::vector<BodyId> column;
   for (const BodyId id : grains) {
@@ -100,14 +100,18 @@ Heap collapse(const Preset& preset) {
   }
   for (const BodyId id : walls) world.remove(id);
   world.run(2.5);
-  double radius_m = 0, height_m = 0;
+  std::vector<double> radii_m;
+  double height_m = 0, radius_m = 0;
   for (const BodyId id : column) {
     const Vec3 at = world.state(id).X_WB.position;
-    radius_m += std::hypot(at.x(), at.z()) / static_cast<double>(column.size());
-    height_m += at.y() / static_cast<double>(column.size());
+    radii_m.push_back(std::hypot(at.x(), at.z()));
+    radius_m += radii_m.back();
+    height_m += at.y();
   }
+  std::sort(radii_m.begin(), radii_m.end());
+  const double edge_m = radii_m[radii_m.size() * 98 / 100];
   // Of a cone: half its radius and a quarter of its height are the means.
-  return {2 * radius_m / kRadius_m - 1, std::atan(2 * height_m / radius_m) * 180 / kPi};
+  return {edge_m / kRadius_m - 1, std::atan(2 * height_m / radius_m) * 180 / kPi};
 }
 
 const Heap& heap(const Preset& preset) {
@@ -132,11 +136,9 @@ Truths grain_truths() {
       {17, "domino wave: v/√(gH)", "", "van Leeuwen, physics/0401018", 0.1, nullptr, {}},
       {18, "silo: wall pressure over depth", "", "Janssen 1895", 0.02, nullptr, {}},
       {19, "column of 1.5 that collapses: runout", "", "1.24 a, Lube et al. 2004", 0.15,
-       [](const Preset& p) { return heap(p).runout / (1.24 * kAspect) - 1; }, {1, 1, 1, 1}, 3},
+       [](const Preset& p) { return heap(p).runout / (1.24 * kAspect) - 1; }, {1, 1, 1, 1}, 1},
       {20, "the same: slope of the heap, off the mean of all presets", "°", "the same at every step",
        1, slope_off_mean_deg, {1, 1, 1, 1}, 0},
-      {23, "216 spheres in a heap: penetration, mean squared", "", "SimBenchmark 666", 2.7e-4,
-       nullptr, {}},
       {34, "cantilever with a load hung by rope, by joint, resting: limit", "", "6 F L/(b h²)", 0.1,
        nullptr, {}},
       {35, "spinning rod and ring: burst", "", "ρ ω² L²/8, ρ ω² r²", 0.1, nullptr, {}},

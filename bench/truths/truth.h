@@ -42,6 +42,7 @@ Truths stack_truths();
 Truths balance_truths();
 Truths planar_truths();
 Truths grain_truths();
+Truths sphere_truths();
 Truths energy_truths();
 Truths break_truths();
 Truths through_truths();
