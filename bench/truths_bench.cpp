@@ -31,15 +31,14 @@ struct Line {
 
 bool misses(double value, double most) { return !(std::abs(value) <= most); }
 
-/// Two digits, as few characters as they take.
-std::string shortly(double value) {
+std::string shortly(double value, int digits) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
 
-std::string with_unit(const Truth& truth, double value) {
-  return shortly(value) + (*truth.unit ? " " : "") + truth.unit;
+std::string mark_of(const Truth& truth) {
+  return shortly(truth.mark, 3) + (*truth.unit ? " " : "") + truth.unit;
 }
 
 Line measure(const Truth& truth, const Options& options) {
@@ -65,19 +64,18 @@ void print_head(const Options& options) {
 
 void print_markdown(const Line& line) {
   const Truth& truth = line.truth;
-  std::printf("| %d | %s | %s | %s |", truth.row, truth.what, truth.source,
-              with_unit(truth, truth.mark).c_str());
+  std::printf("| %d | %s | %s | %s |", truth.row, truth.what, truth.source, mark_of(truth).c_str());
   if (line.figures.empty()) std::printf(" not measured yet | | | |");
   for (const Figure& figure : line.figures) {
     const char* bold = misses(figure.value, truth.mark) ? "**" : "";
-    std::printf(" %s%s%s |", bold, shortly(figure.value).c_str(), bold);
+    std::printf(" %s%s%s |", bold, shortly(figure.value, 2).c_str(), bold);
   }
   std::printf("\n");
 }
 
 void print_plain(const Line& line) {
   const Truth& truth = line.truth;
-  std::printf("%2d %s (mark %s)\n", truth.row, truth.what, with_unit(truth, truth.mark).c_str());
+  std::printf("%2d %s (mark %s)\n", truth.row, truth.what, mark_of(truth).c_str());
   if (line.figures.empty()) std::printf("     not measured yet\n");
   for (const Figure& figure : line.figures) {
     const double bound = truth.bounds[figure.preset];

@@ -116,10 +116,10 @@ Flight fly(const Preset& preset) {
         start.center() + t / start.mass_kg * start.momentum_Ns + 0.5 * t * t * gravity_W;
     const Vec3 expected = start.momentum_Ns + t * start.mass_kg * gravity_W;
     worst.center_m = std::max(worst.center_m, (now.center() - parabola).norm());
-    worst.momentum = std::max(worst.momentum,
-                              (now.momentum_Ns - expected).norm() / start.momentum_Ns.norm());
-    worst.spin = std::max(
-        worst.spin, (now.own_spin() - start.own_spin()).norm() / start.own_spin().norm());
+    worst.momentum =
+        std::max(worst.momentum, (now.momentum_Ns - expected).norm() / start.momentum_Ns.norm());
+    worst.spin =
+        std::max(worst.spin, (now.own_spin() - start.own_spin()).norm() / start.own_spin().norm());
   }
   return worst;
 }
@@ -136,14 +136,34 @@ Measure of_flight(double Flight::*which) {
 
 Truths break_truths() {
   return {
-      {16, "block broken in flight: its centre", "m", "parabola", 1e-4, of_flight(&Flight::center_m),
-       {1, 1, 1, 1}},
-      {16, "block broken in flight: p", "", "constant but for gravity", 1e-6,
-       of_flight(&Flight::momentum), {1, 1, 1, 1}},
-      {16, "block broken in flight: L", "", "constant", 1e-5, of_flight(&Flight::spin),
-       {1, 1, 1, 1}},
-      {26, "block broken in flight: energy beyond what breaks leave", "",
-       "KE after ≤ before − toughness × area", 1e-6, of_flight(&Flight::gain), {1, 1, 1, 1}},
+      {16,
+       "block broken in flight: its centre",
+       "m",
+       "parabola",
+       1e-4,
+       of_flight(&Flight::center_m),
+       {0.01, 0.0045, 0.0017, 0.00092}},
+      {16,
+       "block broken in flight: p",
+       "",
+       "constant but for gravity",
+       1e-6,
+       of_flight(&Flight::momentum),
+       {2.1e-6, 1.8e-6, 2.9e-6, 2.6e-6}},
+      {16,
+       "block broken in flight: L",
+       "",
+       "constant",
+       1e-5,
+       of_flight(&Flight::spin),
+       {0.016, 0.0041, 0.002, 0.0015}},
+      {26,
+       "block broken in flight: energy beyond what breaks leave",
+       "",
+       "KE after ≤ before − toughness × area",
+       1e-6,
+       of_flight(&Flight::gain),
+       {0.022, 1e-10, 1e-10, 1e-10}},
   };
 }
 

@@ -25,8 +25,12 @@ class Kept {
 
   double energy() const { return world_.kinetic_energy() / energy_J_ - 1; }
   double spin() const { return (world_.angular_momentum() - spin_).norm() / spin_.norm(); }
-  double spin_over(double scale) const { return (world_.angular_momentum() - spin_).norm() / scale; }
-  double momentum_over(double scale) const { return (world_.momentum() - momentum_).norm() / scale; }
+  double spin_over(double scale) const {
+    return (world_.angular_momentum() - spin_).norm() / scale;
+  }
+  double momentum_over(double scale) const {
+    return (world_.momentum() - momentum_).norm() / scale;
+  }
 
  private:
   const RigidWorld& world_;
@@ -46,8 +50,7 @@ double parabola_m(const Preset& preset) {
 /// Turns about its middle axis for a minute, and so tumbles over and over (Dzhanibekov).
 double tumbler(const Preset& preset, double (Kept::*error)() const) {
   PresetWorld world(preset, Vec3::Zero());
-  world.add(W::moving(W::box(Vec3(1, 0.6, 0.2), Vec3::Zero()), Vec3::Zero(),
-                      Vec3(0.01, 10, 0.01)));
+  world.add(W::moving(W::box(Vec3(1, 0.6, 0.2), Vec3::Zero()), Vec3::Zero(), Vec3(0.01, 10, 0.01)));
   const Kept kept(world);
   world.run(60);
   return (kept.*error)();
@@ -105,9 +108,8 @@ double implosion(const Preset& preset, double (Kept::*error)(double) const) {
 double spin_on_ground(const Preset& preset) {
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), 0));
-  world.add(W::with_friction(W::moving(W::box(Vec3(0.4, 0.2, 0.4), Vec3(0, 0.1, 0)),
-                                       Vec3::Zero(), Vec3(0, 150, 0)),
-                             0));
+  world.add(W::with_friction(
+      W::moving(W::box(Vec3(0.4, 0.2, 0.4), Vec3(0, 0.1, 0)), Vec3::Zero(), Vec3(0, 150, 0)), 0));
   const Kept kept(world);
   world.run(1);
   return kept.spin();
@@ -149,24 +151,76 @@ Measure spin_of(double (*run)(const Preset&, double (Kept::*)() const)) {
 
 Truths flight_truths() {
   return {
-      {6, "free spinner about its middle axis, 60 s: E", "", "constant", 1e-3, energy_of(tumbler),
-       {1, 1, 1, 1}},
-      {6, "free spinner about its middle axis, 60 s: L", "", "constant", 1e-6, spin_of(tumbler),
-       {1, 1, 1, 1}},
-      {6, "tumbling slab, .5 and 5 rad/s, 4 s: E", "", "constant", 1e-6, energy_of(slab),
-       {1, 1, 1, 1}},
-      {6, "tumbling slab, .5 and 5 rad/s, 4 s: L", "", "constant", 1e-6, spin_of(slab),
-       {1, 1, 1, 1}},
-      {6, "box that spins at 150 rad/s on smooth ground, 1 s: L", "", "constant", 1e-4,
-       spin_on_ground, {1, 1, 1, 1}},
-      {16, "free fall, 2 s: place", "m", "parabola", 1e-9, parabola_m, {1, 1, 1, 1}},
-      {16, "heap that settles: impulse not reported, of a second's weight", "", "constant", 1e-6,
-       unreported_impulse, {1, 1, 1, 1}},
-      {28, "48 boxes fly apart in contact: L", "", "constant", 1e-5, fragments, {1, 1, 1, 1}},
-      {28, "60 hulls fly into each other: p", "", "constant", 1e-6,
-       [](const Preset& p) { return implosion(p, &Kept::momentum_over); }, {1, 1, 1, 1}},
-      {28, "60 hulls fly into each other: L", "", "constant", 1e-5,
-       [](const Preset& p) { return implosion(p, &Kept::spin_over); }, {1, 1, 1, 1}},
+      {6,
+       "free spinner about its middle axis, 60 s: E",
+       "",
+       "constant",
+       1e-3,
+       energy_of(tumbler),
+       {1e-7, 1e-7, 1e-7, 1e-7}},
+      {6,
+       "free spinner about its middle axis, 60 s: L",
+       "",
+       "constant",
+       1e-6,
+       spin_of(tumbler),
+       {1e-10, 1e-10, 1e-10, 1e-10}},
+      {6,
+       "tumbling slab, .5 and 5 rad/s, 4 s: E",
+       "",
+       "constant",
+       1e-6,
+       energy_of(slab),
+       {1e-10, 1e-10, 1e-10, 1e-10}},
+      {6,
+       "tumbling slab, .5 and 5 rad/s, 4 s: L",
+       "",
+       "constant",
+       1e-6,
+       spin_of(slab),
+       {1e-10, 1e-10, 1e-10, 1e-10}},
+      {6,
+       "box that spins at 150 rad/s on smooth ground, 1 s: L",
+       "",
+       "constant",
+       1e-4,
+       spin_on_ground,
+       {0.31, 0.0015, 0.00064, 1e-8}},
+      {16,
+       "free fall, 2 s: place",
+       "m",
+       "parabola",
+       1e-9,
+       parabola_m,
+       {1e-13, 1e-13, 1e-13, 1.4e-13}},
+      {16,
+       "heap that settles: impulse not reported, of a second's weight",
+       "",
+       "constant",
+       1e-6,
+       unreported_impulse,
+       {1.8e-8, 1.4e-8, 2.8e-8, 2.8e-8}},
+      {28,
+       "48 boxes fly apart in contact: L",
+       "",
+       "constant",
+       1e-5,
+       fragments,
+       {3.7e-6, 4.9e-6, 1e-5, 1.9e-5}},
+      {28,
+       "60 hulls fly into each other: p",
+       "",
+       "constant",
+       1e-6,
+       [](const Preset& p) { return implosion(p, &Kept::momentum_over); },
+       {2.9e-7, 2.3e-7, 2.3e-7, 5.3e-7}},
+      {28,
+       "60 hulls fly into each other: L",
+       "",
+       "constant",
+       1e-5,
+       [](const Preset& p) { return implosion(p, &Kept::spin_over); },
+       {3.1e-7, 1.1e-7, 3.6e-7, 1.2e-7}},
   };
 }
 

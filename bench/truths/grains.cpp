@@ -26,8 +26,8 @@ double domino_speed(const Preset& preset, double height_m) {
   std::vector<BodyId> dominoes;
   for (int i = 0; i < 30; ++i) {
     const Vec3 size = height_m * Vec3(0.125, 1, 0.5);
-    dominoes.push_back(world.add(
-        W::with_friction(W::box(size, Vec3(i * pitch_m, 0.5 * height_m, 0)), friction)));
+    dominoes.push_back(
+        world.add(W::with_friction(W::box(size, Vec3(i * pitch_m, 0.5 * height_m, 0)), friction)));
   }
   const double mass_kg = 1000 * 0.0625 * std::pow(height_m, 3);
   world.physics().apply_impulse(dominoes[0], Vec3(0.3 * mass_kg * std::sqrt(kG * height_m), 0, 0),
@@ -131,19 +131,31 @@ double slope_off_mean_deg(const Preset& preset) {
 
 Truths grain_truths() {
   return {
-      {17, "domino wave: v/√(gH) at H = .1 m against .8 m", "", "similarity", 0.01, domino_scales,
-       {1, 1, 1, 1}},
+      {17,
+       "domino wave: v/√(gH) at H = .1 m against .8 m",
+       "",
+       "similarity",
+       0.01,
+       domino_scales,
+       {0.15, 0.15, 0.092, 0.01}},
       {17, "domino wave: v/√(gH)", "", "van Leeuwen, physics/0401018", 0.1, nullptr, {}},
       {18, "silo: wall pressure over depth", "", "Janssen 1895", 0.02, nullptr, {}},
-      {19, "column of 1.5 that collapses: runout", "", "1.24 a, Lube et al. 2004", 0.15,
-       [](const Preset& p) { return heap(p).runout / (1.24 * kAspect) - 1; }, {1, 1, 1, 1}, 1},
-      {20, "the same: slope of the heap, off the mean of all presets", "°", "the same at every step",
-       1, slope_off_mean_deg, {1, 1, 1, 1}, 0},
-      {34, "cantilever with a load hung by rope, by joint, resting: limit", "", "6 F L/(b h²)", 0.1,
-       nullptr, {}},
-      {35, "spinning rod and ring: burst", "", "ρ ω² L²/8, ρ ω² r²", 0.1, nullptr, {}},
-      {36, "blow at the tip, at midspan, at a corner: place of the break", "", "largest moment", 0.1,
-       nullptr, {}},
+      {19,
+       "column of 1.5 that collapses: runout",
+       "",
+       "1.24 a, Lube et al. 2004",
+       0.15,
+       [](const Preset& p) { return heap(p).runout / (1.24 * kAspect) - 1; },
+       {0.37, 0.34, 0.42, 0.51},
+       1},
+      {20,
+       "the same: slope of the heap, off the mean of all presets",
+       "°",
+       "the same at every step",
+       1,
+       slope_off_mean_deg,
+       {3, 0.23, 0.9, 1.8},
+       0},
   };
 }
 

@@ -39,8 +39,8 @@ Errors head_on(const Preset& preset, bool balls) {
     return balls ? W::sphere(0.5 * size_m, Vec3(x_m, 0, 0), density)
                  : W::box(Vec3::Constant(size_m), Vec3(x_m, 0, 0), density);
   };
-  const Met met = meet(preset, W::moving(body(-start_m, 1000), way),
-                       W::moving(body(start_m, 3000), -way));
+  const Met met =
+      meet(preset, W::moving(body(-start_m, 1000), way), W::moving(body(start_m, 3000), -way));
   const double together_m_s = -0.5 * kSpeed_m_s;
   const double meet_s = (2 * start_m - size_m) / (2 * kSpeed_m_s);
   const double gap_m = start_m - 0.5 * size_m - kSpeed_m_s * meet_s +
@@ -78,16 +78,14 @@ Errors crossing(const Preset& preset) {
 /// A fast thin plate takes a ball along.
 Errors plate_and_ball(const Preset& preset) {
   const double thick_m = 0.01, radius_m = 0.05, speed_m_s = 300;
-  BodyDesc plate =
-      W::moving(W::box(Vec3(thick_m, 1, 1), Vec3(-9.1, 0, 0)), Vec3(speed_m_s, 0, 0));
+  BodyDesc plate = W::moving(W::box(Vec3(thick_m, 1, 1), Vec3(-9.1, 0, 0)), Vec3(speed_m_s, 0, 0));
   plate.mass_kg = 10;
   const BodyDesc ball = W::sphere(radius_m, Vec3(1.3, 0, 0), 2000);
   const Met met = meet(preset, plate, ball);
   const double together_m_s = speed_m_s * plate.mass_kg / (plate.mass_kg + ball.mass_kg);
   const double meet_s = (1.3 + 9.1 - radius_m - 0.5 * thick_m) / speed_m_s;
   const double end_m = 1.3 + together_m_s * (kFlight_s - meet_s);
-  const double gap_m =
-      met.b.X_WB.position.x() - met.a.X_WB.position.x() - radius_m - 0.5 * thick_m;
+  const double gap_m = met.b.X_WB.position.x() - met.a.X_WB.position.x() - radius_m - 0.5 * thick_m;
   return {std::max(std::abs(met.b.X_WB.position.x() - end_m), std::abs(gap_m)),
           std::abs(met.b.velocity_W.x() - together_m_s), met.momentum};
 }
@@ -121,28 +119,83 @@ Errors worst_momentum(const Preset& preset) {
 Truths meeting_truths() {
   const char* source = "closed form";
   return {
-      {15, "balls head-on at 1,000 m/s: place after", "m", source, 1e-3,
-       worst_of(balls_head_on, &Errors::place_m), {1, 1, 1, 1}},
-      {15, "balls head-on at 1,000 m/s: speed after", "m/s", source, 1e-2,
-       worst_of(balls_head_on, &Errors::speed_m_s), {1, 1, 1, 1}},
-      {15, "cubes head-on at 1,000 m/s: place after", "m", source, 1e-3,
-       worst_of(cubes_head_on, &Errors::place_m), {1, 1, 1, 1}},
-      {15, "cubes head-on at 1,000 m/s: speed after", "m/s", source, 1e-2,
-       worst_of(cubes_head_on, &Errors::speed_m_s), {1, 1, 1, 1}},
-      {15, "cubes head-on at 1,000 m/s, 32 sweeps: place after", "m", source, 1e-3,
-       worst_of(cubes_at_length, &Errors::place_m), {1, 1, 1, 1}},
-      {15, "cubes head-on at 1,000 m/s, 32 sweeps: speed after", "m/s", source, 1e-2,
-       worst_of(cubes_at_length, &Errors::speed_m_s), {1, 1, 1, 1}},
-      {15, "balls that cross at 500 m/s: place after", "m", source, 0.01,
-       worst_of(crossing, &Errors::place_m), {1, 1, 1, 1}},
-      {15, "balls that cross at 500 m/s: speed after", "m/s", source, 0.1,
-       worst_of(crossing, &Errors::speed_m_s), {1, 1, 1, 1}},
-      {15, "plate of 10 mm takes a ball at 300 m/s: place after", "m", source, 1e-3,
-       worst_of(plate_and_ball, &Errors::place_m), {1, 1, 1, 1}},
-      {15, "plate of 10 mm takes a ball at 300 m/s: speed after", "m/s", source, 1e-2,
-       worst_of(plate_and_ball, &Errors::speed_m_s), {1, 1, 1, 1}},
-      {15, "all of these: momentum", "", "constant", 1e-6,
-       worst_of(worst_momentum, &Errors::momentum), {1, 1, 1, 1}},
+      {15,
+       "balls head-on at 1,000 m/s: place after",
+       "m",
+       source,
+       1e-3,
+       worst_of(balls_head_on, &Errors::place_m),
+       {2.4e-6, 2.4e-6, 9.5e-6, 2.4e-6}},
+      {15,
+       "balls head-on at 1,000 m/s: speed after",
+       "m/s",
+       source,
+       1e-2,
+       worst_of(balls_head_on, &Errors::speed_m_s),
+       {1e-6, 4.6e-5, 0.00019, 1e-6}},
+      {15,
+       "cubes head-on at 1,000 m/s: place after",
+       "m",
+       source,
+       1e-3,
+       worst_of(cubes_head_on, &Errors::place_m),
+       {0.94, 0.94, 0.17, 0.001}},
+      {15,
+       "cubes head-on at 1,000 m/s: speed after",
+       "m/s",
+       source,
+       1e-2,
+       worst_of(cubes_head_on, &Errors::speed_m_s),
+       {18, 18, 2.8, 0.0014}},
+      {15,
+       "cubes head-on at 1,000 m/s, 32 sweeps: place after",
+       "m",
+       source,
+       1e-3,
+       worst_of(cubes_at_length, &Errors::place_m),
+       {6.8e-5, 6.8e-5, 5.4e-5, 6.8e-5}},
+      {15,
+       "cubes head-on at 1,000 m/s, 32 sweeps: speed after",
+       "m/s",
+       source,
+       1e-2,
+       worst_of(cubes_at_length, &Errors::speed_m_s),
+       {0.0014, 0.0014, 0.00078, 0.0014}},
+      {15,
+       "balls that cross at 500 m/s: place after",
+       "m",
+       source,
+       0.01,
+       worst_of(crossing, &Errors::place_m),
+       {0.15, 0.15, 0.15, 0.15}},
+      {15,
+       "balls that cross at 500 m/s: speed after",
+       "m/s",
+       source,
+       0.1,
+       worst_of(crossing, &Errors::speed_m_s),
+       {2.5, 2.5, 2.5, 2.5}},
+      {15,
+       "plate of 10 mm takes a ball at 300 m/s: place after",
+       "m",
+       source,
+       1e-3,
+       worst_of(plate_and_ball, &Errors::place_m),
+       {1.3e-6, 3.4e-6, 1.3e-6, 3.4e-6}},
+      {15,
+       "plate of 10 mm takes a ball at 300 m/s: speed after",
+       "m/s",
+       source,
+       1e-2,
+       worst_of(plate_and_ball, &Errors::speed_m_s),
+       {1.9e-5, 1.9e-5, 6.5e-5, 6.5e-5}},
+      {15,
+       "all of these: momentum",
+       "",
+       "constant",
+       1e-6,
+       worst_of(worst_momentum, &Errors::momentum),
+       {2.5e-7, 1.1e-7, 2.6e-7, 6.2e-7}},
   };
 }
 

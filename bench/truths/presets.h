@@ -36,9 +36,7 @@ class PresetWorld : public RigidWorld {
       : RigidWorld(options_of(preset, gravity_W)), preset_(preset) {}
 
   SolveReport step() { return RigidWorld::step(preset_.dt_s, preset_.substeps); }
-  SolveReport run(double time_s) {
-    return RigidWorld::run(time_s, preset_.dt_s, preset_.substeps);
-  }
+  SolveReport run(double time_s) { return RigidWorld::run(time_s, preset_.dt_s, preset_.substeps); }
   /// Calls visit() after every step of that time.
   template <class Visit>
   void watch(double time_s, const Visit& visit) {

@@ -27,7 +27,7 @@ struct Truth {
   double mark;         ///< What |measure| should not exceed.
   Measure measure;     ///< None: not measured yet.
   Bounds bounds;       ///< What it does not exceed, by preset: what is reached and half as much.
-  /// So many presets, from the first; the others take too long for a test.
+  /// So many presets, from the first: the others take too long for a test, or tell it nothing.
   std::size_t tested = kPresets.size();
 };
 using Truths = std::vector<Truth>;
@@ -45,6 +45,7 @@ Truths grain_truths();
 Truths sphere_truths();
 Truths energy_truths();
 Truths break_truths();
+Truths load_truths();
 Truths through_truths();
 
 /// All of these, in the order of their rows.

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/truths/forwarding_physics.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/load.h"
 #include "solver/rigid/rigid_physics.h"
-#include "bench/truths/forwarding_physics.h"
 
 namespace sunder::tests {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/base/parallel.h"
 #include "bench/truths/presets.h"
+#include "engine/base/parallel.h"
 
 namespace sunder::solver {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/geometry/hull.h"
 #include "bench/truths/rigid_world.h"
+#include "engine/geometry/hull.h"
 
 namespace sunder::solver {
 namespace {

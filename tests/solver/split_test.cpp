@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/base/parallel.h"
 #include "bench/truths/rigid_world.h"
+#include "engine/base/parallel.h"
 
 namespace sunder::solver {
 namespace {
