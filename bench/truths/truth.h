@@ -6,7 +6,7 @@
 
 #include <array>
 #include <functional>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/truths/presets.h"
@@ -20,6 +20,17 @@ using Bounds = std::array<double, kPresets.size()>;
 
 /// A truth holds as far as |measure(preset)| is small.
 struct Truth {
+  Truth(int row_, const char* what_, const char* unit_, const char* source_, double mark_,
+        Measure measure_, const Bounds& bounds_, std::size_t tested_ = kPresets.size())
+      : row(row_),
+        what(what_),
+        unit(unit_),
+        source(source_),
+        mark(mark_),
+        measure(std::move(measure_)),
+        bounds(bounds_),
+        tested(tested_) {}
+
   int row;             ///< Of the table; truths of one row belong together.
   const char* what;    ///< What is measured. Unique.
   const char* unit;    ///< "": a share of what it is compared with.
@@ -28,7 +39,7 @@ struct Truth {
   Measure measure;     ///< None: not measured yet.
   Bounds bounds;       ///< What it does not exceed, by preset: what is reached and half as much.
   /// So many presets, from the first: the others take too long for a test, or tell it nothing.
-  std::size_t tested = kPresets.size();
+  std::size_t tested;
 };
 using Truths = std::vector<Truth>;
 
