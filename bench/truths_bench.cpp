@@ -33,7 +33,10 @@ bool misses(double value, double most) { return !(std::abs(value) <= most); }
 
 std::string shortly(double value, int digits) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  if (std::abs(value) >= 100 && std::abs(value) < 1e6)
+    std::snprintf(text, sizeof text, "%.0f", value);
+  else
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
 

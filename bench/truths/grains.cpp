@@ -134,7 +134,6 @@ Truths grain_truths() {
       Truth(17, "domino wave: v/√(gH) at H = .1 m against .8 m", "", "similarity", 0.01,
             domino_scales, {0.15, 0.15, 0.092, 0.01}),
       Truth(17, "domino wave: v/√(gH)", "", "van Leeuwen, physics/0401018", 0.1, nullptr, {}),
-      Truth(18, "silo: wall pressure over depth", "", "Janssen 1895", 0.02, nullptr, {}),
       Truth(
           19, "column of 1.5 that collapses: runout", "", "1.24 a, Lube et al. 2004", 0.15,
           [](const Preset& p) { return heap(p).runout / (1.24 * kAspect) - 1; },

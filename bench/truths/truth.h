@@ -53,6 +53,7 @@ Truths stack_truths();
 Truths balance_truths();
 Truths planar_truths();
 Truths grain_truths();
+Truths silo_truths();
 Truths sphere_truths();
 Truths energy_truths();
 Truths break_truths();

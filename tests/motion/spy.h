@@ -17,7 +17,7 @@ struct Motions {
   Vec3 momentum = Vec3::Zero(), spin = Vec3::Zero();
 };
 
-class SpyPhysics final : public ForwardingPhysics {
+class SpyPhysics final : public bench::ForwardingPhysics {
  public:
   /// Of one step's breaks: before the first, and when all are done.
   struct Balance {
