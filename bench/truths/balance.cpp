@@ -52,13 +52,13 @@ Measure thinnest_arch(int count, double truth) {
 Truths balance_truths() {
   const char* heyman = "line of thrust, Milankovitch 1907, Heyman 1969";
   return {
-      Truth(10, "overhang of 8: farthest", "", "Σ L/2k", 0.005, farthest_overhang,
+      truth(10, "overhang of 8: farthest", "", "Σ L/2k", 0.005, farthest_overhang,
             {0.00015, 0.00015, 0.00015, 0.00015}),
-      Truth(11, "arch of 7: least thickness", "", heyman, 0.015, thinnest_arch(7, 0.09625),
+      truth(11, "arch of 7: least thickness", "", heyman, 0.015, thinnest_arch(7, 0.09625),
             {0.0049, 0.0049, 0.0049, 0.0049}),
-      Truth(11, "arch of 11: least thickness", "", heyman, 0.015, thinnest_arch(11, 0.10491),
+      truth(11, "arch of 11: least thickness", "", heyman, 0.015, thinnest_arch(11, 0.10491),
             {0.0058, 0.0032, 0.0032, 0.0032}),
-      Truth(11, "arch of 21: least thickness", "", heyman, 0.015, thinnest_arch(21, 0.10679),
+      truth(11, "arch of 21: least thickness", "", heyman, 0.015, thinnest_arch(21, 0.10679),
             {0.22, 0.041, 0.015, 0.0056}),
   };
 }

@@ -144,21 +144,21 @@ double half_overlaps(const Preset& preset) {
 Truths energy_truths() {
   const char* none = "no energy from nowhere";
   return {
-      Truth(37, "slivers of 1 : 1,000 after 8 s: fastest", "m/s", "rest", 0.1, fastest_sliver,
+      truth(37, "slivers of 1 : 1,000 after 8 s: fastest", "m/s", "rest", 0.1, fastest_sliver,
             {0.1, 0.1, 0.1, 0.1}, 3),
-      Truth(38, "plates and needles that spin fast: energy gained", "", none, 1e-6,
+      truth(38, "plates and needles that spin fast: energy gained", "", none, 1e-6,
             plates_and_needles, {0.025, 1e-10, 1e-10, 0.062}),
-      Truth(39, "box on a box, mass ratios 1e-6 to 1e6: energy gained", "", none, 1e-6, mass_ratios,
+      truth(39, "box on a box, mass ratios 1e-6 to 1e6: energy gained", "", none, 1e-6, mass_ratios,
             {1.6e-10, 2.9e-8, 8.4e-9, 5.2e-9}),
-      Truth(39, "light box on one a thousand and a million times heavier: off its place", "mm",
+      truth(39, "light box on one a thousand and a million times heavier: off its place", "mm",
             "rest", 0.2, light_on_heavy_mm, {2e-5, 2e-5, 2e-5, 2e-5}),
-      Truth(40, "stack of 1,000 for 5 s: energy gained", "", none, 1e-6, stack_of_thousand,
-            {1e-10, 1e-10, 3e-6, 3.9e-6}, 1),
-      Truth(41, "36 shots of up to 1,000 m/s at walls of 10 to 100 mm: pass", "", "none passes", 0,
+      truth(40, "stack of 1,000 for 5 s: energy gained", "", none, 1e-6, stack_of_thousand,
+            {1e-10, 1e-10, 3e-6, 3.9e-6}),
+      truth(41, "36 shots of up to 1,000 m/s at walls of 10 to 100 mm: pass", "", "none passes", 0,
             shots_that_pass, {0, 0, 0, 0}),
-      Truth(41, "ball that passes a wall by at 200 m/s: pushed", "m/s", "0", 1e-3, graze,
+      truth(41, "ball that passes a wall by at 200 m/s: pushed", "m/s", "0", 1e-3, graze,
             {1e-7, 1e-7, 1e-7, 1e-7}),
-      Truth(42, "125 boxes that overlap by half: energy, of what an overlap may push", "",
+      truth(42, "125 boxes that overlap by half: energy, of what an overlap may push", "",
             "docs/decisions/020", 1, half_overlaps, {1, 1, 1.7, 0.77}),
   };
 }

@@ -173,19 +173,19 @@ Truths load_truths() {
   const double rod_rad_s = std::sqrt(8 * kStrength_Pa / kDensity) / kLength_m;
   const double ring_rad_s = std::sqrt(kStrength_Pa / kDensity);
   return {
-      Truth(34, "cantilever under a load that rests on it: limit", "", beams, 0.1,
+      truth(34, "cantilever under a load that rests on it: limit", "", beams, 0.1,
             cantilever(Hung::kResting), {0.083, 0.083, 0.083, 0.059}),
-      Truth(34, "cantilever under a load on a rope: limit", "", beams, 0.1, cantilever(Hung::kRope),
+      truth(34, "cantilever under a load on a rope: limit", "", beams, 0.1, cantilever(Hung::kRope),
             {0.5, 0.5, 0.5, 0.5}, 0),
-      Truth(34, "cantilever under a load in a fixed joint: limit", "", beams, 0.1,
+      truth(34, "cantilever under a load in a fixed joint: limit", "", beams, 0.1,
             cantilever(Hung::kFixed), {0.5, 0.5, 0.5, 0.5}, 0),
-      Truth(35, "spinning rod: stress when it bursts", "", "σ = ρ ω² L²/8", 0.1,
+      truth(35, "spinning rod: stress when it bursts", "", "σ = ρ ω² L²/8", 0.1,
             spinning(rod, rod_rad_s), {0.5, 0.5, 0.5, 0.5}, 0),
-      Truth(35, "spinning ring: stress when it bursts", "", "σ = ρ ω² r²", 0.1,
+      truth(35, "spinning ring: stress when it bursts", "", "σ = ρ ω² r²", 0.1,
             spinning(ring, ring_rad_s), {0.5, 0.5, 0.5, 0.5}, 0),
-      Truth(36, "cantilever struck at its tip: length left standing", "", "largest moment", 0.1,
+      truth(36, "cantilever struck at its tip: length left standing", "", "largest moment", 0.1,
             left_standing, {1e-5, 1e-5, 1e-5, 1e-5}),
-      Truth(36, "beam struck at midspan, portal at a corner: place of the break", "",
+      truth(36, "beam struck at midspan, portal at a corner: place of the break", "",
             "largest moment", 0.1, nullptr, {}),
   };
 }

@@ -20,17 +20,6 @@ using Bounds = std::array<double, kPresets.size()>;
 
 /// A truth holds as far as |measure(preset)| is small.
 struct Truth {
-  Truth(int row_, const char* what_, const char* unit_, const char* source_, double mark_,
-        Measure measure_, const Bounds& bounds_, std::size_t tested_ = kPresets.size())
-      : row(row_),
-        what(what_),
-        unit(unit_),
-        source(source_),
-        mark(mark_),
-        measure(std::move(measure_)),
-        bounds(bounds_),
-        tested(tested_) {}
-
   int row;             ///< Of the table; truths of one row belong together.
   const char* what;    ///< What is measured. Unique.
   const char* unit;    ///< "": a share of what it is compared with.
@@ -42,6 +31,11 @@ struct Truth {
   std::size_t tested;
 };
 using Truths = std::vector<Truth>;
+
+inline Truth truth(int row, const char* what, const char* unit, const char* source, double mark,
+                   Measure measure, const Bounds& bounds, std::size_t tested = kPresets.size()) {
+  return {row, what, unit, source, mark, std::move(measure), bounds, tested};
+}
 
 Truths friction_truths();
 Truths rolling_truths();

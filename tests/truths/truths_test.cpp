@@ -18,7 +18,7 @@ const Truths& truths() {
 
 /// A number of truths() and one of kPresets.
 using Case = std::tuple<std::size_t, std::size_t>;
-class Truth : public testing::TestWithParam<Case> {};
+class AtPreset : public testing::TestWithParam<Case> {};
 
 std::string name_of(const testing::TestParamInfo<Case>& info) {
   const auto& truth = truths()[std::get<0>(info.param)];
@@ -33,7 +33,7 @@ std::string name_of(const testing::TestParamInfo<Case>& info) {
   return name + "_" + kPresets[std::get<1>(info.param)].name;
 }
 
-TEST_P(Truth, IsWithinItsBound) {
+TEST_P(AtPreset, ATruthIsWithinItsBound) {
   const auto [index, preset] = GetParam();
   const auto& truth = truths()[index];
   if (!truth.measure) GTEST_SKIP() << "not measured yet";
@@ -44,7 +44,7 @@ TEST_P(Truth, IsWithinItsBound) {
   EXPECT_LE(std::abs(value), truth.bounds[preset]);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Truth,
+INSTANTIATE_TEST_SUITE_P(All, AtPreset,
                          testing::Combine(testing::Range(std::size_t{0}, truths().size()),
                                           testing::Range(std::size_t{0}, kPresets.size())),
                          name_of);
