@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/motion/forwarding.h"
+#include "bench/truths/forwarding_physics.h"
 
 namespace sunder::tests {
 
@@ -17,7 +17,7 @@ struct Motions {
   Vec3 momentum = Vec3::Zero(), spin = Vec3::Zero();
 };
 
-class SpyPhysics final : public ForwardingPhysics {
+class SpyPhysics final : public bench::ForwardingPhysics {
  public:
   /// Of one step's breaks: before the first, and when all are done.
   struct Balance {

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/truths/forwarding_physics.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/load.h"
 #include "solver/rigid/rigid_physics.h"
-#include "tests/motion/forwarding.h"
 
 namespace sunder::tests {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 constexpr double kTouching_m = 0.01, kStill_m = 0.01, kFromAbove = -0.5;
 
 /// Physics of which the bodies and joints are known.
-class KnownPhysics final : public ForwardingPhysics {
+class KnownPhysics final : public bench::ForwardingPhysics {
  public:
   struct Body {
     BodyId id;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/solver/presets.h"
+#include "bench/truths/presets.h"
 
 namespace sunder::solver {
 namespace {

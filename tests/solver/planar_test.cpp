@@ -1,13 +1,13 @@
 // The plane behind the seam: everything of it works there, and what cannot be planar is refused.
 #include <gtest/gtest.h>
 
+#include "bench/truths/rigid_world.h"
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/hull.h"
 #include "engine/geometry/prism.h"
 #include "solver/planar/planar_physics.h"
-#include "tests/solver/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

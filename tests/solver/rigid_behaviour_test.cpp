@@ -1,12 +1,12 @@
-// What the rigid solver promises besides closed forms: momentum, no tunnelling, sleep, determinism.
+// What the rigid solver promises besides truths (bench/truths): sleep, determinism, reports.
 #include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
 #include "engine/geometry/hull.h"
-#include "tests/solver/rigid_world.h"
 
 namespace sunder::solver {
 namespace {
@@ -33,80 +33,6 @@ void add_pile(RigidWorld& world, int count, std::uint64_t seed) {
                   0.45 * (i / 4 % 4) + random.uniform(0, 0.1));
     world.add(W::hull(rubble_hull(random, random.uniform(0.2, 0.5)), at, 2000));
   }
-}
-
-TEST(RigidPhysics, KeepsMomentumInAPileWithoutGravity) {
-  RigidWorld world(weightless());
-  Random random(3);
-  for (int i = 0; i < 60; ++i) {
-    const Vec3 at = 0.5 * Vec3(i % 4, i / 4 % 4, i / 16);
-    BodyDesc desc = W::hull(rubble_hull(random, 0.4), at);
-    desc.velocity_W = 2 * (Vec3(0.75, 0.75, 0.75) - at);  // towards the middle
-    world.add(desc);
-  }
-  const Vec3 p = world.momentum(), l = world.angular_momentum();
-  double momentum_scale = 0;
-  for (std::size_t i = 0; i < world.size(); ++i)
-    momentum_scale += 30 * world.state(world.id(i)).velocity_W.norm();
-  const double energy = world.kinetic_energy();
-  world.run(2, 1.0 / 120, 2);
-  EXPECT_LT(world.kinetic_energy(), energy);
-  EXPECT_LT((world.momentum() - p).norm(), 1e-6 * momentum_scale);
-  EXPECT_LT((world.angular_momentum() - l).norm(), 1e-2 * momentum_scale);
-}
-
-TEST(RigidPhysics, ABodyInContactKeepsItsSpinHoweverFast) {
-  RigidWorld world;
-  world.add(W::with_friction(W::ground(), 0));
-  BodyDesc top = W::with_friction(W::box(Vec3(0.4, 0.2, 0.4), Vec3(0, 0.1, 0)), 0);
-  top.angular_velocity_W = Vec3(0, 150, 0);  // 2.5 rad a step
-  world.add(top);
-  const double spin = world.angular_momentum().y();
-  EXPECT_GT(world.run(1, 1.0 / 60, 4).contacts, 0u);
-  EXPECT_NEAR(world.angular_momentum().y(), spin, 1e-4 * spin);
-}
-
-TEST(RigidPhysics, ReportsTheImpulsesThatCameFromOutside) {
-  RigidWorld world;
-  world.add(W::ground());
-  add_pile(world, 40, 5);
-  for (int i = 0; i < 120; ++i) {
-    const Vec3 before = world.momentum();
-    const SolveReport report = world.step(1.0 / 60, 2);
-    const Vec3 residual = world.momentum() - before - report.external_impulse_Ns;
-    EXPECT_LT(residual.norm(), 1e-3) << "step " << i;  // of some 5,000 Ns that change hands
-  }
-}
-
-/// x of a ball shot at a wall that stands at 0, after a tenth of a second.
-double shot_at_wall(double speed, double thickness, bool fixed) {
-  RigidWorld world(weightless());
-  BodyDesc wall = W::box(Vec3(thickness, 2, 2), Vec3(0, 0, 0), 8000);
-  world.add(fixed ? W::fixed(wall) : wall);
-  BodyDesc ball = W::sphere(0.1, Vec3(-3.3, 0, 0));
-  ball.velocity_W = Vec3(speed, 0, 0);
-  const BodyId id = world.add(ball);
-  world.run(0.1, 1.0 / 60, 2);
-  const double wall_x = world.state(world.id(0)).X_WB.position.x();
-  return world.state(id).X_WB.position.x() - wall_x;
-}
-
-TEST(RigidPhysics, NothingTunnelsThroughAThinWall) {
-  for (const double speed : {25.0, 200.0, 1000.0})
-    for (const double thickness : {0.1, 0.05, 0.01})
-      for (const bool fixed : {true, false})
-        EXPECT_LT(shot_at_wall(speed, thickness, fixed), -0.5 * thickness - 0.09)
-            << speed << " m/s, " << thickness << " m, " << (fixed ? "fixed" : "free");
-}
-
-TEST(RigidPhysics, AFastBallMissesWhatItOnlyPassesBy) {
-  RigidWorld world(weightless());
-  world.add(W::fixed(W::box(Vec3(0.2, 2, 2), Vec3(0, 0, 0))));
-  BodyDesc ball = W::sphere(0.1, Vec3(-3.3, 1.12, 0));
-  ball.velocity_W = Vec3(200, 0, 0);
-  const BodyId id = world.add(ball);
-  world.run(0.1, 1.0 / 60, 2);
-  EXPECT_NEAR(world.state(id).velocity_W.x(), 200, 1e-3);
 }
 
 TEST(RigidPhysics, GivesTheSameBitsForAnyNumberOfThreads) {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/truths/rigid_world.h"
 #include "engine/geometry/hull.h"
-#include "tests/solver/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

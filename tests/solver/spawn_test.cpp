@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/solver/rigid_world.h"
+#include "bench/truths/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
-#include "tests/solver/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/model/physics.h"
 
-namespace sunder::tests {
+namespace sunder::bench {
 
 class ForwardingPhysics : public Physics {
  public:
@@ -46,4 +46,4 @@ class ForwardingPhysics : public Physics {
   std::unique_ptr<Physics> physics_;
 };
 
-}  // namespace sunder::tests
+}  // namespace sunder::bench

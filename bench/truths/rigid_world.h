@@ -1,4 +1,5 @@
-// Bodies for solver tests, made in one line each, and the ledger of momentum and energy.
+// Bodies made in one line each, for truths and tests of the solver, and the ledger of momentum and
+// energy.
 #pragma once
 
 #include <algorithm>
@@ -79,6 +80,11 @@ class RigidWorld {
   }
   static BodyDesc fixed(BodyDesc desc) {
     desc.is_static = true;
+    return desc;
+  }
+  static BodyDesc moving(BodyDesc desc, const Vec3& velocity_W,
+                         const Vec3& angular_velocity_W = Vec3::Zero()) {
+    desc.velocity_W = velocity_W, desc.angular_velocity_W = angular_velocity_W;
     return desc;
   }
   static BodyDesc with_friction(BodyDesc desc, double friction, double restitution = 0) {
@@ -197,5 +203,20 @@ class RigidWorld {
   std::vector<double> masses_;
   std::vector<Mat3> inertias_;
 };
+
+/// Of two bodies as they are, or of one and the world.
+inline JointDesc joint_at(const RigidWorld& world, JointKind kind, BodyId a, BodyId b,
+                          const Vec3& at_W, const Vec3& axis_W = Vec3::UnitZ()) {
+  JointDesc joint;
+  joint.kind = kind;
+  joint.a = a, joint.b = b;
+  const Pose X_WA = a.none() ? Pose{} : world.state(a).X_WB;
+  const Pose X_WB = b.none() ? Pose{} : world.state(b).X_WB;
+  joint.anchor_a_R = X_WA.inverse() * at_W, joint.anchor_b_R = X_WB.inverse() * at_W;
+  joint.axis_a_R = X_WA.rotation.conjugate() * axis_W;
+  joint.axis_b_R = X_WB.rotation.conjugate() * axis_W;
+  joint.rotation_RaRb = X_WA.rotation.conjugate() * X_WB.rotation;
+  return joint;
+}
 
 }  // namespace sunder::solver

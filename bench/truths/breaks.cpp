@@ -1,0 +1,151 @@
+// What breaks: momentum, spin and energy through every break.
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "bench/truths/forwarding_physics.h"
+#include "bench/truths/truth.h"
+#include "engine/world/simulation.h"
+#include "fracture/pattern_breaker.h"
+#include "scenes/load.h"
+
+namespace sunder::truths {
+namespace {
+
+/// Mass and motion of all there is.
+struct Whole {
+  double mass_kg = 0, kinetic_J = 0;
+  Vec3 moment_kgm = Vec3::Zero(), momentum_Ns = Vec3::Zero(), spin_Nms = Vec3::Zero();
+
+  Vec3 center() const { return moment_kgm / mass_kg; }
+  /// Angular momentum about the centre of all.
+  Vec3 own_spin() const { return spin_Nms - center().cross(momentum_Ns); }
+};
+
+/// The rigid solver, with the masses of what is in it.
+class WeighedPhysics final : public bench::ForwardingPhysics {
+ public:
+  using ForwardingPhysics::ForwardingPhysics;
+
+  std::vector<BodyId> replace(std::span<const BodyId> remove,
+                              std::span<const BodyDesc> add) override {
+    std::erase_if(bodies_, [&](const auto& body) {
+      return std::find(remove.begin(), remove.end(), body.first) != remove.end();
+    });
+    const std::vector<BodyId> ids = physics_->replace(remove, add);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      if (!add[i].is_static) bodies_.emplace_back(ids[i], add[i]);
+    return ids;
+  }
+  Whole whole() const {
+    Whole sum;
+    for (const auto& [id, desc] : bodies_) {
+      const BodyState s = physics_->state(id);
+      const Mat3 R = s.X_WB.rotation.toRotationMatrix();
+      const Vec3 momentum = desc.mass_kg * s.velocity_W;
+      const Vec3 spin = R * desc.inertia_B * R.transpose() * s.angular_velocity_W;
+      sum.mass_kg += desc.mass_kg;
+      sum.kinetic_J += 0.5 * (momentum.dot(s.velocity_W) + spin.dot(s.angular_velocity_W));
+      sum.moment_kgm += desc.mass_kg * s.X_WB.position;
+      sum.momentum_Ns += momentum;
+      sum.spin_Nms += s.X_WB.position.cross(momentum) + spin;
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<std::pair<BodyId, BodyDesc>> bodies_;
+};
+
+constexpr const char* kScene = R"(
+[scene]
+description = "A block high above the ground, hit by a ball."
+duration_s = 1.5
+[limits]
+debris = 0
+parts_a_frame = 100000  # what waits for its turn is held where it is
+dust = 0
+[[material]]
+name = "concrete"
+smallest_piece_m3 = 0.0
+[[solid]]
+structure = "box"
+size_m = [1, 2, 1]
+position = [0, 500, 0]
+velocity = [0, 5, 0]
+angular_velocity = [0.5, 0, 1]
+[[ball]]
+position = [-2, 501.2, 0.2]
+velocity = [40, 5, 0]
+radius_m = 0.3
+)";
+
+/// The worst of a flight, in which something breaks.
+struct Flight {
+  double center_m = 0, momentum = 0, spin = 0;
+  double gain = 0;  ///< Of kinetic and potential energy over what it was less what breaks took.
+  std::size_t breaks = 0;
+};
+
+Flight fly(const Preset& preset) {
+  Scene scene = scenes::parse_scene(kScene, "flight.toml", {preset.name, {}});
+  const Vec3 gravity_W = scene.gravity_W;
+  solver::RigidOptions options;
+  options.gravity_W = gravity_W;
+  options.sweeps = scene.solver.sweeps;
+  auto owned = std::make_unique<WeighedPhysics>(solver::make_rigid_physics(options));
+  const WeighedPhysics& physics = *owned;
+  Simulation simulation(std::move(scene), std::move(owned), fracture::make_pattern_breaker());
+  simulation.next();
+  const Whole start = physics.whole();
+  const auto energy = [&](const Whole& whole) {
+    return whole.kinetic_J - gravity_W.dot(whole.moment_kgm - start.moment_kgm);
+  };
+  Flight worst;
+  double allowed_J = energy(start);
+  while (const FramePtr frame = simulation.next()) {
+    const Whole now = physics.whole();
+    const double t = frame->time_s;
+    for (const BreakEvent& event : frame->breaks) allowed_J -= event.energy_J;
+    worst.breaks += frame->breaks.size();
+    worst.gain = std::max(worst.gain, (energy(now) - allowed_J) / start.kinetic_J);
+    allowed_J = std::min(allowed_J, energy(now));
+    const Vec3 parabola =
+        start.center() + t / start.mass_kg * start.momentum_Ns + 0.5 * t * t * gravity_W;
+    const Vec3 expected = start.momentum_Ns + t * start.mass_kg * gravity_W;
+    worst.center_m = std::max(worst.center_m, (now.center() - parabola).norm());
+    worst.momentum =
+        std::max(worst.momentum, (now.momentum_Ns - expected).norm() / start.momentum_Ns.norm());
+    worst.spin =
+        std::max(worst.spin, (now.own_spin() - start.own_spin()).norm() / start.own_spin().norm());
+  }
+  return worst;
+}
+
+/// Nothing counts that does not break.
+Measure of_flight(double Flight::*which) {
+  return [=](const Preset& p) {
+    const Flight flight = fly(p);
+    return flight.breaks > 0 ? flight.*which : 1e9;
+  };
+}
+
+}  // namespace
+
+Truths break_truths() {
+  return {
+      truth(16, "block broken in flight: its centre", "m", "parabola", 1e-4,
+            of_flight(&Flight::center_m), {0.01, 0.0045, 0.0017, 0.00092}),
+      truth(16, "block broken in flight: p", "", "constant but for gravity", 1e-6,
+            of_flight(&Flight::momentum), {2.1e-6, 1.8e-6, 2.9e-6, 2.6e-6}),
+      truth(16, "block broken in flight: L", "", "constant", 1e-5, of_flight(&Flight::spin),
+            {0.016, 0.0041, 0.002, 0.0015}),
+      truth(26, "block broken in flight: energy beyond what breaks leave", "",
+            "KE after ≤ before − toughness × area", 1e-6, of_flight(&Flight::gain),
+            {0.022, 1e-10, 1e-10, 1e-10}),
+  };
+}
+
+}  // namespace sunder::truths

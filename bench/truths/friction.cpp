@@ -1,0 +1,193 @@
+// Coulomb friction: what slides and what does not, how far, and which way it topples.
+#include <algorithm>
+#include <cmath>
+
+#include "bench/truths/truth.h"
+#include "engine/base/trigonometry.h"
+#include "engine/geometry/hull.h"
+
+namespace sunder::truths {
+namespace {
+
+using solver::kG;
+using solver::kPi;
+using solver::PresetWorld;
+using W = solver::RigidWorld;
+
+/// Gravity on a slope that is level here and falls towards x.
+Vec3 down_slope(double slope_rad) {
+  const SinCos a = sin_cos(slope_rad);
+  return kG * Vec3(a.sin, -a.cos, 0);
+}
+
+/// A block on a slope this much steeper than its angle of friction, after two seconds.
+struct Slide {
+  double way_m, truth_m;  ///< From the speed it had.
+  double error_deg;       ///< Of the angle of friction that its acceleration tells.
+};
+Slide slide(const Preset& preset, double beyond_deg) {
+  const double friction = 0.5, slope_rad = std::atan(friction) + beyond_deg * kPi / 180;
+  PresetWorld world(preset, down_slope(slope_rad));
+  world.add(W::with_friction(W::ground(), friction));
+  const BodyId id = world.add(W::with_friction(W::box(Vec3(1, 0.4, 1), Vec3(0, 0.2, 0)), friction));
+  world.run(0.5);  // settles into the ground
+  const BodyState start = world.state(id);
+  world.run(2);
+  const SinCos a = sin_cos(slope_rad);
+  const double pull = std::max(0.0, a.sin - friction * a.cos);
+  const double way_m = world.state(id).X_WB.position.x() - start.X_WB.position.x();
+  const double truth_m = 2 * start.velocity_W.x() + 0.5 * kG * pull * 4;
+  const double error_rad = (way_m - truth_m) / (0.5 * kG * (a.cos + friction * a.sin) * 4);
+  return {way_m, truth_m, error_rad * 180 / kPi};
+}
+
+double braking_distance(const Preset& preset) {
+  const double friction = 0.4, speed_m_s = 3;
+  PresetWorld world(preset);
+  world.add(W::with_friction(W::ground(), friction));
+  const BodyDesc block = W::with_friction(W::box(Vec3(1, 0.2, 1), Vec3(0, 0.1, 0)), friction);
+  const BodyId id = world.add(block);
+  world.run(0.25);
+  world.physics().apply_impulse(id, Vec3(speed_m_s * block.mass_kg, 0, 0),
+                                world.state(id).X_WB.position);
+  world.run(2);
+  return world.state(id).X_WB.position.x() * 2 * friction * kG / (speed_m_s * speed_m_s) - 1;
+}
+
+/// A square patch of four points at radius r: the torque of friction is mu m g r.
+double twist(const Preset& preset) {
+  const double friction = 0.4, speed_rad_s = 3, side = 1, height = 0.2;
+  PresetWorld world(preset);
+  world.add(W::with_friction(W::ground(), friction));
+  const BodyDesc block =
+      W::with_friction(W::box(Vec3(side, height, side), Vec3(0, height / 2, 0)), friction);
+  const BodyId id = world.add(block);
+  world.run(0.5);
+  const double inertia = block.inertia_B(1, 1), r = std::sqrt(0.5) * side;
+  const Vec3 kick(0, 0, 0.5 * speed_rad_s * inertia / (side / 2));
+  world.physics().apply_impulse(id, kick, Vec3(-side / 2, 0, 0) + world.state(id).X_WB.position);
+  world.physics().apply_impulse(id, -kick, Vec3(side / 2, 0, 0) + world.state(id).X_WB.position);
+  const Quat before = world.state(id).X_WB.rotation;
+  world.run(2);
+  const Quat turn = before.conjugate() * world.state(id).X_WB.rotation;
+  const double angle = 2 * std::atan2(std::abs(turn.y()), std::abs(turn.w()));
+  const double truth =
+      0.5 * inertia * speed_rad_s * speed_rad_s / (friction * block.mass_kg * kG * r);
+  return angle / truth - 1;
+}
+
+/// The most that a block of 1 m is turned or lifted that slides at 0.3 m/s until it stops.
+double kick_of_slow_slider(const Preset& preset) {
+  PresetWorld world(preset);
+  world.add(W::with_friction(W::ground(), 0.5));
+  BodyDesc block = W::with_friction(W::box(Vec3(1, 0.5, 1), Vec3(0, 0.25, 0)), 0.5);
+  block.velocity_W = Vec3(0.3, 0, 0);
+  const BodyId id = world.add(block);
+  double most_m_s = 0;
+  world.watch(0.5, [&] {
+    const BodyState s = world.state(id);
+    most_m_s = std::max({most_m_s, std::abs(s.velocity_W.y()), s.angular_velocity_W.norm()});
+  });
+  return most_m_s;
+}
+
+/// Whether a block of 0.5 by 1 m topples on a slope.
+bool topples(const Preset& preset, double slope_rad) {
+  PresetWorld world(preset, down_slope(slope_rad));
+  world.add(W::with_friction(W::ground(), 1));
+  const BodyId id = world.add(W::with_friction(W::box(Vec3(0.5, 1, 1), Vec3(0, 0.5, 0)), 1));
+  world.run(6);
+  return world.state(id).X_WB.position.y() < 0.45;
+}
+
+double toppling_angle_deg(const Preset& preset) {
+  const double truth = std::atan(0.5);
+  const double found = threshold(truth - 0.05, truth + 0.05, 12,
+                                 [&](double slope) { return topples(preset, slope); });
+  return (found - truth) * 180 / kPi;
+}
+
+/// Two cards of this height that lean on each other in a line of 10 mm, 1 m apart at their feet.
+constexpr double kRidge_m = 1;
+
+bool cards_slip(const Preset& preset, double friction) {
+  PresetWorld world(preset);
+  world.add(W::with_friction(W::ground(), friction));
+  BodyId card;
+  for (const double side : {-1.0, 1.0}) {
+    std::vector<Vec3> corners;
+    for (const double z : {-0.25, 0.25})
+      for (const double y : {0.0, 0.01}) {
+        corners.emplace_back(0.5 * side, y, z);
+        corners.emplace_back(0, kRidge_m - 0.01 + y, z);
+      }
+    const ConvexPolyhedron hull = make_hull(corners);
+    card = world.add(W::with_friction(W::hull(hull, mass_properties(hull).centroid), friction));
+  }
+  const double before_m = world.state(card).X_WB.position.y();
+  world.run(3);
+  return world.state(card).X_WB.position.y() < 0.9 * before_m;
+}
+
+/// Moments about the foot: the ridge pushes with half the weight / tan φ, and the foot holds it.
+double cards_friction(const Preset& preset) {
+  const double truth = 0.5 * 0.5 / kRidge_m;
+  const double stands = threshold(0.8 * truth, 1.2 * truth, 7,
+                                  [&](double friction) { return !cards_slip(preset, friction); });
+  return stands / truth - 1;
+}
+
+/// A rod that slides on its end faster than friction beyond Painlevé's limit lets it: the most
+/// that its energy rises over the least so far, of the first.
+double painleve_gain(const Preset& preset) {
+  const double angle_rad = kPi / 3, friction = 2.2;  // the limit is 1.35
+  PresetWorld world(preset);
+  world.add(W::with_friction(W::ground(), friction));
+  const SinCos a = sin_cos(angle_rad);
+  BodyDesc rod = W::with_friction(
+      W::box(Vec3(1, 0.02, 0.02), Vec3(0, 0.5 * a.sin + 0.01 * a.cos, 0)), friction);
+  rod.X_WB.rotation = Quat(Eigen::AngleAxisd(-angle_rad, Vec3::UnitZ()));
+  rod.velocity_W = Vec3(5, 0, 0);
+  world.add(rod);
+  const auto energy = [&] { return world.kinetic_energy() + world.potential_energy(kG); };
+  const double first_J = energy();
+  double least_J = first_J, gain = 0;
+  world.watch(2, [&] {
+    least_J = std::min(least_J, energy());
+    gain = std::max(gain, (energy() - least_J) / first_J);
+  });
+  return gain;
+}
+
+}  // namespace
+
+Truths friction_truths() {
+  return {
+      truth(1, "block on a slope 0.1° less steep than its friction: creep in 2 s", "mm", "Coulomb",
+            0.2, [](const Preset& p) { return 1e3 * slide(p, -0.1).way_m; },
+            {2e-5, 2e-5, 2e-5, 2e-5}),
+      truth(1, "block on a slope 0.1° steeper: its angle of friction", "°", "Coulomb", 0.1,
+            [](const Preset& p) { return slide(p, 0.1).error_deg; }, {0.1, 0.054, 0.027, 0.0058}),
+      truth(2, "block on a slope 5° steeper: way in 2 s", "", "g (sin θ − μ cos θ) t²/2", 0.002,
+            [](const Preset& p) {
+              const Slide s = slide(p, 5);
+              return s.way_m / s.truth_m - 1;
+            },
+            {0.002, 0.0011, 0.00053, 0.00022}),
+      truth(2, "braking distance", "", "v²/2μg", 0.002, braking_distance,
+            {0.005, 0.002, 0.0015, 0.0016}),
+      truth(2, "turning block: angle to rest", "", "I ω²/2 over μ m g r", 0.002, twist,
+            {0.0035, 0.008, 0.0053, 0.0073}),
+      truth(2, "block of 1 m that brakes from 0.3 m/s: lifted or turned", "m/s", "rigid", 0.01,
+            kick_of_slow_slider, {0.0043, 0.0016, 0.00056, 0.00011}),
+      truth(3, "block on a slope: angle where it topples", "°", "tan α = b/h", 0.02,
+            toppling_angle_deg, {0.0011, 0.0011, 0.0011, 0.0011}),
+      truth(12, "two leaning cards: least friction", "", "μ = 1/(2 tan φ)", 0.02, cards_friction,
+            {0.0024, 0.0024, 0.0024, 0.0024}),
+      truth(21, "Painlevé's rod at μ = 2.2: energy rises", "",
+            "Painlevé 1895; no energy from friction", 1e-6, painleve_gain,
+            {0.027, 0.005, 7.4e-5, 7.7e-9}),
+  };
+}
+
+}  // namespace sunder::truths

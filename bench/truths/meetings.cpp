@@ -1,0 +1,147 @@
+// Fast bodies that meet in flight, further in a step than they are thick: where the closed form
+// says that they touch, at the preset's step and at 1/30 s.
+#include <algorithm>
+#include <cmath>
+
+#include "bench/truths/truth.h"
+
+namespace sunder::truths {
+namespace {
+
+using solver::PresetWorld;
+using W = solver::RigidWorld;
+constexpr double kSpeed_m_s = 500, kFlight_s = 0.1;
+
+/// Of two bodies that have flown for 0.1 s.
+struct Met {
+  BodyState a, b;
+  double momentum = 0;  ///< Change, of the larger of the two.
+};
+Met meet(const Preset& preset, const BodyDesc& a, const BodyDesc& b) {
+  PresetWorld world(preset, Vec3::Zero());
+  const BodyId id_a = world.add(W::with_friction(a, 0)), id_b = world.add(W::with_friction(b, 0));
+  const Vec3 before = world.momentum();
+  world.run(kFlight_s);
+  const double scale = std::max(a.mass_kg * a.velocity_W.norm(), b.mass_kg * b.velocity_W.norm());
+  return {world.state(id_a), world.state(id_b), (world.momentum() - before).norm() / scale};
+}
+
+/// What is off after a meeting.
+struct Errors {
+  double place_m = 0, speed_m_s = 0, momentum = 0;
+};
+
+/// A light and a heavy one head-on; after they have met they go on as one.
+Errors head_on(const Preset& preset, bool balls) {
+  const double size_m = 0.1, start_m = 17.3;
+  const Vec3 way = Vec3::UnitX() * kSpeed_m_s;
+  const auto body = [&](double x_m, double density) {
+    return balls ? W::sphere(0.5 * size_m, Vec3(x_m, 0, 0), density)
+                 : W::box(Vec3::Constant(size_m), Vec3(x_m, 0, 0), density);
+  };
+  const Met met =
+      meet(preset, W::moving(body(-start_m, 1000), way), W::moving(body(start_m, 3000), -way));
+  const double together_m_s = -0.5 * kSpeed_m_s;
+  const double meet_s = (2 * start_m - size_m) / (2 * kSpeed_m_s);
+  const double gap_m = start_m - 0.5 * size_m - kSpeed_m_s * meet_s +
+                       together_m_s * (kFlight_s - meet_s);  // where it is in the end
+  return {std::max(std::abs(met.a.X_WB.position.x() - (gap_m - 0.5 * size_m)),
+                   std::abs(met.b.X_WB.position.x() - (gap_m + 0.5 * size_m))),
+          std::max(std::abs(met.a.velocity_W.x() - together_m_s),
+                   std::abs(met.b.velocity_W.x() - together_m_s)),
+          met.momentum};
+}
+
+/// Two balls whose ways cross part along the normal of their meeting.
+Errors crossing(const Preset& preset) {
+  const double radius_m = 0.05, start_m = 20.7;
+  const Vec3 start_a(-start_m, 0, 0), start_b(0, 0, -start_m + radius_m);
+  const Vec3 v_a(kSpeed_m_s, 0, 0), v_b(0, 0, kSpeed_m_s);
+  const Met met = meet(preset, W::moving(W::sphere(radius_m, start_a), v_a),
+                       W::moving(W::sphere(radius_m, start_b), v_b));
+  // |start + t·v| = 2 r, the earlier of both times.
+  const Vec3 start = start_b - start_a, v = v_b - v_a;
+  const double along = start.dot(v), square = v.squaredNorm();
+  const double meet_s =
+      (-along -
+       std::sqrt(along * along - square * (start.squaredNorm() - 4 * radius_m * radius_m))) /
+      square;
+  const Vec3 normal = (start + meet_s * v).normalized();
+  const Vec3 change = 0.5 * v.dot(normal) * normal;  // equal masses, no restitution
+  const Vec3 end_a = start_a + kFlight_s * v_a + (kFlight_s - meet_s) * change;
+  return {(met.a.X_WB.position - end_a).norm(),
+          std::max((met.a.velocity_W - (v_a + change)).norm(),
+                   (met.b.velocity_W - (v_b - change)).norm()),
+          met.momentum};
+}
+
+/// A fast thin plate takes a ball along.
+Errors plate_and_ball(const Preset& preset) {
+  const double thick_m = 0.01, radius_m = 0.05, speed_m_s = 300;
+  BodyDesc plate = W::moving(W::box(Vec3(thick_m, 1, 1), Vec3(-9.1, 0, 0)), Vec3(speed_m_s, 0, 0));
+  plate.mass_kg = 10;
+  const BodyDesc ball = W::sphere(radius_m, Vec3(1.3, 0, 0), 2000);
+  const Met met = meet(preset, plate, ball);
+  const double together_m_s = speed_m_s * plate.mass_kg / (plate.mass_kg + ball.mass_kg);
+  const double meet_s = (1.3 + 9.1 - radius_m - 0.5 * thick_m) / speed_m_s;
+  const double end_m = 1.3 + together_m_s * (kFlight_s - meet_s);
+  const double gap_m = met.b.X_WB.position.x() - met.a.X_WB.position.x() - radius_m - 0.5 * thick_m;
+  return {std::max(std::abs(met.b.X_WB.position.x() - end_m), std::abs(gap_m)),
+          std::abs(met.b.velocity_W.x() - together_m_s), met.momentum};
+}
+
+/// The worse of the preset's step and one of 1/30 s.
+Measure worst_of(const std::function<Errors(const Preset&)>& errors, double Errors::*which) {
+  return [=](const Preset& preset) {
+    Preset coarse = preset;
+    coarse.dt_s = 1.0 / 30;
+    return std::max(errors(preset).*which, errors(coarse).*which);
+  };
+}
+
+/// Sweeps enough for the four corners of a face to share an impact evenly.
+Errors cubes_at_length(const Preset& preset) {
+  Preset patient = preset;
+  patient.sweeps = 32;
+  return head_on(patient, false);
+}
+Errors balls_head_on(const Preset& preset) { return head_on(preset, true); }
+Errors cubes_head_on(const Preset& preset) { return head_on(preset, false); }
+Errors worst_momentum(const Preset& preset) {
+  Errors worst;
+  for (const auto& errors : {balls_head_on, cubes_head_on, crossing, plate_and_ball})
+    worst.momentum = std::max(worst.momentum, errors(preset).momentum);
+  return worst;
+}
+
+}  // namespace
+
+Truths meeting_truths() {
+  const char* source = "closed form";
+  return {
+      truth(15, "balls head-on at 1,000 m/s: place after", "m", source, 1e-3,
+            worst_of(balls_head_on, &Errors::place_m), {2.4e-6, 2.4e-6, 9.5e-6, 2.4e-6}),
+      truth(15, "balls head-on at 1,000 m/s: speed after", "m/s", source, 1e-2,
+            worst_of(balls_head_on, &Errors::speed_m_s), {1e-6, 4.6e-5, 0.00019, 1e-6}),
+      truth(15, "cubes head-on at 1,000 m/s: place after", "m", source, 1e-3,
+            worst_of(cubes_head_on, &Errors::place_m), {0.94, 0.94, 0.17, 0.001}),
+      truth(15, "cubes head-on at 1,000 m/s: speed after", "m/s", source, 1e-2,
+            worst_of(cubes_head_on, &Errors::speed_m_s), {18, 18, 2.8, 0.0014}),
+      truth(15, "cubes head-on at 1,000 m/s, 32 sweeps: place after", "m", source, 1e-3,
+            worst_of(cubes_at_length, &Errors::place_m), {6.8e-5, 6.8e-5, 5.4e-5, 6.8e-5}),
+      truth(15, "cubes head-on at 1,000 m/s, 32 sweeps: speed after", "m/s", source, 1e-2,
+            worst_of(cubes_at_length, &Errors::speed_m_s), {0.0014, 0.0014, 0.00078, 0.0014}),
+      truth(15, "balls that cross at 500 m/s: place after", "m", source, 0.01,
+            worst_of(crossing, &Errors::place_m), {0.15, 0.15, 0.15, 0.15}),
+      truth(15, "balls that cross at 500 m/s: speed after", "m/s", source, 0.1,
+            worst_of(crossing, &Errors::speed_m_s), {2.5, 2.5, 2.5, 2.5}),
+      truth(15, "plate of 10 mm takes a ball at 300 m/s: place after", "m", source, 1e-3,
+            worst_of(plate_and_ball, &Errors::place_m), {1.3e-6, 3.4e-6, 1.3e-6, 3.4e-6}),
+      truth(15, "plate of 10 mm takes a ball at 300 m/s: speed after", "m/s", source, 1e-2,
+            worst_of(plate_and_ball, &Errors::speed_m_s), {1.9e-5, 1.9e-5, 6.5e-5, 6.5e-5}),
+      truth(15, "all of these: momentum", "", "constant", 1e-6,
+            worst_of(worst_momentum, &Errors::momentum), {2.5e-7, 1.1e-7, 2.6e-7, 6.2e-7}),
+  };
+}
+
+}  // namespace sunder::truths

@@ -1,0 +1,63 @@
+// Reference behaviour that nobody in this project invented, measured at every preset: asserted by
+// tests/truths, printed by truths_bench, and tabled in docs/truths.md.
+//
+// Read first: Truth. The lists are by theme, one a file.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "bench/truths/presets.h"
+
+namespace sunder::truths {
+
+using solver::kPresets;
+using solver::Preset;
+using Measure = std::function<double(const Preset&)>;
+using Bounds = std::array<double, kPresets.size()>;
+
+/// A truth holds as far as |measure(preset)| is small.
+struct Truth {
+  int row;             ///< Of the table; truths of one row belong together.
+  const char* what;    ///< What is measured. Unique.
+  const char* unit;    ///< "": a share of what it is compared with.
+  const char* source;  ///< Of the closed form, or whose figure it is.
+  double mark;         ///< What |measure| should not exceed.
+  Measure measure;     ///< None: not measured yet.
+  Bounds bounds;       ///< What it does not exceed, by preset: what is reached and half as much.
+  /// So many presets, from the first: the others take too long for a test, or tell it nothing.
+  std::size_t tested;
+};
+using Truths = std::vector<Truth>;
+
+inline Truth truth(int row, const char* what, const char* unit, const char* source, double mark,
+                   Measure measure, const Bounds& bounds, std::size_t tested = kPresets.size()) {
+  return {row, what, unit, source, mark, std::move(measure), bounds, tested};
+}
+
+Truths friction_truths();
+Truths rolling_truths();
+Truths impact_truths();
+Truths meeting_truths();
+Truths flight_truths();
+Truths joint_truths();
+Truths stack_truths();
+Truths balance_truths();
+Truths planar_truths();
+Truths grain_truths();
+Truths silo_truths();
+Truths sphere_truths();
+Truths energy_truths();
+Truths break_truths();
+Truths load_truths();
+Truths through_truths();
+
+/// All of these, in the order of their rows.
+Truths all_truths();
+
+/// The x in [low, high] where yes(x) turns from false to true.
+double threshold(double low, double high, int rounds, const std::function<bool(double)>& yes);
+
+}  // namespace sunder::truths
