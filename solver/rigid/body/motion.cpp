@@ -15,6 +15,7 @@ constexpr double kLargestAngle = 0.1;  // rad in one midpoint step
 constexpr double kFastestAngle = 100;  // rad in a step; faster, no rule follows it
 constexpr int kMidpointRounds = 12;
 constexpr int kEnergyRounds = 6;
+constexpr double kEnergyStep = 1.0001;  // of Newton's: to end below
 
 struct Spin {
   Quat rotation;
@@ -75,7 +76,7 @@ void fly(const StepContext& step, BodySlot body, Bodies& bodies) {
   bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
 }
 
-FreeRotation free_rotation(const Bodies& bodies, BodySlot body, double dt_s) {
+Turning free_turning(const Bodies& bodies, BodySlot body, double dt_s) {
   const Quat& R_WB = bodies.rotation[body];
   const Vec3& w_W = bodies.angular_velocity[body];
   if (!wobbles(bodies, body, dt_s)) return {rotation_by(dt_s * w_W) * R_WB, w_W};
@@ -83,24 +84,24 @@ FreeRotation free_rotation(const Bodies& bodies, BodySlot body, double dt_s) {
   return {spin.rotation, R_WB * spin.w_B};
 }
 
-Quat rotation_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W,
-                          double energy_J, double reach_rad) {
-  const Mat3 inverse_B = inertia_B.inverse();
-  Quat R_WX = R_WB;
-  double left_rad = reach_rad;
-  for (int round = 0; round < kEnergyRounds; ++round) {
-    const Vec3 w_W = R_WX * (inverse_B * (R_WX.conjugate() * spin_W));
-    const double excess_J = 0.5 * spin_W.dot(w_W) - energy_J;
-    if (excess_J <= 0) return R_WX;
-    // To turn by δ adds δ·(ω × L).
-    const Vec3 slope = w_W.cross(spin_W);
+Turning turning(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W) {
+  return {R_WB, R_WB * (inertia_B.inverse() * (R_WB.conjugate() * spin_W))};
+}
+
+Turning turning_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W,
+                            double energy_J, double reach_rad) {
+  const Turning first = turning(inertia_B, R_WB, spin_W);
+  Turning now = first;
+  for (int round = 0; round < kEnergyRounds && reach_rad > 0; ++round) {
+    const double excess_J = 0.5 * spin_W.dot(now.w_W) - energy_J;
+    if (excess_J <= 0) return now;
+    const Vec3 slope = now.w_W.cross(spin_W);  // of the energy, with a turn
     if (!(slope.squaredNorm() > 0)) break;
-    const Vec3 turn = -1.0001 * excess_J / slope.squaredNorm() * slope;
-    left_rad -= turn.norm();
-    if (left_rad < 0) break;
-    R_WX = rotation_by(turn) * R_WX;
+    const Vec3 turn = -kEnergyStep * excess_J / slope.squaredNorm() * slope;
+    reach_rad -= turn.norm();
+    now = turning(inertia_B, rotation_by(turn) * now.R_WB, spin_W);
   }
-  return R_WB;
+  return first;
 }
 
 }  // namespace sunder::solver

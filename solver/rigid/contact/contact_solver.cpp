@@ -32,6 +32,7 @@ class ContactSolver::Stages {
         accelerated_(!solver.energy_.empty()),
         guarded_(solver.energy_guard_.watches()),
         gravity_{step.kick_W.x(), step.kick_W.y(), step.kick_W.z(), 0, 0, 0, 0, 0},
+        half_fall_(static_cast<float>(0.5 * step.h_s) * gravity_),
         contact_step_{step,
                       bodies,
                       contacts,
@@ -41,7 +42,7 @@ class ContactSolver::Stages {
                       solver.root_W_,
                       {rows_, solver.splitting_.parts()},
                       soft_step(step),
-                      static_cast<float>(2 * step.fall_m_s),
+                      static_cast<float>(2 * step.fall_m_s / step.substeps),
                       solver.order_.deep_contacts(),
                       solver.order_.loaded_contacts()} {}
 
@@ -81,7 +82,7 @@ class ContactSolver::Stages {
 
   /// Before sweeps, which let nothing meet with any speed.
   void strikes() {
-    if (!solver_.order_.bouncy() || getenv("NOSTRIKE")) return;
+    if (!solver_.order_.bouncy()) return;
     for (int round = 0; round < kStrikeRounds; ++round) {
       once(round == 0 ? &Stages::first_strikes : &Stages::begin_strikes);
       each_color(&Stages::strike);
@@ -142,10 +143,15 @@ class ContactSolver::Stages {
   void join(BodySlot body) { solver_.splitting_.join(body, row(body)); }
   void join_and_move(BodySlot body) {
     join(body);
-    row(body).position += static_cast<float>(step_.h_s) * row(body).velocity;
-    solver_.moved_[body] = row(body).velocity;
+    BodyRow& r = row(body);
+    solver_.moved_[body] = r.velocity;
+    const Wide pushed = r.velocity - r.base;
+    const bool flies = linear(pushed).isZero(0) && angular(pushed).isZero(0);
+    if (flies || (guarded_ && solver_.energy_guard_.falls(body))) r.position -= half_fall_;
+    r.position += static_cast<float>(step_.h_s) * r.velocity;
   }
   void turn(BodySlot body);
+  double made_J(BodySlot body) const;
   void finish(BodySlot body);
   Quat rotation_now(BodySlot body, const Vec3& angle_W) const;
 
@@ -237,7 +243,8 @@ class ContactSolver::Stages {
   Joints& joints_;
   BodyRow* rows_;
   bool accelerated_, guarded_;
-  Wide gravity_;  ///< What it does to a row's velocity in a substep.
+  Wide gravity_;    ///< What it does to a row's velocity in a substep.
+  Wide half_fall_;  ///< By how much the way of a substep at its last velocity is longer than a parabola.
   ContactStep contact_step_;
   std::vector<Stage> stages_;
   bool strikes_on_ = false;
@@ -291,9 +298,9 @@ void ContactSolver::Stages::begin(BodySlot body) {
   const Mat3 R_WB(bodies_.rotation[body]);
   solver_.spin_W_[body] =
       R_WB * bodies_.inertia_B[body] * R_WB.transpose() * bodies_.angular_velocity[body];
-  const FreeRotation free = free_rotation(bodies_, body, step_.dt_s);
+  const Turning free = free_turning(bodies_, body, step_.dt_s);
   solver_.free_[body] = free;
-  bodies_.angular_velocity[body] = free.angular_velocity_W;
+  bodies_.angular_velocity[body] = free.w_W;
   const Mat3f& root_B = bodies_.root_B[body];
   solver_.root_W_[body] = bodies_.rotation_f[body] * root_B;
   const Vec3 spin_B = bodies_.rotation[body].conjugate() * bodies_.angular_velocity[body];
@@ -314,12 +321,14 @@ void ContactSolver::Stages::turn(BodySlot body) {
   const Mat3& inertia_B = bodies_.inertia_B[body];
   const Vec3 added_W = (root_W * angular(r.velocity - r.start)).cast<double>();
   const Quat R_WB = rotation_now(body, (root_W * angular(r.position)).cast<double>());
-  const Vec3 spin_W =
-      solver_.spin_W_[body] + R_WB_then * (inertia_B * (R_WB_then.conjugate() * added_W));
-  const Vec3 w_W = R_WB * (inertia_B.inverse() * (R_WB.conjugate() * spin_W));
-  solver_.free_[body] = {R_WB, w_W};
-  const double left_J = 0.5 * double{angular(r.velocity).squaredNorm()};
-  if (guarded_) solver_.energy_guard_.ask(body, 0.5 * w_W.dot(spin_W) - left_J);
+  solver_.spin_W_[body] += R_WB_then * (inertia_B * (R_WB_then.conjugate() * added_W));
+  solver_.free_[body] = turning(inertia_B, R_WB, solver_.spin_W_[body]);
+  if (guarded_) solver_.energy_guard_.ask(body, made_J(body));
+}
+
+double ContactSolver::Stages::made_J(BodySlot body) const {
+  const double left_J = 0.5 * double{angular(rows_[row_of(body)].velocity).squaredNorm()};
+  return 0.5 * solver_.free_[body].w_W.dot(solver_.spin_W_[body]) - left_J;
 }
 
 void ContactSolver::Stages::finish(BodySlot body) {
@@ -330,24 +339,19 @@ void ContactSolver::Stages::finish(BodySlot body) {
   const Vec3 angle_W = (root_W * angular(r.position)).cast<double>();
   bodies_.velocity[body] += linear(change).cast<double>();
   bodies_.turned_m[body] += 1.1 * angle_W.norm() * bodies_.reach_m[body];
-  const Vec3 position_W = bodies_.position[body] + linear(r.position).cast<double>();
-  if (!guarded_ || solver_.energy_guard_.grants(body)) {
-    bodies_.place(body, position_W, solver_.free_[body].R_WB);
-    bodies_.angular_velocity[body] = solver_.free_[body].angular_velocity_W;
-  } else if (const Mat3& I=bodies_.inertia_B[body]; true) {
-    FreeRotation& f = solver_.free_[body];
-    const Vec3 spin_W = f.R_WB * (I * (f.R_WB.conjugate() * f.angular_velocity_W));
-    const double E = 0.5 * double{angular(r.velocity).squaredNorm()};
-    const Quat R = rotation_with_energy(I, f.R_WB, spin_W, E, (getenv("REACH")?atof(getenv("REACH")):1.0) * angle_W.norm());
-    const Vec3 w = R * (I.inverse() * (R.conjugate() * spin_W));
-    if (0.5*w.dot(spin_W) <= E) {
-    bodies_.place(body, position_W, R);
-    bodies_.angular_velocity[body] = w; return; }
-    const Quat turn = rotation_by(angle_W);
-    const Vec3 added_W = (root_W * angular(change)).cast<double>();
-    bodies_.place(body, position_W, turn * bodies_.rotation[body]);
-    bodies_.angular_velocity[body] = turn * (bodies_.angular_velocity[body] + added_W);
+  Turning& turning = solver_.free_[body];
+  if (guarded_ && !solver_.energy_guard_.grants(body)) {
+    const double left_J = 0.5 * double{angular(r.velocity).squaredNorm()};
+    turning = turning_with_energy(bodies_.inertia_B[body], turning.R_WB, solver_.spin_W_[body],
+                                  left_J, angle_W.norm());
+    if (made_J(body) > 0) {  // the energy stays, then, and not the momentum
+      const Quat turn = rotation_by(angle_W);
+      const Vec3 added_W = (root_W * angular(change)).cast<double>();
+      turning = {turn * bodies_.rotation[body], turn * (bodies_.angular_velocity[body] + added_W)};
+    }
   }
+  bodies_.place(body, bodies_.position[body] + linear(r.position).cast<double>(), turning.R_WB);
+  bodies_.angular_velocity[body] = turning.w_W;
 }
 
 /// After turning by `angle_W` in all. What impulses add to free rotation is put on top of it where
@@ -383,7 +387,6 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   moving_ = std::ranges::any_of(active_, [&](BodySlot body) {
     return bodies.velocity[body].norm() * step.dt_s > kMoves * bodies.reach_m[body];
   });
-  moving_ = moving_ && !getenv("NOMOVE");
   blocks_->follow_bodies(moving_);
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(), bodies,
                         contacts);

@@ -29,16 +29,21 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
   });
   if (!watches_) return;
   DisjointSets groups(bodies.size());
-  for (const ManifoldSlot i : manifolds) {
-    const Manifold& m = contacts.manifolds[i];
-    if (bodies.awake(m.body_a) && bodies.awake(m.body_b))
-      groups.join(m.body_a.value, m.body_b.value);
-  }
-  for (const auto& [a, b] : joined) {
-    if (bodies.awake(a) && bodies.awake(b)) groups.join(a.value, b.value);
-  }
+  falls_.assign(bodies.size(), 1);
+  const auto join = [&](BodySlot a, BodySlot b) {
+    const bool a_moves = !a.none() && bodies.awake(a), b_moves = !b.none() && bodies.awake(b);
+    if (a_moves && b_moves) groups.join(a.value, b.value);
+    if (a_moves && !b_moves) falls_[a] = 0;
+    if (b_moves && !a_moves) falls_[b] = 0;
+  };
+  for (const ManifoldSlot i : manifolds)
+    join(contacts.manifolds[i].body_a, contacts.manifolds[i].body_b);
+  for (const auto& [a, b] : joined) join(a, b);
   group_.resize(bodies.size());
   for (const BodySlot body : bodies.slots()) group_[body] = BodySlot(groups.root(body.value));
+  for (const BodySlot body : active)
+    if (!falls_[body]) falls_[group_[body]] = 0;
+  for (const BodySlot body : active) falls_[body] = falls_[group_[body]];
   if (!joined.empty()) leave_alone_what_swings_free(manifolds, active, joined, contacts);
   of_body_.resize(bodies.size());
   of_group_.assign(bodies.size(), {});

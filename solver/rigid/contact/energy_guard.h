@@ -26,6 +26,8 @@ class EnergyGuard {
   /// Whether any group is watched in this step.
   bool watches() const { return watches_; }
 
+  /// Whether it is in free fall, with all that it touches.
+  bool falls(BodySlot body) const { return falls_[body] != 0; }
   /// Before the strikes of a substep.
   void weigh_base(BodySlot body, float inverse_mass, const BodyRow& row);
   /// What strikes, and the other impulses of a substep, did to the energy of a body.
@@ -59,6 +61,7 @@ class EnergyGuard {
 
   bool watches_ = false, objects_ = false;
   ByBody<BodySlot> group_;  ///< Of awake bodies in contact, by its least; none: not watched.
+  ByBody<std::uint8_t> falls_;
   ByBody<Work> of_body_, of_group_;
   std::vector<float> share_;
 };

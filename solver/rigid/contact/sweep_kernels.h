@@ -349,9 +349,9 @@ template <std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> leaving_speed(const ConstraintBlock<lanes>& c, WideOf<lanes> mass,
                                           WideOf<lanes> s, WideOf<lanes> u, float h_s) {
   using V = WideOf<lanes>;
-  const V zero = {}, e = c.rebound.restitution, kick = splat<V>(0.5f * h_s) * c.rebound.fall_m_s2;
+  const V zero = {}, e = c.rebound.restitution, kick = splat<V>(h_s) * c.rebound.fall_m_s2;
   const V fallen = splat<V>(2) * c.rebound.fall_m_s2 * max(zero, s);
-  // At s the velocity is halfway between those before and after the kick.
+  // The velocity at s is that before the kick.
   const V fast = u + kick, square = e * e * (fast * fast + fallen) - fallen;
   const auto closes = (mass > zero) & (u < zero);
   const auto rebounds = closes & (u < splat<V>(-c.rebound.least_m_s)) & (square > kick * kick);
