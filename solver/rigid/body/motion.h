@@ -20,8 +20,8 @@ struct Turning {
 Turning free_turning(const Bodies& bodies, BodySlot body, double dt_s);
 /// With this angular momentum (W).
 Turning turning(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W);
-/// With that, in a rotation at most `reach_rad` from R_WB that has no more than this energy; in R_WB
-/// if there is none.
+/// With that, in a rotation at most `reach_rad` from R_WB that has no more than this energy; in
+/// R_WB if there is none.
 Turning turning_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W,
                             double energy_J, double reach_rad);
 

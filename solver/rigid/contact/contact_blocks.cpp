@@ -71,6 +71,12 @@ class BlocksOf final : public ContactBlocks {
       solver::scale_impulses(blocks_[i], arms, share_of_row);
     }
   }
+  void note_spin(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                 const float* share_of_row) override {
+    const auto h_s = static_cast<float>(step.context.h_s);
+    for (std::uint32_t i = begin; i < end; ++i)
+      solver::note_spin(blocks_[i], arms_[i], step.rows, share_of_row, h_s);
+  }
   void mark(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::mark(blocks_[i], search_[i]);
   }

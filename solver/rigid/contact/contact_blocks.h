@@ -32,6 +32,8 @@ class ContactBlocks {
   /// To be called after it: see sweep.h.
   virtual void scale_impulses(std::uint32_t begin, std::uint32_t end,
                               const float* share_of_row) = 0;
+  virtual void note_spin(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                         const float* share_of_row) = 0;
   /// Makes room for arms that follow the bodies (see sweep.h), once all blocks are added; or does
   /// without.
   virtual void follow_bodies(bool wanted) = 0;

@@ -40,9 +40,9 @@ class ContactSolver::Stages {
                       solver.order_.first_split(),
                       solver.splitting_.sides(),
                       solver.root_W_,
-                      {rows_, solver.splitting_.parts()},
+                      {rows_, solver.splitting_.parts(), solver.spins_.data()},
                       soft_step(step),
-                      static_cast<float>(2 * step.fall_m_s / step.substeps),
+                      static_cast<float>(2 * step.fall_m_s),
                       solver.order_.deep_contacts(),
                       solver.order_.loaded_contacts()} {}
 
@@ -144,7 +144,6 @@ class ContactSolver::Stages {
   void join_and_move(BodySlot body) {
     join(body);
     BodyRow& r = row(body);
-    solver_.moved_[body] = r.velocity;
     const Wide pushed = r.velocity - r.base;
     const bool flies = linear(pushed).isZero(0) && angular(pushed).isZero(0);
     if (flies || (guarded_ && solver_.energy_guard_.falls(body))) r.position -= half_fall_;
@@ -225,12 +224,14 @@ class ContactSolver::Stages {
     BodyRow& r = row(body);
     const float share = solver_.energy_guard_.share_of_row()[row_of(body)];
     r.velocity = r.base + share * (r.velocity - r.base);
-    if (solver_.joined_[body]) return;  // or its joints would not meet
-    r.position -= static_cast<float>(step_.h_s) * (1 - share) * (solver_.moved_[body] - r.base);
   }
   void scale_impulses(std::uint32_t begin, std::uint32_t end) {
     if (solver_.energy_guard_.objects())
       solver_.blocks_->scale_impulses(begin, end, solver_.energy_guard_.share_of_row());
+  }
+  void note_spin(std::uint32_t begin, std::uint32_t end) {
+    if (solver_.energy_guard_.objects())
+      solver_.blocks_->note_spin(begin, end, contact_step_, solver_.energy_guard_.share_of_row());
   }
   void scale_joints(std::uint32_t i) {
     if (solver_.energy_guard_.objects())
@@ -244,7 +245,8 @@ class ContactSolver::Stages {
   BodyRow* rows_;
   bool accelerated_, guarded_;
   Wide gravity_;    ///< What it does to a row's velocity in a substep.
-  Wide half_fall_;  ///< By how much the way of a substep at its last velocity is longer than a parabola.
+  Wide half_fall_;  ///< By how much the way of a substep at its last velocity is longer than a
+                    ///< parabola.
   ContactStep contact_step_;
   std::vector<Stage> stages_;
   bool strikes_on_ = false;
@@ -285,6 +287,7 @@ void ContactSolver::Stages::plan() {
     all_bodies<&Stages::weigh>();
     once(&Stages::judge);
     all_bodies<&Stages::scale_body>();
+    if (solver_.moving_) each_color(&Stages::note_spin);
     all_blocks(&Stages::scale_impulses);
     each_joint_color<&Stages::scale_joints>();
   }
@@ -319,7 +322,8 @@ void ContactSolver::Stages::turn(BodySlot body) {
   const Mat3f& root_W = solver_.root_W_[body];
   const Quat& R_WB_then = bodies_.rotation[body];
   const Mat3& inertia_B = bodies_.inertia_B[body];
-  const Vec3 added_W = (root_W * angular(r.velocity - r.start)).cast<double>();
+  const Vec3 added_W =
+      (root_W * angular(r.velocity - r.start + solver_.spins_[row_of(body)])).cast<double>();
   const Quat R_WB = rotation_now(body, (root_W * angular(r.position)).cast<double>());
   solver_.spin_W_[body] += R_WB_then * (inertia_B * (R_WB_then.conjugate() * added_W));
   solver_.free_[body] = turning(inertia_B, R_WB, solver_.spin_W_[body]);
@@ -379,11 +383,6 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   energy_.resize(accelerated ? order_.manifolds().size() : 0);
   joint_solver_.collect(bodies, joints, order_.in_contact());
   collect_bodies(bodies);
-  joined_.assign(bodies.size(), 0);
-  for (const auto& [a, b] : joint_solver_.joined()) {
-    if (!a.none()) joined_[a] = 1;
-    if (!b.none()) joined_[b] = 1;
-  }
   moving_ = std::ranges::any_of(active_, [&](BodySlot body) {
     return bodies.velocity[body].norm() * step.dt_s > kMoves * bodies.reach_m[body];
   });
@@ -417,7 +416,7 @@ void ContactSolver::collect_bodies(const Bodies& bodies) {
   root_W_.resize(bodies.size());
   spin_W_.resize(bodies.size());
   free_.resize(bodies.size());
-  moved_.resize(bodies.size());
+  spins_.assign(bodies.size() + 1, Wide{});
   active_.clear();
   flying_.clear();
   for (const BodySlot body : bodies.slots())

@@ -59,12 +59,11 @@ class ContactSolver {
   std::vector<BodySlot> flying_;    ///< Awake bodies that touch nothing.
   std::vector<BodyRow> rows_;       ///< As row_of().
   ByBody<Mat3f> root_W_;
-  ByBody<Vec3> spin_W_;         ///< Angular momentum when the step began; at the end, then.
-  ByBody<Turning> free_;   ///< How bodies turn without impulses; at the end, with them.
-  ByBody<std::uint8_t> joined_;
-  ByBody<Wide> moved_;          ///< Velocities with which bodies moved in this substep.
-  bool moving_ = false;         ///< Some body in contact moves: arms follow.
-  std::vector<float> energy_;   ///< Of a sweep's changes, by manifold; none: sweeps go plainly.
+  ByBody<Vec3> spin_W_;        ///< Angular momentum when the step began; at the end, then.
+  ByBody<Turning> free_;       ///< How bodies turn without impulses; at the end, with them.
+  std::vector<Wide> spins_;    ///< See SolverRows.
+  bool moving_ = false;        ///< Some body in contact moves: arms follow.
+  std::vector<float> energy_;  ///< Of a sweep's changes, by manifold; none: sweeps go plainly.
 };
 
 }  // namespace sunder::solver

@@ -12,11 +12,6 @@ SUNDER_INLINE V reciprocal(V x) {
   return x > zero ? one / (x > zero ? x : one) : zero;
 }
 
-template <class V>
-SUNDER_INLINE Triple<V> to_root(const Triple<V> (&column)[3], const Triple<V>& angular) {
-  return {dot(column[0], angular), dot(column[1], angular), dot(column[2], angular)};
-}
-
 /// How much one push moves each of the two, and both.
 template <class V>
 struct Response {
@@ -188,15 +183,18 @@ struct Reach {
   Triple<V>&a, &b;
 
   SUNDER_INLINE V with(const Reach& other) const { return dot(a, other.a) + dot(b, other.b); }
-  SUNDER_INLINE void add(const Triple<V>& to_a, const Triple<V>& to_b) { a = a + to_a, b = b + to_b; }
+  SUNDER_INLINE void add(const Triple<V>& to_a, const Triple<V>& to_b) {
+    a = a + to_a, b = b + to_b;
+  }
 };
 
 /// Lets arms bridge this gap, where that is positive. All arms of a side shift alike, so all
 /// Jacobians along one direction change alike. Separations and drifts stay what they are; masses
 /// change by what moves, so that what meets a sleeper stays as soft as it was: see sleep.h.
 template <bool kSplit, std::uint32_t lanes>
-SUNDER_INLINE void bridge(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const Wide3Of<lanes>& gap,
-                          const Pairs<lanes, kSplit>& x, const WideOf<lanes>& where) {
+SUNDER_INLINE void bridge(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
+                          const Wide3Of<lanes>& gap, const Pairs<lanes, kSplit>& x,
+                          const WideOf<lanes>& where) {
   using V = WideOf<lanes>;
   using V3 = Wide3Of<lanes>;
   const V zero = {}, one = splat<V>(1);
@@ -265,6 +263,8 @@ SUNDER_INLINE void follow_as(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
   using V = WideOf<lanes>;
   const V zero = {}, one = splat<V>(1);
   const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
+  arms.moved_by = c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
+                  c.tangent_2 * c.slide_impulse_2;
   Wide3Of<lanes> gap = arms.gap + (x.b.linear - x.a.linear);
   V wanted = c.point[0].mass;
   const V wide = dot(gap, gap) > arms.wide ? one : zero;
@@ -313,6 +313,8 @@ void settle(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
   template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);    \
   template void sum_impulses(ConstraintBlock<lanes>&);                                         \
   template void scale_impulses(ConstraintBlock<lanes>&, ArmLanes<lanes>*, const float*);       \
+  template void note_spin(const ConstraintBlock<lanes>&, const ArmLanes<lanes>&,               \
+                          const SolverRows&, const float*, float);                             \
   template void mark(const ConstraintBlock<lanes>&, SearchLanes<lanes>&);                      \
   template void measure(const ConstraintBlock<lanes>&, const SearchLanes<lanes>&, float*);     \
   template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float); \

@@ -8,7 +8,8 @@ namespace sunder::solver {
 namespace {
 
 constexpr double kEnergyRounding = 1e-6;  // of the energy that moved to and fro
-constexpr double kSlowFalls = 4;          // in what gravity does to a speed within the step
+constexpr double kShareRounding = 1 - 1e-6;
+constexpr double kSlowFalls = 4;  // in what gravity does to a speed within the step
 
 double lanes_sum(const Wide& a, const Wide& b, double linear) {
   double sum = 0;
@@ -97,7 +98,7 @@ void EnergyGuard::judge(std::span<const BodySlot> active) {
     if (group_[body].none()) continue;
     Work& work = of_group_[group_[body]];
     if (work.first + work.second > kEnergyRounding * work.second) {
-      share = static_cast<float>(std::max(0.0, -work.first / work.second));
+      share = static_cast<float>(std::max(0.0, -kShareRounding * work.first / work.second));
       objects_ = true;
     } else if (group_[body] == body) {
       work.made_J += work.first + work.second;

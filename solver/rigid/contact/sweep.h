@@ -10,6 +10,7 @@ namespace sunder::solver {
 struct SolverRows {
   BodyRow* rows = nullptr;
   Wide* parts = nullptr;  ///< What split manifolds did to their bodies, to be summed.
+  Wide* spins = nullptr;  ///< Angular momentum (root space) that bodies get when the step ends.
 };
 
 /// How the arms of a block's impulses follow its bodies within a step. An impulse and its
@@ -24,6 +25,7 @@ struct alignas(64) ArmLanes {
   WideOf<lanes> wide = {};     ///< Square of a gap that no body spans.
   Wide3Of<lanes> gap = {};     ///< From a's point of friction to b's when the step began.
   Wide3Of<lanes> bridged = {};
+  Wide3Of<lanes> moved_by = {};             ///< Impulse on b with which the bodies last moved.
   Wide3Of<lanes> owed_a = {}, owed_b = {};  ///< What impulses would do with the new arms, besides.
   bool owes = false;
 };
@@ -35,8 +37,8 @@ struct alignas(64) GatheredBlock {
   Wide3Of<lanes> drift = {}, slide_impulse = {}, friction_arm_a = {}, friction_arm_b = {};
   Wide3Of<lanes> roll_impulse = {};
   Wide3Of<lanes> arm_a[4] = {}, arm_b[4] = {};
-  Wide3Of<lanes> offset = {};             ///< Of b's centre from a's.
-  WideOf<lanes> share_a = {};             ///< As in ArmLanes.
+  Wide3Of<lanes> offset = {};  ///< Of b's centre from a's.
+  WideOf<lanes> share_a = {};  ///< As in ArmLanes.
   Wide3Of<lanes> gap = {};
   Wide3Of<lanes> gravity = {};          ///< Acceleration of b from a.
   Softness press;                       ///< By the number of points.
@@ -75,6 +77,11 @@ void sum_impulses(ConstraintBlock<lanes>& block);
 template <std::uint32_t lanes>
 void scale_impulses(ConstraintBlock<lanes>& block, ArmLanes<lanes>* arms,
                     const float* share_of_row);
+/// Bodies moved with impulses of which they keep a share: notes what that changed of the sum of
+/// angular momentum. Before scale_impulses(); not of split blocks.
+template <std::uint32_t lanes>
+void note_spin(const ConstraintBlock<lanes>& block, const ArmLanes<lanes>& arms,
+               const SolverRows& bodies, const float* share_of_row, float h_s);
 /// What conjugate gradients remember of a block, by impulse: those of its points, of sliding, of
 /// twist.
 template <std::uint32_t lanes>

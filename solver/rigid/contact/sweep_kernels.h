@@ -7,6 +7,11 @@
 
 namespace sunder::solver {
 
+template <class V>
+SUNDER_INLINE Triple<V> to_root(const Triple<V> (&column)[3], const Triple<V>& angular) {
+  return {dot(column[0], angular), dot(column[1], angular), dot(column[2], angular)};
+}
+
 /// Both bodies of every lane; of a split block, the parts of them that are the lane's own.
 template <std::uint32_t lanes, bool kSplit>
 struct Pairs {
@@ -276,6 +281,31 @@ void scale_impulses(ConstraintBlock<lanes>& c, ArmLanes<lanes>* arms, const floa
   c.slide_impulse_1 *= share, c.slide_impulse_2 *= share, c.twist_impulse *= share;
   if (c.rolls) c.roll.impulse_1 *= share, c.roll.impulse_2 *= share;
   if (arms) arms->owed_a = arms->owed_a * share, arms->owed_b = arms->owed_b * share;
+}
+
+template <std::uint32_t lanes>
+void note_spin(const ConstraintBlock<lanes>& c, const ArmLanes<lanes>& arms,
+               const SolverRows& bodies, const float* share_of_row, float h_s) {
+  using V = WideOf<lanes>;
+  if (c.split) return;
+  const V given_back = splat<V>(h_s) * (splat<V>(1) - share_of<lanes>(c, share_of_row));
+  if (!any(given_back > V{})) return;
+  const Pairs<lanes, false> base(c, bodies, &BodyRow::base);
+  const Wide3Of<lanes> spin = cross(base.b.linear - base.a.linear, arms.moved_by) * given_back;
+  const Wide3Of<lanes> by_a = to_root(arms.root_a, spin), by_b = to_root(arms.root_b, spin);
+  // Shared so that it takes the least energy.
+  const V of_a = dot(by_a, by_a), of_b = dot(by_b, by_b), both = of_a + of_b;
+  const V scale = splat<V>(1) / (both > V{} ? both : splat<V>(1));
+  const auto add = [&](const std::int32_t* row, const Wide3Of<lanes>& by, const V& share) {
+    const V x = by.x * share, y = by.y * share, z = by.z * share;
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+      if (row[lane] == 0) continue;
+      Wide& to = bodies.spins[row[lane]];
+      to[3] += x[lane], to[4] += y[lane], to[5] += z[lane];
+    }
+  };
+  add(c.row_a, by_a, of_b * scale);
+  add(c.row_b, by_b, of_a * scale);
 }
 
 template <bool kSplit, std::uint32_t lanes>
