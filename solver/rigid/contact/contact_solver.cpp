@@ -42,7 +42,7 @@ class ContactSolver::Stages {
                       solver.root_W_,
                       {rows_, solver.splitting_.parts(), solver.spins_.data()},
                       soft_step(step),
-                      static_cast<float>(2 * step.fall_m_s),
+                      static_cast<float>(2 * step.fall_m_s / step.substeps),
                       solver.order_.deep_contacts(),
                       solver.order_.loaded_contacts()} {}
 

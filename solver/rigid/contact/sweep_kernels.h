@@ -295,7 +295,7 @@ void note_spin(const ConstraintBlock<lanes>& c, const ArmLanes<lanes>& arms,
   const Wide3Of<lanes> by_a = to_root(arms.root_a, spin), by_b = to_root(arms.root_b, spin);
   // Shared so that it takes the least energy.
   const V of_a = dot(by_a, by_a), of_b = dot(by_b, by_b), both = of_a + of_b;
-  const V scale = splat<V>(1) / (both > V{} ? both : splat<V>(1));
+  const V all = both > V{} ? both : splat<V>(1);
   const auto add = [&](const std::int32_t* row, const Wide3Of<lanes>& by, const V& share) {
     const V x = by.x * share, y = by.y * share, z = by.z * share;
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
@@ -304,8 +304,8 @@ void note_spin(const ConstraintBlock<lanes>& c, const ArmLanes<lanes>& arms,
       to[3] += x[lane], to[4] += y[lane], to[5] += z[lane];
     }
   };
-  add(c.row_a, by_a, of_b * scale);
-  add(c.row_b, by_b, of_a * scale);
+  add(c.row_a, by_a, of_b / all);
+  add(c.row_b, by_b, of_a / all);
 }
 
 template <bool kSplit, std::uint32_t lanes>
