@@ -104,7 +104,8 @@ void go_on(ConstraintBlock<lanes>& block, SearchLanes<lanes>& search, const Solv
 /// no part of the impulses that are kept. False if none closes; those of split blocks do not
 /// rebound.
 template <std::uint32_t lanes>
-bool strike(ConstraintBlock<lanes>& block, const SolverRows& bodies, float h_s);
+bool strike(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
+            float h_s);
 /// Writes the separation of every point now, by point and lane.
 template <std::uint32_t lanes>
 void separations_now(const ConstraintBlock<lanes>& block, const SolverRows& bodies,

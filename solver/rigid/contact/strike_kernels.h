@@ -1,0 +1,178 @@
+// Strikes: impacts that rebound, one contact after the other, before the sweeps of a substep. Read
+// first: strike(). Included by sweep_1.cpp and so on alone, under the same rule as sweep_kernels.h.
+#pragma once
+
+#include "solver/rigid/contact/derive_kernels.h"
+
+namespace sunder::solver {
+
+/// How the points of a contact meet, as of the start of a substep, before which gravity has kicked.
+template <std::uint32_t lanes>
+struct Meeting {
+  using V = WideOf<lanes>;
+  V closes[4];  ///< Speeds before the kick; 0: the point does not meet in this substep or the next.
+  V meets_s;    ///< When the first of them meets.
+  V struck = {};  ///< 1: within the substep, and it rebounds.
+
+  SUNDER_INLINE Meeting(const ConstraintBlock<lanes>& c, const Pairs<lanes, false>& x,
+                        const Pairs<lanes, false>& v, float h_s)
+      : meets_s(splat<V>(2 * h_s)) {
+    const V zero = {}, one = splat<V>(1), h = splat<V>(h_s), fall = c.rebound.fall_m_s2;
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const PointLanes<lanes>& p = c.point[i];
+      const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
+      const V u = v.along(c.normal, p.angular_a, p.angular_b), before = -u - fall * h;
+      const auto meets = (p.mass > zero) & (before > zero) & (s + splat<V>(2) * u * h < zero);
+      const V gap = max(zero, s), square = before * before + splat<V>(2) * fall * gap;
+      const V hits = sqrt(meets ? square : one);
+      const auto rebounds = meets & (hits > splat<V>(c.rebound.least_m_s)) & (s + u * h < zero);
+      closes[i] = meets ? before : zero;
+      meets_s = rebounds ? min(meets_s, splat<V>(2) * gap / (before + hits)) : meets_s;
+      struck = rebounds & (c.rebound.restitution > zero) ? one : struck;
+    }
+  }
+
+  /// Speeds with arms that have come to meet.
+  SUNDER_INLINE void close(const ConstraintBlock<lanes>& c, const Pairs<lanes, false>& v,
+                           float h_s) {
+    const V zero = {};
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const V u = v.along(c.normal, c.point[i].angular_a, c.point[i].angular_b);
+      const V before = -u - c.rebound.fall_m_s2 * splat<V>(h_s);
+      closes[i] = closes[i] > zero ? max(zero, before) : zero;
+    }
+  }
+
+  /// Newton's law when it meets. The parabola that the rebound belongs to is followed backwards.
+  SUNDER_INLINE V leaves(const ConstraintBlock<lanes>& c, std::uint32_t i, float h_s) const {
+    const V fall = c.rebound.fall_m_s2;
+    const V hits = closes[i] + fall * meets_s;
+    return c.rebound.restitution * hits + fall * (meets_s - splat<V>(h_s));
+  }
+};
+
+/// Both bodies of a struck contact, and the impulses so far.
+template <std::uint32_t lanes>
+struct Strike {
+  using V = WideOf<lanes>;
+  Pairs<lanes, false> was, now;
+  V impulse[4] = {}, slide_1 = {}, slide_2 = {};
+
+  SUNDER_INLINE Strike(const ConstraintBlock<lanes>& c, const SolverRows& bodies)
+      : was(c, bodies, &BodyRow::base), now(was) {}
+
+  SUNDER_INLINE void press(const ConstraintBlock<lanes>& c, const Meeting<lanes>& meeting,
+                           float h_s) {
+    const V zero = {};
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const PointLanes<lanes>& p = c.point[i];
+      const auto meets = (meeting.struck > zero) & (meeting.closes[i] > zero);
+      const V change = meeting.leaves(c, i, h_s) - now.along(c.normal, p.angular_a, p.angular_b);
+      const V next = meets ? max(zero, impulse[i] + p.mass * change) : zero;
+      now.push(c, c.normal, p.angular_a, p.angular_b, next - impulse[i]);
+      impulse[i] = next;
+    }
+  }
+
+  SUNDER_INLINE V load(const ConstraintBlock<lanes>& c) const {
+    V sum = impulse[0];
+    for (std::uint32_t i = 1; i < c.points; ++i) sum += impulse[i];
+    return sum;
+  }
+
+  SUNDER_INLINE void slide(const ConstraintBlock<lanes>& c) {
+    const V limit = c.friction * load(c);
+    const V u1 = now.along(c.tangent_1, c.slide_1_a, c.slide_1_b);
+    const V u2 = now.along(c.tangent_2, c.slide_2_a, c.slide_2_b);
+    V next_1 = slide_1 - (c.slide_11 * u1 + c.slide_12 * u2);
+    V next_2 = slide_2 - (c.slide_12 * u1 + c.slide_22 * u2);
+    const V square = next_1 * next_1 + next_2 * next_2;
+    const auto slips = square > limit * limit;
+    const V scale = slips ? limit / sqrt(slips ? square : splat<V>(1)) : splat<V>(1);
+    next_1 *= scale, next_2 *= scale;
+    now.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, next_1 - slide_1);
+    now.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, next_2 - slide_2);
+    slide_1 = next_1, slide_2 = next_2;
+  }
+
+  /// Of the impulses, so that they make no energy: Newton's law with friction may (Kane 1984).
+  SUNDER_INLINE V share(const ConstraintBlock<lanes>& c) const {
+    const V zero = {};
+    V first = zero, both = zero;  // twice the work at the speeds before, and at their mean
+    const auto add = [&](const V& pushed, const Wide3Of<lanes>& direction,
+                         const Wide3Of<lanes>& on_a, const Wide3Of<lanes>& on_b) {
+      const V before = was.along(direction, on_a, on_b), after = now.along(direction, on_a, on_b);
+      first += pushed * (before + before), both += pushed * (before + after);
+    };
+    for (std::uint32_t i = 0; i < c.points; ++i)
+      add(impulse[i], c.normal, c.point[i].angular_a, c.point[i].angular_b);
+    add(slide_1, c.tangent_1, c.slide_1_a, c.slide_1_b);
+    add(slide_2, c.tangent_2, c.slide_2_a, c.slide_2_b);
+    const auto gains = (both > zero) & (both - first > zero);
+    return gains ? max(zero, -first / (gains ? both - first : splat<V>(1))) : splat<V>(1);
+  }
+
+  SUNDER_INLINE void scale(V share) {
+    for (V& of_point : impulse) of_point *= share;
+    slide_1 *= share, slide_2 *= share;
+  }
+
+  SUNDER_INLINE void apply(const ConstraintBlock<lanes>& c, Pairs<lanes, false>& to,
+                           V scale) const {
+    for (std::uint32_t i = 0; i < c.points; ++i)
+      to.push(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, impulse[i] * scale);
+    to.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, slide_1 * scale);
+    to.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, slide_2 * scale);
+  }
+};
+
+template <std::uint32_t lanes>
+bool strike(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& bodies, float h_s) {
+  using V = WideOf<lanes>;
+  if (!c.bouncy || c.split) return false;
+  constexpr int kRounds = 16;
+  const V zero = {}, one = splat<V>(1);
+  Pairs<lanes, false> x(c, bodies, &BodyRow::position), v(c, bodies, &BodyRow::velocity);
+  Strike<lanes> strike(c, bodies);
+  Meeting<lanes> meeting(c, x, strike.was, h_s);
+  if (!any(meeting.struck > zero)) return false;
+  const Wide3Of<lanes> way = (strike.was.b.linear - strike.was.a.linear) * meeting.meets_s;
+  bridge(c, arms, arms.gap + (x.b.linear - x.a.linear) + way, x, meeting.struck);
+  meeting.close(c, strike.was, h_s);
+  for (int round = 0; round < kRounds; ++round) strike.press(c, meeting, h_s), strike.slide(c);
+  strike.scale(strike.share(c));
+  strike.now = strike.was;
+  strike.apply(c, strike.now, one);
+  strike.apply(c, v, one);
+  strike.apply(c, x, -meeting.meets_s);  // the way to where they met was gone at the speed before
+  bool active[lanes];
+  for (std::uint32_t lane = 0; lane < lanes; ++lane) active[lane] = meeting.struck[lane] > 0;
+  store(c, v, bodies, active);
+  store_side<lanes>(strike.now.a, c.row_a, active, bodies.rows, &BodyRow::base);
+  store_side<lanes>(strike.now.b, c.row_b, active, bodies.rows, &BodyRow::base);
+  store_side<lanes>(x.a, c.row_a, active, bodies.rows, &BodyRow::position);
+  store_side<lanes>(x.b, c.row_b, active, bodies.rows, &BodyRow::position);
+  c.total = c.total + c.normal * strike.load(c) + c.tangent_1 * strike.slide_1 +
+            c.tangent_2 * strike.slide_2;
+  return true;
+}
+
+/// Compiles all kernels for so many lanes.
+#define SUNDER_SWEEP_KERNELS(lanes)                                                            \
+  template void derive(GatheredBlock<lanes>&, ConstraintBlock<lanes>&);                        \
+  template void follow(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);   \
+  template void settle(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&);          \
+  template void warm_start(ConstraintBlock<lanes>&, const SolverRows&);                        \
+  template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);     \
+  template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);    \
+  template void sum_impulses(ConstraintBlock<lanes>&);                                         \
+  template void scale_impulses(ConstraintBlock<lanes>&, ArmLanes<lanes>*, const float*);       \
+  template void note_spin(const ConstraintBlock<lanes>&, const ArmLanes<lanes>&,               \
+                          const SolverRows&, const float*, float);                             \
+  template void mark(const ConstraintBlock<lanes>&, SearchLanes<lanes>&);                      \
+  template void measure(const ConstraintBlock<lanes>&, const SearchLanes<lanes>&, float*);     \
+  template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float); \
+  template bool strike(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);   \
+  template void separations_now(const ConstraintBlock<lanes>&, const SolverRows&, float(*)[lanes]);
+
+}  // namespace sunder::solver
