@@ -8,6 +8,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr float kMargin = 0.05f;         // of the smaller inner radius: contact before touch
+constexpr float kTouch = 1e-3f;          // of it: where an impact lands
 constexpr float kAxisTolerance = 0.01f;  // of it: how much better another axis must be
 constexpr float kRocks = 0.25f;          // of it: what moves no farther in a step keeps old points
 constexpr float kLayer = 0.02f;          // of it: points so far above the lowest still count
@@ -62,16 +63,16 @@ struct Probe {
 /// Time until the shapes come within `target_m`, moving straight; negative: not within dt_s.
 /// Advancing by the gap along a separating axis never oversteps. `axis`: the best at the start, and
 /// at that time in the end.
-float time_of_impact(const Probe& probe, const PairMotion& motion, const Vec3f& velocity_A,
+float time_of_impact(const Probe& probe, const RelativePose& start, const Vec3f& velocity_A,
                      float target_m, float dt_s, SeparatingAxis& axis) {
-  RelativePose pose = motion.pose;
+  RelativePose pose = start;
   float time = 0;
   for (int round = 0; round < kImpactRounds && axis.separation_m > target_m; ++round) {
     const float closing = -axis.normal_A.dot(velocity_A);
     if (closing <= 0) return -1;
     time += (axis.separation_m - 0.5f * target_m) / closing;
     if (time > dt_s) return -1;
-    pose.p = motion.pose.p + time * velocity_A;
+    pose.p = start.p + time * velocity_A;
     axis = probe.axis(pose, {target_m, (dt_s - time) * velocity_A});
   }
   return time;
@@ -135,8 +136,14 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
   if (meet && reach.way_m > 0.5f * m.size_m) {
     axis_reach.way_A.setZero();
-    time = time_of_impact(probe, motion, velocity_A, axis_reach.margin_m, dt, axis);
+    time = time_of_impact(probe, pose, velocity_A, axis_reach.margin_m, dt, axis);
     pose.p += std::max(0.f, time) * velocity_A;
+    if (time > 0 && b.kind == Kind::kSphere) {  // its normal turns until they touch
+      SeparatingAxis touching = axis;
+      const float target_m = kTouch * m.size_m;
+      const float more = time_of_impact(probe, pose, velocity_A, target_m, dt - time, touching);
+      if (more > 0) axis = touching, time += more, pose.p += more * velocity_A;
+    }
   }
   const float limit = axis_reach.along(axis.normal_A);
   scratch.points.clear();
