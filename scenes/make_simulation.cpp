@@ -5,6 +5,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/model/scene_accuracy.h"
+#include "engine/model/scene_chains.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/file/planar.h"
@@ -65,8 +66,10 @@ std::unique_ptr<Particles> make_particles(const Scene& scene) {
 }
 
 std::vector<std::string> warnings_of(const Scene& scene) {
+  std::vector<std::string> warnings = chain_warnings(scene, kMostSubsteps);
   const std::string warning = accuracy_warning(scene, kMostSubsteps);
-  return warning.empty() ? std::vector<std::string>{} : std::vector{warning};
+  if (!warning.empty()) warnings.push_back(warning);
+  return warnings;
 }
 
 }  // namespace

@@ -133,9 +133,13 @@ int substeps_to_stand(const Stack& stack, double gravity_m_s2, double dt_s) {
 }
 
 Accuracy accuracy_to_stand(const Scene& scene, int most_substeps) {
-  Accuracy accuracy = scene.accuracy;
+  const Accuracy& accuracy = scene.accuracy;
   const int all =
       substeps_to_stand(stacks_in(scene).weakest, scene.gravity_W.norm(), accuracy.dt_s);
+  return cut_in_substeps(accuracy, all, most_substeps);
+}
+
+Accuracy cut_in_substeps(Accuracy accuracy, int all, int most_substeps) {
   const int steps = (all + most_substeps - 1) / most_substeps;
   accuracy.dt_s /= steps;
   accuracy.substeps = (all + steps - 1) / steps;

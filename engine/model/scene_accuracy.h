@@ -32,6 +32,9 @@ int substeps_to_stand(const Stack& stack, double gravity_m_s2, double dt_s);
 /// The scene's accuracy with so many; a shorter step where that is more than `most_substeps`.
 Accuracy accuracy_to_stand(const Scene& scene, int most_substeps);
 
+/// With a step cut into `all` substeps; a shorter one where that is more than `most_substeps`.
+Accuracy cut_in_substeps(Accuracy accuracy, int all, int most_substeps);
+
 /// What a user, who may ask for so many substeps, should know about a scene's accuracy; empty if
 /// nothing.
 std::string accuracy_warning(const Scene& scene, int most_substeps);

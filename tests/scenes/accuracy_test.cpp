@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/model/scene_accuracy.h"
+#include "engine/model/scene_chains.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/file/schema.h"
@@ -185,6 +186,60 @@ TEST(Accuracy, ATowerFallsAwakeBelowTheSubstepsThatTheWarningNamesAndStandsWithT
   const Wandered boxes = as_named("tower of 40", 0.1, make);
   EXPECT_GT(boxes.before, 1);
   EXPECT_LT(boxes.then, 0.02);
+}
+
+/// A steel ball, let go on a chain from 10 m above the ground.
+Scene wrecking_ball(const std::string& links, const std::string& preset,
+                    std::vector<std::string> set = {}) {
+  const std::string text =
+      "[scene]\ndescription = \"x\"\nduration_s = 4\n[accuracy]\n[script]\n"
+      "[[script.wrecking_ball]]\nname = \"ball\"\nfrom = [-6.4, 7.8, 0]\n"
+      "hangs_from = [0, 10, 0]\nradius_m = 0.6\nlinks = " +
+      links + "\n";
+  return scenes::parse_scene(text, "chain.toml", {preset, std::move(set)});
+}
+
+/// The most that the end of the chain is too far away, of its length.
+double stretches(Scene scene) {
+  Simulation simulation(std::move(scene), solver::make_rigid_physics({}),
+                        fracture::make_pattern_breaker());
+  const Vec3 way(-6.4, -2.2, 0), end_R = -0.6 * way.normalized();
+  double worst = -1;
+  while (const FramePtr frame = simulation.next()) {
+    if (frame->bodies.empty()) continue;
+    const Vec3 end_W = frame->bodies.back().X_WB * end_R;
+    worst = std::max(worst, (end_W - Vec3(0, 10, 0)).norm() / (way + end_R).norm() - 1);
+  }
+  return worst;
+}
+
+TEST(Accuracy, TheChainOfAWreckingBallDoesNotStretchAtAnyPreset) {
+  for (const char* links : {"16", "40"}) {
+    for (const char* preset : {"draft", "realtime", "accurate", "reference"}) {
+      const Scene scene = wrecking_ball(links, preset);
+      EXPECT_TRUE(chain_warnings(scene, scenes::kMostSubsteps).empty());
+      const double stretch = stretches(scene);
+      std::printf("chain of %s links, %s: stretches by %.1e\n", links, preset, stretch);
+      EXPECT_LT(std::abs(stretch), 1e-3);
+    }
+  }
+}
+
+TEST(Accuracy, AChainThatWouldTearIsWarnedOfOnceWithTheSubstepsThatHoldIt) {
+  const Scene scene = wrecking_ball("120", "draft");
+  const std::vector<std::string> warnings = chain_warnings(scene, scenes::kMostSubsteps);
+  ASSERT_EQ(warnings.size(), 1u);
+  const int needed = chains_in(scene).front().substeps;
+  EXPECT_GT(needed, 4);
+  EXPECT_NE(warnings[0].find(std::to_string(needed) + " substeps"), std::string::npos);
+  EXPECT_NE(warnings[0].find("'ball.link.0'"), std::string::npos) << warnings[0];
+  const auto held = wrecking_ball("120", "draft", {"accuracy.substeps=" + std::to_string(needed)});
+  EXPECT_TRUE(chain_warnings(held, scenes::kMostSubsteps).empty());
+  const double before = stretches(scene), then = stretches(held);
+  std::printf("chain of 120 links: stretches by %.1e, by %.1e with %d substeps\n", before, then,
+              needed);
+  EXPECT_GT(before, 0.1);
+  EXPECT_LT(std::abs(then), 1e-2);
 }
 
 }  // namespace

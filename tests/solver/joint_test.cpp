@@ -5,6 +5,7 @@
 
 #include "bench/truths/presets.h"
 #include "engine/base/parallel.h"
+#include "tests/solver/chains.h"
 
 namespace sunder::solver {
 namespace {
@@ -13,13 +14,6 @@ using W = RigidWorld;
 using Kind = JointDesc::Kind;
 constexpr double kDt_s = 1.0 / 120;  // the preset `accurate`
 constexpr int kSubsteps = 8;
-
-/// How far the ends of a joint are apart.
-double gap(const RigidWorld& world, const JointDesc& joint) {
-  const Vec3 a = joint.a.none() ? joint.anchor_a_R : world.state(joint.a).X_WB * joint.anchor_a_R;
-  const Vec3 b = joint.b.none() ? joint.anchor_b_R : world.state(joint.b).X_WB * joint.anchor_b_R;
-  return (b - a).norm();
-}
 
 TEST(Joint, AHingeKeepsItsAxis) {
   RigidWorld world(awake());
@@ -115,33 +109,6 @@ TEST(Joint, ACantileverOfFixedJointsStaysStraight) {
   EXPECT_LT(std::abs(world.state(last).X_WB.position.y()), 1e-3);
 }
 
-/// A chain of links from the origin towards +x with a ball at its end; the ball last.
-struct Chain {
-  std::vector<BodyId> bodies;
-  std::vector<JointDesc> joints;
-};
-Chain add_chain(RigidWorld& world, int links, double ball_ratio) {
-  Chain chain;
-  const BodyDesc link = W::box(Vec3(0.2, 0.05, 0.05), Vec3::Zero());
-  BodyId last;
-  for (int i = 0; i <= links; ++i) {
-    const Vec3 at(0.2 * i, 0, 0);
-    BodyDesc desc = link;
-    if (i == links) {
-      const double radius = 0.3;
-      desc = W::sphere(radius, at + Vec3(radius, 0, 0),
-                       ball_ratio * link.mass_kg / (4.0 / 3 * kPi * radius * radius * radius));
-    } else {
-      desc.X_WB.position = at + Vec3(0.1, 0, 0);
-    }
-    chain.bodies.push_back(world.add(desc));
-    chain.joints.push_back(joint_at(world, Kind::kBall, last, chain.bodies.back(), at));
-    world.physics().join(chain.joints.back());
-    last = chain.bodies.back();
-  }
-  return chain;
-}
-
 TEST(Joint, ALoadBreaksAJointAtItsLimitAndMomentumStays) {
   for (const bool heavy : {false, true}) {
     RigidWorld world(awake());
@@ -182,7 +149,7 @@ TEST(Joint, ALoadBreaksAJointAtItsLimitAndMomentumStays) {
 
 TEST(Joint, AccountsForTheMomentumThatTheWorldGives) {
   RigidWorld world(awake());
-  add_chain(world, 5, 20);
+  add_chain(world, {.links = 5, .ball_ratio = 20});
   for (int i = 0; i < 120; ++i) {
     const Vec3 before = world.momentum();
     const SolveReport report = world.step(kDt_s, kSubsteps);

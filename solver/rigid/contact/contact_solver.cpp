@@ -7,6 +7,7 @@
 #include "engine/base/nncg.h"
 #include "engine/base/rotation.h"
 #include "solver/rigid/body/motion.h"
+#include "solver/rigid/body/row_exchange.h"
 
 namespace sunder::solver {
 namespace {
@@ -124,6 +125,8 @@ class ContactSolver::Stages {
     for (std::uint32_t i = begin; i < end; ++i) fly(step_, solver_.flying_[i], bodies_);
   }
   BodyRow& row(BodySlot body) { return rows_[row_of(body)]; }
+  void take(BodySlot body) { take_row(bodies_, body, row(body), solver_.root_W_[body]); }
+  void give(BodySlot body) { give_row(row(body), solver_.root_W_[body], body, bodies_); }
   void begin(BodySlot body);
   void first_kick(BodySlot body) {
     BodyRow& r = row(body);
@@ -136,7 +139,8 @@ class ContactSolver::Stages {
     BodyRow& r = row(body);
     const Wide impulses = r.velocity - r.base;
     r.base = r.velocity + gravity_;
-    r.velocity = r.base + impulses;
+    // Joints know theirs, and the roundings of a difference would add up.
+    r.velocity = solver_.joint_solver_.swings_free(body) ? r.base : r.base + impulses;
     if (guarded_) solver_.energy_guard_.weigh_base(body, bodies_.inverse_mass[body], r);
   }
   void join_and_kick(BodySlot body) { join(body), kick(body); }
@@ -189,11 +193,14 @@ class ContactSolver::Stages {
 
   // Groups of joints.
   void begin_joints(std::uint32_t i) {
-    solver_.joint_solver_.begin(i, bodies_, joints_, solver_.root_W_, rows_);
+    solver_.joint_solver_.begin(i, step_, bodies_, joints_, solver_.root_W_, rows_);
+  }
+  void settle_joints(std::uint32_t i) {
+    solver_.joint_solver_.settle(i, step_, bodies_, joints_, solver_.root_W_, rows_);
   }
   void warm_start_joints(std::uint32_t i) { solver_.joint_solver_.warm_start(i, step_, rows_); }
   void push_joints(std::uint32_t i) { solver_.joint_solver_.push(i, step_, rows_); }
-  void refresh_joints(std::uint32_t i) { solver_.joint_solver_.refresh(i, rows_); }
+  void refresh_joints(std::uint32_t i) { solver_.joint_solver_.refresh(i, step_, rows_); }
   void relax_joints(std::uint32_t i) { solver_.joint_solver_.relax(i, step_, rows_); }
   void test_joints(std::uint32_t i) { solver_.joint_solver_.test(i, step_, rows_); }
 
@@ -295,6 +302,10 @@ void ContactSolver::Stages::plan() {
   all_bodies<&Stages::turn>();
   if (guarded_) once(&Stages::decide);
   all_bodies<&Stages::finish>();
+  if (!joints) return;
+  all_bodies<&Stages::take>();
+  each_joint_color<&Stages::settle_joints>();
+  all_bodies<&Stages::give>();
 }
 
 void ContactSolver::Stages::begin(BodySlot body) {
@@ -303,16 +314,10 @@ void ContactSolver::Stages::begin(BodySlot body) {
       R_WB * bodies_.inertia_B[body] * R_WB.transpose() * bodies_.angular_velocity[body];
   const Turning free = free_turning(bodies_, body, step_.dt_s);
   solver_.free_[body] = free;
-  bodies_.angular_velocity[body] = free.w_W;
-  const Mat3f& root_B = bodies_.root_B[body];
-  solver_.root_W_[body] = bodies_.rotation_f[body] * root_B;
-  const Vec3 spin_B = bodies_.rotation[body].conjugate() * bodies_.angular_velocity[body];
-  const Vec3f spin = root_B.transpose() * (bodies_.inertia_B[body] * spin_B).cast<float>();
-  const Vec3f v = bodies_.velocity[body].cast<float>();
-  BodyRow& r = row(body);
-  r.velocity = Wide{v.x(), v.y(), v.z(), spin.x(), spin.y(), spin.z(), 0, 0};
-  r.start = r.base = r.velocity;
-  r.position = Wide{};
+  Vec3& w_W = bodies_.angular_velocity[body];
+  // What joints alone hold turns as it does midway.
+  w_W = solver_.joint_solver_.swings_free(body) ? Vec3(0.5 * (w_W + free.w_W)) : free.w_W;
+  take(body);
 }
 
 /// Angular momentum is what it was and what impulses added, whatever way the body now lies: to be

@@ -7,8 +7,9 @@
 namespace sunder::solver {
 namespace {
 
-constexpr double kRate = 0.25;      // of an error that a substep takes out
-constexpr double kJointPush = 2;    // fastest correction, in speeds of falling
+constexpr double kRate = 0.25;    // of an error that a substep takes out
+constexpr double kJointPush = 2;  // fastest correction, in speeds of falling
+constexpr int kRopeRounds = 8;
 constexpr double kSoftness = 1e-6;  // of a row's response: two hinges of a door say the same twice
 
 /// Response of row i of one joint to an impulse along row j of another, through what they share.
@@ -38,16 +39,15 @@ void lay_out(JointGroup& group, std::span<const JointWork> works) {
   Envelope& e = group.matrix;
   e.first.clear();
   e.start.assign(1, 0);
-  std::vector<std::uint32_t> first_row;
+  group.first_row.clear();
+  group.first_shared.clear();
   for (std::size_t m = 0; m < works.size(); ++m) {
     const std::uint32_t at = e.rows();
-    first_row.push_back(at);
-    std::uint32_t first = at;
-    for (std::size_t n = 0; n < m; ++n) {
-      if (!share(works[m], works[n])) continue;
-      first = first_row[n];
-      break;
-    }
+    std::uint32_t n = 0;
+    while (n < m && !share(works[m], works[n])) ++n;
+    group.first_row.push_back(at);
+    group.first_shared.push_back(n);
+    const std::uint32_t first = group.first_row[n];
     for (int i = 0; i < works[m].rows; ++i) {
       e.first.push_back(first);
       e.start.push_back(e.start.back() + at + static_cast<std::uint32_t>(i) + 1 - first);
@@ -61,38 +61,42 @@ void lay_out(JointGroup& group, std::span<const JointWork> works) {
 void fill(JointGroup& group, std::span<const JointWork> works) {
   Envelope& e = group.matrix;
   std::fill(e.entries.begin(), e.entries.end(), 0.0);
-  std::vector<std::uint32_t> first_row;
-  std::uint32_t at = 0;
+  const std::vector<std::uint32_t>& first_row = group.first_row;
   for (std::size_t m = 0; m < works.size(); ++m) {
-    first_row.push_back(at);
     const JointWork& work = works[m];
+    const std::uint32_t at = first_row[m];
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(work.rows); ++i) {
-      for (std::size_t n = 0; n <= m; ++n) {
-        if (first_row[n] < e.first[at + i] || (n < m && !share(work, works[n]))) continue;
+      for (std::size_t n = group.first_shared[m]; n <= m; ++n) {
+        if (n < m && !share(work, works[n])) continue;
+        if (work.slack || works[n].slack) continue;
         const auto columns = n < m ? static_cast<std::uint32_t>(works[n].rows) : i + 1;
         for (std::uint32_t j = 0; j < columns; ++j)
           e.at(at + i, first_row[n] + j) = response(work, work.row[i], works[n], works[n].row[j]);
       }
       double& diagonal = e.at(at + i, at + i);
-      // What a broken joint, or one between two immovable ends, is asked does not matter.
+      // What a broken joint, a slack rope, or what is between two immovable ends is asked does not
+      // matter.
       const bool moves = diagonal > 0 && !work.broken;
-      group.softness[at + i] = moves ? kSoftness * diagonal : 1;
+      group.softness[at + i] = work.row[i].softness > 0 ? work.row[i].softness
+                               : moves                  ? kSoftness * diagonal
+                                                        : 1;
       diagonal = moves ? diagonal + group.softness[at + i] : 1;
     }
-    at += static_cast<std::uint32_t>(work.rows);
   }
   e.factor();
 }
 
-/// What the correction of an error asks for, as a speed.
+/// What the correction of an error asks for, as a speed: of what there is, and of what the turn of
+/// this substep would add.
 double bias(const JointWork& work, int i, const StepContext& step, bool biased) {
   const double error = work.row[static_cast<std::size_t>(i)].error;
   const double apart = work.kind == JointDesc::Kind::kRope ? std::min(0.0, error) : 0;
   if (apart < 0) return apart / step.h_s;  // a slack rope may run out
-  if (!biased) return 0;
+  if (!biased || i >= work.held_rows) return 0;
   const double push_m_s = kJointPush * step.froude.speed_m_s(work.reach_m);
   const double most = i < work.place_rows ? push_m_s : push_m_s / work.reach_m;
-  return std::clamp(kRate / step.h_s * error, -most, most);
+  return std::clamp(kRate / step.h_s * error, -most, most) +
+         0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].bend_s2;
 }
 
 /// On b, of this substep.
@@ -102,6 +106,38 @@ Vec3 push_of(const JointWork& work) {
     push += work.impulse[i] * work.row[i].push.cast<double>();
   }
   return push;
+}
+
+/// What all rows have to add so that they hold.
+void find_change(JointGroup& group, std::span<const JointWork> works, const StepContext& step,
+                 bool biased, const BodyRow* rows) {
+  std::size_t at = 0;
+  for (const JointWork& work : works) {
+    for (int i = 0; i < work.rows; ++i, ++at) {
+      const bool bears = !work.broken && !work.slack;
+      group.change[at] = !bears
+                             ? 0
+                             : -work.speed(i, rows) - bias(work, i, step, biased) -
+                                   group.softness[at] * work.impulse[static_cast<std::size_t>(i)];
+    }
+  }
+  group.matrix.solve(group.change);
+}
+
+/// A rope pulls and never pushes: lets go of those that would; whether there are any.
+bool let_go(const JointGroup& group, std::span<JointWork> works, BodyRow* rows) {
+  bool any = false;
+  std::size_t at = 0;
+  for (JointWork& work : works) {
+    if (work.kind == JointDesc::Kind::kRope && !work.slack && !work.broken &&
+        work.impulse[0] + group.change[at] > 0) {
+      work.apply(JointPush{} - work.sum(work.impulse), rows);
+      work.impulse = {};
+      work.slack = any = true;
+    }
+    at += static_cast<std::size_t>(work.rows);
+  }
+  return any;
 }
 
 void take_out(JointWork& work) {
@@ -137,9 +173,16 @@ void Envelope::solve(std::span<double> x) const {
   }
 }
 
-void begin_group(JointGroup& group, std::span<JointWork> works, const BodyRow* rows) {
-  for (JointWork& work : works) refresh_rows(work, rows);
-  lay_out(group, works);
+void begin_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                 const BodyRow* rows) {
+  bool other = false;  // numbers of rows than were laid out
+  for (JointWork& work : works) {
+    if (work.broken) continue;
+    const int before = work.rows;
+    refresh_rows(work, step.h_s, rows);
+    other = other || work.rows != before;
+  }
+  if (other) lay_out(group, works);
   fill(group, works);
 }
 
@@ -155,35 +198,44 @@ void solve_group(JointGroup& group, std::span<JointWork> works, const StepContex
   if (biased) {
     for (JointWork& work : works) work.apply(std::exchange(work.owed, {}), rows);
   }
-  std::vector<double>& change = group.change;
-  std::size_t at = 0;
-  for (const JointWork& work : works) {
-    for (int i = 0; i < work.rows; ++i, ++at) {
-      const auto r = static_cast<std::size_t>(i);
-      change[at] = work.broken ? 0
-                               : -work.speed(i, rows) - bias(work, i, step, biased) -
-                                     group.softness[at] * work.impulse[r];
-    }
-  }
-  group.matrix.solve(change);
-  at = 0;
+  bool other = false;  // ropes bear than were factored
   for (JointWork& work : works) {
-    if (work.kind == JointDesc::Kind::kRope)  // it pulls, and never pushes
-      change[at] = std::min(change[at], -work.impulse[0]);
-    work.apply(work.sum(std::span(change).subspan(at)), rows);
-    for (int i = 0; i < work.rows; ++i, ++at)
-      work.impulse[static_cast<std::size_t>(i)] += change[at];
+    if (!work.slack || work.speed(0, rows) + bias(work, 0, step, biased) <= 0) continue;
+    work.slack = false;
+    other = true;
   }
+  for (int round = 0; round < kRopeRounds; ++round) {
+    if (other) fill(group, works);
+    find_change(group, works, step, biased, rows);
+    other = let_go(group, works, rows);
+    if (!other) break;
+  }
+  std::size_t at = 0;
+  for (JointWork& work : works) {
+    if (work.slack) group.change[at] = 0;
+    work.apply(work.sum(std::span(group.change).subspan(at)), rows);
+    for (int i = 0; i < work.rows; ++i, ++at)
+      work.impulse[static_cast<std::size_t>(i)] += group.change[at];
+  }
+  if (other) fill(group, works);
 }
 
-void refresh_group(JointGroup& group, std::span<JointWork> works, const BodyRow* rows) {
+void refresh_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                   const BodyRow* rows) {
+  for (JointWork& work : works) work.owed = work.sum(work.impulse);
+  begin_group(group, works, step, rows);
+  for (JointWork& work : works) work.owed = work.sum(work.impulse) - work.owed;
+}
+
+void settle_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                  BodyRow* rows) {
+  for (JointWork& work : works) work.kept_impulse = std::exchange(work.impulse, {});
+  begin_group(group, works, step, rows);
+  solve_group(group, works, step, false, rows);
   for (JointWork& work : works) {
-    if (work.broken) continue;
-    const JointPush before = work.sum(work.impulse);
-    refresh_rows(work, rows);
-    work.owed = work.sum(work.impulse) - before;
+    work.total_W += push_of(work);
+    work.impulse = work.kept_impulse;
   }
-  fill(group, works);
 }
 
 void scale_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
@@ -210,7 +262,7 @@ void test_group(JointGroup& group, std::span<JointWork> works, const StepContext
     if (work.broken) continue;
     const Vec3 push = push_of(work);
     double square = 0;
-    for (int i = work.place_rows; i < work.rows; ++i) {
+    for (int i = work.place_rows; i < work.held_rows; ++i) {
       const double impulse = work.impulse[static_cast<std::size_t>(i)];
       square += impulse * impulse;
     }
@@ -224,6 +276,8 @@ void test_group(JointGroup& group, std::span<JointWork> works, const StepContext
     any = true;
   }
   if (any) fill(group, works);
+  if (!group.swings_free) return;
+  for (JointWork& work : works) work.owed = work.sum(work.impulse);
 }
 
 }  // namespace sunder::solver

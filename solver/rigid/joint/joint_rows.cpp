@@ -7,6 +7,10 @@
 namespace sunder::solver {
 namespace {
 
+// Of the stiffness of a tension in a substep: damping begins, and grows by more than the tension
+// does, since what bends over many links is damped less than what bends at every one.
+constexpr double kStiff = 1, kStiffest = 24;
+
 /// One end of a joint as the step begins.
 struct End {
   Vec3 position, arm, axis;
@@ -24,22 +28,67 @@ Quat rotation_of(const Mat3f& root, const BodyRow& row) {
   return rotation_by((root * angular(row.position)).cast<double>());
 }
 
+/// rad/s, in W; no more than a radian in a substep, beyond which nothing can be foreseen.
+Vec3 spin_of(const Mat3f& root, const BodyRow& row, double h_s) {
+  const Vec3 spin = (root * angular(row.velocity)).cast<double>();
+  return spin / std::max(1.0, h_s * spin.norm());
+}
+
 void place_row(JointWork& w, const Vec3& arm_a, const Vec3& arm_b, const Vec3& direction,
-               double error) {
+               double error, double bend_s2) {
   JointRow& row = w.row[static_cast<std::size_t>(w.rows++)];
   row.push = direction.cast<float>();
   row.angular_a = w.root_a.transpose() * arm_a.cross(direction).cast<float>();
   row.angular_b = w.root_b.transpose() * arm_b.cross(direction).cast<float>();
   row.error = error;
+  row.bend_s2 = bend_s2;
+  row.softness = 0;
   ++w.place_rows;
 }
 
-void angular_row(JointWork& w, const Vec3& direction, double error) {
+void angular_row(JointWork& w, const Vec3& direction, double error, double bend_s2,
+                 double softness = 0) {
   JointRow& row = w.row[static_cast<std::size_t>(w.rows++)];
   row.push.setZero();
   row.angular_a = w.root_a.transpose() * direction.cast<float>();
   row.angular_b = w.root_b.transpose() * direction.cast<float>();
   row.error = error;
+  row.bend_s2 = bend_s2;
+  row.softness = softness;
+}
+
+/// How much a step that is explicit in how the pull turns with the bodies overdoes it: h²·K/I of
+/// the lighter side, as if it were pulled likewise at its other end; 12·T·h²/(m·L) for a rod. Over
+/// 4 it grows. The arm of that side goes to `arm_m`.
+double tension_stiffness(const JointWork& w, double h_s, double pull_Ns, const Vec3& arm_a,
+                         const Vec3& arm_b, double& arm_m) {
+  double most = 0;
+  const auto look = [&](Vec3f JointRow::*angular, const Vec3& arm) {
+    const double length_m = arm.norm();
+    double turns = 0;
+    for (std::size_t i = 0; i < 3; ++i) turns += double{(w.row[i].*angular).squaredNorm()};
+    if (!(turns * h_s * pull_Ns > most * length_m)) return;
+    most = turns * h_s * pull_Ns / length_m;
+    arm_m = length_m;
+  };
+  look(&JointRow::angular_a, arm_a), look(&JointRow::angular_b, arm_b);
+  return most;
+}
+
+/// Rows that resist what still turns: a torque and its counterpart, as much as keeps the substep
+/// stable.
+void damp(JointWork& w, double h_s, double pull_Ns, const Vec3& arm_a, const Vec3& arm_b,
+          const Vec3& axis) {
+  double arm_m = 0;
+  const double stiffness = tension_stiffness(w, h_s, pull_Ns, arm_a, arm_b, arm_m);
+  if (stiffness <= kStiff || w.kind == JointDesc::Kind::kFixed) return;
+  const double damping =
+      0.5 * h_s * pull_Ns * arm_m * (1 - kStiff / stiffness) * std::max(1.0, stiffness / kStiffest);
+  if (w.kind == JointDesc::Kind::kHinge) {
+    angular_row(w, axis, 0, 0, 1 / damping);
+  } else {
+    for (int i = 0; i < 3; ++i) angular_row(w, Vec3::Unit(i), 0, 0, 1 / damping);
+  }
 }
 
 Vec3 across(const Vec3& axis) {
@@ -104,33 +153,49 @@ JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bod
   return w;
 }
 
-void refresh_rows(JointWork& w, const BodyRow* rows) {
+void refresh_rows(JointWork& w, double h_s, const BodyRow* rows) {
   const Quat rotation_a = rotation_of(w.root_a, rows[w.row_a]),
              rotation_b = rotation_of(w.root_b, rows[w.row_b]);
   const Vec3 arm_a = rotation_a * w.arm_a, arm_b = rotation_b * w.arm_b;
   const Vec3 way = (linear(rows[w.row_b].position) - linear(rows[w.row_a].position)).cast<double>();
   const Vec3 gap = w.gap + way + (arm_b - w.arm_b) - (arm_a - w.arm_a);
+  const Vec3 spin_a = spin_of(w.root_a, rows[w.row_a], h_s),
+             spin_b = spin_of(w.root_b, rows[w.row_b], h_s);
+  const Vec3 bend = spin_b.cross(spin_b.cross(arm_b)) - spin_a.cross(spin_a.cross(arm_a));
+  const double pull_Ns = Vec3(w.impulse[0], w.impulse[1], w.impulse[2]).norm();
   w.rows = w.place_rows = 0;
   if (w.kind == JointDesc::Kind::kDistance || w.kind == JointDesc::Kind::kRope) {
     const double length = gap.norm();
     const Vec3 direction = length > 1e-9 ? Vec3(gap / length) : Vec3(Vec3::UnitY());
-    place_row(w, arm_a, arm_b, direction, length - w.length_m);
+    const Vec3 speed =
+        (linear(rows[w.row_b].velocity) - linear(rows[w.row_a].velocity)).cast<double>() +
+        spin_b.cross(arm_b) - spin_a.cross(arm_a);
+    const double swing = length > 1e-9 ? direction.cross(speed).squaredNorm() / length : 0;
+    place_row(w, arm_a, arm_b, direction, length - w.length_m, direction.dot(bend) + swing);
+    w.held_rows = w.rows;
     return;
   }
   // Both ends push at one point, midway between the anchors: across a gap an impulse and its
   // counterpart would be a couple, which spins the pair up or down.
   const Vec3 to_a = arm_a + 0.5 * gap, to_b = arm_b - 0.5 * gap;
-  for (int i = 0; i < 3; ++i) place_row(w, to_a, to_b, Vec3::Unit(i), gap[i]);
+  for (int i = 0; i < 3; ++i) place_row(w, to_a, to_b, Vec3::Unit(i), gap[i], bend[i]);
+  const Vec3 axis = rotation_a * w.axis_a;
   if (w.kind == JointDesc::Kind::kHinge) {
-    const Vec3 axis = rotation_a * w.axis_a, lean = axis.cross(rotation_b * w.axis_b);
+    const Vec3 axis_b = rotation_b * w.axis_b, lean = axis.cross(axis_b);
     const Vec3 side = rotation_a * w.side_a, other = axis.cross(side);
-    angular_row(w, side, side.dot(lean));
-    angular_row(w, other, other.dot(lean));
+    const Vec3 turn_a = spin_a.cross(axis), turn_b = spin_b.cross(axis_b);
+    const Vec3 lean_bend = axis.cross(spin_b.cross(turn_b)) + spin_a.cross(turn_a).cross(axis_b) +
+                           2 * turn_a.cross(turn_b);
+    angular_row(w, side, side.dot(lean), side.dot(lean_bend));
+    angular_row(w, other, other.dot(lean), other.dot(lean_bend));
   } else if (w.kind == JointDesc::Kind::kFixed) {
     const Quat twist = rotation_b * w.twist * rotation_a.conjugate();
     const Vec3 angle = (twist.w() < 0 ? -2.0 : 2.0) * twist.vec();
-    for (int i = 0; i < 3; ++i) angular_row(w, Vec3::Unit(i), angle[i]);
+    for (int i = 0; i < 3; ++i) angular_row(w, Vec3::Unit(i), angle[i], 0);
   }
+  w.held_rows = w.rows;
+  damp(w, h_s, pull_Ns, to_a, to_b, axis);
+  for (auto i = static_cast<std::size_t>(w.rows); i < kMostJointRows; ++i) w.impulse[i] = 0;
 }
 
 }  // namespace sunder::solver

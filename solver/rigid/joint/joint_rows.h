@@ -17,6 +17,8 @@ struct JointRow {
   Vec3f push = Vec3f::Zero();                                  ///< On b; linear.
   Vec3f angular_a = Vec3f::Zero(), angular_b = Vec3f::Zero();  ///< Root space.
   double error = 0;                                            ///< m or rad.
+  double bend_s2 = 0;  ///< What motion at a constant rate does to the error: its second derivative.
+  double softness = 0;  ///< Above 0: no more than a damper, which has so much per impulse.
 };
 
 /// An impulse on b and its counterpart on a.
@@ -33,8 +35,10 @@ struct JointWork {
   std::uint32_t joint = 0;
   JointDesc::Kind kind = JointDesc::Kind::kBall;
   bool broken = false;
+  bool slack = false;  ///< kRope: it would have to push, and does nothing.
   int rows = 0;
   int place_rows = 0;                  ///< The first of them; the others are angular.
+  int held_rows = 0;                   ///< Those that hold; what comes after them damps.
   std::uint32_t row_a = 0, row_b = 0;  ///< In BodyRow; 0: immovable.
   float inverse_mass_a = 0, inverse_mass_b = 0;
   Mat3f root_a = Mat3f::Zero(), root_b = Mat3f::Zero();  ///< In W, frozen for the step.
@@ -46,8 +50,9 @@ struct JointWork {
   double reach_m = 0;             ///< Of the smaller body that moves.
   double length_m = 0, breaking_N = 0, breaking_Nm = 0;
   std::array<JointRow, kMostJointRows> row;
-  std::array<double, kMostJointRows> impulse = {};  ///< Of this substep.
-  Vec3 total_W = Vec3::Zero();                      ///< On b, over the step.
+  std::array<double, kMostJointRows> impulse = {};       ///< Of this substep.
+  std::array<double, kMostJointRows> kept_impulse = {};  ///< While the end of the step is settled.
+  Vec3 total_W = Vec3::Zero();                           ///< On b, over the step.
 
   /// What the impulses of this substep would do along rows that have turned since, less what they
   /// did: owed to the next substep, which starts from them.
@@ -63,7 +68,7 @@ struct JointWork {
 /// A joint as the step begins.
 JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bodies,
                       SpanByBody<const Mat3f> root_W);
-/// Rows and errors as the bodies lie now.
-void refresh_rows(JointWork& work, const BodyRow* rows);
+/// Rows and errors as the bodies lie and move now, for a substep of h_s.
+void refresh_rows(JointWork& work, double h_s, const BodyRow* rows);
 
 }  // namespace sunder::solver

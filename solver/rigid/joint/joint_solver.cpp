@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "engine/base/disjoint_sets.h"
 
@@ -9,19 +10,15 @@ namespace sunder::solver {
 namespace {
 
 // A group's band: what one thread factors in every substep.
-constexpr std::uint32_t kMostRows = 600;
+constexpr std::uint32_t kMostRows = 1500;
 constexpr std::uint32_t kMostEntries = 20000;
 constexpr std::uint32_t kNoRow = 0xffffffff;
 constexpr std::uint8_t kMostColors = 64;  // beyond: one thread for all
 
-int row_count(JointDesc::Kind kind) {
-  using Kind = JointDesc::Kind;
-  if (kind == Kind::kDistance || kind == Kind::kRope) return 1;
-  return kind == Kind::kBall ? 3 : kind == Kind::kHinge ? 5 : 6;
+/// Those that damp included.
+int most_rows(JointDesc::Kind kind) {
+  return kind == JointDesc::Kind::kDistance || kind == JointDesc::Kind::kRope ? 1 : kMostJointRows;
 }
-
-/// An inequality: no part of a band.
-bool is_rope(const Joint& joint) { return joint.desc.kind == JointDesc::Kind::kRope; }
 
 /// The bodies of a joint that move.
 template <class Visit>
@@ -38,13 +35,13 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
   groups_.clear();
   colors_.clear();
   joined_.clear();
+  is_first_.clear();
   for (std::uint32_t i = 0; i < joints.size(); ++i) {
     if (!joints[i].holds()) continue;
     BodySlot first, last;
     for_moving(joints[i], bodies, [&](BodySlot body) {
       if (first.none()) first = body;
       last = body;
-      in_contact[body] = 1;
     });
     if (first.none()) continue;
     active_.push_back(i);
@@ -52,43 +49,76 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
   }
   works_.resize(active_.size());
   if (active_.empty()) return;
+  mark_free(bodies, in_contact);
+  order_joints(bodies, joints);
   group_joints(bodies, joints);
   color_groups(bodies, joints);
 }
 
-void JointSolver::group_joints(const Bodies& bodies, const Joints& joints) {
-  DisjointSets islands(bodies.size());  // of what joints hold together
-  const auto mover = [&](std::uint32_t i) {
-    BodySlot found;
-    for_moving(joints[i], bodies, [&](BodySlot body) { found = body; });
-    return found;
-  };
-  for (const std::uint32_t i : active_)
-    for_moving(joints[i], bodies, [&](BodySlot body) { islands.join(mover(i).value, body.value); });
-  std::ranges::stable_sort(active_, {},
-                           [&](std::uint32_t i) { return islands.root(mover(i).value); });
+/// Marks what swings free, and then all that joints hold as in contact.
+void JointSolver::mark_free(const Bodies& bodies, SpanByBody<std::uint8_t> in_contact) {
+  DisjointSets islands(bodies.size());
+  for (const auto& [a, b] : joined_) islands.join(a.value, b.value);
+  ByBody<std::uint8_t> touches(bodies.size(), 0);
+  for (const auto& [a, b] : joined_)
+    if (in_contact[a] || in_contact[b]) touches[BodySlot(islands.root(a.value))] = 1;
+  swings_free_.assign(bodies.size(), 0);
+  for (const auto& [a, b] : joined_) {
+    swings_free_[a] = swings_free_[b] = !touches[BodySlot(islands.root(a.value))];
+    in_contact[a] = in_contact[b] = 1;
+  }
+}
 
+/// Neighbour after neighbour, from one at an end, and backwards (reverse Cuthill-McKee), which
+/// makes a narrow band of any chain whatever order its joints were made in.
+void JointSolver::order_joints(const Bodies& bodies, const Joints& joints) {
+  ByBody<std::vector<std::uint32_t>> of_body(bodies.size());
+  for (const std::uint32_t i : active_)
+    for_moving(joints[i], bodies, [&](BodySlot body) { of_body[body].push_back(i); });
+  const auto neighbours = [&](std::uint32_t i) {
+    std::size_t count = 0;
+    for_moving(joints[i], bodies, [&](BodySlot body) { count += of_body[body].size(); });
+    return count;
+  };
+  std::vector<std::uint32_t> ends = std::exchange(active_, {});
+  std::ranges::stable_sort(ends, {}, neighbours);
+  std::vector<std::uint8_t> seen(joints.size(), 0);
+  for (const std::uint32_t end : ends) {
+    if (std::exchange(seen[end], std::uint8_t{1})) continue;
+    active_.push_back(end);
+    for (std::size_t at = active_.size() - 1; at < active_.size(); ++at) {
+      for_moving(joints[active_[at]], bodies, [&](BodySlot body) {
+        for (const std::uint32_t next : of_body[body])
+          if (!std::exchange(seen[next], std::uint8_t{1})) active_.push_back(next);
+      });
+    }
+    is_first_.resize(active_.size(), 0);
+    is_first_.back() = 1;  // backwards
+  }
+  std::ranges::reverse(active_);
+  std::ranges::reverse(is_first_);
+}
+
+/// A band ends where nothing goes on, or where it would be too large.
+void JointSolver::group_joints(const Bodies& bodies, const Joints& joints) {
   ByBody<std::uint32_t> row_of_body(bodies.size(), kNoRow);  // first row that moves it
-  BodySlot island;                                           // by its least body
   std::uint32_t rows = 0, entries = 0, base = 0;
   for (std::uint32_t at = 0; at < active_.size(); ++at) {
     const Joint& joint = joints[active_[at]];
-    const auto n = static_cast<std::uint32_t>(row_count(joint.desc.kind));
+    const auto n = static_cast<std::uint32_t>(most_rows(joint.desc.kind));
     std::uint32_t width = 0;  // of the envelope before its own rows
     for_moving(joint, bodies, [&](BodySlot body) {
       const std::uint32_t first = row_of_body[body];
       if (first != kNoRow && first >= base) width = std::max(width, base + rows - first);
     });
     const std::uint32_t more = n * width + n * (n + 1) / 2;
-    const bool after_rope = at > 0 && is_rope(joints[active_[at - 1]]);
-    const BodySlot root(islands.root(mover(active_[at]).value));
-    if (root != island || is_rope(joint) || after_rope || rows + n > kMostRows ||
-        entries + more > kMostEntries) {
-      island = root;
+    if (is_first_[at] || rows + n > kMostRows || entries + more > kMostEntries) {
       base += rows;
       rows = entries = 0;
       groups_.emplace_back();
       groups_.back().first = at;
+      for_moving(joint, bodies,
+                 [&](BodySlot body) { groups_.back().swings_free = swings_free_[body]; });
     }
     for_moving(joint, bodies, [&](BodySlot body) {
       if (row_of_body[body] == kNoRow || row_of_body[body] < base) row_of_body[body] = base + rows;
@@ -120,12 +150,24 @@ void JointSolver::color_groups(const Bodies& bodies, const Joints& joints) {
   }
 }
 
-void JointSolver::begin(std::uint32_t i, const Bodies& bodies, const Joints& joints,
-                        SpanByBody<const Mat3f> root_W, const BodyRow* rows) {
+void JointSolver::begin(std::uint32_t i, const StepContext& step, const Bodies& bodies,
+                        const Joints& joints, SpanByBody<const Mat3f> root_W, const BodyRow* rows) {
   JointGroup& group = groups_[i];
   for (std::uint32_t at = group.first; at < group.first + group.count; ++at)
     works_[at] = begin_joint(joints[active_[at]], active_[at], bodies, root_W);
-  begin_group(group, works(group), rows);
+  begin_group(group, works(group), step, rows);
+}
+
+void JointSolver::settle(std::uint32_t i, const StepContext& step, const Bodies& bodies,
+                         const Joints& joints, SpanByBody<const Mat3f> root_W, BodyRow* rows) {
+  for (JointWork& work : works(groups_[i])) {
+    if (work.broken) continue;
+    const JointWork solved =
+        std::exchange(work, begin_joint(joints[work.joint], work.joint, bodies, root_W));
+    work.impulse = solved.impulse;
+    work.total_W = solved.total_W;
+  }
+  settle_group(groups_[i], works(groups_[i]), step, rows);
 }
 
 Vec3 JointSolver::finish(Bodies& bodies, Joints& joints) {

@@ -24,7 +24,7 @@ class JointSolver {
   /// The groups of each colour: one after another, those of one in parallel.
   const std::vector<StageItems>& colors() const { return colors_; }
   /// The work on group i; `rows` and `root_W` are those of the step.
-  void begin(std::uint32_t i, const Bodies& bodies, const Joints& joints,
+  void begin(std::uint32_t i, const StepContext& step, const Bodies& bodies, const Joints& joints,
              SpanByBody<const Mat3f> root_W, const BodyRow* rows);
   void warm_start(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     warm_start_group(works(groups_[i]), step, rows);
@@ -32,8 +32,8 @@ class JointSolver {
   void push(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, true, rows);
   }
-  void refresh(std::uint32_t i, const BodyRow* rows) {
-    refresh_group(groups_[i], works(groups_[i]), rows);
+  void refresh(std::uint32_t i, const StepContext& step, const BodyRow* rows) {
+    refresh_group(groups_[i], works(groups_[i]), step, rows);
   }
   void relax(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, false, rows);
@@ -47,6 +47,12 @@ class JointSolver {
                       BodyRow* rows) {
     scale_group(groups_[i], works(groups_[i]), step, share_of_row, rows);
   }
+  /// Whether a body hangs in joints, and so does all that it hangs together with, which touches
+  /// nothing.
+  bool swings_free(BodySlot body) const { return !groups_.empty() && swings_free_[body]; }
+  /// As the bodies lie and move when the step is over.
+  void settle(std::uint32_t i, const StepContext& step, const Bodies& bodies, const Joints& joints,
+              SpanByBody<const Mat3f> root_W, BodyRow* rows);
   /// What hangs together and may move, a joint at a time: a joint to the world twice the same body.
   const std::vector<std::pair<BodySlot, BodySlot>>& joined() const { return joined_; }
   /// Hands impulses back; joints that bore too much go. The answer is the impulse on bodies from
@@ -54,6 +60,8 @@ class JointSolver {
   Vec3 finish(Bodies& bodies, Joints& joints);
 
  private:
+  void mark_free(const Bodies& bodies, SpanByBody<std::uint8_t> in_contact);
+  void order_joints(const Bodies& bodies, const Joints& joints);
   void group_joints(const Bodies& bodies, const Joints& joints);
   void color_groups(const Bodies& bodies, const Joints& joints);
   std::span<JointWork> works(const JointGroup& group) {
@@ -61,9 +69,11 @@ class JointSolver {
   }
 
   std::vector<std::pair<BodySlot, BodySlot>> joined_;
-  std::vector<std::uint32_t> active_;  ///< Joints, island by island, ascending within one.
-  std::vector<JointGroup> groups_;     ///< By colour.
+  std::vector<std::uint32_t> active_;   ///< Joints that hang together one after another.
+  std::vector<std::uint8_t> is_first_;  ///< Of those that hang together; as `active_`.
+  std::vector<JointGroup> groups_;      ///< By colour.
   std::vector<StageItems> colors_;
+  ByBody<std::uint8_t> swings_free_;
   std::vector<JointWork> works_;  ///< As `active_`.
 };
 

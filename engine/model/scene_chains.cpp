@@ -1,0 +1,175 @@
+#include "engine/model/scene_chains.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "engine/model/scene_accuracy.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kSwing = 3;  // weights that a chain bears at the lowest point, let go level
+// h²·K/I of a link that still holds, by measurement: with the damping of joints that turn, and of
+// rods and ropes, whose ends are not damped.
+constexpr double kMostTurning = 200, kMostRods = 1;
+
+/// A thing that may hang.
+struct Body {
+  std::string name;
+  double mass_kg = 0;
+  double inertia_kg_m2 = 0;  ///< The least.
+  Vec3 center_W = Vec3::Zero();
+  bool moves = true;
+};
+
+Body body_of(const Solid& solid, const Scene& scene) {
+  const Weight weight = weigh(solid.compound, scene.materials);
+  const Vec3 diagonal = weight.inertia_R.diagonal();
+  // A rod's about its own axis does not matter to what turns it by its end.
+  const double across = diagonal.sum() - diagonal.minCoeff() - diagonal.maxCoeff();
+  return {solid.name, weight.mass_kg, across, solid.X_WR * weight.com_R,
+          !solid.compound.is_anchored()};
+}
+
+Body body_of(const Ball& ball, const Scene& scene) {
+  const double mass = scene.materials[ball.material.value].density_kg_m3 * 4 / 3 *
+                      std::numbers::pi * ball.radius_m * ball.radius_m * ball.radius_m;
+  return {ball.name, mass, 0.4 * mass * ball.radius_m * ball.radius_m, ball.center_W};
+}
+
+/// h²·K/I at h = 1 s, over what holds: of what hangs by a joint and bears a pull.
+double need(const Joint& joint, const Body& link, double pull_N) {
+  if (joint.kind == JointKind::kFixed) return 0;
+  if (joint.kind == JointKind::kDistance || joint.kind == JointKind::kRope) {
+    const double length_m = (joint.to_W - joint.at_W).norm();
+    return 4 * pull_N / (link.mass_kg * length_m) / kMostRods;
+  }
+  const double arm_m = (joint.at_W - link.center_W).norm();
+  return 2 * pull_N * arm_m / link.inertia_kg_m2 / kMostTurning;
+}
+
+/// Bodies and joints, and what hangs from what.
+class Hanging {
+ public:
+  Hanging(const Scene& scene, std::vector<Body> bodies, std::span<const Joint> joints)
+      : g_(scene.gravity_W.norm()),
+        dt_s_(scene.accuracy.dt_s),
+        bodies_(std::move(bodies)),
+        joints_(joints),
+        seen_(bodies_.size(), 0) {}
+
+  /// A chain for each joint to what cannot move.
+  void find(std::vector<ChainLink>& chains) {
+    for (const Joint& joint : joints_) {
+      const bool fixed_a = fixed(joint.a), fixed_b = fixed(joint.b);
+      if (fixed_a == fixed_b) continue;
+      const std::uint32_t top = fixed_a ? *joint.b : *joint.a;
+      if (seen_[top]) continue;
+      worst_ = {};
+      worst_need_ = 0;
+      hang(top, joint);
+      if (worst_need_ == 0) continue;
+      worst_.substeps = std::max(1, static_cast<int>(std::ceil(dt_s_ * std::sqrt(worst_need_))));
+      chains.push_back(worst_);
+    }
+  }
+
+ private:
+  bool fixed(const std::optional<std::uint32_t>& end) const { return !end || !bodies_[*end].moves; }
+
+  /// Everything that hangs by `joint`, from `top` on, each before what it hangs from.
+  void hang(std::uint32_t top, const Joint& joint) {
+    std::vector<std::pair<std::uint32_t, const Joint*>> order = {{top, &joint}};
+    std::vector<std::size_t> above = {0};
+    seen_[top] = 1;
+    for (std::size_t at = 0; at < order.size(); ++at) {
+      for (const Joint& next : joints_) {
+        if (!next.a || !next.b || (*next.a != order[at].first && *next.b != order[at].first))
+          continue;
+        const std::uint32_t other = *next.a == order[at].first ? *next.b : *next.a;
+        if (seen_[other] || !bodies_[other].moves) continue;
+        seen_[other] = 1;
+        order.emplace_back(other, &next);
+        above.push_back(at);
+      }
+    }
+    std::vector<double> load_kg(order.size(), 0);
+    for (std::size_t at = order.size(); at-- > 0;) {
+      const Body& link = bodies_[order[at].first];
+      load_kg[at] += link.mass_kg;
+      if (at > 0) load_kg[above[at]] += load_kg[at];
+      // What nothing hangs from swings, and has nothing to be thrown about by.
+      if (load_kg[at] == link.mass_kg) continue;
+      const double need_1_s2 = need(*order[at].second, link, kSwing * g_ * load_kg[at]);
+      if (need_1_s2 <= worst_need_) continue;
+      worst_need_ = need_1_s2;
+      worst_ = {link.name, load_kg[at] / link.mass_kg, 1};
+    }
+  }
+
+  double g_, dt_s_;
+  std::vector<Body> bodies_;
+  std::span<const Joint> joints_;
+  std::vector<std::uint8_t> seen_;
+  ChainLink worst_;
+  double worst_need_ = 0;
+};
+
+/// The chain of a wrecking ball as it will be made.
+void find_chain(const Scene& scene, const Shot& shot, std::vector<ChainLink>& chains) {
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  const Vec3 from = *shot.hangs_from_W, way = shot.ball.center_W - from;
+  const Vec3 pitch =
+      (way - shot.ball.radius_m * way.normalized()) / static_cast<double>(shot.links.size());
+  for (std::uint32_t i = 0; i <= shot.links.size(); ++i) {
+    bodies.push_back(i < shot.links.size() ? body_of(shot.links[i], scene)
+                                           : body_of(shot.ball, scene));
+    Joint& joint = joints.emplace_back();
+    if (i > 0) joint.a = i - 1;
+    joint.b = i;
+    joint.at_W = from + i * pitch;
+  }
+  Hanging(scene, std::move(bodies), joints).find(chains);
+}
+
+}  // namespace
+
+std::vector<ChainLink> chains_in(const Scene& scene) {
+  std::vector<ChainLink> chains;
+  if (scene.gravity_W.isZero()) return chains;
+  std::vector<Body> bodies;
+  if (!scene.joints.empty()) {
+    for (const Solid& solid : scene.solids) bodies.push_back(body_of(solid, scene));
+    for (const Ball& ball : scene.balls) bodies.push_back(body_of(ball, scene));
+    Hanging(scene, std::move(bodies), scene.joints).find(chains);
+  }
+  for (const Shot& shot : scene.shots)
+    if (shot.hangs_from_W && !shot.links.empty()) find_chain(scene, shot, chains);
+  return chains;
+}
+
+std::vector<std::string> chain_warnings(const Scene& scene, int most_substeps) {
+  std::vector<std::string> warnings;
+  for (const ChainLink& link : chains_in(scene)) {
+    if (link.substeps <= scene.accuracy.substeps) continue;
+    const Accuracy hold = cut_in_substeps(scene.accuracy, link.substeps, most_substeps);
+    char text[400];
+    std::snprintf(
+        text, sizeof text,
+        "the chain of '%s', which bears %.4g times its own weight, may tear: %d substeps "
+        "of dt 1/%.4g s would hold it, there are %d of 1/%.4g s; set accuracy.substeps%s, "
+        "or make the links heavier",
+        link.name.c_str(), link.load, hold.substeps, 1 / hold.dt_s, scene.accuracy.substeps,
+        1 / scene.accuracy.dt_s, hold.dt_s < scene.accuracy.dt_s ? " and accuracy.dt_s" : "");
+    warnings.emplace_back(text);
+  }
+  return warnings;
+}
+
+}  // namespace sunder
