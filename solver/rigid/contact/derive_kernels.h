@@ -58,7 +58,8 @@ template <std::uint32_t lanes>
 SUNDER_INLINE void meet(GatheredBlock<lanes>& g, const ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
   g.gap = g.offset + g.friction_arm_b - g.friction_arm_a;
-  const V by_a = g.share_a, by_b = splat<V>(1) - g.share_a;
+  g.bridged = g.gap * g.meets;
+  const V by_a = g.meets * g.share_a, by_b = g.meets * (splat<V>(1) - g.share_a);
   const auto meet_at = [&](Wide3Of<lanes>& arm_a, Wide3Of<lanes>& arm_b) {
     const Wide3Of<lanes> gap = g.offset + arm_b - arm_a;
     arm_a = arm_a + gap * by_a;
@@ -265,8 +266,9 @@ SUNDER_INLINE void follow_as(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
   const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
   arms.moved_by = c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
                   c.tangent_2 * c.slide_impulse_2;
-  Wide3Of<lanes> gap = arms.gap + (x.b.linear - x.a.linear);
-  V wanted = c.point[0].mass;
+  const Wide3Of<lanes> way = x.b.linear - x.a.linear;
+  Wide3Of<lanes> gap = arms.gap + way;
+  V wanted = dot(way, way) > arms.least ? c.point[0].mass : zero;
   const V wide = dot(gap, gap) > arms.wide ? one : zero;
   if (any(wide > zero)) {
     const Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);

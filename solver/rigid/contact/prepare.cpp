@@ -52,6 +52,10 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   set_lane(g.offset, lane,
            Vec3f((bodies.position[m.body_b] - bodies.position[m.body_a]).cast<float>()));
   g.share_a[lane] = m.normal_on_b ? 0 : 1;
+  const Vec3 passes = bodies.velocity[m.body_b] - bodies.velocity[m.body_a];
+  const Vec3 turns = bodies.angular_velocity[m.body_b] - bodies.angular_velocity[m.body_a];
+  const double way_m = (passes.norm() + turns.norm() * double{m.size_m}) * step.context.dt_s;
+  g.meets[lane] = way_m > double{kLeastWay * m.size_m} ? 1 : 0;  // what lies still needs no new arms
   set_lane(g.gravity, lane,
            ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }
@@ -130,7 +134,7 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
     arms->root_b[k] = g.root_b[k] * g.awake_b;
   }
   arms->share_a = g.share_a;
-  arms->gap = arms->bridged = g.gap;
+  arms->gap = g.gap, arms->bridged = g.bridged;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
     const float size_m = step.contacts.manifolds[step.manifolds[first + lane]].size_m;
     arms->wide[lane] = 1.0f * size_m * size_m;
