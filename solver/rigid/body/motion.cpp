@@ -52,12 +52,12 @@ Spin spun_freely(const Bodies& bodies, BodySlot body, double dt_s) {
   return spin;
 }
 
+}  // namespace
+
 bool wobbles(const Bodies& bodies, BodySlot body, double dt_s) {
   const double angle = bodies.angular_velocity[body].norm() * dt_s;
   return bodies.spins_freely[body] != 0 && angle >= kGyroscopicAngle && angle < kFastestAngle;
 }
-
-}  // namespace
 
 void fly(const StepContext& step, BodySlot body, Bodies& bodies) {
   const double dt_s = step.dt_s;
@@ -77,20 +77,17 @@ void fly(const StepContext& step, BodySlot body, Bodies& bodies) {
 }
 
 Turning free_turning(const Bodies& bodies, BodySlot body, double dt_s) {
-  const Quat& R_WB = bodies.rotation[body];
-  const Vec3& w_W = bodies.angular_velocity[body];
-  if (!wobbles(bodies, body, dt_s)) return {rotation_by(dt_s * w_W) * R_WB, w_W};
   const Spin spin = spun_freely(bodies, body, dt_s);
-  return {spin.rotation, R_WB * spin.w_B};
+  return {spin.rotation, bodies.rotation[body] * spin.w_B};
 }
 
-Turning turning(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W) {
+Turning turning_with(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W) {
   return {R_WB, R_WB * (inertia_B.inverse() * (R_WB.conjugate() * spin_W))};
 }
 
 Turning turning_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W,
                             double energy_J, double reach_rad) {
-  const Turning first = turning(inertia_B, R_WB, spin_W);
+  const Turning first = turning_with(inertia_B, R_WB, spin_W);
   Turning now = first;
   for (int round = 0; round < kEnergyRounds && reach_rad > 0; ++round) {
     const double excess_J = 0.5 * spin_W.dot(now.w_W) - energy_J;
@@ -99,7 +96,7 @@ Turning turning_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3&
     if (!(slope.squaredNorm() > 0)) break;
     const Vec3 turn = -kEnergyStep * excess_J / slope.squaredNorm() * slope;
     reach_rad -= turn.norm();
-    now = turning(inertia_B, rotation_by(turn) * now.R_WB, spin_W);
+    now = turning_with(inertia_B, rotation_by(turn) * now.R_WB, spin_W);
   }
   return first;
 }

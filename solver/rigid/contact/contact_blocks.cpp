@@ -94,7 +94,8 @@ class BlocksOf final : public ContactBlocks {
   bool strike(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     const auto h_s = static_cast<float>(step.context.h_s);
     bool any = false;
-    for (std::uint32_t i = begin; i < end; ++i) any |= solver::strike(blocks_[i], arms_[i], step.rows, h_s);
+    for (std::uint32_t i = begin; i < end; ++i)
+      any |= solver::strike(blocks_[i], arms_[i], step.rows, h_s);
     return any;
   }
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {

@@ -5,7 +5,6 @@
 #include <atomic>
 
 #include "engine/base/nncg.h"
-#include "engine/base/rotation.h"
 #include "solver/rigid/body/motion.h"
 #include "solver/rigid/body/row_exchange.h"
 
@@ -41,7 +40,7 @@ class ContactSolver::Stages {
                       solver.order_.first_split(),
                       solver.splitting_.sides(),
                       solver.root_W_,
-                      {rows_, solver.splitting_.parts(), solver.spins_.data()},
+                      {rows_, solver.splitting_.parts(), solver.spins_.owed()},
                       soft_step(step),
                       static_cast<float>(2 * step.fall_m_s / step.substeps),
                       solver.order_.deep_contacts(),
@@ -154,9 +153,7 @@ class ContactSolver::Stages {
     r.position += static_cast<float>(step_.h_s) * r.velocity;
   }
   void turn(BodySlot body);
-  double made_J(BodySlot body) const;
   void finish(BodySlot body);
-  Quat rotation_now(BodySlot body, const Vec3& angle_W) const;
 
   // Blocks of manifolds.
   void prepare(std::uint32_t begin, std::uint32_t end) {
@@ -309,70 +306,28 @@ void ContactSolver::Stages::plan() {
 }
 
 void ContactSolver::Stages::begin(BodySlot body) {
-  const Mat3 R_WB(bodies_.rotation[body]);
-  solver_.spin_W_[body] =
-      R_WB * bodies_.inertia_B[body] * R_WB.transpose() * bodies_.angular_velocity[body];
-  const Turning free = free_turning(bodies_, body, step_.dt_s);
-  solver_.free_[body] = free;
-  Vec3& w_W = bodies_.angular_velocity[body];
   // What joints alone hold turns as it does midway.
-  w_W = solver_.joint_solver_.swings_free(body) ? Vec3(0.5 * (w_W + free.w_W)) : free.w_W;
+  solver_.spins_.begin(step_, body, solver_.joint_solver_.swings_free(body), bodies_);
   take(body);
 }
 
-/// Angular momentum is what it was and what impulses added, whatever way the body now lies: to be
-/// asked for, since a step that is too coarse for that makes energy.
 void ContactSolver::Stages::turn(BodySlot body) {
-  const BodyRow& r = row(body);
-  const Mat3f& root_W = solver_.root_W_[body];
-  const Quat& R_WB_then = bodies_.rotation[body];
-  const Mat3& inertia_B = bodies_.inertia_B[body];
-  const Vec3 added_W =
-      (root_W * angular(r.velocity - r.start + solver_.spins_[row_of(body)])).cast<double>();
-  const Quat R_WB = rotation_now(body, (root_W * angular(r.position)).cast<double>());
-  solver_.spin_W_[body] += R_WB_then * (inertia_B * (R_WB_then.conjugate() * added_W));
-  solver_.free_[body] = turning(inertia_B, R_WB, solver_.spin_W_[body]);
-  if (guarded_) solver_.energy_guard_.ask(body, made_J(body));
-}
-
-double ContactSolver::Stages::made_J(BodySlot body) const {
-  const double left_J = 0.5 * double{angular(rows_[row_of(body)].velocity).squaredNorm()};
-  return 0.5 * solver_.free_[body].w_W.dot(solver_.spin_W_[body]) - left_J;
+  const double made_J = solver_.spins_.end(step_, body, row(body), solver_.root_W_[body], bodies_);
+  if (guarded_) solver_.energy_guard_.ask(body, made_J);
 }
 
 void ContactSolver::Stages::finish(BodySlot body) {
   const BodyRow& r = row(body);
-  // Only the change goes back, so that the doubles keep what no contact touched.
-  const Wide change = r.velocity - r.start;
   const Mat3f& root_W = solver_.root_W_[body];
-  const Vec3 angle_W = (root_W * angular(r.position)).cast<double>();
-  bodies_.velocity[body] += linear(change).cast<double>();
-  bodies_.turned_m[body] += 1.1 * angle_W.norm() * bodies_.reach_m[body];
-  Turning& turning = solver_.free_[body];
-  if (guarded_ && !solver_.energy_guard_.grants(body)) {
-    const double left_J = 0.5 * double{angular(r.velocity).squaredNorm()};
-    turning = turning_with_energy(bodies_.inertia_B[body], turning.R_WB, solver_.spin_W_[body],
-                                  left_J, angle_W.norm());
-    if (made_J(body) > 0) {  // the energy stays, then, and not the momentum
-      const Quat turn = rotation_by(angle_W);
-      const Vec3 added_W = (root_W * angular(change)).cast<double>();
-      turning = {turn * bodies_.rotation[body], turn * (bodies_.angular_velocity[body] + added_W)};
-    }
-  }
-  bodies_.place(body, bodies_.position[body] + linear(r.position).cast<double>(), turning.R_WB);
+  if (guarded_ && !solver_.energy_guard_.grants(body))
+    solver_.spins_.keep_energy(body, r, root_W, bodies_);
+  const Turning& turning = solver_.spins_.turning(body);
+  // Only the change goes back, so that the doubles keep what no contact touched.
+  bodies_.velocity[body] += linear(r.velocity - r.start).cast<double>();
   bodies_.angular_velocity[body] = turning.w_W;
-}
-
-/// After turning by `angle_W` in all. What impulses add to free rotation is put on top of it where
-/// it is less than what a constant angular velocity would get wrong of that.
-Quat ContactSolver::Stages::rotation_now(BodySlot body, const Vec3& angle_W) const {
-  const Quat& R_WB = bodies_.rotation[body];
-  const Quat& free = solver_.free_[body].R_WB;
-  const Vec3 start_W = (solver_.root_W_[body] * angular(rows_[row_of(body)].start)).cast<double>();
-  const Vec3 alone_W = step_.dt_s * start_W, more_W = angle_W - alone_W;
-  const Quat wrong = free * (rotation_by(alone_W) * R_WB).conjugate();
-  return more_W.squaredNorm() < 4 * wrong.vec().squaredNorm() ? rotation_by(more_W) * free
-                                                              : rotation_by(angle_W) * R_WB;
+  bodies_.turned_m[body] +=
+      1.1 * double{(root_W * angular(r.position)).norm()} * bodies_.reach_m[body];
+  bodies_.place(body, bodies_.position[body] + linear(r.position).cast<double>(), turning.R_WB);
 }
 
 ContactSolver::ContactSolver(const ContactSolverOptions& options)
@@ -419,9 +374,7 @@ void ContactSolver::collect_bodies(const Bodies& bodies) {
   rows_.resize(bodies.size() + 1);
   rows_[0] = BodyRow{};
   root_W_.resize(bodies.size());
-  spin_W_.resize(bodies.size());
-  free_.resize(bodies.size());
-  spins_.assign(bodies.size() + 1, Wide{});
+  spins_.resize(static_cast<std::uint32_t>(bodies.size()));
   active_.clear();
   flying_.clear();
   for (const BodySlot body : bodies.slots())

@@ -8,7 +8,7 @@
 
 #include "solver/base/stage_runner.h"
 #include "solver/rigid/body/bodies.h"
-#include "solver/rigid/body/motion.h"
+#include "solver/rigid/body/spins.h"
 #include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/contact/contact_blocks.h"
@@ -59,9 +59,7 @@ class ContactSolver {
   std::vector<BodySlot> flying_;    ///< Awake bodies that touch nothing.
   std::vector<BodyRow> rows_;       ///< As row_of().
   ByBody<Mat3f> root_W_;
-  ByBody<Vec3> spin_W_;        ///< Angular momentum when the step began; at the end, then.
-  ByBody<Turning> free_;       ///< How bodies turn without impulses; at the end, with them.
-  std::vector<Wide> spins_;    ///< See SolverRows.
+  Spins spins_;
   bool moving_ = false;        ///< Some body in contact moves: arms follow.
   std::vector<float> energy_;  ///< Of a sweep's changes, by manifold; none: sweeps go plainly.
 };

@@ -55,7 +55,8 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   const Vec3 passes = bodies.velocity[m.body_b] - bodies.velocity[m.body_a];
   const Vec3 turns = bodies.angular_velocity[m.body_b] - bodies.angular_velocity[m.body_a];
   const double way_m = (passes.norm() + turns.norm() * double{m.size_m}) * step.context.dt_s;
-  g.meets[lane] = way_m > double{kLeastWay * m.size_m} ? 1 : 0;  // what lies still needs no new arms
+  g.meets[lane] =
+      way_m > double{kLeastWay * m.size_m} ? 1 : 0;  // what lies still needs no new arms
   set_lane(g.gravity, lane,
            ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }

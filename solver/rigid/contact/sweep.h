@@ -38,7 +38,7 @@ struct alignas(64) GatheredBlock {
   Wide3Of<lanes> roll_impulse = {};
   Wide3Of<lanes> arm_a[4] = {}, arm_b[4] = {};
   Wide3Of<lanes> offset = {};  ///< Of b's centre from a's.
-  WideOf<lanes> share_a = {};             ///< As in ArmLanes.
+  WideOf<lanes> share_a = {};  ///< As in ArmLanes.
   Wide3Of<lanes> gap = {}, bridged = {};
   WideOf<lanes> meets = {};             ///< 1: arms bridge the gap from the start.
   Wide3Of<lanes> gravity = {};          ///< Acceleration of b from a.
