@@ -79,7 +79,7 @@ TEST(Rubble, AtRestPressesItsPiecesIntoEachOtherByAFewMillimetresAndLiesStill) {
     std::printf("300 hulls: %.3f mm deep, %.2f mm at most, rms speed %.1e m/s\n",
                 1e3 * depth.mean_m, 1e3 * depth.most_m, rms_speed(world));
     EXPECT_LT(depth.mean_m, 0.2e-3);
-    EXPECT_LT(depth.most_m, 4e-3);
+    EXPECT_LT(depth.most_m, 5e-3);
     EXPECT_LT(rms_speed(world), 1e-4);
   }
 }
