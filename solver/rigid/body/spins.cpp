@@ -50,7 +50,7 @@ double Spins::end(const StepContext& step, BodySlot body, const BodyRow& row, co
   const Vec3 added_W = (root_W * angular(change)).cast<double>();
   if (angle_W.squaredNorm() < kStill * kStill) {
     spin.turning = {rotation_by(angle_W) * R_WB, bodies.angular_velocity[body] + added_W};
-    return 0;
+    return spin.made_J = 0;
   }
   const Mat3& inertia_B = bodies.inertia_B[body];
   const Vec3 alone_W = step.dt_s * (root_W * angular(row.start)).cast<double>();
@@ -58,7 +58,7 @@ double Spins::end(const StepContext& step, BodySlot body, const BodyRow& row, co
                                      : rotation_by(angle_W) * R_WB;
   spin.momentum_W += R_WB * (inertia_B * (R_WB.conjugate() * added_W));
   spin.turning = turning_with(inertia_B, R_WB_now, spin.momentum_W);
-  return 0.5 * spin.turning.w_W.dot(spin.momentum_W) - energy_J(row);
+  return spin.made_J = 0.5 * spin.turning.w_W.dot(spin.momentum_W) - energy_J(row);
 }
 
 void Spins::keep_energy(BodySlot body, const BodyRow& row, const Mat3f& root_W,

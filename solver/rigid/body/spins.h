@@ -29,11 +29,14 @@ class Spins {
   /// its momentum.
   void keep_energy(BodySlot body, const BodyRow& row, const Mat3f& root_W, const Bodies& bodies);
   const Turning& turning(BodySlot body) const { return spin_[body].turning; }
+  /// Whether it makes energy to end there.
+  bool makes(BodySlot body) const { return spin_[body].made_J > 0; }
 
  private:
   struct Spin {
     Vec3 momentum_W;
     Turning turning;  ///< Without impulses; in the end, with them.
+    double made_J = 0;
     bool wobbles = false;
   };
 
