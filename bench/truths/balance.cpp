@@ -53,7 +53,7 @@ Truths balance_truths() {
   const char* heyman = "line of thrust, Milankovitch 1907, Heyman 1969";
   return {
       truth(10, "overhang of 8: farthest", "", "Σ L/2k", 0.005, farthest_overhang,
-            {0.00015, 0.00015, 0.00015, 0.00015}),
+            {0.0005, 0.0005, 0.0005, 0.0005}),
       truth(11, "arch of 7: least thickness", "", heyman, 0.015, thinnest_arch(7, 0.09625),
             {0.0049, 0.0049, 0.0049, 0.0049}),
       truth(11, "arch of 11: least thickness", "", heyman, 0.015, thinnest_arch(11, 0.10491),
