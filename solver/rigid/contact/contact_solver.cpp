@@ -320,8 +320,7 @@ void ContactSolver::Stages::finish(BodySlot body) {
   const BodyRow& r = row(body);
   const Mat3f& root_W = solver_.root_W_[body];
   const bool pays = guarded_ ? solver_.energy_guard_.grants(body) : !solver_.spins_.makes(body);
-  if (!pays)
-    solver_.spins_.keep_energy(body, r, root_W, bodies_);
+  if (!pays) solver_.spins_.keep_energy(body, r, root_W, bodies_);
   const Turning& turning = solver_.spins_.turning(body);
   // Only the change goes back, so that the doubles keep what no contact touched.
   bodies_.velocity[body] += linear(r.velocity - r.start).cast<double>();
