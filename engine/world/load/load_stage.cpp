@@ -200,6 +200,7 @@ void LoadStage::begin_frame() { work_left_ = std::min(work_a_frame_, work_left_ 
 void LoadStage::run(World& world, const Breaker& breaker) {
   const bool any = std::any_of(world.actors.begin(), world.actors.end(),
                                [](const Actor& actor) { return actor.stress.breakable; });
+  waiting_ = 0;
   if (!any) return;
   const std::vector<std::uint32_t> keys = due(world);
   std::size_t next = 0;
