@@ -27,10 +27,11 @@ Quat rotation_now(const Quat& R_WB, const Quat& free, const Vec3& alone_W, const
 
 void Spins::resize(std::uint32_t bodies) {
   spin_.resize(bodies);
-  owed_.assign(bodies + 1, Wide{});
+  owed_.resize(bodies + 1);
 }
 
 void Spins::begin(const StepContext& step, BodySlot body, bool midway, Bodies& bodies) {
+  owed_[row_of(body)] = Wide{};
   Spin& spin = spin_[body];
   Vec3& w_W = bodies.angular_velocity[body];
   const Mat3 R_WB(bodies.rotation[body]);
