@@ -4,9 +4,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::PresetWorld;
-using W = solver::RigidWorld;
-
 /// Eight blocks, each beyond the next by `factor` times what just balances.
 bool overhang_falls(const Preset& preset, double factor) {
   PresetWorld world(preset);

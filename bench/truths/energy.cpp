@@ -8,11 +8,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::kG;
-using solver::PresetWorld;
-using solver::RigidWorld;
-using W = RigidWorld;
-
 /// The most that the energy of a world rises above its start within some seconds, over that; never
 /// finite if something in it is not.
 double energy_gained(PresetWorld& world, double time_s) {

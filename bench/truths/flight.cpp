@@ -9,11 +9,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::kG;
-using solver::PresetWorld;
-using solver::RigidWorld;
-using W = RigidWorld;
-
 /// Of a world that nothing acts on, from its beginning on.
 class Kept {
  public:

@@ -9,11 +9,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::kG;
-using solver::kPi;
-using solver::PresetWorld;
-using W = solver::RigidWorld;
-
 /// Gravity on a slope that is level here and falls towards x.
 Vec3 down_slope(double slope_rad) {
   const SinCos a = sin_cos(slope_rad);

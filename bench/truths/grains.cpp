@@ -12,12 +12,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::kG;
-using solver::kPi;
-using solver::PresetWorld;
-using solver::RigidWorld;
-using W = RigidWorld;
-
 /// The speed of the wave along a row of 30 dominoes of this height, over √(gH).
 double domino_speed(const Preset& preset, double height_m) {
   PresetWorld world(preset);

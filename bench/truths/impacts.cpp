@@ -8,10 +8,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::kG;
-using solver::PresetWorld;
-using W = solver::RigidWorld;
-
 BodyDesc elastic(const BodyDesc& desc, double friction = 0) {
   return W::with_friction(desc, friction, 1);
 }

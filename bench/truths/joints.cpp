@@ -9,10 +9,6 @@ namespace sunder::truths {
 namespace {
 
 using solver::joint_at;
-using solver::kG;
-using solver::kPi;
-using solver::PresetWorld;
-using W = solver::RigidWorld;
 
 double pendulum_period(const Preset& preset) {
   PresetWorld world(preset);

@@ -14,9 +14,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::kG;
-using solver::kPi;
-
 constexpr double kStrength_Pa = 1e6, kWidth_m = 0.2, kLength_m = 2;
 constexpr int kAlong = 20, kAcross = 2;  // convexes of a beam
 constexpr MaterialIndex kBrittle{0}, kSteel{1};

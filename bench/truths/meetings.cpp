@@ -8,8 +8,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::PresetWorld;
-using W = solver::RigidWorld;
 constexpr double kSpeed_m_s = 500, kFlight_s = 0.1;
 
 /// Of two bodies that have flown for 0.1 s.

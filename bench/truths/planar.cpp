@@ -10,9 +10,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::PresetWorld;
-using solver::RigidWorld;
-using W = RigidWorld;
 using Build = std::function<void(RigidWorld&)>;
 constexpr double kTime_s = 4;
 

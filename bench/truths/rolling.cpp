@@ -9,11 +9,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::kG;
-using solver::kPi;
-using solver::PresetWorld;
-using W = solver::RigidWorld;
-
 /// A ball of radius 0.2 m on a slope; level if the slope is 0.
 struct Roller {
   Roller(const Preset& preset, double slope_rad, double friction, const Vec3& velocity_W,

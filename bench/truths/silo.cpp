@@ -10,10 +10,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::kPi;
-using solver::PresetWorld;
-using W = solver::RigidWorld;
-
 constexpr double kSilo_m = 0.15, kGrain_m = 0.02;  // radii
 constexpr int kGrains = 1500, kSides = 16, kBands = 8;
 using Bands = std::array<double, kBands>;

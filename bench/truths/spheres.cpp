@@ -10,9 +10,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::kG;
-using solver::PresetWorld;
-using W = solver::RigidWorld;
 constexpr double kRadius_m = 0.1;
 
 Preset at_a_millisecond(Preset preset) {

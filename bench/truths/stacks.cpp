@@ -7,11 +7,6 @@
 namespace sunder::truths {
 namespace {
 
-using solver::kG;
-using solver::PresetWorld;
-using solver::RigidWorld;
-using W = RigidWorld;
-
 /// Boxes of side 1 on each other; the last is `top_factor` times as heavy.
 std::vector<BodyId> add_stack(RigidWorld& world, int count, double top_factor = 1) {
   world.add(W::ground());

@@ -13,8 +13,13 @@
 
 namespace sunder::truths {
 
+using solver::kG;
+using solver::kPi;
 using solver::kPresets;
 using solver::Preset;
+using solver::PresetWorld;
+using solver::RigidWorld;
+using W = RigidWorld;
 using Measure = std::function<double(const Preset&)>;
 using Bounds = std::array<double, kPresets.size()>;
 
