@@ -1,4 +1,4 @@
-// Blows: something heavy and fast strikes light bodies that pass it on (docs/decisions/035). How
+// Blows: something heavy and fast strikes light bodies that pass it on (docs/decisions/036). How
 // well they do in rubble is a truth (bench/truths/through.cpp).
 #include <gtest/gtest.h>
 

@@ -23,7 +23,7 @@ class SweepOrder {
 
   /// By colour, and in each those of most points first; what found no colour last.
   std::span<const ManifoldSlot> manifolds() const { return manifolds_; }
-  /// Something heavy strikes something light that passes it on: see docs/decisions/035. All
+  /// Something heavy strikes something light that passes it on: see docs/decisions/036. All
   /// manifolds have a colour, then.
   bool blow() const { return blow_; }
   /// One after another; from kMaxColors on, of those that found none before.
