@@ -15,9 +15,6 @@ constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
 constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
 constexpr double kMoves = 1e-5;    // in a step, of a body's reach: less is rest
-constexpr int kBlowSweeps = 16;    // of either kind in a substep,
-constexpr int kPlainSweeps = 4;    // the last of them as they are, the others over-relaxed
-constexpr float kBlowOmega = 1.7f;
 
 }  // namespace
 
@@ -34,7 +31,6 @@ class ContactSolver::Stages {
         rows_(solver.rows_.data()),
         accelerated_(!solver.energy_.empty()),
         guarded_(solver.energy_guard_.watches()),
-        sweeps_(solver.relaxes_blow() ? kBlowSweeps : solver.options_.sweeps),
         gravity_{step.kick_W.x(), step.kick_W.y(), step.kick_W.z(), 0, 0, 0, 0, 0},
         half_fall_(static_cast<float>(0.5 * step.h_s) * gravity_),
         contact_step_{step,
@@ -70,10 +66,8 @@ class ContactSolver::Stages {
   /// mass splitting waits once a sweep.
   template <WorkOnGroup joint_work>
   void sweeps(Work work, Work last_work) {
-    if (solver_.relaxes_blow()) once(&Stages::over_relax);
-    for (int i = 1; i <= sweeps_; ++i) {
-      const bool last = i == sweeps_;
-      if (solver_.relaxes_blow() && i == sweeps_ - kPlainSweeps + 1) once(&Stages::relax_plainly);
+    for (int i = 1; i <= solver_.options_.sweeps; ++i) {
+      const bool last = i == solver_.options_.sweeps;
       if (accelerated_ && !last) all_blocks(&Stages::mark);
       each_joint_color<joint_work>();
       each_color(last ? last_work : work);
@@ -184,8 +178,6 @@ class ContactSolver::Stages {
     sweep_relaxed(begin, end);
     solver_.blocks_->sum_impulses(begin, end);
   }
-  void over_relax(std::uint32_t, std::uint32_t) { contact_step_.soft.omega = kBlowOmega; }
-  void relax_plainly(std::uint32_t, std::uint32_t) { contact_step_.soft.omega = 1; }
   /// Another round, if the last one struck something: what it struck may now meet a neighbour.
   void first_strikes(std::uint32_t, std::uint32_t) { strikes_on_ = true, struck_ = 0; }
   void begin_strikes(std::uint32_t, std::uint32_t) { strikes_on_ = struck_.exchange(0) != 0; }
@@ -256,7 +248,6 @@ class ContactSolver::Stages {
   Joints& joints_;
   BodyRow* rows_;
   bool accelerated_, guarded_;
-  int sweeps_;      ///< Of either kind in a substep.
   Wide gravity_;    ///< What it does to a row's velocity in a substep.
   Wide half_fall_;  ///< By how much the way of a substep at its last velocity is longer than a
                     ///< parabola.
@@ -344,11 +335,10 @@ ContactSolver::ContactSolver(const ContactSolverOptions& options)
 
 ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies, Contacts& contacts,
                                         Joints& joints) {
-  order_.collect(step, bodies, contacts);
+  order_.collect(bodies, contacts);
   make_blocks();
   splitting_.split(order_.manifolds().subspan(order_.first_split()), bodies, contacts);
-  const bool accelerated =
-      options_.accelerated && options_.sweeps > 1 && splitting_.empty() && !relaxes_blow();
+  const bool accelerated = options_.accelerated && options_.sweeps > 1 && splitting_.empty();
   if (accelerated) blocks_->remember();
   energy_.resize(accelerated ? order_.manifolds().size() : 0);
   joint_solver_.collect(bodies, joints, order_.in_contact());
@@ -365,18 +355,15 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
           static_cast<std::uint32_t>(order_.manifolds().size()), order_.points()};
 }
 
-bool ContactSolver::relaxes_blow() const { return order_.blow() && options_.sweeps < kBlowSweeps; }
-
 void ContactSolver::make_blocks() {
   blocks_->clear(order_.manifolds().size());
   colors_.clear();
   const std::uint32_t grain = kManifoldGrain / blocks_->lanes();
-  for (std::uint32_t color = 0; color < order_.colors(); ++color) {
-    const bool split = order_.first_split() <= order_.begin(color, 4);
+  for (std::uint32_t color = 0; color <= kMaxColors; ++color) {
     const std::uint32_t first = blocks_->size();
     for (std::uint32_t points = 4; points > 0; --points) {
       const std::uint32_t begin = order_.begin(color, points);
-      blocks_->add(begin, order_.end(color, points) - begin, points, split);
+      blocks_->add(begin, order_.end(color, points) - begin, points, color == kMaxColors);
     }
     const std::uint32_t count = blocks_->size() - first;
     if (count > 0) colors_.push_back({first, count, grain});

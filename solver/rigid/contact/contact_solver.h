@@ -45,8 +45,6 @@ class ContactSolver {
 
  private:
   class Stages;
-  /// Whether this step has a blow, and fewer sweeps were asked for than that takes.
-  bool relaxes_blow() const;
   void make_blocks();
   void collect_bodies(const Bodies& bodies);
 

@@ -140,7 +140,7 @@ SUNDER_INLINE void slide(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
     d1 = d1 * spring.mass_scale - c.slide_impulse_1 * spring.impulse_scale;
     d2 = d2 * spring.mass_scale - c.slide_impulse_2 * spring.impulse_scale;
   }
-  V new_1 = c.slide_impulse_1 + soft.omega * d1, new_2 = c.slide_impulse_2 + soft.omega * d2;
+  V new_1 = c.slide_impulse_1 + d1, new_2 = c.slide_impulse_2 + d2;
   const V square = new_1 * new_1 + new_2 * new_2;
   const auto sliding = square > limit * limit;
   const V scale = sliding ? limit / sqrt(sliding ? square : splat<V>(1)) : splat<V>(1);
@@ -224,7 +224,7 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
         change = rebounds ? (p.impulse > zero ? change : zero) : change;
       }
     }
-    const V next = max(zero, p.impulse + soft.omega * change);
+    const V next = max(zero, p.impulse + change);
     v.push(c, c.normal, p.angular_a, p.angular_b, next - p.impulse);
     p.impulse = next;
   }

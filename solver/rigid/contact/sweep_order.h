@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "solver/rigid/body/bodies.h"
-#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
 
 namespace sunder::solver {
@@ -19,15 +18,10 @@ inline constexpr std::uint8_t kPinched = 3;
 class SweepOrder {
  public:
   /// Lists what touches and is awake.
-  void collect(const StepContext& step, const Bodies& bodies, const Contacts& contacts);
+  void collect(const Bodies& bodies, const Contacts& contacts);
 
   /// By colour, and in each those of most points first; what found no colour last.
   std::span<const ManifoldSlot> manifolds() const { return manifolds_; }
-  /// Something heavy strikes something light that passes it on: see docs/decisions/036. All
-  /// manifolds have a colour, then.
-  bool blow() const { return blow_; }
-  /// One after another; from kMaxColors on, of those that found none before.
-  std::uint32_t colors() const { return static_cast<std::uint32_t>(start_.size() / 4); }
   /// Where those of a colour and a number of points (1 to 4) are in manifolds().
   std::uint32_t begin(std::uint32_t color, std::uint32_t points) const {
     return start_[color * 4 + 4 - points];
@@ -36,7 +30,7 @@ class SweepOrder {
     return start_[color * 4 + 5 - points];
   }
   /// From here on, manifolds have no colour.
-  std::uint32_t first_split() const { return blow_ ? end(colors() - 1, 1) : begin(kMaxColors, 4); }
+  std::uint32_t first_split() const { return begin(kMaxColors, 4); }
   std::uint32_t points() const { return points_; }
   /// Whether any of them has restitution.
   bool bouncy() const { return bouncy_; }
@@ -47,16 +41,12 @@ class SweepOrder {
   SpanByBody<const std::uint32_t> deep_contacts() const { return deep_contacts_; }
 
  private:
-  bool is_passed_on(const Contacts& contacts) const;
-  void color_rest(const Bodies& bodies, const Contacts& contacts);
-
   std::vector<ManifoldSlot> manifolds_;
-  std::vector<std::uint32_t> start_;  ///< In `manifolds_`, by sweep_key().
+  std::uint32_t start_[kSweepKeys + 1] = {};  ///< In `manifolds_`, by sweep_key().
   std::uint32_t points_ = 0;
-  bool bouncy_ = false, blow_ = false;
+  bool bouncy_ = false;
   ByBody<std::uint8_t> in_contact_, loaded_contacts_;
   ByBody<std::uint32_t> deep_contacts_;
-  ByBody<BodySlot> striker_;  ///< Of light bodies. Empty: nothing heavy strikes any.
 };
 
 }  // namespace sunder::solver
