@@ -98,6 +98,18 @@ class BlocksOf final : public ContactBlocks {
       any |= solver::strike(blocks_[i], arms_[i], step.rows, h_s);
     return any;
   }
+  void expect_impacts() override { impacts_.resize(used_); }
+  void begin_impact(std::uint32_t begin, std::uint32_t end) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::begin_impact(blocks_[i], impacts_[i]);
+  }
+  void end_impact(std::uint32_t begin, std::uint32_t end) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::end_impact(blocks_[i], impacts_[i]);
+  }
+  void add_closing_J(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                     double& sum_J) const override {
+    for (std::uint32_t i = begin; i < end; ++i)
+      solver::add_closing_J(blocks_[i], step.rows, step.soft, sum_J);
+  }
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) {
       if (i + 1 < end) fetch_manifolds(blocks_[i + 1], step);
@@ -136,6 +148,7 @@ class BlocksOf final : public ContactBlocks {
   std::vector<ConstraintBlock<kWidth>> blocks_;
   std::vector<ArmLanes<kWidth>> arms_;
   std::vector<SearchLanes<kWidth>> search_;
+  std::vector<ImpactLanes<kWidth>> impacts_;
   std::uint32_t used_ = 0;
 };
 

@@ -188,6 +188,10 @@ class ContactSolver::Stages {
     solver_.blocks_->store(begin, end, contact_step_);
   }
 
+  void pass_impacts(std::uint32_t, std::uint32_t) {
+    solver_.impact_pass_.run(contact_step_, *solver_.blocks_);
+  }
+
   // Groups of joints.
   void begin_joints(std::uint32_t i) {
     solver_.joint_solver_.begin(i, step_, bodies_, joints_, solver_.root_W_, rows_);
@@ -280,6 +284,7 @@ void ContactSolver::Stages::plan() {
       if (solver_.moving_) each_color(&Stages::settle), join_if_split();
     }
     strikes();
+    if (!solver_.impact_pass_.empty()) once(&Stages::pass_impacts);
     sweeps<&Stages::push_joints>(&Stages::sweep_biased, &Stages::sweep_biased);
     all_bodies<&Stages::join_and_move>();
     if (solver_.moving_) all_blocks(&Stages::follow);
@@ -335,7 +340,7 @@ ContactSolver::ContactSolver(const ContactSolverOptions& options)
 
 ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies, Contacts& contacts,
                                         Joints& joints) {
-  order_.collect(bodies, contacts);
+  order_.collect(step, bodies, contacts);
   make_blocks();
   splitting_.split(order_.manifolds().subspan(order_.first_split()), bodies, contacts);
   const bool accelerated = options_.accelerated && options_.sweeps > 1 && splitting_.empty();
@@ -347,6 +352,7 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
     return bodies.velocity[body].norm() * step.dt_s > kMoves * bodies.reach_m[body];
   });
   blocks_->follow_bodies(moving_);
+  if (!impact_pass_.empty()) impact_pass_.begin(order_.impacts(), active_, *blocks_);
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(), bodies,
                         contacts);
   Stages(*this, step, bodies, contacts, joints).run();
@@ -358,13 +364,21 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
 void ContactSolver::make_blocks() {
   blocks_->clear(order_.manifolds().size());
   colors_.clear();
+  impact_pass_.clear();
   const std::uint32_t grain = kManifoldGrain / blocks_->lanes();
-  for (std::uint32_t color = 0; color <= kMaxColors; ++color) {
+  for (std::uint32_t color = 0; color < order_.colors(); ++color) {
+    const bool split = color + 1 == order_.colors();
     const std::uint32_t first = blocks_->size();
-    for (std::uint32_t points = 4; points > 0; --points) {
-      const std::uint32_t begin = order_.begin(color, points);
-      blocks_->add(begin, order_.end(color, points) - begin, points, color == kMaxColors);
-    }
+    const auto add = [&](bool near) {
+      for (std::uint32_t points = 4; points > 0; --points) {
+        const std::uint32_t begin = order_.begin(color, near, points);
+        blocks_->add(begin, order_.end(color, near, points) - begin, points, split);
+      }
+    };
+    add(true);
+    impact_pass_.add(first, blocks_->size(),
+                     order_.end(color, true, 1) - order_.begin(color, true, 4));
+    add(false);
     const std::uint32_t count = blocks_->size() - first;
     if (count > 0) colors_.push_back({first, count, grain});
   }

@@ -13,6 +13,7 @@
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/contact/contact_blocks.h"
 #include "solver/rigid/contact/energy_guard.h"
+#include "solver/rigid/contact/impact_pass.h"
 #include "solver/rigid/contact/mass_splitting.h"
 #include "solver/rigid/contact/sweep_order.h"
 #include "solver/rigid/joint/joint_solver.h"
@@ -53,6 +54,7 @@ class ContactSolver {
   MassSplitting splitting_;
   JointSolver joint_solver_;
   EnergyGuard energy_guard_;
+  ImpactPass impact_pass_;
   std::unique_ptr<ContactBlocks> blocks_;
   std::vector<StageItems> colors_;  ///< Where each colour's blocks are; what is split last.
   std::vector<BodySlot> active_;    ///< Awake bodies in contact, or held by a joint.

@@ -19,6 +19,7 @@ struct SoftStep {
   Softness press[4];    ///< Along the normal, by the number of points less one.
   Softness slide[4];    ///< Of friction that sticks.
   float inverse_h = 0;  ///< 1/s.
+  float omega = 1;      ///< By how much more than it asks for a contact is changed in a sweep.
   /// Fastest correction of an overlap, √(m)/s: times the root of the smaller piece's inner radius.
   float push = 0;
 };

@@ -140,7 +140,7 @@ SUNDER_INLINE void slide(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
     d1 = d1 * spring.mass_scale - c.slide_impulse_1 * spring.impulse_scale;
     d2 = d2 * spring.mass_scale - c.slide_impulse_2 * spring.impulse_scale;
   }
-  V new_1 = c.slide_impulse_1 + d1, new_2 = c.slide_impulse_2 + d2;
+  V new_1 = c.slide_impulse_1 + soft.omega * d1, new_2 = c.slide_impulse_2 + soft.omega * d2;
   const V square = new_1 * new_1 + new_2 * new_2;
   const auto sliding = square > limit * limit;
   const V scale = sliding ? limit / sqrt(sliding ? square : splat<V>(1)) : splat<V>(1);
@@ -224,7 +224,7 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
         change = rebounds ? (p.impulse > zero ? change : zero) : change;
       }
     }
-    const V next = max(zero, p.impulse + change);
+    const V next = max(zero, p.impulse + soft.omega * change);
     v.push(c, c.normal, p.angular_a, p.angular_b, next - p.impulse);
     p.impulse = next;
   }
@@ -371,6 +371,48 @@ void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRo
   for (std::uint32_t i = 0; i < c.points; ++i)
     v.push(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, step[i]);
   store(c, v, bodies);
+}
+
+template <std::uint32_t lanes>
+SUNDER_INLINE void exchange(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
+  const auto swap = [](WideOf<lanes>& a, WideOf<lanes>& b) {
+    const WideOf<lanes> was = a;
+    a = b, b = was;
+  };
+  for (std::uint32_t i = 0; i < c.points; ++i) swap(c.point[i].impulse, aside.press[i]);
+  swap(c.slide_impulse_1, aside.slide_1), swap(c.slide_impulse_2, aside.slide_2);
+  swap(c.twist_impulse, aside.twist);
+  swap(c.roll.impulse_1, aside.roll_1), swap(c.roll.impulse_2, aside.roll_2);
+}
+
+template <std::uint32_t lanes>
+void begin_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
+  aside = {};
+  exchange(c, aside);
+}
+
+template <std::uint32_t lanes>
+void end_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
+  sum_impulses(c);
+  exchange(c, aside);
+}
+
+template <std::uint32_t lanes>
+void add_closing_J(const ConstraintBlock<lanes>& c, const SolverRows& bodies, const SoftStep& soft,
+                   double& sum_J) {
+  using V = WideOf<lanes>;
+  const V zero = {};
+  const Pairs<lanes, false> v(c, bodies, &BodyRow::velocity), x(c, bodies, &BodyRow::position);
+  V sum = zero;
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    const PointLanes<lanes>& p = c.point[i];
+    const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
+    const auto rebounds = (s > zero) & (c.rebound.restitution > zero);  // as in press()
+    const V u = v.along(c.normal, p.angular_a, p.angular_b) + max(zero, s) * soft.inverse_h;
+    const V closes = min(zero, rebounds ? (p.impulse > zero ? u : zero) : u);
+    sum += p.mass * closes * closes;
+  }
+  for (std::uint32_t lane = 0; lane < lanes; ++lane) sum_J += double{sum[lane]};
 }
 
 template <std::uint32_t lanes>

@@ -1,24 +1,32 @@
 #include "solver/rigid/contact/sweep_order.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace sunder::solver {
 
-void SweepOrder::collect(const Bodies& bodies, const Contacts& contacts) {
-  std::fill(std::begin(start_), std::end(start_), 0u);
+void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Contacts& contacts) {
   in_contact_.assign(bodies.size(), 0);
   loaded_contacts_.assign(bodies.size(), 0);
   points_ = 0;
   bouncy_ = false;
   deep_contacts_.clear();
+  impacts_.find(step, bodies, contacts);
+  const std::uint32_t colors = color_rest(bodies, contacts) + 1;
+  start_.assign(colors * kKeysAColor + 1, 0);
   auto for_each = [&](const auto& visit) {
     for (const ManifoldSlot i : contacts.manifolds.slots()) {
       const Manifold& m = contacts.manifolds[i];
       if (m.count > 0 && (bodies.awake(m.body_a) || bodies.awake(m.body_b))) visit(i, m);
     }
   };
-  for_each([&](ManifoldSlot, const Manifold& m) {
-    ++start_[m.sweep_key() + 1];
+  const auto key_of = [&](ManifoldSlot i, const Manifold& m) {
+    if (m.color < kMaxColors) return key(m.color, impacts_.near(m), m.count);
+    const std::uint32_t color = more_colors_.empty() ? kNoColor : more_colors_[i];
+    return color == kNoColor ? key(colors - 1, false, m.count) : key(color, true, m.count);
+  };
+  for_each([&](ManifoldSlot i, const Manifold& m) {
+    ++start_[key_of(i, m) + 1];
     in_contact_[m.body_a] = in_contact_[m.body_b] = 1;
     if (m.normal_impulse() > 0)
       for (const BodySlot body : {m.body_a, m.body_b})
@@ -29,11 +37,32 @@ void SweepOrder::collect(const Bodies& bodies, const Contacts& contacts) {
     deep_contacts_.resize(bodies.size());
     ++deep_contacts_[m.body_a], ++deep_contacts_[m.body_b];
   });
-  for (std::size_t k = 0; k < kSweepKeys; ++k) start_[k + 1] += start_[k];
-  manifolds_.resize(start_[kSweepKeys]);
-  std::uint32_t next[kSweepKeys];
-  std::copy_n(start_, kSweepKeys, next);
-  for_each([&](ManifoldSlot i, const Manifold& m) { manifolds_[next[m.sweep_key()]++] = i; });
+  for (std::size_t k = 1; k < start_.size(); ++k) start_[k] += start_[k - 1];
+  manifolds_.resize(start_.back());
+  std::vector<std::uint32_t> next = start_;
+  for_each([&](ManifoldSlot i, const Manifold& m) { manifolds_[next[key_of(i, m)]++] = i; });
+}
+
+/// Gives what is near an impact and found no colour one of as many more: what is split takes an
+/// impact up slowly. How many colours there are, then.
+std::uint32_t SweepOrder::color_rest(const Bodies& bodies, const Contacts& contacts) {
+  more_colors_.clear();
+  std::uint32_t colors = kMaxColors;
+  if (impacts_.empty() || contacts.colors < kMaxColors) return colors;  // split by choice
+  ByBody<std::uint64_t> taken(bodies.size());
+  more_colors_.assign(contacts.manifolds.size(), kNoColor);
+  for (const ManifoldSlot i : contacts.manifolds.slots()) {
+    const Manifold& m = contacts.manifolds[i];
+    if (m.count == 0 || m.color < kMaxColors || !impacts_.near(m)) continue;
+    const bool a = bodies.awake(m.body_a), b = bodies.awake(m.body_b);
+    const std::uint64_t used = (a ? taken[m.body_a] : 0) | (b ? taken[m.body_b] : 0);
+    if ((!a && !b) || ~used == 0) continue;
+    const auto color = static_cast<std::uint32_t>(std::countr_one(used));
+    for (const BodySlot body : {m.body_a, m.body_b}) taken[body] |= std::uint64_t{1} << color;
+    more_colors_[i] = kMaxColors + color;
+    colors = std::max(colors, kMaxColors + color + 1);
+  }
+  return colors;
 }
 
 }  // namespace sunder::solver

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
+#include "solver/rigid/contact/impacts.h"
 
 namespace sunder::solver {
 
@@ -18,19 +20,23 @@ inline constexpr std::uint8_t kPinched = 3;
 class SweepOrder {
  public:
   /// Lists what touches and is awake.
-  void collect(const Bodies& bodies, const Contacts& contacts);
+  void collect(const StepContext& step, const Bodies& bodies, const Contacts& contacts);
 
-  /// By colour, and in each those of most points first; what found no colour last.
+  /// By colour, in each those near an impact first, of these those of most points first; what found
+  /// no colour last.
   std::span<const ManifoldSlot> manifolds() const { return manifolds_; }
+  /// What is split included, which is the last.
+  std::uint32_t colors() const { return static_cast<std::uint32_t>(start_.size()) / kKeysAColor; }
   /// Where those of a colour and a number of points (1 to 4) are in manifolds().
-  std::uint32_t begin(std::uint32_t color, std::uint32_t points) const {
-    return start_[color * 4 + 4 - points];
+  std::uint32_t begin(std::uint32_t color, bool near, std::uint32_t points) const {
+    return start_[key(color, near, points)];
   }
-  std::uint32_t end(std::uint32_t color, std::uint32_t points) const {
-    return start_[color * 4 + 5 - points];
+  std::uint32_t end(std::uint32_t color, bool near, std::uint32_t points) const {
+    return start_[key(color, near, points) + 1];
   }
   /// From here on, manifolds have no colour.
-  std::uint32_t first_split() const { return begin(kMaxColors, 4); }
+  std::uint32_t first_split() const { return start_[start_.size() - 1 - kKeysAColor]; }
+  const Impacts& impacts() const { return impacts_; }
   std::uint32_t points() const { return points_; }
   /// Whether any of them has restitution.
   bool bouncy() const { return bouncy_; }
@@ -41,12 +47,21 @@ class SweepOrder {
   SpanByBody<const std::uint32_t> deep_contacts() const { return deep_contacts_; }
 
  private:
+  static constexpr std::uint32_t kKeysAColor = 8, kNoColor = ~0u;
+  static constexpr std::uint32_t key(std::uint32_t color, bool near, std::uint32_t points) {
+    return color * kKeysAColor + (near ? 4 : 8) - points;
+  }
+  std::uint32_t color_rest(const Bodies& bodies, const Contacts& contacts);
+
   std::vector<ManifoldSlot> manifolds_;
-  std::uint32_t start_[kSweepKeys + 1] = {};  ///< In `manifolds_`, by sweep_key().
+  std::vector<std::uint32_t> start_;  ///< In `manifolds_`, by key().
   std::uint32_t points_ = 0;
   bool bouncy_ = false;
   ByBody<std::uint8_t> in_contact_, loaded_contacts_;
   ByBody<std::uint32_t> deep_contacts_;
+  Impacts impacts_;
+  SlotVector<ManifoldSlot, std::uint32_t>
+      more_colors_;  ///< By manifold; of those near an impact without one.
 };
 
 }  // namespace sunder::solver
