@@ -99,6 +99,14 @@ class BlocksOf final : public ContactBlocks {
     return any;
   }
   void expect_impacts() override { impacts_.resize(used_); }
+  void expect_impacts(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                      float least_1_s) override {
+    for (std::uint32_t i = begin; i < end; ++i)
+      for (std::uint32_t lane = 0; lane < blocks_[i].count; ++lane) {
+        const ManifoldSlot slot = step.manifolds[blocks_[i].first + lane];
+        impacts_[i].least_m_s[lane] = least_1_s * step.contacts.manifolds[slot].size_m;
+      }
+  }
   void begin_impact(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::begin_impact(blocks_[i], impacts_[i]);
   }
@@ -108,7 +116,7 @@ class BlocksOf final : public ContactBlocks {
   void add_closing_J(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
                      double& sum_J) const override {
     for (std::uint32_t i = begin; i < end; ++i)
-      solver::add_closing_J(blocks_[i], step.rows, step.soft, sum_J);
+      solver::add_closing_J(blocks_[i], impacts_[i], step.rows, step.soft, sum_J);
   }
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) {

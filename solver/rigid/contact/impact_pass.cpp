@@ -1,5 +1,8 @@
 #include "solver/rigid/contact/impact_pass.h"
 
+#include <cstdio>
+#include <cstdlib>
+
 namespace sunder::solver {
 namespace {
 
@@ -28,13 +31,19 @@ void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active,
   for (const BodySlot body : active)
     if (impacts.moves(body)) bodies_.push_back(body);
   velocity_.resize(bodies_.size());
-  impact_J_ = 0;
+  impact_J_ = -1;
 }
 
 void ImpactPass::run(const ContactStep& step, ContactBlocks& blocks) {
+  if (impact_J_ < 0) {
+    const float f = getenv("FAST") ? float(atof(getenv("FAST"))) : 0.25f;
+    for_blocks([&](auto first, auto end) {
+      blocks.expect_impacts(first, end, step, f / static_cast<float>(step.context.dt_s));
+    });
+  }
   set_aside(step.rows.rows);
   double left_J = closing_J(step, blocks);
-  if (impact_J_ == 0) impact_J_ = left_J;
+  if (impact_J_ < 0) impact_J_ = left_J;
   if (left_J > kPassed * impact_J_) {
     ContactStep over_relaxed = step;
     over_relaxed.soft.omega = kOverRelaxed;
@@ -45,6 +54,12 @@ void ImpactPass::run(const ContactStep& step, ContactBlocks& blocks) {
     }
     sweep(step, blocks);
     for_blocks([&](auto first, auto end) { blocks.end_impact(first, end); });
+  }
+  if (getenv("SAY")) {
+    std::uint32_t nb = 0;
+    for_blocks([&](auto f, auto e) { nb += e - f; });
+    fprintf(stderr, "IMP bodies %zu manifolds %u blocks %u colors %zu J0 %g J %g work %lu\n",
+            bodies_.size(), manifolds_, nb, blocks_.size(), impact_J_, left_J, work_ / manifolds_);
   }
   put_back(step.rows.rows);
 }

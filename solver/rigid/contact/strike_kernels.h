@@ -158,25 +158,25 @@ bool strike(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
 }
 
 /// Compiles all kernels for so many lanes.
-#define SUNDER_SWEEP_KERNELS(lanes)                                                              \
-  template void derive(GatheredBlock<lanes>&, ConstraintBlock<lanes>&);                          \
-  template void follow(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);     \
-  template void settle(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&);            \
-  template void warm_start(ConstraintBlock<lanes>&, const SolverRows&);                          \
-  template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);       \
-  template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);      \
-  template void sum_impulses(ConstraintBlock<lanes>&);                                           \
-  template void scale_impulses(ConstraintBlock<lanes>&, ArmLanes<lanes>*, const float*);         \
-  template void note_spin(const ConstraintBlock<lanes>&, const ArmLanes<lanes>&,                 \
-                          const SolverRows&, const float*, float);                               \
-  template void mark(const ConstraintBlock<lanes>&, SearchLanes<lanes>&);                        \
-  template void measure(const ConstraintBlock<lanes>&, const SearchLanes<lanes>&, float*);       \
-  template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float);   \
-  template bool strike(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);     \
-  template void begin_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                      \
-  template void end_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                        \
-  template void add_closing_J(const ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&, \
-                              double&);                                                          \
+#define SUNDER_SWEEP_KERNELS(lanes)                                                            \
+  template void derive(GatheredBlock<lanes>&, ConstraintBlock<lanes>&);                        \
+  template void follow(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);   \
+  template void settle(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&);          \
+  template void warm_start(ConstraintBlock<lanes>&, const SolverRows&);                        \
+  template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);     \
+  template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);    \
+  template void sum_impulses(ConstraintBlock<lanes>&);                                         \
+  template void scale_impulses(ConstraintBlock<lanes>&, ArmLanes<lanes>*, const float*);       \
+  template void note_spin(const ConstraintBlock<lanes>&, const ArmLanes<lanes>&,               \
+                          const SolverRows&, const float*, float);                             \
+  template void mark(const ConstraintBlock<lanes>&, SearchLanes<lanes>&);                      \
+  template void measure(const ConstraintBlock<lanes>&, const SearchLanes<lanes>&, float*);     \
+  template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float); \
+  template bool strike(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);   \
+  template void begin_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                    \
+  template void end_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                      \
+  template void add_closing_J(const ConstraintBlock<lanes>&, const ImpactLanes<lanes>&,        \
+                              const SolverRows&, const SoftStep&, double&);                    \
   template void separations_now(const ConstraintBlock<lanes>&, const SolverRows&, float(*)[lanes]);
 
 }  // namespace sunder::solver

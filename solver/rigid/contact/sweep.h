@@ -107,10 +107,12 @@ void go_on(ConstraintBlock<lanes>& block, SearchLanes<lanes>& search, const Solv
 template <std::uint32_t lanes>
 bool strike(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
             float h_s);
-/// The impulses of a block that an impact has nothing to do with.
+/// What impacts need of a block: what closes no faster is none; and the impulses that an impact has
+/// nothing to do with.
 template <std::uint32_t lanes>
 struct alignas(64) ImpactLanes {
-  alignas(4 * lanes) WideOf<lanes> press[4] = {};
+  alignas(4 * lanes) WideOf<lanes> least_m_s = {};
+  WideOf<lanes> press[4] = {};
   WideOf<lanes> slide_1 = {}, slide_2 = {}, twist = {}, roll_1 = {}, roll_2 = {};
 };
 /// Sets them aside, so that sweeps find those of the impact.
@@ -119,11 +121,12 @@ void begin_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& aside);
 /// Puts them back; those of the impact go to the sum of the step.
 template <std::uint32_t lanes>
 void end_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& aside);
-/// Adds twice the energy with which the points of a block, that is not split, close beyond their
-/// gaps, each for itself; lane after lane, so that a sum of many blocks is the same for any lanes.
+/// Adds twice the energy with which the points of a block, that is not split, close too fast and
+/// beyond their gaps, each for itself; lane after lane, so that a sum of many blocks is the same
+/// for any lanes.
 template <std::uint32_t lanes>
-void add_closing_J(const ConstraintBlock<lanes>& block, const SolverRows& bodies,
-                   const SoftStep& soft, double& sum_J);
+void add_closing_J(const ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
+                   const SolverRows& bodies, const SoftStep& soft, double& sum_J);
 /// Writes the separation of every point now, by point and lane.
 template <std::uint32_t lanes>
 void separations_now(const ConstraintBlock<lanes>& block, const SolverRows& bodies,

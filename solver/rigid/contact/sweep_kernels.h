@@ -387,7 +387,9 @@ SUNDER_INLINE void exchange(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside
 
 template <std::uint32_t lanes>
 void begin_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
+  const WideOf<lanes> least_m_s = aside.least_m_s;
   aside = {};
+  aside.least_m_s = least_m_s;
   exchange(c, aside);
 }
 
@@ -398,8 +400,8 @@ void end_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
 }
 
 template <std::uint32_t lanes>
-void add_closing_J(const ConstraintBlock<lanes>& c, const SolverRows& bodies, const SoftStep& soft,
-                   double& sum_J) {
+void add_closing_J(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact,
+                   const SolverRows& bodies, const SoftStep& soft, double& sum_J) {
   using V = WideOf<lanes>;
   const V zero = {};
   const Pairs<lanes, false> v(c, bodies, &BodyRow::velocity), x(c, bodies, &BodyRow::position);
@@ -409,8 +411,8 @@ void add_closing_J(const ConstraintBlock<lanes>& c, const SolverRows& bodies, co
     const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
     const auto rebounds = (s > zero) & (c.rebound.restitution > zero);  // as in press()
     const V u = v.along(c.normal, p.angular_a, p.angular_b) + max(zero, s) * soft.inverse_h;
-    const V closes = min(zero, rebounds ? (p.impulse > zero ? u : zero) : u);
-    sum += p.mass * closes * closes;
+    const V closes = rebounds ? (p.impulse > zero ? -u : zero) : -u;
+    sum += closes > impact.least_m_s ? p.mass * closes * closes : zero;
   }
   for (std::uint32_t lane = 0; lane < lanes; ++lane) sum_J += double{sum[lane]};
 }
