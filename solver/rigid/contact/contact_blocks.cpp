@@ -45,6 +45,7 @@ class BlocksOf final : public ContactBlocks {
     for (std::uint32_t i = begin; i < end; ++i) {
       if (i + 1 < end) fetch_manifolds(blocks_[i + 1], step);
       prepare_block(step, blocks_[i], arms_.empty() ? nullptr : &arms_[i]);
+      if (!impacts_.empty()) prepare_impact(step, blocks_[i], impacts_[i]);
     }
   }
   void warm_start(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
@@ -98,25 +99,17 @@ class BlocksOf final : public ContactBlocks {
       any |= solver::strike(blocks_[i], arms_[i], step.rows, h_s);
     return any;
   }
-  void expect_impacts() override { impacts_.resize(used_); }
-  void expect_impacts(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
-                      float least_1_s) override {
-    for (std::uint32_t i = begin; i < end; ++i)
-      for (std::uint32_t lane = 0; lane < blocks_[i].count; ++lane) {
-        const ManifoldSlot slot = step.manifolds[blocks_[i].first + lane];
-        impacts_[i].least_m_s[lane] = least_1_s * step.contacts.manifolds[slot].size_m;
-      }
-  }
+  void expect_impacts(bool wanted) override { impacts_.resize(wanted ? used_ : 0); }
   void begin_impact(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::begin_impact(blocks_[i], impacts_[i]);
   }
   void end_impact(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::end_impact(blocks_[i], impacts_[i]);
   }
-  void add_closing_J(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+  void add_closing_J(std::uint32_t begin, std::uint32_t end, const ContactStep& step, float share,
                      double& sum_J) const override {
     for (std::uint32_t i = begin; i < end; ++i)
-      solver::add_closing_J(blocks_[i], impacts_[i], step.rows, step.soft, sum_J);
+      solver::add_closing_J(blocks_[i], impacts_[i], step.rows, step.soft, share, sum_J);
   }
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) {

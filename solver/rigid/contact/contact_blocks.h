@@ -48,15 +48,12 @@ class ContactBlocks {
                      float beta) = 0;
   /// False if nothing was struck.
   virtual bool strike(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
-  /// Makes room for what impacts need, once all blocks are added.
-  virtual void expect_impacts() = 0;
-  /// What closes no faster than that share of its size in a second is no impact.
-  virtual void expect_impacts(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
-                              float least_1_s) = 0;
+  /// Makes room for what impacts need, once all blocks are added; or does without.
+  virtual void expect_impacts(bool wanted) = 0;
   virtual void begin_impact(std::uint32_t begin, std::uint32_t end) = 0;
   virtual void end_impact(std::uint32_t begin, std::uint32_t end) = 0;
   virtual void add_closing_J(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
-                             double& sum_J) const = 0;
+                             float share, double& sum_J) const = 0;
   virtual void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
 
   /// On bodies, over the step, from what cannot move.

@@ -352,7 +352,8 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
     return bodies.velocity[body].norm() * step.dt_s > kMoves * bodies.reach_m[body];
   });
   blocks_->follow_bodies(moving_);
-  if (!impact_pass_.empty()) impact_pass_.begin(order_.impacts(), active_, *blocks_);
+  if (!impact_pass_.empty()) impact_pass_.begin(order_.impacts(), active_);
+  blocks_->expect_impacts(!impact_pass_.empty());
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(), bodies,
                         contacts);
   Stages(*this, step, bodies, contacts, joints).run();

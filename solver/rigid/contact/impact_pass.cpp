@@ -1,15 +1,17 @@
 #include "solver/rigid/contact/impact_pass.h"
 
-#include <cstdio>
+#include <algorithm>
 #include <cstdlib>
 
 namespace sunder::solver {
 namespace {
 
 constexpr float kOverRelaxed = 1.8f;
-constexpr int kMostSweeps = 64;   // a substep
-constexpr int kLook = 4;          // whenever so many more are done: is it enough?
-constexpr double kPassed = 1e-3;  // of the energy with which contacts close, when the step begins
+constexpr double kPassed = 1e-3;    // of the energy of impacts: what may be left
+constexpr float kShareLeft = 0.3f;  // of the least speed of an impact: slower has passed
+constexpr std::uint32_t kMostSweeps = 64, kLeastSweeps = 4;  // a substep,
+constexpr std::uint32_t kMostWork = 200000;                  // and of manifolds, all together
+constexpr std::uint32_t kLook = 4;  // whenever so many sweeps more are done: is it enough?
 
 }  // namespace
 
@@ -17,7 +19,7 @@ void ImpactPass::clear() {
   blocks_.clear();
   bodies_.clear();
   manifolds_ = 0;
-  work_ = 0;
+  sweeps_ = 0;
 }
 
 void ImpactPass::add(std::uint32_t first, std::uint32_t end, std::uint32_t manifolds) {
@@ -25,54 +27,47 @@ void ImpactPass::add(std::uint32_t first, std::uint32_t end, std::uint32_t manif
   manifolds_ += manifolds;
 }
 
-void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active,
-                       ContactBlocks& blocks) {
-  blocks.expect_impacts();
+void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active) {
   for (const BodySlot body : active)
     if (impacts.moves(body)) bodies_.push_back(body);
   velocity_.resize(bodies_.size());
-  impact_J_ = -1;
+  impact_J_ = 0;
 }
 
 void ImpactPass::run(const ContactStep& step, ContactBlocks& blocks) {
-  if (impact_J_ < 0) {
-    const float f = getenv("FAST") ? float(atof(getenv("FAST"))) : 0.25f;
-    for_blocks([&](auto first, auto end) {
-      blocks.expect_impacts(first, end, step, f / static_cast<float>(step.context.dt_s));
-    });
-  }
   set_aside(step.rows.rows);
-  double left_J = closing_J(step, blocks);
-  if (impact_J_ < 0) impact_J_ = left_J;
-  if (left_J > kPassed * impact_J_) {
-    ContactStep over_relaxed = step;
-    over_relaxed.soft.omega = kOverRelaxed;
+  const double closing = closing_J(step, blocks, 1);
+  impact_J_ = std::max(impact_J_, closing);
+  if (closing > kPassed * impact_J_) {
     for_blocks([&](auto first, auto end) { blocks.begin_impact(first, end); });
-    for (int i = 1; i < kMostSweeps && left_J > kPassed * impact_J_; ++i) {
-      sweep(over_relaxed, blocks);
-      if (i % kLook == 0) left_J = closing_J(step, blocks);
-    }
     sweep(step, blocks);
+    take_back(step.rows.rows);  // what many sweeps round off would add up
+    for_blocks([&](auto first, auto end) { blocks.warm_start(first, end, step); });
     for_blocks([&](auto first, auto end) { blocks.end_impact(first, end); });
-  }
-  if (getenv("SAY")) {
-    std::uint32_t nb = 0;
-    for_blocks([&](auto f, auto e) { nb += e - f; });
-    fprintf(stderr, "IMP bodies %zu manifolds %u blocks %u colors %zu J0 %g J %g work %lu\n",
-            bodies_.size(), manifolds_, nb, blocks_.size(), impact_J_, left_J, work_ / manifolds_);
   }
   put_back(step.rows.rows);
 }
 
-double ImpactPass::closing_J(const ContactStep& step, const ContactBlocks& blocks) const {
-  double sum = 0;
-  for_blocks([&](auto first, auto end) { blocks.add_closing_J(first, end, step, sum); });
-  return sum;
+void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
+  const auto once = [&](const ContactStep& with) {
+    for_blocks([&](auto first, auto end) { blocks.sweep_relaxed(first, end, with); });
+    ++sweeps_;
+  };
+  ContactStep over_relaxed = step;
+  over_relaxed.soft.omega = kOverRelaxed;
+  const std::uint32_t most = std::clamp(kMostWork / manifolds_, kLeastSweeps, kMostSweeps);
+  for (std::uint32_t i = 1; i < most; ++i) {
+    once(over_relaxed);
+    if (i % kLook == 0 && closing_J(step, blocks, kShareLeft) <= kPassed * impact_J_) break;
+  }
+  once(step);
 }
 
-void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
-  for_blocks([&](auto first, auto end) { blocks.sweep_relaxed(first, end, step); });
-  work_ += manifolds_;
+double ImpactPass::closing_J(const ContactStep& step, const ContactBlocks& blocks,
+                             float share) const {
+  double sum = 0;
+  for_blocks([&](auto first, auto end) { blocks.add_closing_J(first, end, step, share, sum); });
+  return sum;
 }
 
 void ImpactPass::set_aside(BodyRow* rows) {
@@ -81,6 +76,10 @@ void ImpactPass::set_aside(BodyRow* rows) {
     velocity_[i] = r.velocity;
     r.velocity = r.base;
   }
+}
+
+void ImpactPass::take_back(BodyRow* rows) const {
+  for (const BodySlot body : bodies_) rows[row_of(body)].velocity = rows[row_of(body)].base;
 }
 
 void ImpactPass::put_back(BodyRow* rows) const {

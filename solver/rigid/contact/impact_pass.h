@@ -20,30 +20,32 @@ class ImpactPass {
   void add(std::uint32_t first, std::uint32_t end, std::uint32_t manifolds);
   bool empty() const { return blocks_.empty(); }
   /// Once all blocks are added; `active` are the awake bodies in contact.
-  void begin(const Impacts& impacts, std::span<const BodySlot> active, ContactBlocks& blocks);
-  /// Lets nothing close any more, but for a small share of the energy with which all did. Moves
-  /// BodyRow::base, and `velocity` with it.
+  void begin(const Impacts& impacts, std::span<const BodySlot> active);
+  /// Lets nothing close any more as fast as impacts do. Changes BodyRow::base, and `velocity` by as
+  /// much.
   void run(const ContactStep& step, ContactBlocks& blocks);
-  /// Sweeps of a manifold in this step.
-  std::uint64_t work() const { return work_; }
+  /// Manifolds near an impact, and sweeps of these in the step.
+  std::uint32_t manifolds() const { return manifolds_; }
+  std::uint32_t sweeps() const { return sweeps_; }
 
  private:
   template <class Visit>
   void for_blocks(const Visit& visit) const {
     for (const auto& [first, end] : blocks_) visit(first, end);
   }
-  double closing_J(const ContactStep& step, const ContactBlocks& blocks) const;
+  double closing_J(const ContactStep& step, const ContactBlocks& blocks, float share) const;
   void sweep(const ContactStep& step, ContactBlocks& blocks);
-  /// Lets velocities be those before the impulses of the substep, and back.
+  /// Lets velocities be those before the impulses of the substep; lets them be those again; and
+  /// adds the impulses back.
   void set_aside(BodyRow* rows);
+  void take_back(BodyRow* rows) const;
   void put_back(BodyRow* rows) const;
 
   std::vector<std::pair<std::uint32_t, std::uint32_t>> blocks_;  ///< First and end, by colour.
   std::vector<BodySlot> bodies_;                                 ///< That they may move.
   std::vector<Wide> velocity_;                                   ///< Of these, with all impulses.
-  double impact_J_ = 0;  ///< Energy of what closed when the step began.
-  std::uint64_t work_ = 0;
-  std::uint32_t manifolds_ = 0;
+  double impact_J_ = 0;  ///< Twice the energy of the fastest substep of the step.
+  std::uint32_t manifolds_ = 0, sweeps_ = 0;
 };
 
 }  // namespace sunder::solver

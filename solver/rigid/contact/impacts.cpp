@@ -1,27 +1,21 @@
 #include "solver/rigid/contact/impacts.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "solver/rigid/collide/approach.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr double kHeavy = 4;    // times the mass of what it strikes
 constexpr double kFast = 0.25;  // in a step, of the inner radius of the smaller shape,
-constexpr double kFalls = 4;    // and in what falls from rest within the step
+constexpr double kFalls = 4;    // and in speeds that gravity makes in it
 
-/// Whether something heavy strikes something light.
-bool strikes(const StepContext& step, const Manifold& m, const Bodies& bodies) {
-  const BodySlot a = m.body_a, b = m.body_b;
-  if (!bodies.dynamic(a) || !bodies.dynamic(b)) return false;
-  const auto [light_kg, heavy_kg] = std::minmax(bodies.mass_kg[a], bodies.mass_kg[b]);
-  if (heavy_kg < kHeavy * light_kg) return false;
-  const double least_m = std::max(kFast * double{m.size_m}, kFalls * double{step.fall_m});
+bool meet_fast(const StepContext& step, const Manifold& m, const Bodies& bodies) {
+  if (!bodies.dynamic(m.body_a) || !bodies.dynamic(m.body_b)) return false;
+  const double least_m_s = least_impact_m_s(step, m);
   return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ManifoldPoint& p) {
-    const double way_m = step.dt_s * closing_speed(m, bodies, p.arm_A, p.arm_B);
-    return way_m > least_m && way_m > double{p.separation_m};
+    const double speed_m_s = closing_speed(m, bodies, p.arm_A, p.arm_B);
+    return speed_m_s > least_m_s && step.dt_s * speed_m_s > double{p.separation_m};
   });
 }
 
@@ -35,13 +29,16 @@ void for_touching(const Bodies& bodies, const Contacts& contacts, const Visit& v
 
 }  // namespace
 
+double least_impact_m_s(const StepContext& step, const Manifold& m) {
+  return std::max(kFast * double{m.size_m} / step.dt_s, kFalls * double{step.fall_m_s});
+}
+
 void Impacts::find(const StepContext& step, const Bodies& bodies, const Contacts& contacts) {
   steps_.clear();
   for_touching(bodies, contacts, [&](const Manifold& m) {
-    if (!strikes(step, m, bodies)) return;
+    if (!meet_fast(step, m, bodies)) return;
     if (steps_.empty()) steps_.assign(bodies.size(), kFar);
-    const bool a_strikes = bodies.mass_kg[m.body_a] > bodies.mass_kg[m.body_b];
-    steps_[a_strikes ? m.body_b : m.body_a] = 0;
+    steps_[m.body_a] = steps_[m.body_b] = 0;
   });
   if (!steps_.empty()) spread(bodies, contacts);
 }

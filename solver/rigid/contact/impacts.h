@@ -1,5 +1,5 @@
-// Where something heavy strikes light bodies fast: what touches, near there, has to pass that on
-// within the substep (docs/decisions/036).
+// Where bodies meet so fast that a step is long for it: what touches, near there, has to pass the
+// impact on within the substep (docs/decisions/036).
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,10 @@
 #include "solver/rigid/collide/contacts.h"
 
 namespace sunder::solver {
+
+/// What closes no faster in a step is no impact: its overlaps are small against it, or gravity
+/// alone may have made it so fast.
+double least_impact_m_s(const StepContext& step, const Manifold& m);
 
 class Impacts {
  public:
@@ -24,7 +28,7 @@ class Impacts {
   bool moves(BodySlot body) const { return !empty() && steps_[body] <= kReach; }
 
  private:
-  static constexpr std::uint8_t kReach = 8;  ///< From body to body.
+  static constexpr std::uint8_t kReach = 4;  ///< From body to body.
   static constexpr std::uint8_t kFar = 255;
 
   bool is_near(BodySlot body) const { return steps_[body] < kReach; }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/base/lanes.h"
+#include "solver/rigid/contact/impacts.h"
 
 namespace sunder::solver {
 namespace {
@@ -143,6 +144,16 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
   }
 }
 
+template <std::uint32_t lanes>
+void prepare_impact(const ContactStep& step, const ConstraintBlock<lanes>& c,
+                    ImpactLanes<lanes>& impact) {
+  impact = {};
+  for (std::uint32_t lane = 0; lane < c.count; ++lane) {
+    const Manifold& m = step.contacts.manifolds[step.manifolds[c.first + lane]];
+    impact.least_m_s[lane] = static_cast<float>(least_impact_m_s(step.context, m));
+  }
+}
+
 /// How soft a contact should be for the load it bears, approached from how soft it was.
 template <std::uint32_t lanes>
 float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
@@ -188,6 +199,8 @@ void store_block(const ContactStep& step, const ConstraintBlock<lanes>& c) {
 
 #define SUNDER_PREPARE(lanes)                                                                 \
   template void prepare_block(const ContactStep&, ConstraintBlock<lanes>&, ArmLanes<lanes>*); \
+  template void prepare_impact(const ContactStep&, const ConstraintBlock<lanes>&,             \
+                               ImpactLanes<lanes>&);                                          \
   template void store_block(const ContactStep&, const ConstraintBlock<lanes>&);
 SUNDER_PREPARE(1)
 SUNDER_PREPARE(4)

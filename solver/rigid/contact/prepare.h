@@ -39,6 +39,11 @@ template <std::uint32_t lanes>
 void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& block,
                    ArmLanes<lanes>* arms = nullptr);
 
+/// Says of every lane what is no impact.
+template <std::uint32_t lanes>
+void prepare_impact(const ContactStep& step, const ConstraintBlock<lanes>& block,
+                    ImpactLanes<lanes>& impact);
+
 /// Hands impulses and final separations back to the manifolds, and lets friction anchors go where
 /// the patch slid.
 template <std::uint32_t lanes>

@@ -176,7 +176,7 @@ bool strike(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
   template void begin_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                    \
   template void end_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                      \
   template void add_closing_J(const ConstraintBlock<lanes>&, const ImpactLanes<lanes>&,        \
-                              const SolverRows&, const SoftStep&, double&);                    \
+                              const SolverRows&, const SoftStep&, float, double&);             \
   template void separations_now(const ConstraintBlock<lanes>&, const SolverRows&, float(*)[lanes]);
 
 }  // namespace sunder::solver

@@ -401,7 +401,7 @@ void end_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
 
 template <std::uint32_t lanes>
 void add_closing_J(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact,
-                   const SolverRows& bodies, const SoftStep& soft, double& sum_J) {
+                   const SolverRows& bodies, const SoftStep& soft, float share, double& sum_J) {
   using V = WideOf<lanes>;
   const V zero = {};
   const Pairs<lanes, false> v(c, bodies, &BodyRow::velocity), x(c, bodies, &BodyRow::position);
@@ -412,7 +412,7 @@ void add_closing_J(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& im
     const auto rebounds = (s > zero) & (c.rebound.restitution > zero);  // as in press()
     const V u = v.along(c.normal, p.angular_a, p.angular_b) + max(zero, s) * soft.inverse_h;
     const V closes = rebounds ? (p.impulse > zero ? -u : zero) : -u;
-    sum += closes > impact.least_m_s ? p.mass * closes * closes : zero;
+    sum += closes > share * impact.least_m_s ? p.mass * closes * closes : zero;
   }
   for (std::uint32_t lane = 0; lane < lanes; ++lane) sum_J += double{sum[lane]};
 }
