@@ -2,6 +2,8 @@
 // one after the other.
 #include "engine/world/break/break_probe.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace sunder {
@@ -155,6 +157,38 @@ TEST(BreakProbe, TakesTheEnergyAtTheTimeOfTheHitAndLeavesTheBallThere) {
     EXPECT_NEAR(0.5 * m * motion.velocity_W.squaredNorm(), 0.5 * m * v * v - energy_J, 1e-9);
     const double hit_s = distance_m / v;
     EXPECT_NEAR(motion.shift_W.y() + hit_s * motion.velocity_W.y(), -distance_m, 1e-9);
+  }
+}
+
+TEST(BreakProbe, MeetsAtTheSpeedThatGravityHasGivenByThen) {
+  const double m = 5, v = 1, gap_m = 0.01, energy_J = 2;
+  const Vec3 gravity_W(0, -10, 0);
+  const double work_J = 0.5 * m * v * v + m * 10 * gap_m;
+  BreakProbe probe({pane(), ball(m, Vec3(0, -v, 0))}, {contact(1, 0, gap_m)}, kStep_s, kStill_m_s,
+                   gravity_W);
+  const auto loads = probe.next();
+  ASSERT_EQ(loads.size(), 1u);
+  EXPECT_NEAR(loads[0].work_J, work_J, 1e-4 * work_J);
+  const std::vector<ProbeBreak> wanted = {{0, energy_J}};
+  ASSERT_EQ(probe.release(wanted).size(), 1u);
+  // From the start of the step on gravity is the solver's.
+  const ProbeMotion& motion = probe.motions()[1];
+  const double meet_s = 2 * gap_m / (v + std::sqrt(v * v + 2 * 10 * gap_m));
+  const Vec3 then_W = motion.velocity_W + meet_s * gravity_W;
+  EXPECT_NEAR(0.5 * m * then_W.squaredNorm(), work_J - energy_J, 1e-9);
+  const Vec3 way_W = motion.shift_W + meet_s * (motion.velocity_W + 0.5 * meet_s * gravity_W);
+  EXPECT_NEAR(way_W.y(), -gap_m, 1e-12);
+}
+
+TEST(BreakProbe, LetsNothingFallThatStandsOrLeans) {
+  // Gravity as strong as it takes to break the pane, were it felt.
+  for (const bool leans : {false, true}) {
+    ProbeBody stands = ball(5, Vec3::Zero());
+    stands.leans = leans;
+    BreakProbe probe({pane(0.1), stands, pane(0.1)},
+                     {contact(1, 0, 0.05), contact(1, 2, leans ? 1 : 0)}, kStep_s, kStill_m_s,
+                     Vec3(0, -1000, 0));
+    EXPECT_TRUE(probe.next().empty());
   }
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/disjoint_sets.h"
+
 namespace sunder {
 namespace {
 
@@ -21,13 +23,16 @@ constexpr double kGive = 1e-5;
 }  // namespace
 
 BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts,
-                       double dt_s, double still_m_s)
+                       double dt_s, double still_m_s, const Vec3& gravity_W)
     : bodies_(std::move(bodies)),
       contacts_(std::move(contacts)),
       dt_s_(dt_s),
       still_m_s_(still_m_s),
+      gravity_W_(gravity_W),
       velocities_(bodies_.size()),
       way_(bodies_.size()),
+      gravities_W_(bodies_.size(), Vec3::Zero()),
+      pushed_(bodies_.size(), 0),
       undecided_(bodies_.size(), 0) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     velocities_[i] = {bodies_[i].velocity_W, bodies_[i].angular_velocity_W};
@@ -60,40 +65,75 @@ ContactRow BreakProbe::make_row(const ProbeContact& c) const {
   return row;
 }
 
+/// What hangs together by touch, and neither stands nor leans on anything, falls.
+void BreakProbe::find_falling() {
+  DisjointSets groups(bodies_.size());
+  std::vector<std::uint8_t> stands(bodies_.size(), 0);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) stands[b] = bodies_[b].leans;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactRow& row = rows_[i];
+    if (row.inverse_mass <= 0 || !touches(i) || row.speed(velocities_) < -still_m_s_) continue;
+    if (row.moves_a && row.moves_b) {
+      groups.join(row.a, row.b);
+    } else {
+      stands[row.moves_a ? row.a : row.b] = 1;
+    }
+  }
+  const std::vector<std::uint32_t> roots = groups.roots();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) stands[roots[b]] |= stands[b];
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const bool falls = bodies_[b].inverse_mass > 0 && stands[roots[b]] == 0;
+    gravities_W_[b] = falls ? gravity_W_ : Vec3::Zero();
+  }
+}
+
 /// How long until contacts close that may matter; infinite if none does within the step.
 double BreakProbe::wait_s() const {
   double wait = std::numeric_limits<double>::infinity(), hardest = 0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const double inverse = rows_[i].inverse_mass;
-    if (inverse <= 0) continue;
-    const double speed = rows_[i].speed(velocities_), gap = gap_m(i);
-    if (speed < still_m_s_ || speed * speed < 2 * kLeastEvent * least_J_ * inverse) continue;
-    if (gap <= still_m_s_ * dt_s_) {
+    const ContactRow& row = rows_[i];
+    if (row.inverse_mass <= 0) continue;
+    const double speed = row.speed(velocities_), gap = gap_m(i);
+    const double faster = row.normal.dot(gravities_W_[row.a] - gravities_W_[row.b]);
+    const double square = speed * speed + 2 * faster * std::max(0.0, gap);  // when it closes
+    if (square < still_m_s_ * still_m_s_ || square < 2 * kLeastEvent * least_J_ * row.inverse_mass)
+      continue;
+    const double closing = speed + std::sqrt(square);  // twice the mean
+    if (closing <= 0) continue;
+    if (touches(i)) {
       if (events_ == 1) return 0;
     } else if (events_ <= kSingleEvents) {
-      wait = std::min(wait, gap / speed);
-    } else if (speed * speed > hardest * inverse && time_s_ + gap / speed <= dt_s_) {
-      hardest = speed * speed / inverse;
-      wait = gap / speed;
+      wait = std::min(wait, 2 * gap / closing);
+    } else if (square > hardest * row.inverse_mass && time_s_ + 2 * gap / closing <= dt_s_) {
+      hardest = square / row.inverse_mass;
+      wait = 2 * gap / closing;
     }
   }
   return wait;
 }
 
+/// All goes on by that time.
+void BreakProbe::fall(double time_s) {
+  time_s_ += time_s;
+  for (std::size_t i = 0; i < way_.size(); ++i) {
+    const Vec3 gain = time_s * gravities_W_[i];
+    way_[i].linear += time_s * (velocities_[i].linear + 0.5 * gain);
+    way_[i].angular += time_s * velocities_[i].angular;
+    velocities_[i].linear += gain;
+  }
+}
+
 /// Moves on to when the next contact closes; false if none does within the step.
 bool BreakProbe::advance_to_event() {
   if (++events_ > kMostEvents) return false;
+  find_falling();
   const double wait = wait_s();
   if (time_s_ + wait > dt_s_) return false;
-  time_s_ += wait;
-  for (std::size_t i = 0; i < way_.size(); ++i) {
-    way_[i].linear += wait * velocities_[i].linear;
-    way_[i].angular += wait * velocities_[i].angular;
-  }
+  fall(wait);
   closed_.clear();
   fastest_m_s_ = 0;
   for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
-    if (rows_[i].inverse_mass <= 0 || gap_m(i) > still_m_s_ * dt_s_) continue;
+    if (rows_[i].inverse_mass <= 0 || !touches(i)) continue;
     closed_.push_back(i);
     fastest_m_s_ = std::max(fastest_m_s_, rows_[i].speed(velocities_));
   }
@@ -185,8 +225,16 @@ std::vector<ProbeLoad> BreakProbe::next() {
       loads_ = loads(solve(undecided_));
       if (!loads_.empty()) return loads_;
     }
+    note_pushed(*with_);
     velocities_ = with_->velocities;
     with_.reset();
+  }
+}
+
+void BreakProbe::note_pushed(const ClusterMotion& motion) {
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    const ContactRow& row = rows_[closed_[i]];
+    if (motion.impulses_Ns[i] != 0) pushed_[row.a] = pushed_[row.b] = 1;
   }
 }
 
@@ -242,17 +290,19 @@ std::vector<std::uint32_t> BreakProbe::release(std::span<const ProbeBreak> wante
 }
 
 void BreakProbe::finish(const ClusterMotion& without, double share) {
+  note_pushed(*with_);
+  note_pushed(without);
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const BodyVelocity &with = with_->velocities[b], &v0 = without.velocities[b];
     ProbeMotion& motion = motions_[b];
-    motion.velocity_W = with.linear + share * (v0.linear - with.linear);
-    motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular);
-    motion.changed =
-        bodies_[b].inverse_mass > 0 && (motion.velocity_W != bodies_[b].velocity_W ||
-                                        motion.angular_velocity_W != bodies_[b].angular_velocity_W);
+    motion.changed = bodies_[b].inverse_mass > 0 && pushed_[b] != 0;
     if (!motion.changed) continue;
-    motion.shift_W = way_[b].linear - time_s_ * motion.velocity_W;
+    const BodyVelocity &with = with_->velocities[b], &v0 = without.velocities[b];
+    const Vec3 gain = time_s_ * gravities_W_[b];
+    const Vec3 velocity_W = with.linear + share * (v0.linear - with.linear);
+    motion.velocity_W = velocity_W - gain;
+    motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular);
+    motion.shift_W = way_[b].linear - time_s_ * (velocity_W - 0.5 * gain);
     motion.rotation_W = way_[b].angular - time_s_ * motion.angular_velocity_W;
   }
 }
@@ -261,8 +311,8 @@ void BreakProbe::pause() {
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ProbeBody& body = bodies_[b];
-    motions_[b] = {body.velocity_W, body.angular_velocity_W, way_[b].linear, way_[b].angular,
-                   body.inverse_mass > 0};
+    motions_[b] = {body.velocity_W + time_s_ * gravities_W_[b], body.angular_velocity_W,
+                   way_[b].linear, way_[b].angular, body.inverse_mass > 0};
   }
 }
 
