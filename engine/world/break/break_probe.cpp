@@ -31,7 +31,8 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
       gravity_W_(gravity_W),
       velocities_(bodies_.size()),
       way_(bodies_.size()),
-      gravities_W_(bodies_.size(), Vec3::Zero()),
+      falls_(bodies_.size(), 0),
+      fallen_s_(bodies_.size(), 0),
       pushed_(bodies_.size(), 0),
       undecided_(bodies_.size(), 0) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -82,8 +83,7 @@ void BreakProbe::find_falling() {
   const std::vector<std::uint32_t> roots = groups.roots();
   for (std::size_t b = 0; b < bodies_.size(); ++b) stands[roots[b]] |= stands[b];
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const bool falls = bodies_[b].inverse_mass > 0 && stands[roots[b]] == 0;
-    gravities_W_[b] = falls ? gravity_W_ : Vec3::Zero();
+    falls_[b] = bodies_[b].inverse_mass > 0 && stands[roots[b]] == 0;
   }
 }
 
@@ -94,7 +94,7 @@ double BreakProbe::wait_s() const {
     const ContactRow& row = rows_[i];
     if (row.inverse_mass <= 0) continue;
     const double speed = row.speed(velocities_), gap = gap_m(i);
-    const double faster = row.normal.dot(gravities_W_[row.a] - gravities_W_[row.b]);
+    const double faster = (falls_[row.a] - falls_[row.b]) * row.normal.dot(gravity_W_);
     const double square = speed * speed + 2 * faster * std::max(0.0, gap);  // when it closes
     if (square < still_m_s_ * still_m_s_ || square < 2 * kLeastEvent * least_J_ * row.inverse_mass)
       continue;
@@ -116,10 +116,12 @@ double BreakProbe::wait_s() const {
 void BreakProbe::fall(double time_s) {
   time_s_ += time_s;
   for (std::size_t i = 0; i < way_.size(); ++i) {
-    const Vec3 gain = time_s * gravities_W_[i];
-    way_[i].linear += time_s * (velocities_[i].linear + 0.5 * gain);
+    way_[i].linear += time_s * velocities_[i].linear;
     way_[i].angular += time_s * velocities_[i].angular;
-    velocities_[i].linear += gain;
+    if (!falls_[i]) continue;
+    fallen_s_[i] += time_s;
+    way_[i].linear += 0.5 * time_s * time_s * gravity_W_;
+    velocities_[i].linear += time_s * gravity_W_;
   }
 }
 
@@ -298,11 +300,10 @@ void BreakProbe::finish(const ClusterMotion& without, double share) {
     motion.changed = bodies_[b].inverse_mass > 0 && pushed_[b] != 0;
     if (!motion.changed) continue;
     const BodyVelocity &with = with_->velocities[b], &v0 = without.velocities[b];
-    const Vec3 gain = time_s_ * gravities_W_[b];
-    const Vec3 velocity_W = with.linear + share * (v0.linear - with.linear);
-    motion.velocity_W = velocity_W - gain;
+    const Vec3 gain = fallen_s_[b] * gravity_W_;
+    motion.velocity_W = with.linear + share * (v0.linear - with.linear) - gain;
     motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular);
-    motion.shift_W = way_[b].linear - time_s_ * (velocity_W - 0.5 * gain);
+    motion.shift_W = way_[b].linear - time_s_ * motion.velocity_W - 0.5 * fallen_s_[b] * gain;
     motion.rotation_W = way_[b].angular - time_s_ * motion.angular_velocity_W;
   }
 }
@@ -311,7 +312,7 @@ void BreakProbe::pause() {
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ProbeBody& body = bodies_[b];
-    motions_[b] = {body.velocity_W + time_s_ * gravities_W_[b], body.angular_velocity_W,
+    motions_[b] = {body.velocity_W + fallen_s_[b] * gravity_W_, body.angular_velocity_W,
                    way_[b].linear, way_[b].angular, body.inverse_mass > 0};
   }
 }

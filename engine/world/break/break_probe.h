@@ -126,7 +126,8 @@ class BreakProbe {
   int events_ = 0;
   std::vector<BodyVelocity> velocities_;  ///< Now.
   std::vector<BodyVelocity> way_;        ///< Displacement and rotation since the start of the step.
-  std::vector<Vec3> gravities_W_;        ///< Per body: none for what rests. Since the last event.
+  std::vector<std::uint8_t> falls_;      ///< Per body, since the last event.
+  std::vector<double> fallen_s_;         ///< Per body: for how long it fell.
   std::vector<std::uint8_t> pushed_;     ///< Per body, by an event.
   std::vector<std::uint32_t> closed_;    ///< Contacts, ascending.
   std::vector<ContactRow> rows_;         ///< Per contact.

@@ -9,13 +9,6 @@ constexpr double kStill = 1e-6;  // rad in a step: its inertia hardly turns
 
 double energy_J(const BodyRow& row) { return 0.5 * double{angular(row.velocity).squaredNorm()}; }
 
-/// Of its own energy, in the step.
-double lost_J(const BodyRow& row, double mass_kg) {
-  const auto square = [](const Vec3f& v) { return double{v.squaredNorm()}; };
-  return 0.5 * (mass_kg * (square(linear(row.start)) - square(linear(row.velocity))) +
-                square(angular(row.start)) - square(angular(row.velocity)));
-}
-
 Vec3 turned(const BodyRow& row, const Mat3f& root_W) {
   return (root_W * angular(row.position)).cast<double>();
 }
@@ -66,12 +59,7 @@ double Spins::end(const StepContext& step, BodySlot body, const BodyRow& row, co
                                      : rotation_by(angle_W) * R_WB;
   spin.momentum_W += R_WB * (inertia_B * (R_WB.conjugate() * added_W));
   spin.turning = turning_with(inertia_B, R_WB_now, spin.momentum_W);
-  spin.made_J = 0.5 * spin.turning.w_W.dot(spin.momentum_W) - energy_J(row);
-  if (spin.made_J > lost_J(row, bodies.mass_kg[body])) {
-    keep_energy(body, row, root_W, bodies);
-    spin.made_J = 0;
-  }
-  return spin.made_J;
+  return spin.made_J = 0.5 * spin.turning.w_W.dot(spin.momentum_W) - energy_J(row);
 }
 
 void Spins::keep_energy(BodySlot body, const BodyRow& row, const Mat3f& root_W,

@@ -313,7 +313,7 @@ void ContactSolver::Stages::begin(BodySlot body) {
 
 void ContactSolver::Stages::turn(BodySlot body) {
   const double made_J = solver_.spins_.end(step_, body, row(body), solver_.root_W_[body], bodies_);
-  if (guarded_) solver_.energy_guard_.ask(body, made_J);
+  if (guarded_) solver_.energy_guard_.ask(body, made_J, bodies_.inverse_mass[body], row(body));
 }
 
 void ContactSolver::Stages::finish(BodySlot body) {
