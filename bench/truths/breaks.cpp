@@ -184,7 +184,7 @@ Truths break_truths() {
       truth(16, "block broken in flight: p", "", "constant but for gravity", 1e-6,
             of_flight(&Flight::momentum), {3.5e-6, 1.9e-6, 2.1e-6, 2.2e-6}),
       truth(16, "block broken in flight: L", "", "constant", 1e-5, of_flight(&Flight::spin),
-            {0.14, 0.013, 0.0057, 0.0013}),
+            {0.087, 0.013, 0.0014, 0.00019}),
       truth(26, "block broken in flight: energy beyond what breaks leave", "",
             "KE after ≤ before − toughness × area", 1e-6, of_flight(&Flight::gain),
             {1e-7, 1e-7, 1e-7, 1e-7}),

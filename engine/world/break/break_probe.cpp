@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
+#include "engine/base/rotation.h"
 
 namespace sunder {
 namespace {
@@ -41,7 +42,8 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   for (const ProbeBody& body : bodies_) {
     if (body.breakable) least_J_ = std::min(least_J_, body.least_J);
   }
-  for (const ProbeContact& c : contacts_) rows_.push_back(make_row(c));
+  for (const ProbeContact& c : contacts_) rows_.push_back(make_row(c, c.arm_a_W, c.arm_b_W));
+  first_rows_ = rows_;
   double least = std::numeric_limits<double>::infinity();
   for (const ProbeBody& body : bodies_) {
     if (body.inverse_mass > 0) least = std::min(least, body.inverse_mass);
@@ -49,14 +51,15 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   give_ = kGive * least;
 }
 
-ContactRow BreakProbe::make_row(const ProbeContact& c) const {
+ContactRow BreakProbe::make_row(const ProbeContact& c, const Vec3& arm_a_W,
+                                const Vec3& arm_b_W) const {
   const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
   ContactRow row;
   row.a = c.a, row.b = c.b;
   row.moves_a = a.inverse_mass > 0, row.moves_b = b.inverse_mass > 0;
   row.normal = c.normal_W;
-  row.angular_a = c.arm_a_W.cross(c.normal_W);
-  row.angular_b = c.arm_b_W.cross(c.normal_W);
+  row.angular_a = arm_a_W.cross(c.normal_W);
+  row.angular_b = arm_b_W.cross(c.normal_W);
   row.push_a = a.inverse_mass * c.normal_W;
   row.push_b = b.inverse_mass * c.normal_W;
   row.spin_a = a.inverse_inertia_W * row.angular_a;
@@ -64,6 +67,20 @@ ContactRow BreakProbe::make_row(const ProbeContact& c) const {
   row.inverse_mass = a.inverse_mass + b.inverse_mass + row.angular_a.dot(row.spin_a) +
                      row.angular_b.dot(row.spin_b);
   return row;
+}
+
+/// Where both are by now: in one point, midway between those of the bodies, or the blow would make
+/// angular momentum.
+ContactRow BreakProbe::meet(const ProbeContact& c) const {
+  const auto center = [&](std::uint32_t b) -> Vec3 {
+    return bodies_[b].position_W + way_[b].linear;
+  };
+  const auto arm = [&](std::uint32_t b, const Vec3& arm_W) -> Vec3 {
+    return rotation_by(way_[b].angular) * arm_W;
+  };
+  const Vec3 a_W = center(c.a), b_W = center(c.b);
+  const Vec3 point_W = 0.5 * (a_W + arm(c.a, c.arm_a_W) + b_W + arm(c.b, c.arm_b_W));
+  return make_row(c, point_W - a_W, point_W - b_W);
 }
 
 /// What hangs together by touch, and neither stands nor leans on anything, falls.
@@ -137,6 +154,7 @@ bool BreakProbe::advance_to_event() {
   for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
     if (rows_[i].inverse_mass <= 0 || !touches(i)) continue;
     closed_.push_back(i);
+    rows_[i] = meet(contacts_[i]);
     fastest_m_s_ = std::max(fastest_m_s_, rows_[i].speed(velocities_));
   }
   return true;
@@ -305,6 +323,11 @@ void BreakProbe::finish(const ClusterMotion& without, double share) {
     motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular);
     motion.shift_W = way_[b].linear - time_s_ * motion.velocity_W - 0.5 * fallen_s_[b] * gain;
     motion.rotation_W = way_[b].angular - time_s_ * motion.angular_velocity_W;
+    // Turned back by that, it has the same angular momentum.
+    const Mat3 turn(rotation_by(motion.rotation_W));
+    const Mat3& inverse_W = bodies_[b].inverse_inertia_W;
+    const Vec3 spin_W = inverse_W.inverse() * motion.angular_velocity_W;
+    motion.angular_velocity_W = turn * (inverse_W * (turn.transpose() * spin_W));
   }
 }
 

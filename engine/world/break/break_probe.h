@@ -22,6 +22,7 @@ struct ProbeBody {
   std::uint32_t key = 0;
   double inverse_mass = 0;                ///< 0: static, or fixed to the world.
   Mat3 inverse_inertia_W = Mat3::Zero();  ///< About the centre of mass.
+  Vec3 position_W = Vec3::Zero();         ///< Of that.
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
   bool leans = false;  ///< On what is outside of the cluster.
@@ -97,9 +98,10 @@ class BreakProbe {
     double share(double energy_J) const;
   };
 
-  ContactRow make_row(const ProbeContact& c) const;
+  ContactRow make_row(const ProbeContact& c, const Vec3& arm_a_W, const Vec3& arm_b_W) const;
+  ContactRow meet(const ProbeContact& c) const;
   double gap_m(std::size_t contact) const {
-    return contacts_[contact].separation_m - rows_[contact].speed(way_);
+    return contacts_[contact].separation_m - first_rows_[contact].speed(way_);
   }
   bool touches(std::size_t contact) const { return gap_m(contact) <= still_m_s_ * dt_s_; }
   void find_falling();
@@ -130,7 +132,8 @@ class BreakProbe {
   std::vector<double> fallen_s_;         ///< Per body: for how long it fell.
   std::vector<std::uint8_t> pushed_;     ///< Per body, by an event.
   std::vector<std::uint32_t> closed_;    ///< Contacts, ascending.
-  std::vector<ContactRow> rows_;         ///< Per contact.
+  std::vector<ContactRow> first_rows_;   ///< Per contact, as the step began,
+  std::vector<ContactRow> rows_;         ///< and, if it has closed, as it last did.
   double fastest_m_s_ = 0;               ///< Of the contacts that closed at this event.
   std::vector<std::uint8_t> undecided_;  ///< Per body, of this event.
   std::vector<ProbeLoad> loads_;         ///< Of this event.

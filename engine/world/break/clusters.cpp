@@ -223,8 +223,9 @@ class Reach {
     body.least_J = actor->least_J;
     body.least_Ns = actor->least_Ns;
     body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
-    if (actor->is_static || std::ranges::binary_search(fixed_, actor->key)) return body;
     const BodyState state = states_[actor->body];
+    body.position_W = state.X_WB.position;
+    if (actor->is_static || std::ranges::binary_search(fixed_, actor->key)) return body;
     const Mat3 rotation = state.X_WB.rotation.toRotationMatrix();
     body.inverse_mass = 1 / actor->weight.mass_kg;
     body.inverse_inertia_W = rotation * actor->weight.inertia_R.inverse() * rotation.transpose();
