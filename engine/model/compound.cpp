@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "engine/base/check.h"
+#include "engine/geometry/inertia.h"
 #include "engine/geometry/polygon_mesh.h"
 
 namespace sunder {
@@ -65,6 +66,7 @@ Weight weigh(const Compound& compound, std::span<const Material> materials) {
     weight.inertia_R += density * convex.solid.inertia() +
                         mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
   });
+  weight.inertia_R = spinnable(weight.inertia_R);
   return weight;
 }
 

@@ -87,7 +87,7 @@ struct Part {
 struct Weight {
   double mass_kg = 0;
   Vec3 com_R = Vec3::Zero();
-  Mat3 inertia_R = Mat3::Zero();  ///< kg·m²
+  Mat3 inertia_R = Mat3::Zero();  ///< kg·m²; spinnable().
 };
 /// Sums over the convexes, less what ghosts say is counted twice; `materials` by MaterialIndex.
 Weight weigh(const Compound& compound, std::span<const Material> materials);

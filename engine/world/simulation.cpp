@@ -110,7 +110,10 @@ void Simulation::advance() {
   timed(Stage::kLoad, [&] { parts.loads.run(world, breaker); });
   timed(Stage::kParticles, [&] {
     if (!parts.particles.any() || !world.clock.ends_frame()) return;
-    parts.particles.run(world, std::exchange(*world.exposed, {}));
+    // What a blast laid bare crumbles, and flies, by the speed with which that drives it apart.
+    const bool waits = parts.act.blasts();
+    parts.particles.run(world, waits ? Exposed{} : std::exchange(*world.exposed, {}));
+    if (waits) world.exposed->wait(world.clock.frame_s());
   });
   ++world.clock.step;
 }

@@ -2,7 +2,11 @@
 // one after the other.
 #include "engine/world/break/break_probe.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
+
+#include "engine/base/rotation.h"
 
 namespace sunder {
 namespace {
@@ -155,6 +159,70 @@ TEST(BreakProbe, TakesTheEnergyAtTheTimeOfTheHitAndLeavesTheBallThere) {
     EXPECT_NEAR(0.5 * m * motion.velocity_W.squaredNorm(), 0.5 * m * v * v - energy_J, 1e-9);
     const double hit_s = distance_m / v;
     EXPECT_NEAR(motion.shift_W.y() + hit_s * motion.velocity_W.y(), -distance_m, 1e-9);
+  }
+}
+
+TEST(BreakProbe, MeetsAtTheSpeedThatGravityHasGivenByThen) {
+  const double m = 5, v = 1, gap_m = 0.01, energy_J = 2;
+  const Vec3 gravity_W(0, -10, 0);
+  const double work_J = 0.5 * m * v * v + m * 10 * gap_m;
+  BreakProbe probe({pane(), ball(m, Vec3(0, -v, 0))}, {contact(1, 0, gap_m)}, kStep_s, kStill_m_s,
+                   gravity_W);
+  const auto loads = probe.next();
+  ASSERT_EQ(loads.size(), 1u);
+  EXPECT_NEAR(loads[0].work_J, work_J, 1e-4 * work_J);
+  const std::vector<ProbeBreak> wanted = {{0, energy_J}};
+  ASSERT_EQ(probe.release(wanted).size(), 1u);
+  // From the start of the step on gravity is the solver's.
+  const ProbeMotion& motion = probe.motions()[1];
+  const double meet_s = 2 * gap_m / (v + std::sqrt(v * v + 2 * 10 * gap_m));
+  const Vec3 then_W = motion.velocity_W + meet_s * gravity_W;
+  EXPECT_NEAR(0.5 * m * then_W.squaredNorm(), work_J - energy_J, 1e-9);
+  const Vec3 way_W = motion.shift_W + meet_s * (motion.velocity_W + 0.5 * meet_s * gravity_W);
+  EXPECT_NEAR(way_W.y(), -gap_m, 1e-12);
+}
+
+TEST(BreakProbe, KeepsAngularMomentumOfAGlancingBlowBetweenSpinningBodies) {
+  const double gap_m = 0.2;
+  ProbeBody stone = ball(2, Vec3(0, -20, 0)), plank = ball(5, Vec3(10, 0, 3));
+  stone.position_W = Vec3(1, 0.5 + gap_m, 0.3);
+  plank.inverse_inertia_W = Vec3(10, 2, 1).asDiagonal();
+  plank.angular_velocity_W = Vec3(3, 5, 20);
+  plank.breakable = true;
+  ProbeContact blow = contact(0, 1, gap_m);
+  blow.arm_a_W = Vec3(0, -0.4, 0);
+  blow.arm_b_W = Vec3(1, 0.1, 0.3);
+  const auto spin = [](const ProbeBody& body, const Vec3& shift_W, const Vec3& rotation_W,
+                       const Vec3& velocity_W, const Vec3& w_W) -> Vec3 {
+    const Mat3 turn(rotation_by(rotation_W));
+    const Mat3 inertia_W = turn * body.inverse_inertia_W.inverse() * turn.transpose();
+    return (body.position_W + shift_W).cross(velocity_W) / body.inverse_mass + inertia_W * w_W;
+  };
+  BreakProbe probe({stone, plank}, {blow}, kStep_s, kStill_m_s);
+  ASSERT_EQ(probe.next().size(), 1u);
+  const std::vector<ProbeBreak> wanted = {{0, 5}};
+  ASSERT_EQ(probe.release(wanted).size(), 1u);
+  Vec3 before = Vec3::Zero(), after = Vec3::Zero();
+  for (std::size_t b = 0; b < 2; ++b) {
+    const ProbeBody& body = probe.bodies()[b];
+    const ProbeMotion& motion = probe.motions()[b];
+    ASSERT_TRUE(motion.changed);
+    before += spin(body, Vec3::Zero(), Vec3::Zero(), body.velocity_W, body.angular_velocity_W);
+    after +=
+        spin(body, motion.shift_W, motion.rotation_W, motion.velocity_W, motion.angular_velocity_W);
+  }
+  EXPECT_LT((after - before).norm(), 1e-9 * before.norm());
+}
+
+TEST(BreakProbe, LetsNothingFallThatStandsOrLeans) {
+  // Gravity as strong as it takes to break the pane, were it felt.
+  for (const bool leans : {false, true}) {
+    ProbeBody stands = ball(5, Vec3::Zero());
+    stands.leans = leans;
+    BreakProbe probe({pane(0.1), stands, pane(0.1)},
+                     {contact(1, 0, 0.05), contact(1, 2, leans ? 1 : 0)}, kStep_s, kStill_m_s,
+                     Vec3(0, -1000, 0));
+    EXPECT_TRUE(probe.next().empty());
   }
 }
 

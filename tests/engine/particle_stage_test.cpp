@@ -211,6 +211,58 @@ TEST(ParticleStage, PiecesTooSmallForBodiesBecomeChipsAndTheirMassStays) {
   EXPECT_NEAR(frame->report.mass_kg, bodies.simulation->next()->report.mass_kg, 1e-9);
 }
 
+/// Two unit boxes of stone that fly along z, parted by a blast beside them.
+struct BlastRun {
+  explicit BlastRun(double smallest_piece_m3) {
+    Material stone;
+    stone.density_kg_m3 = 1000;
+    stone.pattern.kind = PatternSpec::Kind::kVoronoi;
+    stone.smallest_piece_m3 = smallest_piece_m3;
+    stone.crumbling.particles_per_m2 = 10;
+    Scene scene;
+    scene.materials = {stone};
+    scene.gravity_W = Vec3::Zero();
+    scene.accuracy = {1.0 / 120, 1};
+    Solid solid;
+    for (int i = 0; i < 2; ++i) {
+      const Vec3 min(2 + i, -0.5, -0.5);
+      solid.compound.convexes.push_back(
+          make_convex(make_box(min, min + Vec3::Ones()), MaterialIndex(0)));
+      solid.compound.anchored.push_back(0);
+    }
+    solid.velocity_W = Vec3(0, 0, 1);
+    scene.solids = {solid};
+    scene.blasts = {{0, Vec3::Zero(), 4, 12000}};
+    auto owned = std::make_unique<RecordingParticles>();
+    particles = owned.get();
+    simulation = std::make_unique<Simulation>(
+        std::move(scene),
+        std::make_unique<ScriptedPhysics>([](const auto&, int) { return std::vector<Approach>{}; }),
+        std::make_unique<ScriptedBreaker>(1.0), std::move(owned));
+    for (int i = 0; i < 6; ++i) simulation->next();
+  }
+  RecordingParticles* particles;
+  std::unique_ptr<Simulation> simulation;
+};
+
+TEST(ParticleStage, WhatABlastLaysBareFliesAsItPushesThePieces) {
+  BlastRun run(0);
+  ASSERT_EQ(run.particles->faces.size(), 2u);
+  for (const RecordingParticles::Face& face : run.particles->faces) {
+    EXPECT_GT(face.emission.parting_m_s, 0.5);
+    EXPECT_GT(face.emission.motion(face.corners_W[0]).x(), 0.5);
+  }
+}
+
+TEST(ParticleStage, ABlastPushesChipsThatItMakes) {
+  BlastRun run(1.5);
+  ASSERT_EQ(run.particles->chips.size(), 2u);
+  const Chip& chip = run.particles->chips[0];
+  EXPECT_GT(chip.velocity_W.x(), 0.5);
+  EXPECT_NEAR(chip.velocity_W.z(), 1, 0.1);
+  EXPECT_NEAR(chip.center_W.z(), 0.05, 1e-9) << "it has flown on meanwhile";
+}
+
 TEST(ParticleStage, WithNothingToMoveDoesNothing) {
   ParticleRun run(1.0 / 60, 0, 0);
   ASSERT_EQ(run.simulation->next()->breaks.size(), 1u) << "this material does not crumble";

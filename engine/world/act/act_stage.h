@@ -23,6 +23,9 @@ class ActStage {
   /// After breaks: what blasts and drives push.
   void push(World& world);
 
+  /// Whether a blast still breaks, and has yet to push what it broke.
+  bool blasts() const { return !bursts_.empty(); }
+
   std::span<const Shot> shots_to_come(const Scene& scene) const;
 
  private:

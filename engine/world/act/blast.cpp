@@ -128,6 +128,16 @@ void push_away(World& world, const Blast& blast, const Actor& actor) {
   world.physics->apply_impulse(actor.body, push.impulse_W, push.point_W());
 }
 
+/// From where it is by now.
+void push_away(const World& world, const Blast& blast, Chip& chip) {
+  const double elapsed_s = world.clock.elapsed_s();
+  const Vec3 impulse_Ns = impulse_Ns_m2(blast, chip.center_W + elapsed_s * chip.velocity_W);
+  const double density_kg_m3 = world.material(chip.material).density_kg_m3;
+  const Vec3 gain_W = 0.75 / (chip.radius_m * density_kg_m3) * impulse_Ns;  // of a ball's section
+  chip.velocity_W += gain_W;
+  chip.center_W -= elapsed_s * gain_W;
+}
+
 }  // namespace
 
 Burst light(const Blast& blast, const Clock& clock) {
@@ -147,6 +157,9 @@ std::vector<Impact> blows_of(const World& world, Burst& burst) {
 }
 
 void push_by(World& world, const Blast& blast) {
+  if (world.exposed) {
+    for (Chip& chip : world.exposed->chips) push_away(world, blast, chip);
+  }
   for (const Actor& actor : world.actors) {
     if (!actor.is_static) push_away(world, blast, actor);
   }

@@ -24,7 +24,7 @@ struct Burst {
 Burst light(const Blast& blast, const Clock& clock);
 /// What it does to each actor where it presses hardest and has not been tried, which is noted.
 std::vector<Impact> blows_of(const World& world, Burst& burst);
-/// Pushes all that is loose.
+/// Pushes all that is loose, chips that have just come off with it.
 void push_by(World& world, const Blast& blast);
 
 }  // namespace sunder

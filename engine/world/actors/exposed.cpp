@@ -30,6 +30,11 @@ void for_polygons(const Convex& convex, std::uint32_t face, const Use& use) {
 
 }  // namespace
 
+void Exposed::wait(double time_s) {
+  for (Parent& parent : parents) parent.back_s -= time_s;
+  for (Chip& chip : chips) chip.center_W += time_s * chip.velocity_W;
+}
+
 void note_exposed(World& world, const Structure& structure, const BreakEdit& edit,
                   const Motion& before, std::span<const std::uint32_t> piece_keys) {
   if (!world.exposed || edit.loose.exposed.empty()) return;

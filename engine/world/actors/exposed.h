@@ -31,6 +31,9 @@ struct Exposed {
   std::vector<Face> faces;
   std::vector<Vec3> corners_R;
   std::vector<Chip> chips;  ///< Where they were when this frame began.
+
+  /// It goes on as it moves for that long, unseen.
+  void wait(double time_s);
 };
 
 /// Notes what a break laid bare, once it is carried out: `edit` was applied to `structure`, and its

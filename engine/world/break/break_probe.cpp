@@ -5,6 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/disjoint_sets.h"
+#include "engine/base/rotation.h"
+
 namespace sunder {
 namespace {
 
@@ -21,13 +24,17 @@ constexpr double kGive = 1e-5;
 }  // namespace
 
 BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts,
-                       double dt_s, double still_m_s)
+                       double dt_s, double still_m_s, const Vec3& gravity_W)
     : bodies_(std::move(bodies)),
       contacts_(std::move(contacts)),
       dt_s_(dt_s),
       still_m_s_(still_m_s),
+      gravity_W_(gravity_W),
       velocities_(bodies_.size()),
       way_(bodies_.size()),
+      falls_(bodies_.size(), 0),
+      fallen_s_(bodies_.size(), 0),
+      pushed_(bodies_.size(), 0),
       undecided_(bodies_.size(), 0) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     velocities_[i] = {bodies_[i].velocity_W, bodies_[i].angular_velocity_W};
@@ -35,7 +42,8 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   for (const ProbeBody& body : bodies_) {
     if (body.breakable) least_J_ = std::min(least_J_, body.least_J);
   }
-  for (const ProbeContact& c : contacts_) rows_.push_back(make_row(c));
+  for (const ProbeContact& c : contacts_) rows_.push_back(make_row(c, c.arm_a_W, c.arm_b_W));
+  first_rows_ = rows_;
   double least = std::numeric_limits<double>::infinity();
   for (const ProbeBody& body : bodies_) {
     if (body.inverse_mass > 0) least = std::min(least, body.inverse_mass);
@@ -43,14 +51,15 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   give_ = kGive * least;
 }
 
-ContactRow BreakProbe::make_row(const ProbeContact& c) const {
+ContactRow BreakProbe::make_row(const ProbeContact& c, const Vec3& arm_a_W,
+                                const Vec3& arm_b_W) const {
   const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
   ContactRow row;
   row.a = c.a, row.b = c.b;
   row.moves_a = a.inverse_mass > 0, row.moves_b = b.inverse_mass > 0;
   row.normal = c.normal_W;
-  row.angular_a = c.arm_a_W.cross(c.normal_W);
-  row.angular_b = c.arm_b_W.cross(c.normal_W);
+  row.angular_a = arm_a_W.cross(c.normal_W);
+  row.angular_b = arm_b_W.cross(c.normal_W);
   row.push_a = a.inverse_mass * c.normal_W;
   row.push_b = b.inverse_mass * c.normal_W;
   row.spin_a = a.inverse_inertia_W * row.angular_a;
@@ -60,41 +69,92 @@ ContactRow BreakProbe::make_row(const ProbeContact& c) const {
   return row;
 }
 
+/// Where both are by now: in one point, midway between those of the bodies, or the blow would make
+/// angular momentum.
+ContactRow BreakProbe::meet(const ProbeContact& c) const {
+  const auto center = [&](std::uint32_t b) -> Vec3 {
+    return bodies_[b].position_W + way_[b].linear;
+  };
+  const auto arm = [&](std::uint32_t b, const Vec3& arm_W) -> Vec3 {
+    return rotation_by(way_[b].angular) * arm_W;
+  };
+  const Vec3 a_W = center(c.a), b_W = center(c.b);
+  const Vec3 point_W = 0.5 * (a_W + arm(c.a, c.arm_a_W) + b_W + arm(c.b, c.arm_b_W));
+  return make_row(c, point_W - a_W, point_W - b_W);
+}
+
+/// What hangs together by touch, and neither stands nor leans on anything, falls.
+void BreakProbe::find_falling() {
+  DisjointSets groups(bodies_.size());
+  std::vector<std::uint8_t> stands(bodies_.size(), 0);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) stands[b] = bodies_[b].leans;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactRow& row = rows_[i];
+    if (row.inverse_mass <= 0 || !touches(i) || row.speed(velocities_) < -still_m_s_) continue;
+    if (row.moves_a && row.moves_b) {
+      groups.join(row.a, row.b);
+    } else {
+      stands[row.moves_a ? row.a : row.b] = 1;
+    }
+  }
+  const std::vector<std::uint32_t> roots = groups.roots();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) stands[roots[b]] |= stands[b];
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    falls_[b] = bodies_[b].inverse_mass > 0 && stands[roots[b]] == 0;
+  }
+}
+
 /// How long until contacts close that may matter; infinite if none does within the step.
 double BreakProbe::wait_s() const {
   double wait = std::numeric_limits<double>::infinity(), hardest = 0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const double inverse = rows_[i].inverse_mass;
-    if (inverse <= 0) continue;
-    const double speed = rows_[i].speed(velocities_), gap = gap_m(i);
-    if (speed < still_m_s_ || speed * speed < 2 * kLeastEvent * least_J_ * inverse) continue;
-    if (gap <= still_m_s_ * dt_s_) {
+    const ContactRow& row = rows_[i];
+    if (row.inverse_mass <= 0) continue;
+    const double speed = row.speed(velocities_), gap = gap_m(i);
+    const double faster = (falls_[row.a] - falls_[row.b]) * row.normal.dot(gravity_W_);
+    const double square = speed * speed + 2 * faster * std::max(0.0, gap);  // when it closes
+    if (square < still_m_s_ * still_m_s_ || square < 2 * kLeastEvent * least_J_ * row.inverse_mass)
+      continue;
+    const double closing = speed + std::sqrt(square);  // twice the mean
+    if (closing <= 0) continue;
+    if (touches(i)) {
       if (events_ == 1) return 0;
     } else if (events_ <= kSingleEvents) {
-      wait = std::min(wait, gap / speed);
-    } else if (speed * speed > hardest * inverse && time_s_ + gap / speed <= dt_s_) {
-      hardest = speed * speed / inverse;
-      wait = gap / speed;
+      wait = std::min(wait, 2 * gap / closing);
+    } else if (square > hardest * row.inverse_mass && time_s_ + 2 * gap / closing <= dt_s_) {
+      hardest = square / row.inverse_mass;
+      wait = 2 * gap / closing;
     }
   }
   return wait;
 }
 
+/// All goes on by that time.
+void BreakProbe::fall(double time_s) {
+  time_s_ += time_s;
+  for (std::size_t i = 0; i < way_.size(); ++i) {
+    way_[i].linear += time_s * velocities_[i].linear;
+    way_[i].angular += time_s * velocities_[i].angular;
+    if (!falls_[i]) continue;
+    fallen_s_[i] += time_s;
+    way_[i].linear += 0.5 * time_s * time_s * gravity_W_;
+    velocities_[i].linear += time_s * gravity_W_;
+  }
+}
+
 /// Moves on to when the next contact closes; false if none does within the step.
 bool BreakProbe::advance_to_event() {
   if (++events_ > kMostEvents) return false;
+  find_falling();
   const double wait = wait_s();
   if (time_s_ + wait > dt_s_) return false;
-  time_s_ += wait;
-  for (std::size_t i = 0; i < way_.size(); ++i) {
-    way_[i].linear += wait * velocities_[i].linear;
-    way_[i].angular += wait * velocities_[i].angular;
-  }
+  fall(wait);
   closed_.clear();
   fastest_m_s_ = 0;
   for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
-    if (rows_[i].inverse_mass <= 0 || gap_m(i) > still_m_s_ * dt_s_) continue;
+    if (rows_[i].inverse_mass <= 0 || !touches(i)) continue;
     closed_.push_back(i);
+    rows_[i] = meet(contacts_[i]);
     fastest_m_s_ = std::max(fastest_m_s_, rows_[i].speed(velocities_));
   }
   return true;
@@ -185,8 +245,16 @@ std::vector<ProbeLoad> BreakProbe::next() {
       loads_ = loads(solve(undecided_));
       if (!loads_.empty()) return loads_;
     }
+    note_pushed(*with_);
     velocities_ = with_->velocities;
     with_.reset();
+  }
+}
+
+void BreakProbe::note_pushed(const ClusterMotion& motion) {
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    const ContactRow& row = rows_[closed_[i]];
+    if (motion.impulses_Ns[i] != 0) pushed_[row.a] = pushed_[row.b] = 1;
   }
 }
 
@@ -242,18 +310,24 @@ std::vector<std::uint32_t> BreakProbe::release(std::span<const ProbeBreak> wante
 }
 
 void BreakProbe::finish(const ClusterMotion& without, double share) {
+  note_pushed(*with_);
+  note_pushed(without);
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const BodyVelocity &with = with_->velocities[b], &v0 = without.velocities[b];
     ProbeMotion& motion = motions_[b];
-    motion.velocity_W = with.linear + share * (v0.linear - with.linear);
-    motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular);
-    motion.changed =
-        bodies_[b].inverse_mass > 0 && (motion.velocity_W != bodies_[b].velocity_W ||
-                                        motion.angular_velocity_W != bodies_[b].angular_velocity_W);
+    motion.changed = bodies_[b].inverse_mass > 0 && pushed_[b] != 0;
     if (!motion.changed) continue;
-    motion.shift_W = way_[b].linear - time_s_ * motion.velocity_W;
+    const BodyVelocity &with = with_->velocities[b], &v0 = without.velocities[b];
+    const Vec3 gain = fallen_s_[b] * gravity_W_;
+    motion.velocity_W = with.linear + share * (v0.linear - with.linear) - gain;
+    motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular);
+    motion.shift_W = way_[b].linear - time_s_ * motion.velocity_W - 0.5 * fallen_s_[b] * gain;
     motion.rotation_W = way_[b].angular - time_s_ * motion.angular_velocity_W;
+    // Turned back by that, it has the same angular momentum.
+    const Mat3 turn(rotation_by(motion.rotation_W));
+    const Mat3& inverse_W = bodies_[b].inverse_inertia_W;
+    const Vec3 spin_W = inverse_W.inverse() * motion.angular_velocity_W;
+    motion.angular_velocity_W = turn * (inverse_W * (turn.transpose() * spin_W));
   }
 }
 
@@ -261,8 +335,8 @@ void BreakProbe::pause() {
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ProbeBody& body = bodies_[b];
-    motions_[b] = {body.velocity_W, body.angular_velocity_W, way_[b].linear, way_[b].angular,
-                   body.inverse_mass > 0};
+    motions_[b] = {body.velocity_W + fallen_s_[b] * gravity_W_, body.angular_velocity_W,
+                   way_[b].linear, way_[b].angular, body.inverse_mass > 0};
   }
 }
 

@@ -22,8 +22,10 @@ struct ProbeBody {
   std::uint32_t key = 0;
   double inverse_mass = 0;                ///< 0: static, or fixed to the world.
   Mat3 inverse_inertia_W = Mat3::Zero();  ///< About the centre of mass.
+  Vec3 position_W = Vec3::Zero();         ///< Of that.
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
+  bool leans = false;  ///< On what is outside of the cluster.
   bool breakable = false;
   double least_J = 0;   ///< Work below this breaks it in no case,
   double least_Ns = 0;  ///< nor does an impulse below this.
@@ -48,8 +50,8 @@ struct ProbeLoad {
   double impulse_Ns = 0;
 };
 
-/// How a body moves if something breaks: as if it had since the start of the step, except for
-/// where it is at the time of the break.
+/// How a body moves if something breaks: at the start of the step, such that it is where it is, and
+/// as fast as it is, at the time of the break.
 struct ProbeMotion {
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
@@ -67,9 +69,9 @@ struct ProbeBreak {
 class BreakProbe {
  public:
   /// What closes more slowly than `still_m_s` rests; what is as near as that closes in the step
-  /// touches.
+  /// touches. Gravity moves what touches nothing that stands.
   BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts, double dt_s,
-             double still_m_s);
+             double still_m_s, const Vec3& gravity_W = Vec3::Zero());
 
   /// Runs on to what next loads breakable bodies with more than their least; empty at the end of
   /// the step. Ordered by body.
@@ -84,7 +86,7 @@ class BreakProbe {
   /// The event has to wait: all stays as it is but for where bodies are by then. Ends the probe.
   void pause();
 
-  /// After release() or pause(): per body.
+  /// After release() or pause(): per body; without meaning where it has not changed.
   const std::vector<ProbeMotion>& motions() const { return motions_; }
   const std::vector<ProbeBody>& bodies() const { return bodies_; }
   const std::vector<ProbeContact>& contacts() const { return contacts_; }
@@ -96,11 +98,15 @@ class BreakProbe {
     double share(double energy_J) const;
   };
 
-  ContactRow make_row(const ProbeContact& c) const;
+  ContactRow make_row(const ProbeContact& c, const Vec3& arm_a_W, const Vec3& arm_b_W) const;
+  ContactRow meet(const ProbeContact& c) const;
   double gap_m(std::size_t contact) const {
-    return contacts_[contact].separation_m - rows_[contact].speed(way_);
+    return contacts_[contact].separation_m - first_rows_[contact].speed(way_);
   }
+  bool touches(std::size_t contact) const { return gap_m(contact) <= still_m_s_ * dt_s_; }
+  void find_falling();
   double wait_s() const;
+  void fall(double time_s);
   bool advance_to_event();
   double closing_energy_J() const;
   bool may_load() const;
@@ -108,20 +114,26 @@ class BreakProbe {
   std::uint32_t charged(const ProbeContact& c) const;
   std::vector<ProbeLoad> loads(const ClusterMotion& without) const;
   Release released(const ClusterMotion& without) const;
+  void note_pushed(const ClusterMotion& motion);
   void finish(const ClusterMotion& without, double share);
 
   std::vector<ProbeBody> bodies_;
   std::vector<ProbeContact> contacts_;
   double dt_s_;
   double still_m_s_;
+  Vec3 gravity_W_;
   double least_J_ = std::numeric_limits<double>::infinity();  ///< Of the breakable bodies.
   double give_ = 0;                                           ///< Speed per impulse.
   double time_s_ = 0;
   int events_ = 0;
   std::vector<BodyVelocity> velocities_;  ///< Now.
   std::vector<BodyVelocity> way_;        ///< Displacement and rotation since the start of the step.
+  std::vector<std::uint8_t> falls_;      ///< Per body, since the last event.
+  std::vector<double> fallen_s_;         ///< Per body: for how long it fell.
+  std::vector<std::uint8_t> pushed_;     ///< Per body, by an event.
   std::vector<std::uint32_t> closed_;    ///< Contacts, ascending.
-  std::vector<ContactRow> rows_;         ///< Per contact.
+  std::vector<ContactRow> first_rows_;   ///< Per contact, as the step began,
+  std::vector<ContactRow> rows_;         ///< and, if it has closed, as it last did.
   double fastest_m_s_ = 0;               ///< Of the contacts that closed at this event.
   std::vector<std::uint8_t> undecided_;  ///< Per body, of this event.
   std::vector<ProbeLoad> loads_;         ///< Of this event.

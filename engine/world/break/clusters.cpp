@@ -1,6 +1,7 @@
 #include "engine/world/break/clusters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -27,10 +28,14 @@ bool may_break(const World& world, const Actor* actor, double energy_J) {
   return actor->is_static || actor->born_step != world.clock.step + 1;
 }
 
-/// What closes at a contact; things that joints fix to the world give no more than it does.
+/// What closes at a contact, by the time that it does, at most; things that joints fix to the world
+/// give no more than it does.
 double closing_energy_J(const World& world, const BodyStates& states, const Approach& approach,
                         const std::vector<std::uint32_t>& fixed) {
-  const double all_J = 0.5 * approach.effective_mass_kg * approach.speed_m_s * approach.speed_m_s;
+  const double falls_J_kg =
+      std::abs(world.scene.gravity_W.dot(approach.normal_W)) * std::max(0.0, approach.separation_m);
+  const double all_J =
+      approach.effective_mass_kg * (0.5 * approach.speed_m_s * approach.speed_m_s + falls_J_kg);
   if (fixed.empty()) return all_J;
   double left = 1;  // of what gives
   for (const std::uint32_t key : {approach.body_tag_a, approach.body_tag_b}) {
@@ -169,6 +174,8 @@ class Reach {
       members_.number(place, static_cast<std::uint32_t>(bodies.size()));
       bodies.push_back(describe(place));
     }
+    const double horizon_s = world_.clock.horizon_s();
+    const double still_m_s = FroudeScale(world_.scene.gravity_W).still_m_s(world_.clock.dt_s);
     std::vector<BodyId> moving;
     for (const std::uint32_t place : moving_) moving.push_back(members_.actor(place)->body);
     const std::vector<Touch> touches = world_.physics->touches(moving);
@@ -177,13 +184,17 @@ class Reach {
     for (const Touch& touch : touches) {
       const std::uint32_t a = members_.place(touch.body_tag_a),
                           b = members_.place(touch.body_tag_b);
-      if (!members_.holds(a) || !members_.holds(b)) continue;
+      if (!members_.holds(a) || !members_.holds(b)) {
+        ProbeBody& inside = bodies[members_.index(members_.holds(a) ? a : b)];
+        inside.leans |= touch.separation_m <= still_m_s * horizon_s;
+        continue;
+      }
       contacts.push_back({members_.index(a), members_.index(b), touch.shape_tag_a,
                           touch.shape_tag_b, touch.arm_a_W, touch.arm_b_W, touch.normal_W,
                           touch.separation_m});
     }
-    return BreakProbe(std::move(bodies), std::move(contacts), world_.clock.horizon_s(),
-                      FroudeScale(world_.scene.gravity_W).still_m_s(world_.clock.dt_s));
+    return BreakProbe(std::move(bodies), std::move(contacts), horizon_s, still_m_s,
+                      world_.scene.gravity_W);
   }
 
   bool could_break(double energy_J) const {
@@ -212,8 +223,9 @@ class Reach {
     body.least_J = actor->least_J;
     body.least_Ns = actor->least_Ns;
     body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
-    if (actor->is_static || std::ranges::binary_search(fixed_, actor->key)) return body;
     const BodyState state = states_[actor->body];
+    body.position_W = state.X_WB.position;
+    if (actor->is_static || std::ranges::binary_search(fixed_, actor->key)) return body;
     const Mat3 rotation = state.X_WB.rotation.toRotationMatrix();
     body.inverse_mass = 1 / actor->weight.mass_kg;
     body.inverse_inertia_W = rotation * actor->weight.inertia_R.inverse() * rotation.transpose();

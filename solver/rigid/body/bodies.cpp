@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "engine/base/parallel.h"
+#include "engine/geometry/inertia.h"
 
 namespace sunder::solver {
 namespace {
 
 /// Principal axes scaled by the square roots of the inverse moments, and whether those differ by
-/// 5 % or more. A degenerate inertia is filled up, so that no axis can be spun without effort.
+/// 5 % or more.
 struct InertiaRoot {
   Mat3f root = Mat3f::Zero();
   Mat3 inertia = Mat3::Zero();
@@ -20,11 +19,8 @@ struct InertiaRoot {
 };
 
 InertiaRoot inertia_root(const Mat3& inertia_B) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(0.5 * (inertia_B + inertia_B.transpose()));
-  const double largest = solver.eigenvalues().maxCoeff();
-  SUNDER_CHECK(largest > 0);
-  const Vec3 moments = solver.eigenvalues().cwiseMax(1e-4 * largest);
-  const Mat3 axes = solver.eigenvectors();
+  const auto [axes, moments] = principal_moments(inertia_B);
+  SUNDER_CHECK(moments.maxCoeff() > 0);
   InertiaRoot result;
   result.root = (axes * moments.cwiseSqrt().cwiseInverse().asDiagonal()).cast<float>();
   result.inertia = axes * moments.asDiagonal() * axes.transpose();

@@ -17,7 +17,7 @@ double inverse_effective_mass(const Bodies& bodies, BodySlot body, const Vec3f& 
                              (bodies.root_B[body].transpose() * angular_B).squaredNorm());
 }
 
-/// Middle of the points that close within the step; false if none does.
+/// Middle of the points that may close within the step; false if none does.
 bool closing_middle(const Manifold& m, const Bodies& bodies, const StepContext& step, Vec3f& arm_A,
                     Vec3f& arm_B, float& separation_m) {
   int closing = 0;
@@ -26,7 +26,8 @@ bool closing_middle(const Manifold& m, const Bodies& bodies, const StepContext& 
   for (std::size_t i = 0; i < m.count; ++i) {
     const ManifoldPoint& p = m.points[i];
     const double speed = closing_speed(m, bodies, p.arm_A, p.arm_B);
-    if (speed < step.still_m_s || double{p.separation_m} > speed * step.dt_s) continue;
+    if (speed < step.still_m_s) continue;
+    if (double{p.separation_m} > speed * step.dt_s + 0.5 * double{step.fall_m}) continue;
     ++closing;
     arm_A += p.arm_A, arm_B += p.arm_B;
     separation_m = std::min(separation_m, p.separation_m);

@@ -19,7 +19,9 @@ Quatf relative_rotation(const Manifold& m, const Bodies& bodies) {
   return (bodies.rotation[m.body_a].conjugate() * bodies.rotation[m.body_b]).cast<float>();
 }
 
-/// Hands impulses of old points to new ones: by feature, else to the nearest not yet served.
+/// Hands impulses of old points to new ones: by feature, else to the nearest not yet served. The
+/// same feature rests where it did, or what slides would sink in whenever its points are found
+/// anew.
 void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
                       std::span<ManifoldPoint> points) {
   std::uint32_t taken = 0, served = 0;
@@ -27,6 +29,7 @@ void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
     for (std::size_t j = 0; j < old.size(); ++j) {
       if ((taken >> j & 1) || old[j].feature != points[i].feature) continue;
       points[i].impulse_Ns = old[j].impulse_Ns;
+      points[i].rest_m = old[j].rest_m;
       taken |= 1u << j, served |= 1u << i;
       break;
     }

@@ -318,7 +318,7 @@ void ContactSolver::Stages::begin(BodySlot body) {
 
 void ContactSolver::Stages::turn(BodySlot body) {
   const double made_J = solver_.spins_.end(step_, body, row(body), solver_.root_W_[body], bodies_);
-  if (guarded_) solver_.energy_guard_.ask(body, made_J);
+  if (guarded_) solver_.energy_guard_.ask(body, made_J, bodies_.inverse_mass[body], row(body));
 }
 
 void ContactSolver::Stages::finish(BodySlot body) {
@@ -340,7 +340,8 @@ ContactSolver::ContactSolver(const ContactSolverOptions& options)
 
 ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies, Contacts& contacts,
                                         Joints& joints) {
-  order_.collect(step, bodies, contacts);
+  order_.collect(step, bodies, contacts,
+                 options_.sweeps < static_cast<int>(ImpactPass::kMostSweeps));
   make_blocks();
   splitting_.split(order_.manifolds().subspan(order_.first_split()), bodies, contacts);
   const bool accelerated = options_.accelerated && options_.sweeps > 1 && splitting_.empty();

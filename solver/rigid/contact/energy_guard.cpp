@@ -1,6 +1,8 @@
 #include "solver/rigid/contact/energy_guard.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "engine/base/disjoint_sets.h"
 
@@ -46,7 +48,7 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
     if (!falls_[body]) falls_[group_[body]] = 0;
   for (const BodySlot body : active) falls_[body] = falls_[group_[body]];
   if (!joined.empty()) leave_alone_what_swings_free(manifolds, active, joined, contacts);
-  of_body_.resize(bodies.size());
+  of_body_.assign(bodies.size(), {});
   of_group_.assign(bodies.size(), {});
   share_.assign(bodies.size() + 1, 1);
 }
@@ -103,19 +105,30 @@ void EnergyGuard::judge(std::span<const BodySlot> active) {
     } else if (group_[body] == body) {
       work.made_J += work.first + work.second;
     }
+    Work& own = of_body_[body];
+    own.made_J += own.struck_J + double{share} * (own.first + double{share} * own.second);
   }
+}
+
+void EnergyGuard::ask(BodySlot body, double made_J, float inverse_mass, const BodyRow& row) {
+  const double mass = 1 / double{inverse_mass};
+  const auto energy = [&](const Wide& v, double linear) { return 0.5 * lanes_sum(v, v, linear); };
+  const double motion_J = std::max(energy(row.start, mass), energy(row.velocity, mass));
+  const double own_J = std::max(-of_body_[body].made_J, motion_J - energy(row.velocity, 0));
+  of_body_[body].asked_J =
+      made_J <= own_J ? std::max(0.0, made_J) : std::numeric_limits<double>::infinity();
 }
 
 void EnergyGuard::decide(std::span<const BodySlot> active) {
   if (!watches_) return;
   for (const BodySlot body : active)
-    if (!group_[body].none())
-      of_group_[group_[body]].made_J += std::max(0.0, of_body_[body].made_J);
+    if (!group_[body].none() && std::isfinite(of_body_[body].asked_J))
+      of_group_[group_[body]].made_J += of_body_[body].asked_J;
 }
 
 bool EnergyGuard::grants(BodySlot body) const {
-  if (!watches_ || group_[body].none() || of_body_[body].made_J <= 0) return true;
-  return of_group_[group_[body]].made_J <= 0;
+  if (!watches_ || group_[body].none() || of_body_[body].asked_J <= 0) return true;
+  return std::isfinite(of_body_[body].asked_J) && of_group_[group_[body]].made_J <= 0;
 }
 
 }  // namespace sunder::solver

@@ -41,8 +41,9 @@ class EnergyGuard {
   const float* share_of_row() const { return share_.data(); }
 
   /// After the last substep: a body turns on with its angular momentum, which adds this to its
-  /// energy; or else with its energy.
-  void ask(BodySlot body, double made_J) { of_body_[body].made_J = made_J; }
+  /// energy; or else with its energy. It may ask for what contacts took from itself, and for a spin
+  /// of no more energy than its whole motion had or has.
+  void ask(BodySlot body, double made_J, float inverse_mass, const BodyRow& row);
   void decide(std::span<const BodySlot> active);
   /// Whether its group can pay that, and what others of it ask, with what its contacts took.
   bool grants(BodySlot body) const;
@@ -52,7 +53,8 @@ class EnergyGuard {
   struct Work {
     double first = 0, second = 0;
     double struck_J = 0;  ///< By strikes, in the substep.
-    double made_J = 0;    ///< Of a group: in the step so far.
+    double made_J = 0;    ///< Of a group, or of a body by contacts: in the step so far.
+    double asked_J = 0;   ///< Infinite: too much.
   };
 
   void leave_alone_what_swings_free(std::span<const ManifoldSlot> manifolds,

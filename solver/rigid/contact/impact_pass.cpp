@@ -7,11 +7,11 @@ namespace sunder::solver {
 namespace {
 
 constexpr float kOverRelaxed = 1.8f;
-constexpr double kPassed = 1e-3;    // of the energy of impacts: what may be left
-constexpr float kShareLeft = 0.3f;  // of the least speed of an impact: slower has passed
-constexpr std::uint32_t kMostSweeps = 64, kLeastSweeps = 4;  // a substep,
-constexpr std::uint32_t kMostWork = 150000;                  // and of manifolds, all together
-constexpr std::uint32_t kLook = 4;  // whenever so many sweeps more are done: is it enough?
+constexpr double kPassed = 1e-3;             // of the energy of impacts: what may be left
+constexpr float kShareLeft = 0.3f;           // of the least speed of an impact: slower has passed
+constexpr std::uint32_t kMostWork = 150000;  // sweeps of a manifold in a substep, but for
+constexpr std::uint32_t kLeastSweeps = 4;    // so many of each
+constexpr std::uint32_t kLook = 4;           // whenever so many sweeps more are done: is it enough?
 
 }  // namespace
 

@@ -15,6 +15,9 @@ namespace sunder::solver {
 
 class ImpactPass {
  public:
+  /// Most sweeps in a substep: who asks for as many of all sweeps has no need of it.
+  static constexpr std::uint32_t kMostSweeps = 64;
+
   void clear();
   /// Blocks of so many manifolds of one colour, that are near an impact.
   void add(std::uint32_t first, std::uint32_t end, std::uint32_t manifolds);

@@ -34,7 +34,7 @@ double least_impact_m_s(const StepContext& step, const Manifold& m) {
 }
 
 void Impacts::find(const StepContext& step, const Bodies& bodies, const Contacts& contacts) {
-  steps_.clear();
+  clear();
   for_touching(bodies, contacts, [&](const Manifold& m) {
     if (!meet_fast(step, m, bodies)) return;
     if (steps_.empty()) steps_.assign(bodies.size(), kFar);

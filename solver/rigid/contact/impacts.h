@@ -17,6 +17,7 @@ double least_impact_m_s(const StepContext& step, const Manifold& m);
 
 class Impacts {
  public:
+  void clear() { steps_.clear(); }
   /// Finds them among what touches, and what is near.
   void find(const StepContext& step, const Bodies& bodies, const Contacts& contacts);
   bool empty() const { return steps_.empty(); }

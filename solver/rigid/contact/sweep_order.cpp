@@ -5,13 +5,15 @@
 
 namespace sunder::solver {
 
-void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Contacts& contacts) {
+void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Contacts& contacts,
+                         bool impacts) {
   in_contact_.assign(bodies.size(), 0);
   loaded_contacts_.assign(bodies.size(), 0);
   points_ = 0;
   bouncy_ = false;
   deep_contacts_.clear();
-  impacts_.find(step, bodies, contacts);
+  impacts_.clear();
+  if (impacts) impacts_.find(step, bodies, contacts);
   const std::uint32_t colors = color_rest(bodies, contacts) + 1;
   start_.assign(colors * kKeysAColor + 1, 0);
   auto for_each = [&](const auto& visit) {

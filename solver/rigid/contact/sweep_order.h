@@ -19,8 +19,9 @@ inline constexpr std::uint8_t kPinched = 3;
 
 class SweepOrder {
  public:
-  /// Lists what touches and is awake.
-  void collect(const StepContext& step, const Bodies& bodies, const Contacts& contacts);
+  /// Lists what touches and is awake; impacts among it, if they are wanted.
+  void collect(const StepContext& step, const Bodies& bodies, const Contacts& contacts,
+               bool impacts);
 
   /// By colour, in each those near an impact first, of these those of most points first; what found
   /// no colour last.

@@ -1,5 +1,5 @@
-// Blows: something heavy and fast strikes light bodies that pass it on (docs/decisions/036). How
-// well they do in rubble is a truth (bench/truths/through.cpp).
+// Impacts pass in one step through all that touches (docs/decisions/036). How well they do in rubble
+// is a truth (bench/truths/through.cpp).
 #include <gtest/gtest.h>
 
 #include "bench/truths/rigid_world.h"
@@ -9,7 +9,7 @@ namespace sunder::solver {
 namespace {
 
 using W = RigidWorld;
-constexpr double kDt_s = 1.0 / 120, kSpeed_m_s = 10;
+constexpr double kDt_s = 1.0 / 120, kSpeed_m_s = 100;
 constexpr int kSubsteps = 4, kSide = 10;  // more posts than there are colours
 
 /// A plate that strikes posts which touch another plate, all of them free.
@@ -27,16 +27,16 @@ RigidWorld plate_strikes_posts(int lanes) {
   return world;
 }
 
-TEST(Blow, PassesInOneStepThroughMoreContactsThanThereAreColours) {
+TEST(Impact, PassesInOneStepThroughMoreContactsThanThereAreColours) {
   RigidWorld world = plate_strikes_posts(0);
   const Vec3 before = world.momentum();
   const double common_m_s = before.y() / world.step(kDt_s, kSubsteps).mass_kg;
   for (std::size_t i = 0; i < world.size(); ++i)
-    EXPECT_NEAR(world.state(world.id(i)).velocity_W.y() / common_m_s, 1, 0.02) << i;
+    EXPECT_NEAR(world.state(world.id(i)).velocity_W.y() / common_m_s, 1, 0.15) << i;
   EXPECT_NEAR(world.momentum().y() / before.y(), 1, 1e-5);
 }
 
-TEST(Blow, GivesTheSameBitsForAnyNumberOfThreadsAndLanes) {
+TEST(Impact, GivesTheSameBitsForAnyNumberOfThreadsAndLanes) {
   const int before = threads();
   const auto hash = [](int lanes, int thread_count) {
     set_threads(thread_count);
