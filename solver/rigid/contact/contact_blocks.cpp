@@ -106,10 +106,10 @@ class BlocksOf final : public ContactBlocks {
   void end_impact(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::end_impact(blocks_[i], impacts_[i]);
   }
-  void add_closing_J(std::uint32_t begin, std::uint32_t end, const ContactStep& step, float share,
-                     double& sum_J) const override {
+  bool closes_fast(std::uint32_t begin, std::uint32_t end, const ContactStep& step) const override {
     for (std::uint32_t i = begin; i < end; ++i)
-      solver::add_closing_J(blocks_[i], impacts_[i], step.rows, step.soft, share, sum_J);
+      if (solver::closes_fast(blocks_[i], impacts_[i], step.rows, step.soft)) return true;
+    return false;
   }
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) {

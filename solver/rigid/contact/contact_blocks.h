@@ -52,8 +52,8 @@ class ContactBlocks {
   virtual void expect_impacts(bool wanted) = 0;
   virtual void begin_impact(std::uint32_t begin, std::uint32_t end) = 0;
   virtual void end_impact(std::uint32_t begin, std::uint32_t end) = 0;
-  virtual void add_closing_J(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
-                             float share, double& sum_J) const = 0;
+  virtual bool closes_fast(std::uint32_t begin, std::uint32_t end,
+                           const ContactStep& step) const = 0;
   virtual void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
 
   /// On bodies, over the step, from what cannot move.

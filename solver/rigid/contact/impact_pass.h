@@ -36,7 +36,7 @@ class ImpactPass {
   void for_blocks(const Visit& visit) const {
     for (const auto& [first, end] : blocks_) visit(first, end);
   }
-  double closing_J(const ContactStep& step, const ContactBlocks& blocks, float share) const;
+  bool closes_fast(const ContactStep& step, const ContactBlocks& blocks) const;
   void sweep(const ContactStep& step, ContactBlocks& blocks);
   /// Lets velocities be those before the impulses of the substep; lets them be those again; and
   /// adds the impulses back.
@@ -47,7 +47,6 @@ class ImpactPass {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> blocks_;  ///< First and end, by colour.
   std::vector<BodySlot> bodies_;                                 ///< That they may move.
   std::vector<Wide> velocity_;                                   ///< Of these, with all impulses.
-  double impact_J_ = 0;  ///< Twice the energy of the fastest substep of the step.
   std::uint32_t manifolds_ = 0, sweeps_ = 0;
 };
 

@@ -175,8 +175,8 @@ bool strike(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
   template bool strike(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);   \
   template void begin_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                    \
   template void end_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                      \
-  template void add_closing_J(const ConstraintBlock<lanes>&, const ImpactLanes<lanes>&,        \
-                              const SolverRows&, const SoftStep&, float, double&);             \
+  template bool closes_fast(const ConstraintBlock<lanes>&, const ImpactLanes<lanes>&,          \
+                            const SolverRows&, const SoftStep&);                               \
   template void separations_now(const ConstraintBlock<lanes>&, const SolverRows&, float(*)[lanes]);
 
 }  // namespace sunder::solver

@@ -121,12 +121,10 @@ void begin_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& aside);
 /// Puts them back; those of the impact go to the sum of the step.
 template <std::uint32_t lanes>
 void end_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& aside);
-/// Adds twice the energy with which the points of a block, that is not split, close beyond their
-/// gaps, each for itself, if that is faster than a share of what makes an impact; lane after lane,
-/// so that a sum over blocks is the same for any lanes.
+/// Whether some point of a block, that is not split, closes as fast as impacts do, beyond its gap.
 template <std::uint32_t lanes>
-void add_closing_J(const ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
-                   const SolverRows& bodies, const SoftStep& soft, float share, double& sum_J);
+bool closes_fast(const ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
+                 const SolverRows& bodies, const SoftStep& soft);
 /// Writes the separation of every point now, by point and lane.
 template <std::uint32_t lanes>
 void separations_now(const ConstraintBlock<lanes>& block, const SolverRows& bodies,

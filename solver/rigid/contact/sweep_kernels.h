@@ -400,21 +400,21 @@ void end_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
 }
 
 template <std::uint32_t lanes>
-void add_closing_J(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact,
-                   const SolverRows& bodies, const SoftStep& soft, float share, double& sum_J) {
+bool closes_fast(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact,
+                 const SolverRows& bodies, const SoftStep& soft) {
   using V = WideOf<lanes>;
   const V zero = {};
   const Pairs<lanes, false> v(c, bodies, &BodyRow::velocity), x(c, bodies, &BodyRow::position);
-  V sum = zero;
+  V fastest = zero;
   for (std::uint32_t i = 0; i < c.points; ++i) {
     const PointLanes<lanes>& p = c.point[i];
     const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
-    const auto rebounds = (s > zero) & (c.rebound.restitution > zero);  // as in press()
     const V u = v.along(c.normal, p.angular_a, p.angular_b) + max(zero, s) * soft.inverse_h;
+    const auto rebounds = (s > zero) & (c.rebound.restitution > zero);  // as in press()
     const V closes = rebounds ? (p.impulse > zero ? -u : zero) : -u;
-    sum += closes > share * impact.least_m_s ? p.mass * closes * closes : zero;
+    fastest = p.mass > zero ? max(fastest, closes - impact.least_m_s) : fastest;
   }
-  for (std::uint32_t lane = 0; lane < lanes; ++lane) sum_J += double{sum[lane]};
+  return any(fastest > zero);
 }
 
 template <std::uint32_t lanes>
