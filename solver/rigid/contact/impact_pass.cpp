@@ -54,7 +54,7 @@ void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
   over_relaxed.soft.omega = kOverRelaxed;
   const std::uint32_t most = std::min(kMostSweeps, kMostWork / manifolds_);
   for (std::uint32_t i = 1; i < most && closes_fast(step, blocks); ++i) once(over_relaxed);
-  once(step);
+  once(step), once(step);  // friction goes by the load of the sweep before
 }
 
 void ImpactPass::set_aside(BodyRow* rows) {
