@@ -72,21 +72,6 @@ TEST(Debris, AtRestStaysWhereItIsBitForBit) {
   EXPECT_EQ(debris.view().position_W[0], before);
 }
 
-TEST(Debris, FallsFromWhatStandsWhenTheConvexUnderItHasComeOff) {
-  Debris debris(10, kGravity);
-  TestObstacles obstacles;
-  obstacles.add_box(Vec3(0, 2, 0), Vec3(1, 0.1, 1), Quat::Identity());
-  debris.add(chip_at(Vec3f(0, 2.2f, 0)));
-  run(debris, obstacles, 2);
-  ASSERT_EQ(debris.ledger().awake, 0u);
-  obstacles.shapes.clear();  // the body has others, elsewhere
-  run(debris, obstacles, 0.2);
-  EXPECT_EQ(debris.ledger().awake, 0u) << "nobody has said so";
-  ++obstacles.bodies[0].edits;
-  run(debris, obstacles, 3);
-  EXPECT_NEAR(debris.view().position_W[0].y(), 0.02, 1e-3);
-}
-
 TEST(Debris, LiesOnATiltedBoxByFrictionAndWakesWhenItIsGone) {
   Debris debris(10, kGravity);
   TestObstacles obstacles;
