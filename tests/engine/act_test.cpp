@@ -1,5 +1,7 @@
 // What scripts do: blasts, supports that go, driven bodies, joints and wrecking balls; and making
 // room.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/engine/scripted.h"
@@ -249,6 +251,29 @@ TEST(Ageing, LeavesWhatMovesAndWhatIsNoFragment) {
 TEST(Ageing, WithRoomEnoughDoesNothing) {
   Rubble rubble(Limits{});
   EXPECT_EQ(rubble.simulation->next()->bodies.size(), 21u);
+}
+
+TEST(Joint, WhatIsFixedToTheWorldBearsAllOfABlowHoweverLightItIs) {
+  for (const double energy_J : {25.0, 45.0}) {
+    Scene scene = empty_scene();
+    scene.materials[0].impact_radius_m = 10;  // least crack: 16 J
+    Material lead;
+    lead.density_kg_m3 = 80000;
+    scene.materials.push_back(lead);
+    scene.solids = {row(Vec3(0, -0.5, -0.5), 2, false)};
+    Joint joint;
+    joint.kind = JointKind::kFixed;
+    joint.a = 0;
+    joint.at_W = Vec3(1, 0, 0);
+    scene.joints = {joint};
+    const double radius_m = 0.25, ball_kg = 80000 * 4.0 / 3 * 3.14159265 * std::pow(radius_m, 3);
+    const double speed_m_s = std::sqrt(2 * energy_J / ball_kg);
+    scene.balls = {{"ball", radius_m, MaterialIndex(1), Vec3(-0.26, 0, 0), Vec3(speed_m_s, 0, 0)}};
+    ActRun run(scene, 0.3, [](const ScriptedPhysics& physics, int) {  // a crack of 30 J
+      return physics.approach(1, 0, Vec3::Zero(), Vec3::UnitX());
+    });
+    EXPECT_EQ(run.simulation->next()->breaks.size(), energy_J > 30 ? 1u : 0u) << energy_J;
+  }
 }
 
 }  // namespace

@@ -74,6 +74,18 @@ TEST(BreakProbe, FindsTheWorkOfABlowPassedOnByAPlate) {
   EXPECT_LT((loads[0].direction_W + Vec3::UnitY()).norm(), 1e-9);
 }
 
+TEST(BreakProbe, TellsWhichWayABlowGoesWhicheverBodyComesFirst) {
+  for (const bool first : {false, true}) {
+    const Vec3 way = first ? Vec3(Vec3::UnitY()) : Vec3(-Vec3::UnitY());
+    std::vector<ProbeBody> bodies = {pane(), ball(2, 8 * way)};
+    BreakProbe probe(bodies, {first ? contact(0, 1) : contact(1, 0)}, kStep_s, kStill_m_s);
+    const auto loads = probe.next();
+    ASSERT_EQ(loads.size(), 1u);
+    EXPECT_EQ(loads[0].body, 0u);
+    EXPECT_LT((loads[0].direction_W - way).norm(), 1e-9);
+  }
+}
+
 TEST(BreakProbe, FindsTheWorkOfABlowPassedAlongARow) {
   for (const double gap_m : {0.0, 1e-3}) {
     const int n = 6;

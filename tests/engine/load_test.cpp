@@ -135,6 +135,27 @@ TEST(LoadStage, LetsFallWhatIsOverloadedAndKeepsWhatIsHeld) {
   EXPECT_NEAR(frame->report.mass_kg, 2000, 1e-9);
 }
 
+TEST(LoadStage, WhatLosesItsNeighbourShowsTheFaceThatItCovered) {
+  const auto indices_of = [](const Frame& frame, std::uint32_t body) {
+    std::size_t sum = 0;
+    for (const Instance& instance : frame.instances)
+      if (instance.body == body) sum += (*frame.meshes)[instance.mesh.value]->indices.size();
+    return sum;
+  };
+  LoadRun run(scene_of(two_boxes(true)), [](const Structure& structure, const LoadCase&) {
+    StressAnswer answer;
+    answer.settled = true;
+    answer.edit.changed = structure.has(ConvexSlot(1));
+    if (!answer.edit.changed) return answer;
+    answer.edit.removed = {ConvexSlot(1)};
+    answer.edit.loose.pieces = {{{structure.convex(ConvexSlot(1))}, {0}, {}, {}}};
+    return answer;
+  });
+  const FramePtr frame = run.simulation->next();
+  ASSERT_EQ(frame->bodies.size(), 2u);
+  EXPECT_EQ(indices_of(*frame, 0), 6u * 6) << "with its upper face";
+}
+
 TEST(LoadStage, DoesNotAskAboutSmallThingsThatMoveNorAboutWhatNoLoadBreaks) {
   LoadRun moving(scene_of(two_boxes(false)), parts);
   moving.press(1e6);

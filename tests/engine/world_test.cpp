@@ -188,6 +188,47 @@ TEST(BreakStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   EXPECT_NEAR(before - sum_of(*run.physics).kinetic, 400, 1e-6);
 }
 
+TEST(BreakStage, TakesWhatHasWaitedBeforeHarderImpactsThatAreNew) {
+  std::vector<Solid> solids;
+  std::vector<Ball> balls;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 low(0, 0, -3 * i);
+    solids.push_back({"box", two_boxes(low, false), {}});
+    balls.push_back(ball_at(low + Vec3(-0.25, 0.5, 0.5), Vec3(30 + (i == 1 ? -5 : 5 * i), 0, 0)));
+  }
+  Scene scene = scene_of(solids, balls);
+  scene.limits.parts_a_frame = static_cast<std::uint32_t>(scene.materials[0].pattern.cells);
+  bool all_meet = false;  // at first the third ball does not
+  ScriptedRun run(scene, [&](const ScriptedPhysics& physics, int) {
+    std::vector<Approach> found;
+    for (std::uint32_t i = 0; i < (all_meet ? 3u : 2u); ++i) {
+      const auto one = physics.approach(3 + i, i, Vec3(0, 0.5, 0.5 - 3.0 * i), Vec3::UnitX());
+      found.insert(found.end(), one.begin(), one.end());
+    }
+    return found;
+  });
+  run.simulation.next();
+  const auto broken = [&] {
+    const FramePtr frame = run.simulation.next();
+    return frame->breaks.size() == 1 ? static_cast<int>(frame->breaks[0].body_key) : -1;
+  };
+  EXPECT_EQ(broken(), 0) << "the harder one of two";
+  all_meet = true;
+  EXPECT_EQ(broken(), 1) << "which has waited";
+  EXPECT_EQ(broken(), 2);
+}
+
+TEST(BreakStage, BreaksWhatIsExactlyAsLargeAsTheSmallestThatBreaks) {
+  for (const double smallest_m3 : {2.0, 2.01}) {
+    const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
+    Scene scene = scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))});
+    scene.materials[0].smallest_break_m3 = smallest_m3;
+    ScriptedRun run(scene, always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));
+    run.simulation.next();
+    EXPECT_EQ(run.simulation.next()->breaks.size(), smallest_m3 > 2 ? 0u : 1u);
+  }
+}
+
 TEST(BreakStage, CountsABreakThatTheBodyLimitForbids) {
   const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
   Scene scene = scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))});

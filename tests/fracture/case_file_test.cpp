@@ -114,5 +114,18 @@ TEST(CaseFile, cut_short_anywhere_is_an_error) {
   }
 }
 
+TEST(CaseFile, cut_short_between_words_says_so) {
+  std::stringstream file;
+  write_case(file, example());
+  const std::string text = file.str();
+  std::istringstream part(text.substr(0, text.find('\n', text.size() / 2)));
+  try {
+    read_case(part, "a.case");
+    FAIL() << "it was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("ends too early"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace sunder::fracture

@@ -6,6 +6,7 @@
 #include "engine/base/trigonometry.h"
 #include "engine/model/piece_mesh.h"
 #include "fracture/adjacency/adjacency.h"
+#include "fracture/cut/intersect.h"
 #include "fracture/cut/surface.h"
 #include "fracture/pattern_breaker.h"
 #include "fracture/stress/bond_geometry.h"
@@ -91,6 +92,17 @@ TEST(Visual, cells_wholly_inside_become_internal_convexes) {
       }
     }
   }
+}
+
+TEST(Visual, what_lies_in_one_cell_is_of_that_cell) {
+  const Pattern pattern = grid_pattern(2);
+  const AlignedPattern aligned = align(pattern, {}, 1, {Vec3::Constant(-100), Vec3::Constant(100)});
+  const ConvexPtr small = solid_of(box_mesh(Vec3::Constant(.1), Vec3::Constant(.4))).convexes[0];
+  const Intersection cut = intersect(aligned, small, Fit{});
+  ASSERT_EQ(cut.parts.size(), 1u);
+  EXPECT_EQ(cut.parts[0].convex, small);
+  ASSERT_LT(cut.parts[0].cell, aligned.cells.size());
+  EXPECT_TRUE(contains(aligned.polyhedron(aligned.cells[cut.parts[0].cell]), Vec3::Constant(.25)));
 }
 
 TEST(Visual, only_internal_convexes_weld) {

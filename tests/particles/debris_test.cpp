@@ -72,21 +72,6 @@ TEST(Debris, AtRestStaysWhereItIsBitForBit) {
   EXPECT_EQ(debris.view().position_W[0], before);
 }
 
-TEST(Debris, FallsFromWhatStandsWhenTheConvexUnderItHasComeOff) {
-  Debris debris(10, kGravity);
-  TestObstacles obstacles;
-  obstacles.add_box(Vec3(0, 2, 0), Vec3(1, 0.1, 1), Quat::Identity());
-  debris.add(chip_at(Vec3f(0, 2.2f, 0)));
-  run(debris, obstacles, 2);
-  ASSERT_EQ(debris.ledger().awake, 0u);
-  obstacles.shapes.clear();  // the body has others, elsewhere
-  run(debris, obstacles, 0.2);
-  EXPECT_EQ(debris.ledger().awake, 0u) << "nobody has said so";
-  ++obstacles.bodies[0].edits;
-  run(debris, obstacles, 3);
-  EXPECT_NEAR(debris.view().position_W[0].y(), 0.02, 1e-3);
-}
-
 TEST(Debris, LiesOnATiltedBoxByFrictionAndWakesWhenItIsGone) {
   Debris debris(10, kGravity);
   TestObstacles obstacles;
@@ -128,6 +113,46 @@ TEST(Debris, IsSweptAlongByAMovingBodyEvenAsleep) {
   obstacles.set_velocity(obstacles.add_box(Vec3(-1, 0.5, 0), Vec3(0.2, 0.5, 0.5)), Vec3(2, 0, 0));
   run(debris, obstacles, 1);
   EXPECT_GT(debris.view().position_W[0].x(), 1.2f - 0.01f);
+}
+
+TEST(Debris, IsMetByAPaneThatPassesItsPlaceWithinAStep) {
+  Debris debris(10, Vec3::Zero());
+  TestObstacles obstacles;
+  debris.add(chip_at(Vec3f(0, 1, 0)));
+  const double speed_m_s = 60;  // half a metre a step
+  const Vec3 behind(-0.5 * speed_m_s * kDt, 1, 0);
+  obstacles.set_velocity(obstacles.add_box(behind, Vec3(0.01, 0.5, 0.5)), Vec3(speed_m_s, 0, 0));
+  run(debris, obstacles, kDt);
+  EXPECT_GT(debris.view().position_W[0].x(), 0.1f);
+}
+
+TEST(Debris, StopsAtItsRadiusFromEverySideOfABox) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float sign : {-1.f, 1.f}) {
+      Debris debris(10, Vec3::Zero());
+      TestObstacles obstacles;
+      obstacles.ground_m = -9;
+      obstacles.add_box(Vec3::Zero(), Vec3::Constant(0.5));
+      debris.add(chip_at(sign * Vec3f::Unit(axis), -2 * sign * Vec3f::Unit(axis)));
+      for (int step = 0; step < 60; ++step) {
+        debris.advance(kDt, obstacles.view());
+        ASSERT_GT(sign * debris.view().position_W[0][axis], 0.52f - 1e-3f) << axis << sign;
+      }
+    }
+  }
+}
+
+TEST(Debris, IsMetByABarThatTurnsPastItsPlaceWithinAStep) {
+  Debris debris(10, Vec3::Zero());
+  TestObstacles obstacles;
+  debris.add(chip_at(Vec3f(0.8f, 1, 0)));
+  const double spin_rad_s = 60;  // half a radian a step
+  const Quat after(Eigen::AngleAxisd(0.5 * spin_rad_s * kDt, Vec3::UnitY()));
+  const std::size_t bar = obstacles.add_box(Vec3(0, 1, 0), Vec3(1, 0.5, 0.01), after);
+  obstacles.bodies[bar].angular_velocity_W = Vec3(0, spin_rad_s, 0);
+  obstacles.bodies[bar].moves = true;
+  debris.advance(kDt, obstacles.view());
+  EXPECT_LT(debris.view().position_W[0].z(), -0.1f);
 }
 
 TEST(Debris, RidesOnALiftWithoutFallingThrough) {

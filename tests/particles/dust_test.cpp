@@ -86,6 +86,15 @@ TEST(Dust, IsBlownByAMovingSlabAndStaysOutOfIt) {
   EXPECT_GE(ahead, 80);
 }
 
+TEST(Dust, InsideASolidDoesNotSink) {
+  Dust dust(100, kGravity, kCounts);
+  TestObstacles obstacles;
+  obstacles.add_box(Vec3(0, 5, 0), Vec3(4, 4, 4));
+  for (int i = 0; i < 10; ++i) dust.add(puff_at(Vec3f(0.1f * float(i), 5, 0)));
+  for (int step = 0; step < 30; ++step) dust.advance(kDt, obstacles.view());
+  for (const Vec3f& at : dust.view().position_W) EXPECT_NEAR(at.y(), 5, 0.01);
+}
+
 TEST(Dust, KeepsItsAirFineThoughAFewPuffsFlyFar) {
   const auto cell_m = [](int strays) {
     Dust dust(1000, kGravity, kCounts);

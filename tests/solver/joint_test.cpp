@@ -184,6 +184,22 @@ TEST(Joint, WhatIsJoinedSleepsAndWakesTogether) {
   EXPECT_TRUE(world.state(b).asleep) << "they are parted";
 }
 
+TEST(Joint, WhatIsJoinedToAnotherBodyWakes) {
+  RigidWorld world;
+  world.add(W::ground());
+  std::vector<BodyId> boxes;
+  for (int i = 0; i < 3; ++i) boxes.push_back(world.add(W::box(Vec3::Ones(), Vec3(3 * i, 0.5, 0))));
+  JointDesc rope = joint_at(world, Kind::kRope, boxes[0], boxes[1], Vec3::Zero());
+  rope.length_m = 100;
+  const JointId id = world.physics().join(rope);
+  world.run(3, kDt_s, 4);
+  for (const BodyId box : boxes) ASSERT_TRUE(world.state(box).asleep);
+  world.physics().attach(id, false, boxes[2]);
+  EXPECT_FALSE(world.state(boxes[0]).asleep);
+  EXPECT_TRUE(world.state(boxes[1]).asleep);
+  EXPECT_FALSE(world.state(boxes[2]).asleep);
+}
+
 TEST(Joint, JoinedBodiesIgnoreEachOtherUntilCut) {
   RigidWorld world(awake(Vec3::Zero()));
   const BodyId a = world.add(W::box(Vec3(1, 1, 1), Vec3::Zero()));

@@ -162,6 +162,19 @@ TEST(Planar, TouchesNameBothBodiesAndWhereTheyMeet) {
   }
 }
 
+TEST(Planar, NothingIsTouchedFartherOffThanABodyReachesHoweverFastItSpins) {
+  for (const double gap_m : {0.3, 0.6}) {
+    RigidWorld world = plane();
+    const BodyDesc bar =
+        W::moving(W::box(Vec3(1, 0.2, 1), Vec3::Zero()), Vec3::Zero(), Vec3(0, 0, 300));
+    const BodyId id = world.add(bar);
+    world.add(W::fixed(W::box(Vec3::Ones(), Vec3(1 + gap_m, 0, 0))));
+    world.physics().collide(1.0 / 60);
+    // Its corner is 0.51 m from its centre.
+    EXPECT_EQ(world.physics().touches(std::span(&id, 1)).empty(), gap_m > 0.51) << gap_m;
+  }
+}
+
 /// The load on a body that bears it, summed.
 Vec3 load_on(Physics& physics, std::uint32_t tag) {
   Vec3 sum = Vec3::Zero();
@@ -201,6 +214,7 @@ TEST(Planar, WhatNobodyPushedFromOutsideKeepsItsMomentum) {
     const Vec3 before = world.momentum();
     const SolveReport report = world.step(1.0 / 60, 4);
     EXPECT_LT((world.momentum() - before - report.external_impulse_Ns).norm(), 1) << "step " << i;
+    EXPECT_LT((world.momentum() - report.momentum_after_Ns).norm(), 1) << "step " << i;
   }
 }
 

@@ -1,6 +1,7 @@
 // What the rigid solver promises besides truths (bench/truths): sleep, determinism, reports.
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -156,6 +157,60 @@ TEST(RigidPhysics, ReportsWhatPressesOnABodyThatBearsLoadAsleepOrAwake) {
   EXPECT_EQ(loads[0].shape_tag, 3u);
   EXPECT_LT((loads[0].impulse_W - Vec3(0, -mass * 9.81 * dt, 0)).norm(), 0.01 * mass * 9.81 * dt);
   EXPECT_LT((loads[0].point_W - Vec3(0.5, 1, 0.25)).norm(), 0.02);
+}
+
+TEST(RigidPhysics, AFrozenBodyStandsAsAWall) {
+  RigidWorld world(weightless());
+  const BodyId box = world.add(W::box(Vec3::Ones(), Vec3::Zero(), 1));
+  world.physics().apply_impulse(box, Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0),
+                                Vec3::Zero());
+  world.step(1.0 / 60, 2);
+  const BodyId ball = world.add(W::moving(W::sphere(0.5, Vec3(-1.2, 0, 0)), Vec3(5, 0, 0)));
+  world.run(0.2, 1.0 / 60, 2);
+  EXPECT_LT(world.state(ball).velocity_W.norm(), 1e-3);
+  EXPECT_TRUE(world.state(box).X_WB.position.isZero());
+}
+
+TEST(RigidPhysics, AccountsForTheMomentumOfARebound) {
+  RigidWorld world;
+  world.add(W::with_friction(W::ground(), 0.5, 0.8));
+  const BodyDesc ball = W::with_friction(W::sphere(0.5, Vec3(0, 0.7, 0)), 0.5, 0.8);
+  world.add(W::moving(ball, Vec3(2, -3, 0)));
+  bool rebounds = false;
+  for (int i = 0; i < 30; ++i) {
+    const SolveReport report = world.step(1.0 / 60, 4);
+    const Vec3 unexplained_Ns =
+        report.momentum_after_Ns - report.momentum_before_Ns - report.external_impulse_Ns;
+    EXPECT_LT(unexplained_Ns.norm(), 1e-5 * 3 * ball.mass_kg) << i;
+    EXPECT_DOUBLE_EQ(report.mass_kg, ball.mass_kg);
+    rebounds |= world.momentum().y() > 0;
+  }
+  EXPECT_TRUE(rebounds);
+}
+
+TEST(RigidPhysics, ABodyThatLayStillIsLookedAtAgainWhenItIsPushed) {
+  RigidWorld world(weightless());
+  world.add(W::fixed(W::box(Vec3::Ones(), Vec3(1.2, 0, 0))));
+  const BodyDesc box = W::box(Vec3::Ones(), Vec3::Zero());
+  const BodyId id = world.add(box);
+  world.run(0.1, 1.0 / 60, 2);
+  world.physics().collide(1.0 / 60);
+  EXPECT_TRUE(world.physics().approaches().empty());
+  world.physics().apply_impulse(id, Vec3(20 * box.mass_kg, 0, 0), Vec3::Zero());
+  world.physics().collide(1.0 / 60);
+  EXPECT_EQ(world.physics().approaches().size(), 1u);
+}
+
+TEST(RigidPhysics, AHalfSpaceGoesThroughItsPointHoweverItsBodyIsTurned) {
+  RigidWorld world;
+  BodyDesc ground = W::ground(Vec3::UnitX());
+  ground.X_WB.position = Vec3(0, 3, 0);
+  ground.X_WB.rotation = Quat(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitZ()));
+  ground.shapes[0].center_R = Vec3(2, -5, 0);  // (5, 5, 0) in W
+  world.add(ground);
+  const BodyId box = world.add(W::box(Vec3::Ones(), Vec3(0, 5.6, 0)));
+  world.run(1, 1.0 / 60, 4);
+  EXPECT_NEAR(world.state(box).X_WB.position.y(), 5.5, 1e-3);
 }
 
 }  // namespace
