@@ -6,23 +6,10 @@
 #include <utility>
 
 #include "solver/rigid/collide/approach.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
-
-// Rest is judged by the way, not by speed: a light piece pinched by heavy ones trembles on the spot
-// at centimetres a second for ever, and would keep its neighbours awake.
-constexpr double kDrift = 0.005;  // of the radius, within the time of rest
-// In speeds and times of falling (half a second is that of a piece of 35 cm); but no step can tell
-// what is slower than what gravity does in it, nor a few steps what is about to tip.
-constexpr double kSlow = 0.25;
-constexpr double kHit = 0.08;
-constexpr double kRestTime = 2.6;
-constexpr double kRestSteps = 20;
-constexpr float kChange = 0.3f;  // of the sleeper's weight: what wakes it
-// Of what each contact carried, in addition. Where stones press each other with many times their
-// weight, one that wakes shifts a fifth of that on; less than this, and waking goes round for ever.
-constexpr float kLoadChange = 0.3f;
 
 float weight_N(const Bodies& bodies, BodySlot body, const Vec3& gravity_W) {
   return static_cast<float>(bodies.mass_kg[body] * FroudeScale(gravity_W).gravity_m_s2());

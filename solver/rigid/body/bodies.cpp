@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "engine/base/parallel.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
@@ -23,12 +24,12 @@ InertiaRoot inertia_root(const Mat3& inertia_B) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(0.5 * (inertia_B + inertia_B.transpose()));
   const double largest = solver.eigenvalues().maxCoeff();
   SUNDER_CHECK(largest > 0);
-  const Vec3 moments = solver.eigenvalues().cwiseMax(1e-4 * largest);
+  const Vec3 moments = solver.eigenvalues().cwiseMax(kLeastMoment * largest);
   const Mat3 axes = solver.eigenvectors();
   InertiaRoot result;
   result.root = (axes * moments.cwiseSqrt().cwiseInverse().asDiagonal()).cast<float>();
   result.inertia = axes * moments.asDiagonal() * axes.transpose();
-  result.uneven = moments.minCoeff() < 0.95 * moments.maxCoeff();
+  result.uneven = moments.minCoeff() < kUneven * moments.maxCoeff();
   return result;
 }
 

@@ -5,14 +5,11 @@
 #include <cmath>
 
 #include "engine/base/rotation.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
 
-// Rad in a step; slower, the term is left out. What it does adds up over turns, not over steps.
-constexpr double kGyroscopicAngle = 1e-4;
-constexpr double kLargestAngle = 0.1;  // rad in one midpoint step
-constexpr double kFastestAngle = 100;  // rad in a step; faster, no rule follows it
 constexpr int kMidpointRounds = 12;
 constexpr int kEnergyRounds = 6;
 constexpr double kEnergyStep = 1.0001;  // of Newton's: to end below

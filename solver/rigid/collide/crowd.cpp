@@ -3,15 +3,9 @@
 #include <algorithm>
 
 #include "engine/base/hash.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
-namespace {
-
-// Deep contacts of a body that are solved, about; of more, a share.
-constexpr std::uint64_t kMostDeep = 24;
-
-}  // namespace
-
 void Crowd::thin_out(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies) {
   ByBody<std::uint32_t> crowd;  // deep contacts
   for (const ContactChanges& chunk : changes) {

@@ -4,16 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/rigid/tolerances.h"
+
 namespace sunder::solver {
 namespace {
-
-constexpr float kReuseMove = 0.03f;       // of the smaller inner radius
-constexpr float kReuseRotation = 0.005f;  // half-angle, rad
-constexpr float kMatchDistance = 0.5f;
-constexpr float kKeepSlide = 0.05f;  // of the smaller inner radius: an old point slid away
-constexpr float kKeepApart = 0.1f;   // of it: nearer to a new one, an old one tells nothing new
-constexpr float kKeepAlong = 0.9f;   // cosine of how far the normal may have turned
-constexpr std::size_t kRocking = 2;  // points: more, and there was an area to stand on
 
 Quatf relative_rotation(const Manifold& m, const Bodies& bodies) {
   return (bodies.rotation[m.body_a].conjugate() * bodies.rotation[m.body_b]).cast<float>();

@@ -7,14 +7,13 @@
 #include "engine/base/nncg.h"
 #include "solver/rigid/body/motion.h"
 #include "solver/rigid/body/row_exchange.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
-constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
-constexpr double kMoves = 1e-5;    // in a step, of a body's reach: less is rest
 
 }  // namespace
 
@@ -42,7 +41,7 @@ class ContactSolver::Stages {
                       solver.root_W_,
                       {rows_, solver.splitting_.parts(), solver.spins_.owed()},
                       soft_step(step),
-                      static_cast<float>(2 * step.fall_m_s / step.substeps),
+                      static_cast<float>(kLeastImpact * step.fall_m_s / step.substeps),
                       solver.order_.deep_contacts(),
                       solver.order_.loaded_contacts()} {}
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "engine/base/disjoint_sets.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr double kEnergyRounding = 1e-6;  // of the energy that moved to and fro
 constexpr double kShareRounding = 1 - 1e-6;
-constexpr double kSlowFalls = 4;  // in what gravity does to a speed within the step
 
 double lanes_sum(const Wide& a, const Wide& b, double linear) {
   double sum = 0;

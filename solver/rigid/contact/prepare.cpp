@@ -6,20 +6,10 @@
 #include <cmath>
 
 #include "solver/base/lanes.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
-
-// Springs go by the mass they hold, so a pebble that boulders press into a corner sinks in by a
-// share of its size. What gives way by more than this share of it gets stiffer
-// (docs/decisions/031); slowly, or an impact would be thrown back by a spring that hardened while
-// it was compressed.
-constexpr float kMostGive = 0.01f;        // of the inner radius of the smaller shape
-constexpr float kLeastCompliance = 0.1f;  // beyond, sweeps do not keep up
-constexpr float kLeastProp = 0.5f;  // of what is not pinched: what stands on it bounces at 0.3
-constexpr float kComplianceStep = 0.97f;  // a step
-
-constexpr float kLeastWay = 1e-5f;  // of the inner radius: what bodies move on unheeded
 
 template <class V>
 void set_columns(Triple<V> (&columns)[3], std::uint32_t lane, const Mat3f& root) {

@@ -11,22 +11,16 @@
 #include "solver/rigid/contact/load_path.h"
 #include "solver/rigid/contact/prepare.h"
 #include "solver/rigid/contact/sweep.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::uint32_t kGrain = 8;
-constexpr double kWork = 2e5;  // points swept at most, unless there are too many for it
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
-constexpr int kFirstLook = 32;        // whenever as many rounds again are over: are more in vain?
-constexpr double kNearlyDone = 1e-7;  // of the loads' squares: what falls by then will fall
-constexpr double kDone = 1e-12;       // of the loads' squares, a step's
-constexpr double kMostLeft = 0.01;    // of the energy of a substep of free fall
-// Of the inner radius: what is deeper is not at rest, and what is as far apart bears nothing.
-constexpr float kMostOverlap = 0.04f;
-constexpr float kMostRest = 0.1f;   // of it
+constexpr int kFirstLook = 32;      // whenever as many rounds again are over: are more in vain?
+constexpr double kDone = 1e-12;     // of the loads' squares, a step's
 constexpr float kNoBounce = 1e30f;  // m/s: nothing is as fast
-constexpr float kNoGap = 1e-4f;     // of it: rounding, or what would hardly be seen
 
 BlockLoads loads_of(const StaticBlock& c) {
   BlockLoads loads;
@@ -155,7 +149,7 @@ void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies
   std::uint32_t start[kSweepKeys + 1] = {};
   std::vector<std::pair<std::uint32_t, ManifoldSlot>> resting;  // key, manifold
   resting.reserve(contacts.cold.size());
-  const double slow_m_s = 2 * step.fall_m_s;
+  const double slow_m_s = kSlowStart * step.fall_m_s;
   for (const ManifoldSlot i : std::exchange(contacts.cold, {})) {
     Manifold& m = contacts.manifolds[i];
     if (!m.cold) continue;  // gone, or here for the second time

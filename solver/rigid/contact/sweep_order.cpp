@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "solver/rigid/tolerances.h"
+
 namespace sunder::solver {
 
 void SweepOrder::collect(const Bodies& bodies, const Contacts& contacts) {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/rigid/tolerances.h"
+
 namespace sunder::solver {
 namespace {
 
-constexpr double kRate = 0.25;    // of an error that a substep takes out
-constexpr double kJointPush = 2;  // fastest correction, in speeds of falling
 constexpr int kRopeRounds = 8;
 constexpr double kSoftness = 1e-6;  // of a row's response: two hinges of a door say the same twice
 

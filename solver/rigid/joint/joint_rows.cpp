@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "engine/base/rotation.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
-
-// Of the stiffness of a tension in a substep: damping begins, and grows by more than the tension
-// does, since what bends over many links is damped less than what bends at every one.
-constexpr double kStiff = 1, kStiffest = 24;
 
 /// One end of a joint as the step begins.
 struct End {
