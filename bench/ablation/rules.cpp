@@ -1,0 +1,175 @@
+#include "bench/ablation/rules.h"
+
+#include <cstdint>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "solver/rigid/tolerances.h"
+
+namespace sunder::ablation {
+namespace {
+
+using namespace solver;
+
+using Number = std::variant<double*, float*, int*, std::uint8_t*, std::uint32_t*, std::uint64_t*>;
+
+#define SUNDER_NUMBER(name) \
+  { #name, &name }
+const std::pair<std::string, Number> kNumbers[] = {SUNDER_NUMBER(kPressStiffness[0]),
+                                                   SUNDER_NUMBER(kPressStiffness[1]),
+                                                   SUNDER_NUMBER(kPressStiffness[2]),
+                                                   SUNDER_NUMBER(kPressStiffness[3]),
+                                                   SUNDER_NUMBER(kSlideStiffness[0]),
+                                                   SUNDER_NUMBER(kSlideStiffness[1]),
+                                                   SUNDER_NUMBER(kSlideStiffness[2]),
+                                                   SUNDER_NUMBER(kSlideStiffness[3]),
+                                                   SUNDER_NUMBER(kDampingRatio),
+                                                   SUNDER_NUMBER(kPush),
+                                                   SUNDER_NUMBER(kMostGive),
+                                                   SUNDER_NUMBER(kLeastCompliance),
+                                                   SUNDER_NUMBER(kLeastProp),
+                                                   SUNDER_NUMBER(kComplianceStep),
+                                                   SUNDER_NUMBER(kPinched),
+                                                   SUNDER_NUMBER(kWork),
+                                                   SUNDER_NUMBER(kNearlyDone),
+                                                   SUNDER_NUMBER(kMostLeft),
+                                                   SUNDER_NUMBER(kSlowStart),
+                                                   SUNDER_NUMBER(kMostOverlap),
+                                                   SUNDER_NUMBER(kMostRest),
+                                                   SUNDER_NUMBER(kNoGap),
+                                                   SUNDER_NUMBER(kLeastSlope),
+                                                   SUNDER_NUMBER(kAccelerateFrom),
+                                                   SUNDER_NUMBER(kStrikeRounds),
+                                                   SUNDER_NUMBER(kLeastImpact),
+                                                   SUNDER_NUMBER(kMoves),
+                                                   SUNDER_NUMBER(kLeastWay),
+                                                   SUNDER_NUMBER(kStill),
+                                                   SUNDER_NUMBER(kStillSpin),
+                                                   SUNDER_NUMBER(kSlowFalls),
+                                                   SUNDER_NUMBER(kMargin),
+                                                   SUNDER_NUMBER(kTouch),
+                                                   SUNDER_NUMBER(kAxisTolerance),
+                                                   SUNDER_NUMBER(kFast),
+                                                   SUNDER_NUMBER(kSliver),
+                                                   SUNDER_NUMBER(kApart),
+                                                   SUNDER_NUMBER(kLeastInner),
+                                                   SUNDER_NUMBER(kLayer),
+                                                   SUNDER_NUMBER(kReuseMove),
+                                                   SUNDER_NUMBER(kReuseRotation),
+                                                   SUNDER_NUMBER(kMatchDistance),
+                                                   SUNDER_NUMBER(kRocks),
+                                                   SUNDER_NUMBER(kKeepSlide),
+                                                   SUNDER_NUMBER(kKeepApart),
+                                                   SUNDER_NUMBER(kKeepAlong),
+                                                   SUNDER_NUMBER(kRocking),
+                                                   SUNDER_NUMBER(kDeep),
+                                                   SUNDER_NUMBER(kCrowdOfDeep),
+                                                   SUNDER_NUMBER(kDeepTogether),
+                                                   SUNDER_NUMBER(kMostDeep),
+                                                   SUNDER_NUMBER(kCrowd),
+                                                   SUNDER_NUMBER(kDeepMiddles),
+                                                   SUNDER_NUMBER(kFat),
+                                                   SUNDER_NUMBER(kFatSteps),
+                                                   SUNDER_NUMBER(kRefitsPerBuild),
+                                                   SUNDER_NUMBER(kDrift),
+                                                   SUNDER_NUMBER(kSlow),
+                                                   SUNDER_NUMBER(kHit),
+                                                   SUNDER_NUMBER(kRestTime),
+                                                   SUNDER_NUMBER(kRestSteps),
+                                                   SUNDER_NUMBER(kChange),
+                                                   SUNDER_NUMBER(kLoadChange),
+                                                   SUNDER_NUMBER(kRate),
+                                                   SUNDER_NUMBER(kJointPush),
+                                                   SUNDER_NUMBER(kStiff),
+                                                   SUNDER_NUMBER(kStiffest),
+                                                   SUNDER_NUMBER(kGyroscopicAngle),
+                                                   SUNDER_NUMBER(kLargestAngle),
+                                                   SUNDER_NUMBER(kFastestAngle),
+                                                   SUNDER_NUMBER(kLeastMoment),
+                                                   SUNDER_NUMBER(kUneven)};
+#undef SUNDER_NUMBER
+
+constexpr double kNever = 1e9, kAll = 1e30;
+
+}  // namespace
+
+std::vector<Rule> all_rules() {
+  return {
+      {"as it is", {}},
+      {"noise: damping + 1e-5", {{"kDampingRatio", 5.00005}}},
+      {"noise: push + 1e-5", {{"kPush", 4.00004}}},
+      {"noise: margin + 1e-5", {{"kMargin", 0.0500005}}},
+      {"static warm start", {{"kMostOverlap", -1}}},
+      {"its first guess", {{"kLeastSlope", 2}}},
+      {"its rounds", {{"kWork", 0}}},
+      {"what is not supported is released", {{"kMostLeft", kAll}}},
+      {"what needs a lower seat is released", {{"kMostRest", kAll}}},
+      {"gaps that are none", {{"kNoGap", 0}}},
+      {"stiffening", {{"kMostGive", kAll}}},
+      {"its floor for the pinched", {{"kLeastCompliance", 0.01}}},
+      {"its floor for props", {{"kLeastProp", 0.1}}},
+      {"props stiffen less", {{"kPinched", 0}}},
+      {"it comes slowly", {{"kComplianceStep", 0.01}}},
+      {"correction has a speed", {{"kPush", kAll}}},
+      {"kept points", {{"kRocks", 0}}},
+      {"kept points: only if slow", {{"kRocks", kAll}}},
+      {"kept points: only if straight", {{"kKeepAlong", -1}}},
+      {"kept points: only of edges", {{"kRocking", 4}}},
+      {"lowest layer", {{"kLayer", kAll}}},
+      {"impulses go to the nearest", {{"kMatchDistance", 0}}},
+      {"reuse of manifolds", {{"kReuseRotation", 0}}},
+      {"no second look at what is still", {{"kStill", -1}}},
+      {"edges at rest", {{"kSliver", -1}}},
+      {"axes are kept", {{"kAxisTolerance", 0}}},
+      {"margin", {{"kMargin", 0}}},
+      {"time of impact", {{"kFast", kAll}}},
+      {"crowds: pairs", {{"kCrowd", kNever}}},
+      {"crowds: contacts", {{"kMostDeep", kNever}}},
+      {"crowds: push", {{"kCrowdOfDeep", kNever}}},
+      {"energy guard", {{"kSlowFalls", kAll}}},
+      {"strikes", {{"kStrikeRounds", 0}}},
+      {"slow impacts do not rebound", {{"kLeastImpact", 0}}},
+      {"one point: arms that follow", {{"kLeastWay", kAll}}},
+      {"conjugate gradients", {{"kAccelerateFrom", kNever}}},
+      {"gyroscopic term", {{"kGyroscopicAngle", kAll}}},
+      {"midpoint steps are cut", {{"kLargestAngle", kAll}}},
+      {"round bodies do not wobble", {{"kUneven", 1}}},
+      {"still spins", {{"kStillSpin", 0}}},
+      {"joints: damping", {{"kStiff", kAll}}},
+      {"joints: damping grows", {{"kStiffest", kAll}}},
+      {"joints: correction has a speed", {{"kJointPush", kAll}}},
+      {"friction softer between faces",
+       {{"kSlideStiffness[2]", 0.25}, {"kSlideStiffness[3]", 0.25}}},
+      {"faces softer", {{"kPressStiffness[2]", 0.25}, {"kPressStiffness[3]", 0.25}}},
+      {"sleep: what carries more wakes later", {{"kLoadChange", 0}}},
+      {"boxes have room", {{"kFat", 0}, {"kFatSteps", 0}}},
+  };
+}
+
+Rule parse_rule(const std::string& text) {
+  Rule rule{text, {}};
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size()), is = text.find('=', at);
+    if (is >= end) throw std::invalid_argument("expected NUMBER=VALUE: " + text);
+    rule.off.push_back({text.substr(at, is - at), std::stod(text.substr(is + 1, end - is - 1))});
+    at = end + 1;
+  }
+  return rule;
+}
+
+double set_number(const std::string& name, double value) {
+  for (const auto& [known, number] : kNumbers) {
+    if (known != name) continue;
+    return std::visit(
+        [&](auto* of) {
+          using T = std::remove_reference_t<decltype(*of)>;
+          return static_cast<double>(std::exchange(*of, static_cast<T>(value)));
+        },
+        number);
+  }
+  throw std::invalid_argument("not in the book of numbers: " + name);
+}
+
+}  // namespace sunder::ablation
