@@ -2,7 +2,7 @@
 // solver/rigid/tolerances.h, and reference behaviour and piles are measured without it. The page
 // docs/ablation.md is what this prints.
 //
-//   ablation_bench [--rule SUBSTRING] [--set NUMBER=VALUE,...] [--preset NAME] [--jobs N]
+//   ablation_bench [--rule SUBSTRING] [--set NUMBER=VALUE,...;...] [--preset NAME] [--jobs N]
 //                  [--json FILE]
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,7 @@ struct Options {
 std::vector<Rule> chosen_rules(const Options& options) {
   const std::vector<Rule> all = all_rules();
   std::vector<Rule> chosen(all.begin(), all.begin() + kNoise);
-  if (!options.set.empty()) chosen.push_back(parse_rule(options.set));
+  for (const Rule& rule : parse_rules(options.set)) chosen.push_back(rule);
   if (options.set.empty() || !options.rule.empty())
     for (std::size_t i = kNoise; i < all.size(); ++i)
       if (all[i].name.find(options.rule) != std::string::npos) chosen.push_back(all[i]);
@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", error.what());
   }
   std::fprintf(stderr,
-               "usage: %s [--rule SUBSTRING] [--set NUMBER=VALUE,...] "
+               "usage: %s [--rule SUBSTRING] [--set NUMBER=VALUE,...;...] "
                "[--preset draft|realtime|accurate|reference] [--jobs N] [--json FILE]\n",
                argv[0]);
   return 2;

@@ -22,8 +22,8 @@ std::vector<Rule> all_rules();
 /// How many of them are of the solver as it is, but for noise.
 inline constexpr std::size_t kNoise = 4;
 
-/// "kPush=8,kMargin=0.1"; throws std::invalid_argument.
-Rule parse_rule(const std::string& text);
+/// "kPush=8,kMargin=0.1;kLayer=0": two of them. Throws std::invalid_argument.
+std::vector<Rule> parse_rules(const std::string& text);
 
 /// What the number was. Throws std::invalid_argument for one that is not in the book.
 double set_number(const std::string& name, double value);

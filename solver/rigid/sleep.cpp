@@ -153,7 +153,7 @@ void Sleep::wake_changed(const StepContext& step, const Contacts& contacts, Bodi
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
     const BodySlot body = a ? m.body_a : m.body_b;
     const Vec3f change = step.inverse_h * m.impulse_W() - m.rest_force_W;
-    change_N_[body] += std::max(0.f, change.norm() - kLoadChange * m.rest_force_W.norm());
+    change_N_[body] += std::max(0.f, change.norm() - kChange * m.rest_force_W.norm());
     support_N_[body] += (a ? -1.f : 1.f) * change.dot(up_W);
   }
   std::vector<BodySlot> woken, left;

@@ -23,17 +23,18 @@ namespace sunder::solver {
 /// where pieces touch in a point or two, as rubble does. Faces that meet in four are four springs
 /// side by side, and friction as stiff as they are makes a standing wave of a wall.
 SUNDER_TUNED double kPressStiffness[4] = {0.25, 0.25, 0.2, 0.18};
+/// The same of friction that sticks.
 SUNDER_TUNED double kSlideStiffness[4] = {0.25, 0.25, 0.125, 0.125};
 SUNDER_TUNED double kDampingRatio = 5;  ///< To critical.
-SUNDER_TUNED double kPush = 4;  ///< Fastest correction of an overlap, speeds of falling.
+/// Fastest correction of an overlap, in speeds of falling; of joints, by the reach, half of it.
+SUNDER_TUNED double kPush = 4;
 
 // Stiffening: springs go by the mass they hold, so a pebble that boulders press into a corner sinks
 // in by a share of its size. What gives way by more gets stiffer; slowly, or an impact would be
 // thrown back by a spring that hardened while it was compressed (decision 031).
 
-SUNDER_TUNED float kMostGive = 0.01f;
-SUNDER_TUNED float kLeastCompliance =
-    0.1f;  ///< Of the softness: beyond, sweeps do not keep up.
+SUNDER_TUNED float kMostGive = 0.01f;        ///< Softer than this, a contact gets stiffer.
+SUNDER_TUNED float kLeastCompliance = 0.1f;  ///< Of the softness: beyond, sweeps do not keep up.
 /// Of it, for what is not pinched: what stands on it bounces at 0.3.
 SUNDER_TUNED float kLeastProp = 0.5f;
 SUNDER_TUNED float kComplianceStep = 0.97f;  ///< Of it, a step.
@@ -41,116 +42,87 @@ SUNDER_TUNED float kComplianceStep = 0.97f;  ///< Of it, a step.
 /// bounce off contacts that get much stiffer.
 SUNDER_TUNED std::uint8_t kPinched = 3;
 
+// Rest.
+
+/// In g·dt, of a step or a substep: what is slower rests. It may bear a load from the first step on
+/// (decision 023), and does not rebound; what moves twice as fast is watched for energy (029).
+SUNDER_TUNED double kSlowFalls = 2;
+SUNDER_TUNED float kStill = 1e-6f;      ///< A way that is not worth a look.
+SUNDER_TUNED double kMoves = 1e-5;      ///< Of a body's reach, in a step: less is rest.
+SUNDER_TUNED float kLeastWay = 1e-5f;   ///< What bodies move on unheeded.
+SUNDER_TUNED double kStillSpin = 1e-6;  ///< rad in a step: its inertia hardly turns.
+
 // The static warm start (decision 023).
 
-SUNDER_TUNED double kWork = 2e5;  ///< Points swept, about; at least four rounds.
-SUNDER_TUNED double kNearlyDone =
-    1e-7;                                  ///< Of the loads' squares: what falls by then will fall.
-SUNDER_TUNED double kMostLeft = 0.01;  ///< Of the energy of a substep of free fall.
-SUNDER_TUNED double kSlowStart = 2;  ///< In g·dt: what is faster is under no load to be known.
-SUNDER_TUNED float kMostOverlap =
-    0.04f;                                ///< Deeper is not at rest; as far apart bears nothing.
-SUNDER_TUNED float kMostRest = 0.1f;  ///< Farthest that a seat may be from a touch.
-SUNDER_TUNED float kNoGap = 1e-4f;    ///< Rounding, or what would hardly be seen.
-SUNDER_TUNED float kLeastSlope =
-    0.2f;  ///< Cosine to the vertical of a normal that bears weight.
+SUNDER_TUNED double kMostLeft = 0.01;     ///< Of the energy of a substep of free fall.
+SUNDER_TUNED float kMostOverlap = 0.04f;  ///< Deeper is not at rest; as far apart bears nothing.
+SUNDER_TUNED float kNoGap = 1e-4f;        ///< Rounding, or what would hardly be seen.
+SUNDER_TUNED float kLeastSlope = 0.2f;    ///< Cosine to the vertical of a normal that bears weight.
 
 // Conjugate gradients (decision 028).
 
 /// Sweeps a substep: fewer are over before those know their way.
 SUNDER_TUNED int kAccelerateFrom = 4;
 
-// Rebounds and strikes (decision 035).
-
-SUNDER_TUNED int kStrikeRounds = 16;   ///< A substep: balls in a row that pass an impact on.
-SUNDER_TUNED double kLeastImpact = 2;  ///< In g·h: what is slower does not rebound.
-
-// Rest.
-
-SUNDER_TUNED double kMoves = 1e-5;      ///< Of a body's reach, in a step: less is rest.
-SUNDER_TUNED float kLeastWay = 1e-5f;   ///< What bodies move on unheeded.
-SUNDER_TUNED float kStill = 1e-6f;      ///< A way that is not worth a look.
-SUNDER_TUNED double kStillSpin = 1e-6;  ///< rad in a step: its inertia hardly turns.
-
-// The guard of energy (decision 029).
-
-SUNDER_TUNED double kSlowFalls = 4;  ///< In g·dt: where nothing is faster, nothing is weighed.
-
 // Where shapes touch.
 
-SUNDER_TUNED float kMargin = 0.05f;         ///< Contact before touch.
-SUNDER_TUNED float kTouch = 1e-3f;          ///< Where an impact lands.
+/// Contact before touch, and how far a point may slide that is kept (decision 033). Boxes have room
+/// for three.
+SUNDER_TUNED float kMargin = 0.05f;
+SUNDER_TUNED float kSliver = 1e-3f;         ///< An overlap of faces that is no area (decision 030).
 SUNDER_TUNED float kAxisTolerance = 0.01f;  ///< How much better another axis must be.
-SUNDER_TUNED float kFast = 0.5f;            ///< In a step: its time of impact is looked for.
-SUNDER_TUNED float kSliver = 1e-3f;  ///< An overlap of faces that is no area (decision 030).
-SUNDER_TUNED float kApart = 0.5f;    ///< Cosine between two faces that leave no area.
-SUNDER_TUNED float kLeastInner = 0.02f;  ///< Inner radius of a sliver, of its reach.
-
-// The lowest layer (decision 031).
-
-SUNDER_TUNED float kLayer = 0.02f;  ///< Points so far above the lowest still count.
+SUNDER_TUNED float kLayer = 0.02f;          ///< Points so far above the lowest still count (031).
+SUNDER_TUNED float kApart = 0.5f;           ///< Cosine between two faces that leave no area.
+SUNDER_TUNED float kLeastInner = 0.02f;     ///< Inner radius of a sliver, of its reach.
+/// A tenth: a contact as deep is deep, and no seat is farther from a touch (decisions 020, 023).
+SUNDER_TUNED float kDeep = 0.1f;
 
 // Manifolds that are kept, and points (decision 033).
 
-SUNDER_TUNED float kReuseMove = 0.03f;
+SUNDER_TUNED float kReuseMove = 0.03f;       ///< Farther, and a manifold is made anew.
 SUNDER_TUNED float kReuseRotation = 0.005f;  ///< Half-angle, rad.
 SUNDER_TUNED float kMatchDistance = 0.5f;    ///< Between points that inherit impulses.
-SUNDER_TUNED float kRocks = 0.25f;      ///< What moves no farther in a step keeps old points.
-SUNDER_TUNED float kKeepSlide = 0.05f;  ///< An old point slid away.
-SUNDER_TUNED float kKeepApart = 0.1f;   ///< Nearer to a new one, an old one tells nothing new.
-SUNDER_TUNED float kKeepAlong = 0.9f;   ///< Cosine of how far the normal may have turned.
-SUNDER_TUNED std::size_t kRocking = 2;  ///< Points: more, and there was an area to stand on.
+SUNDER_TUNED float kRocks = 0.25f;           ///< What moves no farther in a step keeps old points.
+SUNDER_TUNED float kKeepAlong = 0.9f;        ///< Cosine of how far the normal may have turned.
+SUNDER_TUNED std::size_t kRocking = 2;       ///< Points: more, and there was an area to stand on.
 
 // Crowds (decision 020).
 
-SUNDER_TUNED float kDeep = 0.1f;  ///< A deep contact.
+/// Neighbours of a shape, and deep contacts of a body, that are looked at, about; of more, a share.
+SUNDER_TUNED std::size_t kCrowd = 24;
 /// With more deep contacts on a body than these, each is pushed apart at a share of the fastest,
 /// all of them together as fast as so many would be: however many lie in one place.
 SUNDER_TUNED std::uint32_t kCrowdOfDeep = 8, kDeepTogether = 2;
-SUNDER_TUNED std::uint64_t kMostDeep =
-    24;  ///< Deep contacts of a body, about; of more, a share.
-/// Neighbours of a shape that are looked at however deep they overlap, about.
-SUNDER_TUNED std::size_t kCrowd = 24;
 /// Shapes overlap deeply if their middles are nearer than this share of their inner radii together.
 SUNDER_TUNED double kDeepMiddles = 0.9;
-
-// Boxes.
-
-SUNDER_TUNED float kFat = 0.15f;        ///< Room of a box for a few steps, of the inner radius,
-SUNDER_TUNED double kFatSteps = 2;      ///< and of the motion, steps.
-SUNDER_TUNED int kRefitsPerBuild = 12;  ///< Of the tree of what moves.
 
 // Sleep (decision 016). Rest is judged by the way, not by speed: a light piece pinched by heavy
 // ones trembles on the spot at centimetres a second for ever, and would keep its neighbours awake.
 // No step can tell what is slower than what gravity does in it, nor a few steps what is about to
 // tip.
 
-SUNDER_TUNED double kDrift = 0.005;  ///< Of the reach, within the time of rest.
-SUNDER_TUNED double kSlow = 0.25;    ///< Speeds of falling.
-SUNDER_TUNED double kHit = 0.08;     ///< Speeds of falling.
-SUNDER_TUNED double kRestTime =
-    2.6;  ///< Times of falling (half a second for a piece of 35 cm).
-SUNDER_TUNED double kRestSteps = 20;
-SUNDER_TUNED float kChange = 0.3f;  ///< Of the sleeper's weight: what wakes it.
-/// Of what each contact carried, in addition. Where stones press each other with many times their
-/// weight, one that wakes shifts a fifth of that on; less than this, and waking goes round for
-/// ever.
-SUNDER_TUNED float kLoadChange = 0.3f;
+SUNDER_TUNED double kDrift = 0.005;   ///< Of the reach, within the time of rest.
+SUNDER_TUNED double kSlow = 0.25;     ///< Speeds of falling.
+SUNDER_TUNED double kHit = 0.08;      ///< Speeds of falling.
+SUNDER_TUNED double kRestTime = 2.6;  ///< Times of falling (half a second for a piece of 35 cm).
+SUNDER_TUNED double kRestSteps = 20;  ///< At least so many.
+/// Of the sleeper's weight: what wakes it, beyond as much of what each contact carried. Where
+/// stones press each other with many times their weight, one that wakes shifts a fifth of that on;
+/// less than this, and waking goes round for ever.
+SUNDER_TUNED float kChange = 0.3f;
 
 // Joints (decision 026).
 
-SUNDER_TUNED double kRate = 0.25;    ///< Of an error that a substep takes out.
-SUNDER_TUNED double kJointPush = 2;  ///< Fastest correction, speeds of falling.
-/// Of the stiffness of a tension in a substep: damping begins, and grows by more than the tension
+SUNDER_TUNED double kRate = 0.25;  ///< Of an error that a substep takes out.
+/// Of the stiffness of a tension in a substep: from here damping grows by more than the tension
 /// does, since what bends over many links is damped less than what bends at every one.
-SUNDER_TUNED double kStiff = 1, kStiffest = 24;
+SUNDER_TUNED double kStiffest = 24;
 
 // Spins.
 
 /// Rad in a step; slower, the gyroscopic term is left out. What it does adds up over turns.
 SUNDER_TUNED double kGyroscopicAngle = 1e-4;
 SUNDER_TUNED double kLargestAngle = 0.1;  ///< Rad in one midpoint step.
-SUNDER_TUNED double kFastestAngle = 100;  ///< Rad in a step; faster, no rule follows it.
 SUNDER_TUNED double kLeastMoment = 1e-4;  ///< Of inertia, of the largest.
 SUNDER_TUNED double kUneven = 0.95;       ///< Of the largest: less, and what spins wobbles.
 

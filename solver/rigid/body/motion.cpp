@@ -11,6 +11,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr int kMidpointRounds = 12;
+constexpr double kMostTurn = 100;  // rad in a step; faster, no rule follows it
 constexpr int kEnergyRounds = 6;
 constexpr double kEnergyStep = 1.0001;  // of Newton's: to end below
 
@@ -53,7 +54,7 @@ Spin spun_freely(const Bodies& bodies, BodySlot body, double dt_s) {
 
 bool wobbles(const Bodies& bodies, BodySlot body, double dt_s) {
   const double angle = bodies.angular_velocity[body].norm() * dt_s;
-  return bodies.spins_freely[body] != 0 && angle >= kGyroscopicAngle && angle < kFastestAngle;
+  return bodies.spins_freely[body] != 0 && angle >= kGyroscopicAngle && angle < kMostTurn;
 }
 
 void fly(const StepContext& step, BodySlot body, Bodies& bodies) {

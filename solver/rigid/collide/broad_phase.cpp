@@ -12,6 +12,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr std::size_t kChunk = 512;
+constexpr int kRefitsPerBuild = 12;
 
 /// Bounds of a hull turned by R, about the body's centre.
 FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
@@ -62,8 +63,8 @@ FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& s
                   const Bodies& bodies) {
   FloatBox box = swept;
   if (!bodies.dynamic(shape.body)) return box;
-  const Vec3f shift = (kFatSteps * step.dt_s * bodies.velocity[shape.body]).cast<float>();
-  const Vec3f grow = Vec3f::Constant(kFat * shape.inner_radius_m);
+  const Vec3f shift = (2 * step.dt_s * bodies.velocity[shape.body]).cast<float>();
+  const Vec3f grow = Vec3f::Constant(3 * kMargin * shape.inner_radius_m);
   box.min += shift.cwiseMin(0.f) - grow;
   box.max += shift.cwiseMax(0.f) + grow;
   return box;

@@ -129,13 +129,13 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   SeparatingAxis axis = probe.axis(pose, axis_reach);
   float time = 0;
   const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
-  if (meet && reach.way_m > kFast * m.size_m) {
+  if (meet && reach.way_m > 0.5f * m.size_m) {
     axis_reach.way_A.setZero();
     time = time_of_impact(probe, pose, velocity_A, axis_reach.margin_m, dt, axis);
     pose.p += std::max(0.f, time) * velocity_A;
     if (time > 0 && b.kind == Kind::kSphere) {  // its normal turns until they touch
       SeparatingAxis touching = axis;
-      const float target_m = kTouch * m.size_m;
+      const float target_m = kSliver * m.size_m;
       const float more = time_of_impact(probe, pose, velocity_A, target_m, dt - time, touching);
       if (more > 0) axis = touching, time += more, pose.p += more * velocity_A;
     }

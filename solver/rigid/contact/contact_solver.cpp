@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
+constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
 
 }  // namespace
 
@@ -41,7 +42,7 @@ class ContactSolver::Stages {
                       solver.root_W_,
                       {rows_, solver.splitting_.parts(), solver.spins_.owed()},
                       soft_step(step),
-                      static_cast<float>(kLeastImpact * step.fall_m_s / step.substeps),
+                      static_cast<float>(kSlowFalls * step.fall_m_s / step.substeps),
                       solver.order_.deep_contacts(),
                       solver.order_.loaded_contacts()} {}
 

@@ -23,7 +23,7 @@ double lanes_sum(const Wide& a, const Wide& b, double linear) {
 void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot> manifolds,
                           std::span<const BodySlot> active, std::span<const Pair> joined,
                           const Bodies& bodies, const Contacts& contacts) {
-  const double slow_m_s = kSlowFalls * step.fall_m_s;
+  const double slow_m_s = 2 * kSlowFalls * step.fall_m_s;
   watches_ = std::ranges::any_of(active, [&](BodySlot body) {
     const double spin_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
     return bodies.velocity[body].norm() + spin_m_s > slow_m_s;

@@ -18,9 +18,11 @@ namespace {
 
 constexpr std::uint32_t kGrain = 8;
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
-constexpr int kFirstLook = 32;      // whenever as many rounds again are over: are more in vain?
-constexpr double kDone = 1e-12;     // of the loads' squares, a step's
-constexpr float kNoBounce = 1e30f;  // m/s: nothing is as fast
+constexpr double kWork = 2e5;         // points swept at most, unless there are too many for it
+constexpr double kNearlyDone = 1e-7;  // of the loads' squares: what falls by then will fall
+constexpr int kFirstLook = 32;        // whenever as many rounds again are over: are more in vain?
+constexpr double kDone = 1e-12;       // of the loads' squares, a step's
+constexpr float kNoBounce = 1e30f;    // m/s: nothing is as fast
 
 BlockLoads loads_of(const StaticBlock& c) {
   BlockLoads loads;
@@ -95,7 +97,7 @@ void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float
     deepest = std::max(deepest, depth[i]);
   }
   // An overlap that this load explains is as much at rest as none.
-  const float most = kMostRest * m.size_m, least = -std::min(deepest, most);
+  const float most = kDeep * m.size_m, least = -std::min(deepest, most);
   for (std::size_t i = 0; i < m.count; ++i) {
     ManifoldPoint& p = m.points[i];
     p.rest_m = std::clamp(p.separation_m + depth[i], least, depth[i] > 0 ? most : 0);
@@ -114,7 +116,7 @@ void store_friction(const StaticBlock& c, std::uint32_t lane, float yield_s, flo
   if (!(det > 0)) return;
   const float far_1 = (m22 * s1 - m12 * s2) / det, far_2 = (m11 * s2 - m12 * s1) / det;
   Vec3f drift = -yield_s * (far_1 * t1 + far_2 * t2);
-  const float far = drift.norm(), most = kMostRest * m.size_m;
+  const float far = drift.norm(), most = kDeep * m.size_m;
   if (far > most) drift *= most / far;
   m.drift_W += drift;
   m.friction_arm_B += drift;
@@ -149,7 +151,7 @@ void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies
   std::uint32_t start[kSweepKeys + 1] = {};
   std::vector<std::pair<std::uint32_t, ManifoldSlot>> resting;  // key, manifold
   resting.reserve(contacts.cold.size());
-  const double slow_m_s = kSlowStart * step.fall_m_s;
+  const double slow_m_s = kSlowFalls * step.fall_m_s;
   for (const ManifoldSlot i : std::exchange(contacts.cold, {})) {
     Manifold& m = contacts.manifolds[i];
     if (!m.cold) continue;  // gone, or here for the second time
@@ -320,7 +322,7 @@ void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& 
       float deepest = 0;
       for (std::size_t i = 0; i < m.count; ++i)
         deepest = std::max(deepest, yield_m(c, lane, i, soft.press[c.points - 1].yield_s));
-      if (deepest <= kMostRest * m.size_m) continue;
+      if (deepest <= kDeep * m.size_m) continue;
       any = true;
       for (const BodySlot body : {m.body_a, m.body_b}) loads_[body].supported = false;
     }
