@@ -18,14 +18,7 @@ using Number = std::variant<double*, float*, int*, std::uint8_t*, std::uint32_t*
 
 #define SUNDER_NUMBER(name) \
   { #name, &name }
-const std::pair<std::string, Number> kNumbers[] = {SUNDER_NUMBER(kPressStiffness[0]),
-                                                   SUNDER_NUMBER(kPressStiffness[1]),
-                                                   SUNDER_NUMBER(kPressStiffness[2]),
-                                                   SUNDER_NUMBER(kPressStiffness[3]),
-                                                   SUNDER_NUMBER(kSlideStiffness[0]),
-                                                   SUNDER_NUMBER(kSlideStiffness[1]),
-                                                   SUNDER_NUMBER(kSlideStiffness[2]),
-                                                   SUNDER_NUMBER(kSlideStiffness[3]),
+const std::pair<std::string, Number> kNumbers[] = {SUNDER_NUMBER(kStiffness),
                                                    SUNDER_NUMBER(kDampingRatio),
                                                    SUNDER_NUMBER(kPush),
                                                    SUNDER_NUMBER(kMostGive),
@@ -123,9 +116,6 @@ std::vector<Rule> all_rules() {
       {"joints: damping", {{"kStiff", kAll}}},
       {"joints: damping grows", {{"kStiffest", kAll}}},
       {"joints: correction has a speed", {{"kJointPush", kAll}}},
-      {"friction softer between faces",
-       {{"kSlideStiffness[2]", 0.25}, {"kSlideStiffness[3]", 0.25}}},
-      {"faces softer", {{"kPressStiffness[2]", 0.25}, {"kPressStiffness[3]", 0.25}}},
       {"sleep: what carries more wakes later", {{"kLoadChange", 0}}},
       {"boxes have room", {{"kFat", 0}, {"kFatSteps", 0}}},
   };

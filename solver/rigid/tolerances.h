@@ -19,12 +19,10 @@ namespace sunder::solver {
 
 // Softness of contacts (decision 003).
 
-/// Contact frequency times substep, by the number of points less one. Two sweeps keep up with 0.25
-/// where pieces touch in a point or two, as rubble does. Faces that meet in four are four springs
-/// side by side, and friction as stiff as they are makes a standing wave of a wall.
-SUNDER_TUNED double kPressStiffness[4] = {0.25, 0.25, 0.2, 0.18};
-/// The same of friction that sticks.
-SUNDER_TUNED double kSlideStiffness[4] = {0.25, 0.25, 0.125, 0.125};
+/// Contact frequency times substep: two sweeps keep up with it where pieces touch in a point or
+/// two, as rubble does. Faces, of more points, are springs side by side: as stiff each, a wall
+/// makes standing waves, so they are three quarters as stiff, and friction between them half.
+SUNDER_TUNED double kStiffness = 0.25;
 SUNDER_TUNED double kDampingRatio = 5;  ///< To critical.
 /// Fastest correction of an overlap, in speeds of falling; of joints, by the reach, half of it.
 SUNDER_TUNED double kPush = 4;

@@ -22,8 +22,9 @@ Softness softness(double stiffness, double h) {
 SoftStep soft_step(const StepContext& step) {
   SoftStep soft;
   for (int i = 0; i < 4; ++i) {
-    soft.press[i] = softness(kPressStiffness[i], step.h_s);
-    soft.slide[i] = softness(kSlideStiffness[i], step.h_s);
+    const bool face = i >= 2;
+    soft.press[i] = softness((face ? 0.75 : 1) * kStiffness, step.h_s);
+    soft.slide[i] = softness((face ? 0.5 : 1) * kStiffness, step.h_s);
   }
   soft.inverse_h = step.inverse_h;
   soft.push = static_cast<float>(kPush * step.froude.speed_m_s(1));
