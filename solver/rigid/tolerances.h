@@ -45,10 +45,9 @@ SUNDER_TUNED std::uint8_t kPinched = 3;
 /// In g·dt, of a step or a substep: what is slower rests. It may bear a load from the first step on
 /// (decision 023), and does not rebound; what moves twice as fast is watched for energy (029).
 SUNDER_TUNED double kSlowFalls = 2;
-SUNDER_TUNED float kStill = 1e-6f;      ///< A way that is not worth a look.
-SUNDER_TUNED double kMoves = 1e-5;      ///< Of a body's reach, in a step: less is rest.
-SUNDER_TUNED float kLeastWay = 1e-5f;   ///< What bodies move on unheeded.
-SUNDER_TUNED double kStillSpin = 1e-6;  ///< rad in a step: its inertia hardly turns.
+/// In a step, of the inner radius or of a body's reach, and in rad: what moves less lies still, and
+/// needs no look, no new arms and no gyroscopic term.
+SUNDER_TUNED float kStill = 1e-6f;
 
 // The static warm start (decision 023).
 
@@ -118,8 +117,6 @@ SUNDER_TUNED double kStiffest = 24;
 
 // Spins.
 
-/// Rad in a step; slower, the gyroscopic term is left out. What it does adds up over turns.
-SUNDER_TUNED double kGyroscopicAngle = 1e-4;
 SUNDER_TUNED double kLargestAngle = 0.1;  ///< Rad in one midpoint step.
 SUNDER_TUNED double kLeastMoment = 1e-4;  ///< Of inertia, of the largest.
 SUNDER_TUNED double kUneven = 0.95;       ///< Of the largest: less, and what spins wobbles.

@@ -54,7 +54,7 @@ Spin spun_freely(const Bodies& bodies, BodySlot body, double dt_s) {
 
 bool wobbles(const Bodies& bodies, BodySlot body, double dt_s) {
   const double angle = bodies.angular_velocity[body].norm() * dt_s;
-  return bodies.spins_freely[body] != 0 && angle >= kGyroscopicAngle && angle < kMostTurn;
+  return bodies.spins_freely[body] != 0 && angle >= double{kStill} && angle < kMostTurn;
 }
 
 void fly(const StepContext& step, BodySlot body, Bodies& bodies) {

@@ -48,7 +48,7 @@ double Spins::end(const StepContext& step, BodySlot body, const BodyRow& row, co
   const Vec3 angle_W = turned(row, root_W);
   const Wide change = row.velocity - row.start + owed_[row_of(body)];
   const Vec3 added_W = (root_W * angular(change)).cast<double>();
-  if (angle_W.squaredNorm() < kStillSpin * kStillSpin) {
+  if (angle_W.squaredNorm() < double{kStill * kStill}) {
     spin.turning = {rotation_by(angle_W) * R_WB, bodies.angular_velocity[body] + added_W};
     return spin.made_J = 0;
   }

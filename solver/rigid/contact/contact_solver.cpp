@@ -344,7 +344,7 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   joint_solver_.collect(bodies, joints, order_.in_contact());
   collect_bodies(bodies);
   moving_ = std::ranges::any_of(active_, [&](BodySlot body) {
-    return bodies.velocity[body].norm() * step.dt_s > kMoves * bodies.reach_m[body];
+    return bodies.velocity[body].norm() * step.dt_s > double{kStill} * bodies.reach_m[body];
   });
   blocks_->follow_bodies(moving_);
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(), bodies,

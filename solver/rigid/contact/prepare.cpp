@@ -45,8 +45,7 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   const Vec3 passes = bodies.velocity[m.body_b] - bodies.velocity[m.body_a];
   const Vec3 turns = bodies.angular_velocity[m.body_b] - bodies.angular_velocity[m.body_a];
   const double way_m = (passes.norm() + turns.norm() * double{m.size_m}) * step.context.dt_s;
-  g.meets[lane] =
-      way_m > double{kLeastWay * m.size_m} ? 1 : 0;  // what lies still needs no new arms
+  g.meets[lane] = way_m > double{kStill * m.size_m} ? 1 : 0;  // what lies still needs no new arms
   set_lane(g.gravity, lane,
            ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }
@@ -129,7 +128,7 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
   for (std::uint32_t lane = 0; lane < count; ++lane) {
     const float size_m = step.contacts.manifolds[step.manifolds[first + lane]].size_m;
     arms->wide[lane] = 1.0f * size_m * size_m;
-    arms->least[lane] = kLeastWay * kLeastWay * size_m * size_m;
+    arms->least[lane] = kStill * kStill * size_m * size_m;
   }
 }
 
