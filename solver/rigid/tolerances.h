@@ -24,7 +24,7 @@ namespace sunder::solver {
 /// makes standing waves, so they are three quarters as stiff, and friction between them half.
 SUNDER_TUNED double kStiffness = 0.25;
 SUNDER_TUNED double kDampingRatio = 5;  ///< To critical.
-/// Fastest correction of an overlap, in speeds of falling; of joints, by the reach, half of it.
+/// Fastest correction of an overlap, in speeds of falling; of joints, by the reach.
 SUNDER_TUNED double kPush = 4;
 
 // Stiffening: springs go by the mass they hold, so a pebble that boulders press into a corner sinks
@@ -51,10 +51,9 @@ SUNDER_TUNED float kStill = 1e-6f;
 
 // The static warm start (decision 023).
 
-SUNDER_TUNED double kMostLeft = 0.01;     ///< Of the energy of a substep of free fall.
-SUNDER_TUNED float kMostOverlap = 0.04f;  ///< Deeper is not at rest; as far apart bears nothing.
-SUNDER_TUNED float kNoGap = 1e-4f;        ///< Rounding, or what would hardly be seen.
-SUNDER_TUNED float kLeastSlope = 0.2f;    ///< Cosine to the vertical of a normal that bears weight.
+SUNDER_TUNED double kMostLeft = 0.01;   ///< Of the energy of a substep of free fall.
+SUNDER_TUNED float kNoGap = 1e-4f;      ///< Rounding, or what would hardly be seen.
+SUNDER_TUNED float kLeastSlope = 0.2f;  ///< Cosine to the vertical of a normal that bears weight.
 
 // Conjugate gradients (decision 028).
 
@@ -63,14 +62,14 @@ SUNDER_TUNED int kAccelerateFrom = 4;
 
 // Where shapes touch.
 
-/// Contact before touch, and how far a point may slide that is kept (decision 033). Boxes have room
-/// for three.
+/// Contact before touch, and what rests is no farther from one (decision 023); how far a point may
+/// slide that is kept (033). Boxes have room for three.
 SUNDER_TUNED float kMargin = 0.05f;
-SUNDER_TUNED float kSliver = 1e-3f;         ///< An overlap of faces that is no area (decision 030).
-SUNDER_TUNED float kAxisTolerance = 0.01f;  ///< How much better another axis must be.
-SUNDER_TUNED float kLayer = 0.02f;          ///< Points so far above the lowest still count (031).
-SUNDER_TUNED float kApart = 0.5f;           ///< Cosine between two faces that leave no area.
-SUNDER_TUNED float kLeastInner = 0.02f;     ///< Inner radius of a sliver, of its reach.
+SUNDER_TUNED float kSliver = 1e-3f;  ///< An overlap of faces that is no area (decision 030).
+/// Points so far above the lowest still count (031), and so much must another axis be better.
+SUNDER_TUNED float kLayer = 0.02f;
+SUNDER_TUNED float kApart = 0.5f;        ///< Cosine between two faces that leave no area.
+SUNDER_TUNED float kLeastInner = 0.02f;  ///< Inner radius of a sliver, of its reach.
 /// A tenth: a contact as deep is deep, and no seat is farther from a touch (decisions 020, 023).
 SUNDER_TUNED float kDeep = 0.1f;
 

@@ -25,7 +25,7 @@ struct Probe {
   SeparatingAxis axis(const RelativePose& pose, const AxisReach& reach) const {
     if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
       place_in_each_other(a.hull, b.hull, pose, scratch.hulls);
-      return separating_axis(a.hull, b.hull, pose, reach, kAxisTolerance * size_m, scratch.hulls);
+      return separating_axis(a.hull, b.hull, pose, reach, kLayer * size_m, scratch.hulls);
     }
     const Vec3f center_b = pose.R * b.center + pose.p;
     SeparatingAxis axis;

@@ -157,7 +157,7 @@ void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies
     if (!m.cold) continue;  // gone, or here for the second time
     m.cold = false;
     if (m.count == 0 || !(bodies.awake(m.body_a) || bodies.awake(m.body_b))) continue;
-    const bool rests = std::abs(m.least_separation()) < kMostOverlap * m.size_m;
+    const bool rests = std::abs(m.least_separation()) < kMargin * m.size_m;
     if (!rests || greatest_speed(m, bodies) >= slow_m_s) continue;
     resting.emplace_back(m.sweep_key(), i);
     ++start[resting.back().first + 1];
