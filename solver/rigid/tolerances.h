@@ -52,7 +52,6 @@ SUNDER_TUNED float kStill = 1e-6f;
 // The static warm start (decision 023).
 
 SUNDER_TUNED double kMostLeft = 0.01;   ///< Of the energy of a substep of free fall.
-SUNDER_TUNED float kNoGap = 1e-4f;      ///< Rounding, or what would hardly be seen.
 SUNDER_TUNED float kLeastSlope = 0.2f;  ///< Cosine to the vertical of a normal that bears weight.
 
 // Conjugate gradients (decision 028).
