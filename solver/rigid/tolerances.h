@@ -67,8 +67,10 @@ SUNDER_TUNED float kMargin = 0.05f;
 SUNDER_TUNED float kSliver = 1e-3f;  ///< An overlap of faces that is no area (decision 030).
 /// Points so far above the lowest still count (031), and so much must another axis be better.
 SUNDER_TUNED float kLayer = 0.02f;
-SUNDER_TUNED float kApart = 0.5f;        ///< Cosine between two faces that leave no area.
-SUNDER_TUNED float kLeastInner = 0.02f;  ///< Inner radius of a sliver, of its reach.
+SUNDER_TUNED float kApart = 0.5f;  ///< Cosine between two faces that leave no area.
+/// Inner radius of a sliver, at least, of its reach; no moment of inertia is less than that of a
+/// sliver half as thick.
+SUNDER_TUNED float kLeastInner = 0.02f;
 /// A tenth: a contact as deep is deep, and no seat is farther from a touch (decisions 020, 023).
 SUNDER_TUNED float kDeep = 0.1f;
 
@@ -116,7 +118,5 @@ SUNDER_TUNED double kStiffest = 24;
 // Spins.
 
 SUNDER_TUNED double kLargestAngle = 0.1;  ///< Rad in one midpoint step.
-SUNDER_TUNED double kLeastMoment = 1e-4;  ///< Of inertia, of the largest.
-SUNDER_TUNED double kUneven = 0.95;       ///< Of the largest: less, and what spins wobbles.
 
 }  // namespace sunder::solver

@@ -13,7 +13,8 @@ namespace sunder::solver {
 namespace {
 
 /// Principal axes scaled by the square roots of the inverse moments, and whether those differ by
-/// 5 % or more. A degenerate inertia is filled up, so that no axis can be spun without effort.
+/// more than rounding. A degenerate inertia is filled up, so that no axis can be spun without
+/// effort.
 struct InertiaRoot {
   Mat3f root = Mat3f::Zero();
   Mat3 inertia = Mat3::Zero();
@@ -24,12 +25,13 @@ InertiaRoot inertia_root(const Mat3& inertia_B) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(0.5 * (inertia_B + inertia_B.transpose()));
   const double largest = solver.eigenvalues().maxCoeff();
   SUNDER_CHECK(largest > 0);
-  const Vec3 moments = solver.eigenvalues().cwiseMax(kLeastMoment * largest);
+  const Vec3 moments =
+      solver.eigenvalues().cwiseMax(0.25 * double{kLeastInner * kLeastInner} * largest);
   const Mat3 axes = solver.eigenvectors();
   InertiaRoot result;
   result.root = (axes * moments.cwiseSqrt().cwiseInverse().asDiagonal()).cast<float>();
   result.inertia = axes * moments.asDiagonal() * axes.transpose();
-  result.uneven = moments.minCoeff() < kUneven * moments.maxCoeff();
+  result.uneven = moments.minCoeff() < (1 - 1e-6) * moments.maxCoeff();
   return result;
 }
 
