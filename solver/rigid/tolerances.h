@@ -28,14 +28,12 @@ SUNDER_TUNED double kDampingRatio = 5;  ///< To critical.
 SUNDER_TUNED double kPush = 4;
 
 // Stiffening: springs go by the mass they hold, so a pebble that boulders press into a corner sinks
-// in by a share of its size. What gives way by more gets stiffer; slowly, or an impact would be
-// thrown back by a spring that hardened while it was compressed (decision 031).
+// in by a share of its size. What gives way by more gets stiffer (decision 031).
 
 SUNDER_TUNED float kMostGive = 0.01f;        ///< Softer than this, a contact gets stiffer.
 SUNDER_TUNED float kLeastCompliance = 0.1f;  ///< Of the softness: beyond, sweeps do not keep up.
 /// Of it, for what is not pinched: what stands on it bounces at 0.3.
 SUNDER_TUNED float kLeastProp = 0.5f;
-SUNDER_TUNED float kComplianceStep = 0.97f;  ///< Of it, a step.
 /// Loaded manifolds from which on a piece is pinched; a pebble under a column, held by two, would
 /// bounce off contacts that get much stiffer.
 SUNDER_TUNED std::uint8_t kPinched = 3;
