@@ -78,8 +78,6 @@ SUNDER_TUNED float kReuseMove = 0.03f;       ///< Farther, and a manifold is mad
 SUNDER_TUNED float kReuseRotation = 0.005f;  ///< Half-angle, rad.
 SUNDER_TUNED float kMatchDistance = 0.5f;    ///< Between points that inherit impulses.
 SUNDER_TUNED float kRocks = 0.25f;           ///< What moves no farther in a step keeps old points.
-SUNDER_TUNED float kKeepAlong = 0.9f;        ///< Cosine of how far the normal may have turned.
-SUNDER_TUNED std::size_t kRocking = 2;       ///< Points: more, and there was an area to stand on.
 
 // Crowds (decision 020).
 

@@ -99,7 +99,6 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
   const std::size_t old_count = m.count;
   m.body_a = pair.body_a, m.body_b = pair.body_b;
   m.count = static_cast<std::uint8_t>(points.size());
-  const Vec3f normal_before_W = m.normal_W;
   m.normal_W = (R_WA * normal_A).normalized();
   m.normal_body = m.normal_on_b ? Vec3f(R_WB.transpose() * m.normal_W) : normal_A;
   m.built_position = motion.pose.p;
@@ -119,9 +118,7 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
     return;
   }
   const std::span<const ManifoldPoint> before = std::span(old).first(old_count);
-  if (points.size() == 1 && old_count <= kRocking && m.reusable &&
-      normal_before_W.dot(m.normal_W) > kKeepAlong)
-    keep_points(before, motion, normal_A, reach_m, m);
+  if (points.size() == 1 && m.reusable) keep_points(before, motion, normal_A, reach_m, m);
   place_points(R_WA, R_WB, m);
   m.drift_W.setZero();
   m.sticking = true;
