@@ -131,7 +131,7 @@ void Sleep::wake_hit(const StepContext& step, const Contacts& contacts, Bodies& 
     if (m.count == 0) continue;
     const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
-    const double hit_m_s = speed_m_s(kHit, step, bodies.reach_m[a ? m.body_a : m.body_b]);
+    const double hit_m_s = speed_m_s(kSlow / 3, step, bodies.reach_m[a ? m.body_a : m.body_b]);
     for (std::size_t i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
       const double speed = closing_speed(m, bodies, p.arm_A, p.arm_B);

@@ -1,5 +1,6 @@
-// Every number of the rigid solver that somebody has tuned, by the rule it belongs to. What is
-// mathematics, rounding, or room for work and memory stays where it is used.
+// Every number of the rigid solver that somebody has tuned, by the rule it belongs to: what each
+// rule buys is in docs/ablation.md. What is mathematics, rounding, or room for work and memory
+// stays where it is used. tests/check_tolerances.py counts them.
 //
 // Lengths are shares of the inner radius of the smaller shape of a contact, unless they say
 // otherwise; speeds and times are in those of falling (engine/base/froude.h, docs/decisions/034).
@@ -20,9 +21,11 @@ namespace sunder::solver {
 // Softness of contacts (decision 003).
 
 /// Contact frequency times substep: two sweeps keep up with it where pieces touch in a point or
-/// two, as rubble does. Faces, of more points, are springs side by side: as stiff each, a wall
-/// makes standing waves, so they are three quarters as stiff, and friction between them half.
+/// two, as rubble does.
 SUNDER_TUNED double kStiffness = 0.25;
+/// Of faces, whose points are springs side by side, or a wall makes standing waves; friction
+/// between them is half as stiff as a point.
+SUNDER_TUNED double kFaceStiffness = 0.18;
 SUNDER_TUNED double kDampingRatio = 5;  ///< To critical.
 /// Fastest correction of an overlap, in speeds of falling; of joints, by the reach.
 SUNDER_TUNED double kPush = 4;
@@ -52,42 +55,40 @@ SUNDER_TUNED float kStill = 1e-6f;
 SUNDER_TUNED double kMostLeft = 0.01;   ///< Of the energy of a substep of free fall.
 SUNDER_TUNED float kLeastSlope = 0.2f;  ///< Cosine to the vertical of a normal that bears weight.
 
-// Conjugate gradients (decision 028).
-
-/// Sweeps a substep: fewer are over before those know their way.
-SUNDER_TUNED int kAccelerateFrom = 4;
-
 // Where shapes touch.
 
 /// Contact before touch, and what rests is no farther from one (decision 023); how far a point may
 /// slide that is kept (033). Boxes have room for three.
 SUNDER_TUNED float kMargin = 0.05f;
 SUNDER_TUNED float kSliver = 1e-3f;  ///< An overlap of faces that is no area (decision 030).
-/// Points so far above the lowest still count (031), and so much must another axis be better.
+/// Points so far above the lowest still count (031); half as much must another axis be better.
 SUNDER_TUNED float kLayer = 0.02f;
 SUNDER_TUNED float kApart = 0.5f;  ///< Cosine between two faces that leave no area.
 /// Inner radius of a sliver, at least, of its reach; no moment of inertia is less than that of a
 /// sliver half as thick.
 SUNDER_TUNED float kLeastInner = 0.02f;
-/// A tenth: a contact as deep is deep, and no seat is farther from a touch (decisions 020, 023).
+/// A contact as deep is deep, so are shapes whose middles are nearer by as much than balls that
+/// touch (decision 020), and no seat is farther from a touch (023).
 SUNDER_TUNED float kDeep = 0.1f;
 
 // Manifolds that are kept, and points (decision 033).
 
-SUNDER_TUNED float kReuseMove = 0.03f;       ///< Farther, and a manifold is made anew.
-SUNDER_TUNED float kReuseRotation = 0.005f;  ///< Half-angle, rad.
-SUNDER_TUNED float kMatchDistance = 0.5f;    ///< Between points that inherit impulses.
-SUNDER_TUNED float kRocks = 0.25f;           ///< What moves no farther in a step keeps old points.
+/// Farther, and a manifold is made anew; or turned by as much at three inner radii.
+SUNDER_TUNED float kReuse = 0.03f;
+/// Is elsewhere: points as far from each other are others, and what moves as far in a step is
+/// looked ahead for; what moves half as far keeps no old points.
+SUNDER_TUNED float kFar = 0.5f;
 
 // Crowds (decision 020).
 
 /// Neighbours of a shape, and deep contacts of a body, that are looked at, about; of more, a share.
 SUNDER_TUNED std::size_t kCrowd = 24;
-/// With more deep contacts on a body than these, each is pushed apart at a share of the fastest,
-/// all of them together as fast as so many would be: however many lie in one place.
-SUNDER_TUNED std::uint32_t kCrowdOfDeep = 8, kDeepTogether = 2;
-/// Shapes overlap deeply if their middles are nearer than this share of their inner radii together.
-SUNDER_TUNED double kDeepMiddles = 0.9;
+
+// Rules without a number at which they are off, for ablation_bench: the guard of energy (029),
+// strikes (035), conjugate gradients (028), points that are kept (033), looking ahead for impacts.
+
+SUNDER_TUNED bool kGuards = true, kStrikes = true, kAccelerates = true, kKeeps = true,
+                  kLooksAhead = true;
 
 // Sleep (decision 016). Rest is judged by the way, not by speed: a light piece pinched by heavy
 // ones trembles on the spot at centimetres a second for ever, and would keep its neighbours awake.
@@ -95,8 +96,7 @@ SUNDER_TUNED double kDeepMiddles = 0.9;
 // tip.
 
 SUNDER_TUNED double kDrift = 0.005;   ///< Of the reach, within the time of rest.
-SUNDER_TUNED double kSlow = 0.25;     ///< Speeds of falling.
-SUNDER_TUNED double kHit = 0.08;      ///< Speeds of falling.
+SUNDER_TUNED double kSlow = 0.25;     ///< Speeds of falling; a third of it is a hit.
 SUNDER_TUNED double kRestTime = 2.6;  ///< Times of falling (half a second for a piece of 35 cm).
 SUNDER_TUNED double kRestSteps = 20;  ///< At least so many.
 /// Of the sleeper's weight: what wakes it, beyond as much of what each contact carried. Where

@@ -213,7 +213,7 @@ void BroadPhase::thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes&
     const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
     if (a.kind == ShapeDesc::Kind::kHalfSpace) return false;
     if (!bodies.dynamic(a.body) || !bodies.dynamic(b.body)) return false;
-    const double deep = kDeepMiddles * double{a.inner_radius_m + b.inner_radius_m};
+    const double deep = double{(1 - kDeep) * (a.inner_radius_m + b.inner_radius_m)};
     return combine(kCrowd, pair.key()) > share &&
            (middle(a) - middle(b)).squaredNorm() < deep * deep;
   };

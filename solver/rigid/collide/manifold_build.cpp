@@ -25,7 +25,7 @@ void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
       break;
     }
   }
-  const float limit = kMatchDistance * size_m;
+  const float limit = kFar * size_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (served >> i & 1) continue;
     float nearest = limit * limit;
@@ -118,7 +118,7 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
     return;
   }
   const std::span<const ManifoldPoint> before = std::span(old).first(old_count);
-  if (points.size() == 1 && m.reusable) keep_points(before, motion, normal_A, reach_m, m);
+  if (kKeeps && points.size() == 1 && m.reusable) keep_points(before, motion, normal_A, reach_m, m);
   place_points(R_WA, R_WB, m);
   m.drift_W.setZero();
   m.sticking = true;
@@ -126,10 +126,11 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
 }
 
 bool barely_moved(const Manifold& m, const Bodies& bodies, const PairMotion& motion) {
-  const float limit = kReuseMove * m.size_m;
+  const float limit = kReuse * m.size_m;
   if ((motion.pose.p - m.built_position).squaredNorm() > limit * limit) return false;
   const Quatf rotation = m.built_rotation.conjugate() * relative_rotation(m, bodies);
-  return rotation.vec().squaredNorm() < kReuseRotation * kReuseRotation;
+  const float half_angle = kReuse / 6;
+  return rotation.vec().squaredNorm() < half_angle * half_angle;
 }
 
 void refresh_manifold(const Bodies& bodies, const PairMotion& motion, Manifold& m) {

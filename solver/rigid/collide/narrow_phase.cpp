@@ -25,7 +25,7 @@ struct Probe {
   SeparatingAxis axis(const RelativePose& pose, const AxisReach& reach) const {
     if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
       place_in_each_other(a.hull, b.hull, pose, scratch.hulls);
-      return separating_axis(a.hull, b.hull, pose, reach, kLayer * size_m, scratch.hulls);
+      return separating_axis(a.hull, b.hull, pose, reach, 0.5f * kLayer * size_m, scratch.hulls);
     }
     const Vec3f center_b = pose.R * b.center + pose.p;
     SeparatingAxis axis;
@@ -129,7 +129,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   SeparatingAxis axis = probe.axis(pose, axis_reach);
   float time = 0;
   const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
-  if (meet && reach.way_m > 0.5f * m.size_m) {
+  if (kLooksAhead && meet && reach.way_m > kFar * m.size_m) {
     axis_reach.way_A.setZero();
     time = time_of_impact(probe, pose, velocity_A, axis_reach.margin_m, dt, axis);
     pose.p += std::max(0.f, time) * velocity_A;
@@ -150,7 +150,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && time == 0;
   build_manifold(pair, bodies, motion, axis.normal_A, scratch.points,
                  std::max(0.f, time) * motion.velocity_W,
-                 reach.spin_m + reach.way_m < kRocks * m.size_m ? limit : kNoPoint, m);
+                 reach.spin_m + reach.way_m < 0.5f * kFar * m.size_m ? limit : kNoPoint, m);
 }
 
 /// Whether the axis that parted the pair last still does, and by how much.

@@ -82,7 +82,7 @@ class ContactSolver::Stages {
 
   /// Before sweeps, which let nothing meet with any speed.
   void strikes() {
-    if (!solver_.order_.bouncy() || !solver_.moving_) return;
+    if (!kStrikes || !solver_.order_.bouncy() || !solver_.moving_) return;
     for (int round = 0; round < kStrikeRounds; ++round) {
       once(round == 0 ? &Stages::first_strikes : &Stages::begin_strikes);
       each_color(&Stages::strike);

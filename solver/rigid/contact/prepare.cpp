@@ -54,15 +54,16 @@ float push_m_s(const ContactStep& step, const Manifold& m) {
   return step.soft.push * std::sqrt(m.size_m);
 }
 
-/// The overlap that is pushed apart at the share of speed that a contact has: see kCrowdOfDeep.
+/// The overlap that is pushed apart at the share of speed that a contact has: all that are deep on
+/// a body together part as fast as two would, however many lie in one place.
 float most_overlap_m(const ContactStep& step, const Manifold& m) {
   if (step.deep_contacts.empty() || !m.deep) return 1e30f;
   const auto of = [&](BodySlot body) {
     return step.bodies.dynamic(body) ? step.deep_contacts[body] : 0;
   };
   const std::uint32_t many = std::max(of(m.body_a), of(m.body_b));
-  if (many <= kCrowdOfDeep) return 1e30f;
-  const float share = static_cast<float>(kDeepTogether) / static_cast<float>(many);
+  if (many <= 2) return 1e30f;
+  const float share = 2 / static_cast<float>(many);
   return share * push_m_s(step, m) / step.soft.press[m.count - 1].rate;
 }
 

@@ -23,7 +23,7 @@ SoftStep soft_step(const StepContext& step) {
   SoftStep soft;
   for (int i = 0; i < 4; ++i) {
     const bool face = i >= 2;
-    soft.press[i] = softness((face ? 0.75 : 1) * kStiffness, step.h_s);
+    soft.press[i] = softness(face ? kFaceStiffness : kStiffness, step.h_s);
     soft.slide[i] = softness((face ? 0.5 : 1) * kStiffness, step.h_s);
   }
   soft.inverse_h = step.inverse_h;
