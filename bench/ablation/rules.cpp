@@ -19,18 +19,23 @@ using Number = std::variant<double*, float*, bool*, int*, std::uint8_t*, std::si
 #define SUNDER_NUMBER(name) \
   { #name, &name }
 const std::pair<std::string, Number> kNumbers[] = {
-    SUNDER_NUMBER(kStiffness),    SUNDER_NUMBER(kFaceStiffness), SUNDER_NUMBER(kDampingRatio),
-    SUNDER_NUMBER(kPush),         SUNDER_NUMBER(kMostGive),      SUNDER_NUMBER(kLeastCompliance),
-    SUNDER_NUMBER(kLeastProp),    SUNDER_NUMBER(kPinched),       SUNDER_NUMBER(kMostLeft),
-    SUNDER_NUMBER(kLeastSlope),   SUNDER_NUMBER(kAccelerates),   SUNDER_NUMBER(kStill),
-    SUNDER_NUMBER(kSlowFalls),    SUNDER_NUMBER(kMargin),        SUNDER_NUMBER(kSliver),
-    SUNDER_NUMBER(kApart),        SUNDER_NUMBER(kLeastInner),    SUNDER_NUMBER(kLayer),
-    SUNDER_NUMBER(kReuse),        SUNDER_NUMBER(kFar),           SUNDER_NUMBER(kDeep),
-    SUNDER_NUMBER(kCrowd),        SUNDER_NUMBER(kGuards),        SUNDER_NUMBER(kStrikes),
-    SUNDER_NUMBER(kKeeps),        SUNDER_NUMBER(kLooksAhead),    SUNDER_NUMBER(kDrift),
-    SUNDER_NUMBER(kSlow),         SUNDER_NUMBER(kRestTime),      SUNDER_NUMBER(kRestSteps),
-    SUNDER_NUMBER(kChange),       SUNDER_NUMBER(kRate),          SUNDER_NUMBER(kStiffest),
-    SUNDER_NUMBER(kLargestAngle),
+    SUNDER_NUMBER(kStiffness),    SUNDER_NUMBER(kFaceStiffness),
+    SUNDER_NUMBER(kDampingRatio), SUNDER_NUMBER(kPush),
+    SUNDER_NUMBER(kMostGive),     SUNDER_NUMBER(kLeastCompliance),
+    SUNDER_NUMBER(kLeastProp),    SUNDER_NUMBER(kPinched),
+    SUNDER_NUMBER(kMostLeft),     SUNDER_NUMBER(kLeastSlope),
+    SUNDER_NUMBER(kAccelerates),  SUNDER_NUMBER(kStill),
+    SUNDER_NUMBER(kSlowFalls),    SUNDER_NUMBER(kMargin),
+    SUNDER_NUMBER(kSliver),       SUNDER_NUMBER(kApart),
+    SUNDER_NUMBER(kLeastInner),   SUNDER_NUMBER(kLayer),
+    SUNDER_NUMBER(kReuse),        SUNDER_NUMBER(kFar),
+    SUNDER_NUMBER(kDeep),         SUNDER_NUMBER(kCrowd),
+    SUNDER_NUMBER(kGuards),       SUNDER_NUMBER(kStrikes),
+    SUNDER_NUMBER(kKeeps),        SUNDER_NUMBER(kLooksAhead),
+    SUNDER_NUMBER(kDrift),        SUNDER_NUMBER(kSlow),
+    SUNDER_NUMBER(kRestTime),     SUNDER_NUMBER(kRestSteps),
+    SUNDER_NUMBER(kChange),       SUNDER_NUMBER(kComplianceStep),
+    SUNDER_NUMBER(kStiffest),     SUNDER_NUMBER(kLargestAngle),
 };
 #undef SUNDER_NUMBER
 
@@ -50,6 +55,7 @@ std::vector<Rule> all_rules() {
       {"stiffening", {{"kMostGive", kAll}}},
       {"its floor for the pinched", {{"kLeastCompliance", 0.01}}},
       {"props stiffen less", {{"kPinched", 0}}},
+      {"it comes slowly", {{"kComplianceStep", 0.01}}},
       {"corrections have a speed", {{"kPush", kAll}}},
       {"kept points", {{"kKeeps", 0}}},
       {"lowest layer, and axes are kept", {{"kLayer", 0}}},

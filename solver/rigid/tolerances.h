@@ -21,7 +21,7 @@ namespace sunder::solver {
 // Softness of contacts (decision 003).
 
 /// Contact frequency times substep: two sweeps keep up with it where pieces touch in a point or
-/// two, as rubble does.
+/// two, as rubble does. Of joints, the share of an error that a substep takes out.
 SUNDER_TUNED double kStiffness = 0.25;
 /// Of faces, whose points are springs side by side, or a wall makes standing waves; friction
 /// between them is half as stiff as a point.
@@ -31,12 +31,14 @@ SUNDER_TUNED double kDampingRatio = 5;  ///< To critical.
 SUNDER_TUNED double kPush = 4;
 
 // Stiffening: springs go by the mass they hold, so a pebble that boulders press into a corner sinks
-// in by a share of its size. What gives way by more gets stiffer (decision 031).
+// in by a share of its size. What gives way by more gets stiffer; slowly, or an impact would be
+// thrown back by a spring that hardened while it was compressed (decision 031).
 
 SUNDER_TUNED float kMostGive = 0.01f;        ///< Softer than this, a contact gets stiffer.
 SUNDER_TUNED float kLeastCompliance = 0.1f;  ///< Of the softness: beyond, sweeps do not keep up.
 /// Of it, for what is not pinched: what stands on it bounces at 0.3.
 SUNDER_TUNED float kLeastProp = 0.5f;
+SUNDER_TUNED float kComplianceStep = 0.97f;  ///< Of it, a step.
 /// Loaded manifolds from which on a piece is pinched; a pebble under a column, held by two, would
 /// bounce off contacts that get much stiffer.
 SUNDER_TUNED std::uint8_t kPinched = 3;
@@ -106,7 +108,6 @@ SUNDER_TUNED float kChange = 0.3f;
 
 // Joints (decision 026).
 
-SUNDER_TUNED double kRate = 0.25;  ///< Of an error that a substep takes out.
 /// Of the stiffness of a tension in a substep: from here damping grows by more than the tension
 /// does, since what bends over many links is damped less than what bends at every one.
 SUNDER_TUNED double kStiffest = 24;

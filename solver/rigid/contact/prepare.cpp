@@ -133,7 +133,7 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
   }
 }
 
-/// How soft a contact should be for the load it bears.
+/// How soft a contact should be for the load it bears, approached from how soft it was.
 template <std::uint32_t lanes>
 float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
                      const Manifold& m) {
@@ -145,7 +145,10 @@ float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, s
   }
   const bool a_is_lighter = step.bodies.inverse_mass[m.body_a] > step.bodies.inverse_mass[m.body_b];
   const bool pinched = step.loaded_contacts[a_is_lighter ? m.body_a : m.body_b] >= kPinched;
-  return give_m > most_m ? std::max(pinched ? kLeastCompliance : kLeastProp, most_m / give_m) : 1;
+  const float least =
+      give_m > most_m ? std::max(pinched ? kLeastCompliance : kLeastProp, most_m / give_m) : 1;
+  return std::clamp(least, kComplianceStep * m.compliance_scale,
+                    std::min(1.f, m.compliance_scale / kComplianceStep));
 }
 
 template <std::uint32_t lanes>

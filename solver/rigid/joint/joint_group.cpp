@@ -95,7 +95,7 @@ double bias(const JointWork& work, int i, const StepContext& step, bool biased) 
   if (!biased || i >= work.held_rows) return 0;
   const double push_m_s = kPush * step.froude.speed_m_s(work.reach_m);
   const double most = i < work.place_rows ? push_m_s : push_m_s / work.reach_m;
-  return std::clamp(kRate / step.h_s * error, -most, most) +
+  return std::clamp(kStiffness / step.h_s * error, -most, most) +
          0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].bend_s2;
 }
 
