@@ -36,7 +36,7 @@ World make_world(const Pile& set, int colors, int sweeps) {
   options.sleeping = false;
   options.max_colors = colors;
   options.sweeps = sweeps;
-  options.accelerate_from = sweeps + 1;
+  options.accelerated = false;
   World world;
   world.physics = make_rigid_physics(options);
   world.ids = world.physics->replace({}, set.bodies);

@@ -58,7 +58,7 @@ struct Timed {
     options.max_colors = colors;
     options.lanes = lanes;
     options.sweeps = sweeps;
-    options.accelerate_from = sweeps + 1;
+    options.accelerated = false;
     physics = make_rigid_physics(options);
     physics->replace({}, set.bodies);
     physics->collide(kDt_s);

@@ -23,6 +23,8 @@ GOOD = {
     "fracture/cut/c.h": HEADER + '#include "engine/model/m.h"\n',
     "engine/model/m.h": HEADER,
     "solver/rigid/r.h": HEADER + '#include "engine/world/w.h"\n',
+    "solver/rigid/tolerances.h": HEADER,
+    "solver/rigid/body/low.h": HEADER + '#include "solver/rigid/tolerances.h"\n',
     "render/r.h": HEADER + '#include <GL/glcorearb.h>\n#include "engine/world/w.h"\n',
     "scenes/s.h": HEADER + '#include <toml++/toml.h>\n#include "fracture/f.h"\n',
     "scenes/app/app.h": HEADER + '#include "bench/b.h"\n#include "scenes/s.h"\n',
@@ -40,6 +42,8 @@ BAD = {
         ("fracture/vacd/b.h", HEADER + '#include "fracture/stress/s.h"\n', "not below it"),
     "a folder includes the steps above it":
         ("fracture/stress/b.h", HEADER + '#include "fracture/f.h"\n', "not below it"),
+    "a header on a lower floor includes its folder":
+        ("solver/rigid/tolerances.h", HEADER + '#include "solver/rigid/r.h"\n', "not below it"),
     "a folder on no floor":
         ("solver/cloth/b.h", HEADER, "on no floor"),
     "two files of one name in a room":

@@ -21,17 +21,16 @@
 #include "solver/rigid/contact/static_warm_start.h"
 #include "solver/rigid/joint/joint.h"
 #include "solver/rigid/sleep.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
-
-constexpr float kDeep = 0.1f;  // of the smaller shape's inner radius
 
 class RigidPhysics final : public Physics {
  public:
   explicit RigidPhysics(const RigidOptions& options)
       : options_(options),
-        contact_solver_({options.sweeps, options.sweeps >= options.accelerate_from, options.lanes}),
+        contact_solver_({options.sweeps, kAccelerates && options.accelerated, options.lanes}),
         step_(options.gravity_W, 0) {
     SUNDER_CHECK(options.max_colors >= 0 && options.max_colors <= kMaxColors);
     SUNDER_CHECK(options.sweeps > 0 && options.lanes >= 0);

@@ -14,9 +14,8 @@ struct RigidOptions {
   /// by side with their bodies split. 64: coloured Gauss-Seidel; 0: mass splitting alone.
   int max_colors = 64;
   int sweeps = 1;  ///< Of either kind in a substep.
-  /// From so many sweeps a substep on they go by conjugate gradients; fewer are over before those
-  /// know their way.
-  int accelerate_from = 4;
+  /// Sweeps go by conjugate gradients, which tell from three a substep on.
+  bool accelerated = true;
   /// Manifolds solved side by side by a thread: 1, 4, 8 or 16, or fewer if the processor has not
   /// so many; 0: the most it has. The same bits for any.
   int lanes = 0;

@@ -6,23 +6,10 @@
 #include <utility>
 
 #include "solver/rigid/collide/approach.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
-
-// Rest is judged by the way, not by speed: a light piece pinched by heavy ones trembles on the spot
-// at centimetres a second for ever, and would keep its neighbours awake.
-constexpr double kDrift = 0.005;  // of the radius, within the time of rest
-// In speeds and times of falling (half a second is that of a piece of 35 cm); but no step can tell
-// what is slower than what gravity does in it, nor a few steps what is about to tip.
-constexpr double kSlow = 0.25;
-constexpr double kHit = 0.08;
-constexpr double kRestTime = 2.6;
-constexpr double kRestSteps = 20;
-constexpr float kChange = 0.3f;  // of the sleeper's weight: what wakes it
-// Of what each contact carried, in addition. Where stones press each other with many times their
-// weight, one that wakes shifts a fifth of that on; less than this, and waking goes round for ever.
-constexpr float kLoadChange = 0.3f;
 
 float weight_N(const Bodies& bodies, BodySlot body, const Vec3& gravity_W) {
   return static_cast<float>(bodies.mass_kg[body] * FroudeScale(gravity_W).gravity_m_s2());
@@ -144,7 +131,7 @@ void Sleep::wake_hit(const StepContext& step, const Contacts& contacts, Bodies& 
     if (m.count == 0) continue;
     const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
-    const double hit_m_s = speed_m_s(kHit, step, bodies.reach_m[a ? m.body_a : m.body_b]);
+    const double hit_m_s = speed_m_s(kSlow / 3, step, bodies.reach_m[a ? m.body_a : m.body_b]);
     for (std::size_t i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
       const double speed = closing_speed(m, bodies, p.arm_A, p.arm_B);
@@ -166,7 +153,7 @@ void Sleep::wake_changed(const StepContext& step, const Contacts& contacts, Bodi
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
     const BodySlot body = a ? m.body_a : m.body_b;
     const Vec3f change = step.inverse_h * m.impulse_W() - m.rest_force_W;
-    change_N_[body] += std::max(0.f, change.norm() - kLoadChange * m.rest_force_W.norm());
+    change_N_[body] += std::max(0.f, change.norm() - kChange * m.rest_force_W.norm());
     support_N_[body] += (a ? -1.f : 1.f) * change.dot(up_W);
   }
   std::vector<BodySlot> woken, left;

@@ -16,7 +16,7 @@ RigidOptions with_sweeps(int sweeps, bool accelerated) {
   RigidOptions options;
   options.sleeping = false;
   options.sweeps = sweeps;
-  options.accelerate_from = accelerated ? 1 : sweeps + 1;
+  options.accelerated = accelerated;
   return options;
 }
 

@@ -21,7 +21,7 @@ RigidOptions with(int max_colors, int sweeps = 1, int lanes = 0) {
   options.static_warm_start = 0;  // or there would be nothing to converge to
   options.max_colors = max_colors;
   options.sweeps = sweeps;
-  options.accelerate_from = sweeps + 1;
+  options.accelerated = false;
   options.lanes = lanes;
   return options;
 }

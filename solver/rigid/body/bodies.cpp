@@ -11,7 +11,7 @@ namespace sunder::solver {
 namespace {
 
 /// Principal axes scaled by the square roots of the inverse moments, and whether those differ by
-/// 5 % or more.
+/// more than rounding.
 struct InertiaRoot {
   Mat3f root = Mat3f::Zero();
   Mat3 inertia = Mat3::Zero();
@@ -24,7 +24,7 @@ InertiaRoot inertia_root(const Mat3& inertia_B) {
   InertiaRoot result;
   result.root = (axes * moments.cwiseSqrt().cwiseInverse().asDiagonal()).cast<float>();
   result.inertia = axes * moments.asDiagonal() * axes.transpose();
-  result.uneven = moments.minCoeff() < 0.95 * moments.maxCoeff();
+  result.uneven = moments.minCoeff() < (1 - 1e-6) * moments.maxCoeff();
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/base/check.h"
 #include "solver/base/lanes.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
@@ -35,7 +36,7 @@ Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
     core_radius_ = std::min(core_radius_, to_center);
   }
   core_radius_ = std::max(core_radius_, 0.f);
-  inner_radius_ = std::max(core_radius_, 0.02f * reach_);
+  inner_radius_ = std::max(core_radius_, kLeastInner * reach_);
 
   corners_.reserve(convex.corners.size());
   face_first_.reserve(faces + 1);

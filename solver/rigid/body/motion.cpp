@@ -5,15 +5,13 @@
 #include <cmath>
 
 #include "engine/base/rotation.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
 
-// Rad in a step; slower, the term is left out. What it does adds up over turns, not over steps.
-constexpr double kGyroscopicAngle = 1e-4;
-constexpr double kLargestAngle = 0.1;  // rad in one midpoint step
-constexpr double kFastestAngle = 100;  // rad in a step; faster, no rule follows it
 constexpr int kMidpointRounds = 12;
+constexpr double kMostTurn = 100;  // rad in a step; faster, no rule follows it
 constexpr int kEnergyRounds = 6;
 constexpr double kEnergyStep = 1.0001;  // of Newton's: to end below
 
@@ -56,7 +54,7 @@ Spin spun_freely(const Bodies& bodies, BodySlot body, double dt_s) {
 
 bool wobbles(const Bodies& bodies, BodySlot body, double dt_s) {
   const double angle = bodies.angular_velocity[body].norm() * dt_s;
-  return bodies.spins_freely[body] != 0 && angle >= kGyroscopicAngle && angle < kFastestAngle;
+  return bodies.spins_freely[body] != 0 && angle >= double{kStill} && angle < kMostTurn;
 }
 
 void fly(const StepContext& step, BodySlot body, Bodies& bodies) {

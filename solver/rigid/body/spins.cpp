@@ -1,11 +1,10 @@
 #include "solver/rigid/body/spins.h"
 
 #include "engine/base/rotation.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
-
-constexpr double kStill = 1e-6;  // rad in a step: its inertia hardly turns
 
 double energy_J(const BodyRow& row) { return 0.5 * double{angular(row.velocity).squaredNorm()}; }
 
@@ -49,7 +48,7 @@ double Spins::end(const StepContext& step, BodySlot body, const BodyRow& row, co
   const Vec3 angle_W = turned(row, root_W);
   const Wide change = row.velocity - row.start + owed_[row_of(body)];
   const Vec3 added_W = (root_W * angular(change)).cast<double>();
-  if (angle_W.squaredNorm() < kStill * kStill) {
+  if (angle_W.squaredNorm() < double{kStill * kStill}) {
     spin.turning = {rotation_by(angle_W) * R_WB, bodies.angular_velocity[body] + added_W};
     return spin.made_J = 0;
   }

@@ -6,16 +6,13 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::size_t kChunk = 512;
 constexpr int kRefitsPerBuild = 12;
-// Neighbours of a shape that are looked at however deep they overlap, about.
-constexpr std::size_t kCrowd = 24;
-// Shapes overlap deeply if their middles are nearer than this share of their inner radii together.
-constexpr double kDeepMiddles = 0.9;
 
 /// Bounds of a hull turned by R, about the body's centre.
 FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
@@ -46,7 +43,7 @@ FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bo
     const Vec3f center = bodies.rotation_f[body] * shape.center;
     box = {center.array() - shape.radius_m, center.array() + shape.radius_m};
   }
-  float grow = 0.05f * shape.inner_radius_m;
+  float grow = kMargin * shape.inner_radius_m;
   if (bodies.awake(body)) {
     const double dt_s = step.dt_s;
     const Vec3f shift =
@@ -67,7 +64,7 @@ FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& s
   FloatBox box = swept;
   if (!bodies.dynamic(shape.body)) return box;
   const Vec3f shift = (2 * step.dt_s * bodies.velocity[shape.body]).cast<float>();
-  const Vec3f grow = Vec3f::Constant(0.15f * shape.inner_radius_m);
+  const Vec3f grow = Vec3f::Constant(3 * kMargin * shape.inner_radius_m);
   box.min += shift.cwiseMin(0.f) - grow;
   box.max += shift.cwiseMax(0.f) + grow;
   return box;
@@ -216,7 +213,7 @@ void BroadPhase::thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes&
     const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
     if (a.kind == ShapeDesc::Kind::kHalfSpace) return false;
     if (!bodies.dynamic(a.body) || !bodies.dynamic(b.body)) return false;
-    const double deep = kDeepMiddles * double{a.inner_radius_m + b.inner_radius_m};
+    const double deep = double{(1 - kDeep) * (a.inner_radius_m + b.inner_radius_m)};
     return combine(kCrowd, pair.key()) > share &&
            (middle(a) - middle(b)).squaredNorm() < deep * deep;
   };

@@ -3,15 +3,9 @@
 #include <algorithm>
 
 #include "engine/base/hash.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
-namespace {
-
-// Deep contacts of a body that are solved, about; of more, a share.
-constexpr std::uint64_t kMostDeep = 24;
-
-}  // namespace
-
 void Crowd::thin_out(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies) {
   ByBody<std::uint32_t> crowd;  // deep contacts
   for (const ContactChanges& chunk : changes) {
@@ -20,12 +14,12 @@ void Crowd::thin_out(std::span<ContactChanges> changes, Contacts& contacts, cons
       ++crowd[contacts.pairs[i].body_a], ++crowd[contacts.pairs[i].body_b];
     }
   }
-  if (crowd.empty() || *std::max_element(crowd.begin(), crowd.end()) <= kMostDeep) return;
+  if (crowd.empty() || *std::max_element(crowd.begin(), crowd.end()) <= kCrowd) return;
   ++times_;
   const auto left_out = [&](const Pair& pair) {
     if (!bodies.dynamic(pair.body_a) || !bodies.dynamic(pair.body_b)) return false;
     const std::uint32_t many = std::min(crowd[pair.body_a], crowd[pair.body_b]);
-    return many > kMostDeep && combine(times_, pair.key()) > ~std::uint64_t{0} / many * kMostDeep;
+    return many > kCrowd && combine(times_, pair.key()) > ~std::uint64_t{0} / many * kCrowd;
   };
   std::vector<PairSlot>& parted = changes.front().parted;
   for (ContactChanges& chunk : changes) {

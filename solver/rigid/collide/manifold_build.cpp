@@ -4,16 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/rigid/tolerances.h"
+
 namespace sunder::solver {
 namespace {
-
-constexpr float kReuseMove = 0.03f;       // of the smaller inner radius
-constexpr float kReuseRotation = 0.005f;  // half-angle, rad
-constexpr float kMatchDistance = 0.5f;
-constexpr float kKeepSlide = 0.05f;  // of the smaller inner radius: an old point slid away
-constexpr float kKeepApart = 0.1f;   // of it: nearer to a new one, an old one tells nothing new
-constexpr float kKeepAlong = 0.9f;   // cosine of how far the normal may have turned
-constexpr std::size_t kRocking = 2;  // points: more, and there was an area to stand on
 
 Quatf relative_rotation(const Manifold& m, const Bodies& bodies) {
   return (bodies.rotation[m.body_a].conjugate() * bodies.rotation[m.body_b]).cast<float>();
@@ -34,7 +28,7 @@ void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
       break;
     }
   }
-  const float limit = kMatchDistance * size_m;
+  const float limit = kFar * size_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (served >> i & 1) continue;
     float nearest = limit * limit;
@@ -52,7 +46,7 @@ void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
 /// Adds old points that still are near, and not where the manifold has one.
 void keep_points(std::span<const ManifoldPoint> old, const PairMotion& motion,
                  const Vec3f& normal_A, float reach_m, Manifold& m) {
-  const float slide_m = kKeepSlide * m.size_m, apart_m = kKeepApart * m.size_m;
+  const float slide_m = kMargin * m.size_m, apart_m = 2 * slide_m;
   for (const ManifoldPoint& was : old) {
     if (m.count == m.points.size()) return;
     const Vec3f gap = motion.pose.R * was.anchor_B + motion.pose.p - was.anchor_A;
@@ -108,7 +102,6 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
   const std::size_t old_count = m.count;
   m.body_a = pair.body_a, m.body_b = pair.body_b;
   m.count = static_cast<std::uint8_t>(points.size());
-  const Vec3f normal_before_W = m.normal_W;
   m.normal_W = (R_WA * normal_A).normalized();
   m.normal_body = m.normal_on_b ? Vec3f(R_WB.transpose() * m.normal_W) : normal_A;
   m.built_position = motion.pose.p;
@@ -128,9 +121,7 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
     return;
   }
   const std::span<const ManifoldPoint> before = std::span(old).first(old_count);
-  if (points.size() == 1 && old_count <= kRocking && m.reusable &&
-      normal_before_W.dot(m.normal_W) > kKeepAlong)
-    keep_points(before, motion, normal_A, reach_m, m);
+  if (kKeeps && points.size() == 1 && m.reusable) keep_points(before, motion, normal_A, reach_m, m);
   place_points(R_WA, R_WB, m);
   m.drift_W.setZero();
   m.sticking = true;
@@ -138,10 +129,11 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
 }
 
 bool barely_moved(const Manifold& m, const Bodies& bodies, const PairMotion& motion) {
-  const float limit = kReuseMove * m.size_m;
+  const float limit = kReuse * m.size_m;
   if ((motion.pose.p - m.built_position).squaredNorm() > limit * limit) return false;
   const Quatf rotation = m.built_rotation.conjugate() * relative_rotation(m, bodies);
-  return rotation.vec().squaredNorm() < kReuseRotation * kReuseRotation;
+  const float half_angle = kReuse / 6;
+  return rotation.vec().squaredNorm() < half_angle * half_angle;
 }
 
 void refresh_manifold(const Bodies& bodies, const PairMotion& motion, Manifold& m) {

@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/rigid/tolerances.h"
+
 namespace sunder::solver {
 namespace {
 
-constexpr float kMargin = 0.05f;         // of the smaller inner radius: contact before touch
-constexpr float kTouch = 1e-3f;          // of it: where an impact lands
-constexpr float kAxisTolerance = 0.01f;  // of it: how much better another axis must be
-constexpr float kRocks = 0.25f;          // of it: what moves no farther in a step keeps old points
-constexpr float kLayer = 0.02f;          // of it: points so far above the lowest still count
-constexpr float kStill = 1e-6f;          // of it: a way that is not worth a look
-constexpr float kSliver = 1e-3f;         // of it: an overlap of faces that is no area
-constexpr float kRounding = 5e-7f;       // of a length in floats
-constexpr float kNoPoint = -1e30f;       // a reach within which nothing is
+constexpr float kRounding = 5e-7f;  // of a length in floats
+constexpr float kNoPoint = -1e30f;  // a reach within which nothing is
 constexpr int kImpactRounds = 24;
 
 using Kind = ShapeDesc::Kind;
@@ -30,7 +25,7 @@ struct Probe {
   SeparatingAxis axis(const RelativePose& pose, const AxisReach& reach) const {
     if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
       place_in_each_other(a.hull, b.hull, pose, scratch.hulls);
-      return separating_axis(a.hull, b.hull, pose, reach, kAxisTolerance * size_m, scratch.hulls);
+      return separating_axis(a.hull, b.hull, pose, reach, 0.5f * kLayer * size_m, scratch.hulls);
     }
     const Vec3f center_b = pose.R * b.center + pose.p;
     SeparatingAxis axis;
@@ -134,13 +129,13 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   SeparatingAxis axis = probe.axis(pose, axis_reach);
   float time = 0;
   const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
-  if (meet && reach.way_m > 0.5f * m.size_m) {
+  if (kLooksAhead && meet && reach.way_m > kFar * m.size_m) {
     axis_reach.way_A.setZero();
     time = time_of_impact(probe, pose, velocity_A, axis_reach.margin_m, dt, axis);
     pose.p += std::max(0.f, time) * velocity_A;
     if (time > 0 && b.kind == Kind::kSphere) {  // its normal turns until they touch
       SeparatingAxis touching = axis;
-      const float target_m = kTouch * m.size_m;
+      const float target_m = kSliver * m.size_m;
       const float more = time_of_impact(probe, pose, velocity_A, target_m, dt - time, touching);
       if (more > 0) axis = touching, time += more, pose.p += more * velocity_A;
     }
@@ -155,7 +150,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && time == 0;
   build_manifold(pair, bodies, motion, axis.normal_A, scratch.points,
                  std::max(0.f, time) * motion.velocity_W,
-                 reach.spin_m + reach.way_m < kRocks * m.size_m ? limit : kNoPoint, m);
+                 reach.spin_m + reach.way_m < 0.5f * kFar * m.size_m ? limit : kNoPoint, m);
 }
 
 /// Whether the axis that parted the pair last still does, and by how much.

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "solver/rigid/tolerances.h"
+
 namespace sunder::solver {
 namespace {
 
@@ -173,7 +175,6 @@ SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose&
 
 bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, float sliver_m,
                         const HullScratch& scratch) {
-  constexpr float kApart = 0.5f;  // cosine of the angle between two faces that leave no area
   Vec3f first = Vec3f::Zero();
   const auto two_part = [&](const Hull& hull, std::uint32_t vertex_count,
                             const std::vector<Wide3>& vertices, const Mat3f& to_A) {

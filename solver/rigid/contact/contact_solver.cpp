@@ -7,6 +7,7 @@
 #include "engine/base/nncg.h"
 #include "solver/rigid/body/motion.h"
 #include "solver/rigid/body/row_exchange.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
 constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
-constexpr double kMoves = 1e-5;    // in a step, of a body's reach: less is rest
 
 }  // namespace
 
@@ -42,7 +42,7 @@ class ContactSolver::Stages {
                       solver.root_W_,
                       {rows_, solver.splitting_.parts(), solver.spins_.owed()},
                       soft_step(step),
-                      static_cast<float>(2 * step.fall_m_s / step.substeps),
+                      static_cast<float>(kSlowFalls * step.fall_m_s / step.substeps),
                       solver.order_.deep_contacts(),
                       solver.order_.loaded_contacts()} {}
 
@@ -82,7 +82,7 @@ class ContactSolver::Stages {
 
   /// Before sweeps, which let nothing meet with any speed.
   void strikes() {
-    if (!solver_.order_.bouncy() || !solver_.moving_) return;
+    if (!kStrikes || !solver_.order_.bouncy() || !solver_.moving_) return;
     for (int round = 0; round < kStrikeRounds; ++round) {
       once(round == 0 ? &Stages::first_strikes : &Stages::begin_strikes);
       each_color(&Stages::strike);
@@ -350,7 +350,7 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   joint_solver_.collect(bodies, joints, order_.in_contact());
   collect_bodies(bodies);
   moving_ = std::ranges::any_of(active_, [&](BodySlot body) {
-    return bodies.velocity[body].norm() * step.dt_s > kMoves * bodies.reach_m[body];
+    return bodies.velocity[body].norm() * step.dt_s > double{kStill} * bodies.reach_m[body];
   });
   blocks_->follow_bodies(moving_);
   if (!impact_pass_.empty()) impact_pass_.begin(order_.impacts(), active_);

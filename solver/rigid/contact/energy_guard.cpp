@@ -5,13 +5,13 @@
 #include <limits>
 
 #include "engine/base/disjoint_sets.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr double kEnergyRounding = 1e-6;  // of the energy that moved to and fro
 constexpr double kShareRounding = 1 - 1e-6;
-constexpr double kSlowFalls = 4;  // in what gravity does to a speed within the step
 
 double lanes_sum(const Wide& a, const Wide& b, double linear) {
   double sum = 0;
@@ -25,11 +25,11 @@ double lanes_sum(const Wide& a, const Wide& b, double linear) {
 void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot> manifolds,
                           std::span<const BodySlot> active, std::span<const Pair> joined,
                           const Bodies& bodies, const Contacts& contacts) {
-  const double slow_m_s = kSlowFalls * step.fall_m_s;
-  watches_ = std::ranges::any_of(active, [&](BodySlot body) {
-    const double spin_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
-    return bodies.velocity[body].norm() + spin_m_s > slow_m_s;
-  });
+  const double slow_m_s = 2 * kSlowFalls * step.fall_m_s;
+  watches_ = kGuards && std::ranges::any_of(active, [&](BodySlot body) {
+               const double spin_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
+               return bodies.velocity[body].norm() + spin_m_s > slow_m_s;
+             });
   if (!watches_) return;
   DisjointSets groups(bodies.size());
   falls_.assign(bodies.size(), 1);

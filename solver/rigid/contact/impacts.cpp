@@ -3,12 +3,10 @@
 #include <algorithm>
 
 #include "solver/rigid/collide/approach.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
-
-constexpr double kFast = 0.25;  // in a step, of the inner radius of the smaller shape,
-constexpr double kFalls = 4;    // and in speeds that gravity makes in it
 
 bool meet_fast(const StepContext& step, const Manifold& m, const Bodies& bodies) {
   if (!bodies.dynamic(m.body_a) || !bodies.dynamic(m.body_b)) return false;
@@ -30,7 +28,8 @@ void for_touching(const Bodies& bodies, const Contacts& contacts, const Visit& v
 }  // namespace
 
 double least_impact_m_s(const StepContext& step, const Manifold& m) {
-  return std::max(kFast * double{m.size_m} / step.dt_s, kFalls * double{step.fall_m_s});
+  return std::max(0.5 * double{kFar} * double{m.size_m} / step.dt_s,
+                  2 * kSlowFalls * step.fall_m_s);
 }
 
 void Impacts::find(const StepContext& step, const Bodies& bodies, const Contacts& contacts) {

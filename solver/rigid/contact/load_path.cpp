@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "solver/rigid/tolerances.h"
+
 namespace sunder::solver {
 namespace {
-
-constexpr float kLeastSlope = 0.2f;  // of a normal that bears weight, along the vertical
 
 /// A body and a manifold that it stands on.
 struct Support {

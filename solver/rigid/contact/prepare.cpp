@@ -7,20 +7,10 @@
 
 #include "solver/base/lanes.h"
 #include "solver/rigid/contact/impacts.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
-
-// Springs go by the mass they hold, so a pebble that boulders press into a corner sinks in by a
-// share of its size. What gives way by more than this share of it gets stiffer
-// (docs/decisions/031); slowly, or an impact would be thrown back by a spring that hardened while
-// it was compressed.
-constexpr float kMostGive = 0.01f;        // of the inner radius of the smaller shape
-constexpr float kLeastCompliance = 0.1f;  // beyond, sweeps do not keep up
-constexpr float kLeastProp = 0.5f;  // of what is not pinched: what stands on it bounces at 0.3
-constexpr float kComplianceStep = 0.97f;  // a step
-
-constexpr float kLeastWay = 1e-5f;  // of the inner radius: what bodies move on unheeded
 
 template <class V>
 void set_columns(Triple<V> (&columns)[3], std::uint32_t lane, const Mat3f& root) {
@@ -56,8 +46,7 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   const Vec3 passes = bodies.velocity[m.body_b] - bodies.velocity[m.body_a];
   const Vec3 turns = bodies.angular_velocity[m.body_b] - bodies.angular_velocity[m.body_a];
   const double way_m = (passes.norm() + turns.norm() * double{m.size_m}) * step.context.dt_s;
-  g.meets[lane] =
-      way_m > double{kLeastWay * m.size_m} ? 1 : 0;  // what lies still needs no new arms
+  g.meets[lane] = way_m > double{kStill * m.size_m} ? 1 : 0;  // what lies still needs no new arms
   set_lane(g.gravity, lane,
            ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }
@@ -66,15 +55,16 @@ float push_m_s(const ContactStep& step, const Manifold& m) {
   return step.soft.push * std::sqrt(m.size_m);
 }
 
-/// The overlap that is pushed apart at the share of speed that a contact has: see kCrowdOfDeep.
+/// The overlap that is pushed apart at the share of speed that a contact has: all that are deep on
+/// a body together part as fast as two would, however many lie in one place.
 float most_overlap_m(const ContactStep& step, const Manifold& m) {
   if (step.deep_contacts.empty() || !m.deep) return 1e30f;
   const auto of = [&](BodySlot body) {
     return step.bodies.dynamic(body) ? step.deep_contacts[body] : 0;
   };
   const std::uint32_t many = std::max(of(m.body_a), of(m.body_b));
-  if (many <= kCrowdOfDeep) return 1e30f;
-  const float share = static_cast<float>(kDeepTogether) / static_cast<float>(many);
+  if (many <= 2) return 1e30f;
+  const float share = 2 / static_cast<float>(many);
   return share * push_m_s(step, m) / step.soft.press[m.count - 1].rate;
 }
 
@@ -140,7 +130,7 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
   for (std::uint32_t lane = 0; lane < count; ++lane) {
     const float size_m = step.contacts.manifolds[step.manifolds[first + lane]].size_m;
     arms->wide[lane] = 1.0f * size_m * size_m;
-    arms->least[lane] = kLeastWay * kLeastWay * size_m * size_m;
+    arms->least[lane] = kStill * kStill * size_m * size_m;
   }
 }
 

@@ -29,10 +29,6 @@ struct ContactStep {
   SpanByBody<const std::uint8_t> loaded_contacts = {};  ///< Loaded manifolds, up to kPinched.
 };
 
-/// With more deep contacts on a body than these, each is pushed apart at a share of the fastest,
-/// all of them together as fast as so many would be: however many lie in one place.
-inline constexpr std::uint32_t kCrowdOfDeep = 8, kDeepTogether = 2;
-
 /// Fills everything but `first`, `count`, `points` and `split`, which say what goes in; and `arms`,
 /// if they are to follow the bodies.
 template <std::uint32_t lanes>

@@ -11,22 +11,18 @@
 #include "solver/rigid/contact/load_path.h"
 #include "solver/rigid/contact/prepare.h"
 #include "solver/rigid/contact/sweep.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::uint32_t kGrain = 8;
-constexpr double kWork = 2e5;  // points swept at most, unless there are too many for it
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
-constexpr int kFirstLook = 32;        // whenever as many rounds again are over: are more in vain?
+constexpr double kWork = 2e5;         // points swept at most, unless there are too many for it
 constexpr double kNearlyDone = 1e-7;  // of the loads' squares: what falls by then will fall
+constexpr int kFirstLook = 32;        // whenever as many rounds again are over: are more in vain?
 constexpr double kDone = 1e-12;       // of the loads' squares, a step's
-constexpr double kMostLeft = 0.01;    // of the energy of a substep of free fall
-// Of the inner radius: what is deeper is not at rest, and what is as far apart bears nothing.
-constexpr float kMostOverlap = 0.04f;
-constexpr float kMostRest = 0.1f;   // of it
-constexpr float kNoBounce = 1e30f;  // m/s: nothing is as fast
-constexpr float kNoGap = 1e-4f;     // of it: rounding, or what would hardly be seen
+constexpr float kNoBounce = 1e30f;    // m/s: nothing is as fast
 
 BlockLoads loads_of(const StaticBlock& c) {
   BlockLoads loads;
@@ -74,17 +70,6 @@ double greatest_speed(const Manifold& m, const Bodies& bodies) {
   return std::max({(b - a).norm(), a.norm(), b.norm()});
 }
 
-/// What touches but for rounding bears as if it did, however short the substep.
-void close_gaps(const ContactStep& step, StaticBlock& c) {
-  for (std::uint32_t lane = 0; lane < c.count; ++lane) {
-    const float none_m = kNoGap * step.contacts.manifolds[step.manifolds[c.first + lane]].size_m;
-    for (std::uint32_t i = 0; i < c.points; ++i) {
-      const float separation_m = c.point[i].separation[lane];
-      if (separation_m > 0 && separation_m < none_m) c.point[i].separation[lane] = 0;
-    }
-  }
-}
-
 /// How deep a point gives way under its load.
 float yield_m(const StaticBlock& c, std::uint32_t lane, std::size_t point, float yield_s) {
   const float mass = c.point[point].mass[lane];
@@ -101,7 +86,7 @@ void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float
     deepest = std::max(deepest, depth[i]);
   }
   // An overlap that this load explains is as much at rest as none.
-  const float most = kMostRest * m.size_m, least = -std::min(deepest, most);
+  const float most = kDeep * m.size_m, least = -std::min(deepest, most);
   for (std::size_t i = 0; i < m.count; ++i) {
     ManifoldPoint& p = m.points[i];
     p.rest_m = std::clamp(p.separation_m + depth[i], least, depth[i] > 0 ? most : 0);
@@ -120,7 +105,7 @@ void store_friction(const StaticBlock& c, std::uint32_t lane, float yield_s, flo
   if (!(det > 0)) return;
   const float far_1 = (m22 * s1 - m12 * s2) / det, far_2 = (m11 * s2 - m12 * s1) / det;
   Vec3f drift = -yield_s * (far_1 * t1 + far_2 * t2);
-  const float far = drift.norm(), most = kMostRest * m.size_m;
+  const float far = drift.norm(), most = kDeep * m.size_m;
   if (far > most) drift *= most / far;
   m.drift_W += drift;
   m.friction_arm_B += drift;
@@ -155,13 +140,13 @@ void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies
   std::uint32_t start[kSweepKeys + 1] = {};
   std::vector<std::pair<std::uint32_t, ManifoldSlot>> resting;  // key, manifold
   resting.reserve(contacts.cold.size());
-  const double slow_m_s = 2 * step.fall_m_s;
+  const double slow_m_s = kSlowFalls * step.fall_m_s;
   for (const ManifoldSlot i : std::exchange(contacts.cold, {})) {
     Manifold& m = contacts.manifolds[i];
     if (!m.cold) continue;  // gone, or here for the second time
     m.cold = false;
     if (m.count == 0 || !(bodies.awake(m.body_a) || bodies.awake(m.body_b))) continue;
-    const bool rests = std::abs(m.least_separation()) < kMostOverlap * m.size_m;
+    const bool rests = std::abs(m.least_separation()) < kMargin * m.size_m;
     if (!rests || greatest_speed(m, bodies) >= slow_m_s) continue;
     resting.emplace_back(m.sweep_key(), i);
     ++start[resting.back().first + 1];
@@ -275,7 +260,7 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
     set_loads(sum(before, beta, direction_[i]), c);
     direction_[i] = sum(change_[i], beta, direction_[i]);
   };
-  run([&](StaticBlock& c, std::uint32_t) { prepare_block(step, c), close_gaps(step, c); });
+  run([&](StaticBlock& c, std::uint32_t) { prepare_block(step, c); });
   run([&](StaticBlock& c, std::uint32_t) { warm_start(c, step.rows); });
   double last_seen = 0;
   std::size_t last_supported = 0;
@@ -326,7 +311,7 @@ void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& 
       float deepest = 0;
       for (std::size_t i = 0; i < m.count; ++i)
         deepest = std::max(deepest, yield_m(c, lane, i, soft.press[c.points - 1].yield_s));
-      if (deepest <= kMostRest * m.size_m) continue;
+      if (deepest <= kDeep * m.size_m) continue;
       any = true;
       for (const BodySlot body : {m.body_a, m.body_b}) loads_[body].supported = false;
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "solver/rigid/tolerances.h"
+
 namespace sunder::solver {
 
 void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Contacts& contacts,

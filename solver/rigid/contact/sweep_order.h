@@ -13,10 +13,6 @@
 
 namespace sunder::solver {
 
-/// From so many loaded manifolds on a piece is pinched; a pebble under a column, held by two, would
-/// bounce off contacts that get much stiffer.
-inline constexpr std::uint8_t kPinched = 3;
-
 class SweepOrder {
  public:
   /// Lists what touches and is awake; impacts among it, if they are wanted.

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/rigid/tolerances.h"
+
 namespace sunder::solver {
 namespace {
 
-constexpr double kRate = 0.25;    // of an error that a substep takes out
-constexpr double kJointPush = 2;  // fastest correction, in speeds of falling
 constexpr int kRopeRounds = 8;
 constexpr double kSoftness = 1e-6;  // of a row's response: two hinges of a door say the same twice
 
@@ -93,9 +93,9 @@ double bias(const JointWork& work, int i, const StepContext& step, bool biased) 
   const double apart = work.kind == JointDesc::Kind::kRope ? std::min(0.0, error) : 0;
   if (apart < 0) return apart / step.h_s;  // a slack rope may run out
   if (!biased || i >= work.held_rows) return 0;
-  const double push_m_s = kJointPush * step.froude.speed_m_s(work.reach_m);
+  const double push_m_s = kPush * step.froude.speed_m_s(work.reach_m);
   const double most = i < work.place_rows ? push_m_s : push_m_s / work.reach_m;
-  return std::clamp(kRate / step.h_s * error, -most, most) +
+  return std::clamp(kStiffness / step.h_s * error, -most, most) +
          0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].bend_s2;
 }
 

@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "engine/base/rotation.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
-
-// Of the stiffness of a tension in a substep: damping begins, and grows by more than the tension
-// does, since what bends over many links is damped less than what bends at every one.
-constexpr double kStiff = 1, kStiffest = 24;
 
 /// One end of a joint as the step begins.
 struct End {
@@ -81,9 +78,9 @@ void damp(JointWork& w, double h_s, double pull_Ns, const Vec3& arm_a, const Vec
           const Vec3& axis) {
   double arm_m = 0;
   const double stiffness = tension_stiffness(w, h_s, pull_Ns, arm_a, arm_b, arm_m);
-  if (stiffness <= kStiff || w.kind == JointDesc::Kind::kFixed) return;
+  if (stiffness <= 1 || w.kind == JointDesc::Kind::kFixed) return;
   const double damping =
-      0.5 * h_s * pull_Ns * arm_m * (1 - kStiff / stiffness) * std::max(1.0, stiffness / kStiffest);
+      0.5 * h_s * pull_Ns * arm_m * (1 - 1 / stiffness) * std::max(1.0, stiffness / kStiffest);
   if (w.kind == JointDesc::Kind::kHinge) {
     angular_row(w, axis, 0, 0, 1 / damping);
   } else {
