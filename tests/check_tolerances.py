@@ -18,6 +18,7 @@ MATHEMATICS = {
     "collide/narrow_phase.cpp": {"kRounding", "kNoPoint"},
     "contact/contact_solver.cpp": {"1.1"},
     "contact/energy_guard.cpp": {"kEnergyRounding", "kShareRounding"},
+    "contact/impact_pass.cpp": {"kOverRelaxed"},  # of successive over-relaxation in a row
     "contact/load_path.cpp": {"1e-3f"},
     "contact/prepare.cpp": {"0.999f"},
     "contact/static_warm_start.cpp": {"kWork", "kNearlyDone", "kDone", "kNoBounce"},

@@ -213,7 +213,6 @@ TEST(ParticleStage, PiecesTooSmallForBodiesBecomeChipsAndTheirMassStays) {
   EXPECT_NEAR(frame->report.mass_kg, bodies.simulation->next()->report.mass_kg, 1e-9);
 }
 
-<<<<<<< HEAD
 /// Two unit boxes of stone that fly along z, parted by a blast beside them.
 struct BlastRun {
   explicit BlastRun(double smallest_piece_m3) {
@@ -264,13 +263,13 @@ TEST(ParticleStage, ABlastPushesChipsThatItMakes) {
   EXPECT_GT(chip.velocity_W.x(), 0.5);
   EXPECT_NEAR(chip.velocity_W.z(), 1, 0.1);
   EXPECT_NEAR(chip.center_W.z(), 0.05, 1e-9) << "it has flown on meanwhile";
-=======
+}
+
 TEST(ParticleStage, AChipOfAnyStepStartsWhereItWasWhenTheFrameBegan) {
   ParticleRun run(1.0 / 240, 1.5, 10, false, Vec3::Zero(), 2);
   run.simulation->next();
   ASSERT_EQ(run.particles->chips.size(), 2u);
   EXPECT_LT((run.particles->chips[0].center_W - Vec3(0.5, 0.5, 0.5)).norm(), 1e-9);
->>>>>>> mutation
 }
 
 TEST(ParticleStage, WithNothingToMoveDoesNothing) {

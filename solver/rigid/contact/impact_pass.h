@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/rigid/collide/impacts.h"
 #include "solver/rigid/contact/contact_blocks.h"
-#include "solver/rigid/contact/impacts.h"
 
 namespace sunder::solver {
 

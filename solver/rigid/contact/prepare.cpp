@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "solver/base/lanes.h"
-#include "solver/rigid/contact/impacts.h"
+#include "solver/rigid/collide/impacts.h"
 #include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {

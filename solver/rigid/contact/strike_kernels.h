@@ -1,5 +1,6 @@
-// Strikes: impacts that rebound, one contact after the other, before the sweeps of a substep. Read
-// first: strike(). Included by sweep_1.cpp and so on alone, under the same rule as sweep_kernels.h.
+// Before the sweeps of a substep: strikes, impacts that rebound, one contact after the other; and
+// what an impact that is passed on needs of a block. Read first: strike(). Included by sweep_1.cpp
+// and so on alone, under the same rule as sweep_kernels.h.
 #pragma once
 
 #include "solver/rigid/contact/derive_kernels.h"
@@ -155,6 +156,50 @@ bool strike(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
   c.total = c.total + c.normal * strike.load(c) + c.tangent_1 * strike.slide_1 +
             c.tangent_2 * strike.slide_2;
   return true;
+}
+
+template <std::uint32_t lanes>
+SUNDER_INLINE void exchange(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
+  const auto swap = [](WideOf<lanes>& a, WideOf<lanes>& b) {
+    const WideOf<lanes> was = a;
+    a = b, b = was;
+  };
+  for (std::uint32_t i = 0; i < c.points; ++i) swap(c.point[i].impulse, aside.press[i]);
+  swap(c.slide_impulse_1, aside.slide_1), swap(c.slide_impulse_2, aside.slide_2);
+  swap(c.twist_impulse, aside.twist);
+  swap(c.roll.impulse_1, aside.roll_1), swap(c.roll.impulse_2, aside.roll_2);
+}
+
+template <std::uint32_t lanes>
+void begin_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
+  const WideOf<lanes> least_m_s = aside.least_m_s;
+  aside = {};
+  aside.least_m_s = least_m_s;
+  exchange(c, aside);
+}
+
+template <std::uint32_t lanes>
+void end_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
+  sum_impulses(c);
+  exchange(c, aside);
+}
+
+template <std::uint32_t lanes>
+bool closes_fast(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact,
+                 const SolverRows& bodies, const SoftStep& soft) {
+  using V = WideOf<lanes>;
+  const V zero = {};
+  const Pairs<lanes, false> v(c, bodies, &BodyRow::velocity), x(c, bodies, &BodyRow::position);
+  V fastest = zero;
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    const PointLanes<lanes>& p = c.point[i];
+    const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
+    const V u = v.along(c.normal, p.angular_a, p.angular_b) + max(zero, s) * soft.inverse_h;
+    const auto rebounds = (s > zero) & (c.rebound.restitution > zero);  // as in press()
+    const V closes = rebounds ? (p.impulse > zero ? -u : zero) : -u;
+    fastest = p.mass > zero ? max(fastest, closes - impact.least_m_s) : fastest;
+  }
+  return any(fastest > zero);
 }
 
 /// Compiles all kernels for so many lanes.

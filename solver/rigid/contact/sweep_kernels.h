@@ -374,50 +374,6 @@ void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRo
 }
 
 template <std::uint32_t lanes>
-SUNDER_INLINE void exchange(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
-  const auto swap = [](WideOf<lanes>& a, WideOf<lanes>& b) {
-    const WideOf<lanes> was = a;
-    a = b, b = was;
-  };
-  for (std::uint32_t i = 0; i < c.points; ++i) swap(c.point[i].impulse, aside.press[i]);
-  swap(c.slide_impulse_1, aside.slide_1), swap(c.slide_impulse_2, aside.slide_2);
-  swap(c.twist_impulse, aside.twist);
-  swap(c.roll.impulse_1, aside.roll_1), swap(c.roll.impulse_2, aside.roll_2);
-}
-
-template <std::uint32_t lanes>
-void begin_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
-  const WideOf<lanes> least_m_s = aside.least_m_s;
-  aside = {};
-  aside.least_m_s = least_m_s;
-  exchange(c, aside);
-}
-
-template <std::uint32_t lanes>
-void end_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
-  sum_impulses(c);
-  exchange(c, aside);
-}
-
-template <std::uint32_t lanes>
-bool closes_fast(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact,
-                 const SolverRows& bodies, const SoftStep& soft) {
-  using V = WideOf<lanes>;
-  const V zero = {};
-  const Pairs<lanes, false> v(c, bodies, &BodyRow::velocity), x(c, bodies, &BodyRow::position);
-  V fastest = zero;
-  for (std::uint32_t i = 0; i < c.points; ++i) {
-    const PointLanes<lanes>& p = c.point[i];
-    const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
-    const V u = v.along(c.normal, p.angular_a, p.angular_b) + max(zero, s) * soft.inverse_h;
-    const auto rebounds = (s > zero) & (c.rebound.restitution > zero);  // as in press()
-    const V closes = rebounds ? (p.impulse > zero ? -u : zero) : -u;
-    fastest = p.mass > zero ? max(fastest, closes - impact.least_m_s) : fastest;
-  }
-  return any(fastest > zero);
-}
-
-template <std::uint32_t lanes>
 void separations_now(const ConstraintBlock<lanes>& c, const SolverRows& bodies,
                      float (*separation)[lanes]) {
   auto write = [&](const auto& x) {

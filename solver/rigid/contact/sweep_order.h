@@ -9,7 +9,7 @@
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
-#include "solver/rigid/contact/impacts.h"
+#include "solver/rigid/collide/impacts.h"
 
 namespace sunder::solver {
 

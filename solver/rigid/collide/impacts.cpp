@@ -1,4 +1,4 @@
-#include "solver/rigid/contact/impacts.h"
+#include "solver/rigid/collide/impacts.h"
 
 #include <algorithm>
 
