@@ -63,7 +63,8 @@ SUNDER_TUNED float kLeastSlope = 0.2f;  ///< Cosine to the vertical of a normal 
 /// Contact before touch, and what rests is no farther from one (decision 023); how far a point may
 /// slide that is kept (033). Boxes have room for three.
 SUNDER_TUNED float kMargin = 0.05f;
-SUNDER_TUNED float kSliver = 1e-3f;  ///< An overlap of faces that is no area (decision 030).
+/// An overlap of faces that is no area (decision 030), and a gap that is none to what rests (023).
+SUNDER_TUNED float kSliver = 1e-3f;
 /// Points so far above the lowest still count (031); half as much must another axis be better.
 SUNDER_TUNED float kLayer = 0.02f;
 SUNDER_TUNED float kApart = 0.5f;  ///< Cosine between two faces that leave no area.

@@ -70,6 +70,17 @@ double greatest_speed(const Manifold& m, const Bodies& bodies) {
   return std::max({(b - a).norm(), a.norm(), b.norm()});
 }
 
+/// What touches but for a sliver bears as if it did, however short the substep.
+void close_gaps(const ContactStep& step, StaticBlock& c) {
+  for (std::uint32_t lane = 0; lane < c.count; ++lane) {
+    const float none_m = kSliver * step.contacts.manifolds[step.manifolds[c.first + lane]].size_m;
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const float separation_m = c.point[i].separation[lane];
+      if (separation_m > 0 && separation_m < none_m) c.point[i].separation[lane] = 0;
+    }
+  }
+}
+
 /// How deep a point gives way under its load.
 float yield_m(const StaticBlock& c, std::uint32_t lane, std::size_t point, float yield_s) {
   const float mass = c.point[point].mass[lane];
@@ -260,7 +271,7 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
     set_loads(sum(before, beta, direction_[i]), c);
     direction_[i] = sum(change_[i], beta, direction_[i]);
   };
-  run([&](StaticBlock& c, std::uint32_t) { prepare_block(step, c); });
+  run([&](StaticBlock& c, std::uint32_t) { prepare_block(step, c), close_gaps(step, c); });
   run([&](StaticBlock& c, std::uint32_t) { warm_start(c, step.rows); });
   double last_seen = 0;
   std::size_t last_supported = 0;
