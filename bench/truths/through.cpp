@@ -126,11 +126,11 @@ Measure off_the_mean(const Target& target, Figure figure) {
   };
 }
 /// One step of a ball that strikes 300 packed boxes at 20 m/s and weighs as much as all of them.
-struct Blow {
+struct Impact {
   double handed_on_m_s = 0;  ///< Speed that the ball lost.
   double deepest_m = 0;
 };
-Blow blow(const Preset& preset, int sweeps) {
+Impact impact(const Preset& preset, int sweeps) {
   constexpr double kSide = 0.2, kSpeed_m_s = 20;
   constexpr int kRow = 10, kRows = 6, kLayers = 5, kBoxes = kRow * kRows * kLayers;
   RigidOptions options = solver::awake(Vec3::Zero());
@@ -147,17 +147,17 @@ Blow blow(const Preset& preset, int sweeps) {
   ball.mass_kg *= scale, ball.inertia_B *= scale;
   const BodyId id = world.add(W::moving(ball, Vec3(0, 0, -kSpeed_m_s)));
   world.step(preset.dt_s, preset.substeps);
-  Blow all{kSpeed_m_s + world.state(id).velocity_W.z(), 0};
+  Impact all{kSpeed_m_s + world.state(id).velocity_W.z(), 0};
   for (const float depth : world.physics().penetrations())
     all.deepest_m = std::max(all.deepest_m, static_cast<double>(depth));
   return all;
 }
-double blow_handed_on(const Preset& preset) {
+double impact_handed_on(const Preset& preset) {
   constexpr int kConverged = 256;
-  return blow(preset, preset.sweeps).handed_on_m_s / blow(preset, kConverged).handed_on_m_s - 1;
+  return impact(preset, preset.sweeps).handed_on_m_s / impact(preset, kConverged).handed_on_m_s - 1;
 }
-double blow_overlaps_mm(const Preset& preset) {
-  return 1e3 * blow(preset, preset.sweeps).deepest_m;
+double impact_overlaps_mm(const Preset& preset) {
+  return 1e3 * impact(preset, preset.sweeps).deepest_m;
 }
 
 Measure deepest_mm(const Target& target) {
@@ -171,9 +171,9 @@ Truths through_truths() {
   const char* allowed = "of 10 % or 1.5 x scatter";
   return {
       truth(27, "ball into 300 packed boxes: what a step hands on", "", "256 sweeps", 0.1,
-            blow_handed_on, {0.28, 0.23, 0.19, 0.097}),
-      truth(27, "ball into 300 packed boxes: deepest overlap", "mm", "rigid", 30, blow_overlaps_mm,
-            {30, 20, 9.2, 8.2}),
+            impact_handed_on, {0.28, 0.23, 0.19, 0.097}),
+      truth(27, "ball into 300 packed boxes: deepest overlap", "mm", "rigid", 30,
+            impact_overlaps_mm, {30, 20, 9.2, 8.2}),
       truth(27, "ball through an anchored wall: exit speed", allowed, same, 1,
             off_the_mean(kAnchoredWall, kSpeed), {0.63, 0.21, 0.57, 0.27}, 0),
       truth(27, "ball through an anchored wall: pieces", allowed, same, 1,
