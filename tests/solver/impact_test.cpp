@@ -1,5 +1,5 @@
-// Impacts pass in one step through all that touches (docs/decisions/036). How well they do in rubble
-// is a truth (bench/truths/through.cpp).
+// Impacts pass in one step through all that touches (docs/decisions/036). How well they do in
+// rubble is a truth (bench/truths/through.cpp).
 #include <gtest/gtest.h>
 
 #include "bench/truths/rigid_world.h"
