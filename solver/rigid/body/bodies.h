@@ -62,6 +62,10 @@ struct Bodies {
     const BodySlot body(id.slot);
     return id.slot < size() && generation[body] == id.generation && motion[body] != Motion::kAbsent;
   }
+  /// No point of it is faster.
+  double fastest_m_s(BodySlot body) const {
+    return velocity[body].norm() + angular_velocity[body].norm() * reach_m[body];
+  }
   BodyId id(BodySlot body) const { return {body.value, generation[body]}; }
   /// Of a body that is there.
   BodySlot slot(BodyId id) const {

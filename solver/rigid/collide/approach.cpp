@@ -80,7 +80,7 @@ std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bo
              [&](std::size_t begin, std::size_t end, std::size_t c) {
                for (std::size_t i = begin; i < end; ++i) {
                  const Manifold& m = contacts.manifolds[ManifoldSlot(i)];
-                 if (m.count == 0 || (!bodies.awake(m.body_a) && !bodies.awake(m.body_b))) continue;
+                 if (!touches_awake(m, bodies)) continue;
                  const Pair& pair = contacts.pairs[m.pair];
                  Approach approach;
                  if (make_approach(pair, m, bodies, shapes, step, approach))

@@ -97,6 +97,11 @@ struct Manifold {
   Vec3f impulse_W() const { return normal_impulse() * normal_W + friction_impulse_W; }
 };
 
+/// Whether a solve has to do with it: it touches, and one of both may move.
+inline bool touches_awake(const Manifold& m, const Bodies& bodies) {
+  return m.count > 0 && (bodies.awake(m.body_a) || bodies.awake(m.body_b));
+}
+
 /// All pairs, the manifolds of those that touch, and the colours bodies have in use.
 struct Contacts {
   SlotVector<PairSlot, Pair> pairs;

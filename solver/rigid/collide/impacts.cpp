@@ -8,6 +8,16 @@
 namespace sunder::solver {
 namespace {
 
+/// No impact is slower.
+double slow_m_s(const StepContext& step) { return 2 * kSlowFalls * step.fall_m_s; }
+
+/// Of two that meet in an impact, one is at least half as fast: what lies still has none.
+bool any_fast(const StepContext& step, const Bodies& bodies) {
+  for (const BodySlot body : bodies.slots())
+    if (bodies.awake(body) && 2 * bodies.fastest_m_s(body) > slow_m_s(step)) return true;
+  return false;
+}
+
 bool meet_fast(const StepContext& step, const Manifold& m, const Bodies& bodies) {
   if (!bodies.dynamic(m.body_a) || !bodies.dynamic(m.body_b)) return false;
   const double least_m_s = least_impact_m_s(step, m);
@@ -21,22 +31,22 @@ template <class Visit>
 void for_touching(const Bodies& bodies, const Contacts& contacts, const Visit& visit) {
   for (const ManifoldSlot i : contacts.manifolds.slots()) {
     const Manifold& m = contacts.manifolds[i];
-    if (m.count > 0 && (bodies.awake(m.body_a) || bodies.awake(m.body_b))) visit(m);
+    if (touches_awake(m, bodies)) visit(m);
   }
 }
 
 }  // namespace
 
 double least_impact_m_s(const StepContext& step, const Manifold& m) {
-  return std::max(0.5 * double{kFar} * double{m.size_m} / step.dt_s,
-                  2 * kSlowFalls * step.fall_m_s);
+  return std::max(0.5 * double{kFar} * double{m.size_m} / step.dt_s, slow_m_s(step));
 }
 
 void Impacts::find(const StepContext& step, const Bodies& bodies, const Contacts& contacts) {
   clear();
+  if (!any_fast(step, bodies)) return;
   for_touching(bodies, contacts, [&](const Manifold& m) {
     if (!meet_fast(step, m, bodies)) return;
-    if (steps_.empty()) steps_.assign(bodies.size(), kFar);
+    if (steps_.empty()) steps_.assign(bodies.size(), kUnreached);
     steps_[m.body_a] = steps_[m.body_b] = 0;
   });
   if (!steps_.empty()) spread(bodies, contacts);

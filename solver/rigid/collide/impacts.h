@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/body/step_context.h"
@@ -30,7 +29,7 @@ class Impacts {
 
  private:
   static constexpr std::uint8_t kReach = 4;  ///< From body to body.
-  static constexpr std::uint8_t kFar = 255;
+  static constexpr std::uint8_t kUnreached = 255;
 
   bool is_near(BodySlot body) const { return steps_[body] < kReach; }
   void spread(const Bodies& bodies, const Contacts& contacts);

@@ -45,7 +45,6 @@ class BlocksOf final : public ContactBlocks {
     for (std::uint32_t i = begin; i < end; ++i) {
       if (i + 1 < end) fetch_manifolds(blocks_[i + 1], step);
       prepare_block(step, blocks_[i], arms_.empty() ? nullptr : &arms_[i]);
-      if (!impacts_.empty()) prepare_impact(step, blocks_[i], impacts_[i]);
     }
   }
   void warm_start(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
@@ -99,7 +98,13 @@ class BlocksOf final : public ContactBlocks {
       any |= solver::strike(blocks_[i], arms_[i], step.rows, h_s);
     return any;
   }
-  void expect_impacts(bool wanted) override { impacts_.resize(wanted ? used_ : 0); }
+  void expect_impacts() override {
+    if (impacts_.size() < used_) impacts_.resize(used_);  // written over, not cleared
+  }
+  void prepare_impact(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i)
+      solver::prepare_impact(step, blocks_[i], impacts_[i]);
+  }
   void begin_impact(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::begin_impact(blocks_[i], impacts_[i]);
   }

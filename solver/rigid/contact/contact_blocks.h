@@ -48,8 +48,10 @@ class ContactBlocks {
                      float beta) = 0;
   /// False if nothing was struck.
   virtual bool strike(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
-  /// Makes room for what impacts need, once all blocks are added; or does without.
-  virtual void expect_impacts(bool wanted) = 0;
+  /// Makes room for what impacts need, once all blocks are added.
+  virtual void expect_impacts() = 0;
+  // Of blocks near an impact, which are not split (see sweep.h).
+  virtual void prepare_impact(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
   virtual void begin_impact(std::uint32_t begin, std::uint32_t end) = 0;
   virtual void end_impact(std::uint32_t begin, std::uint32_t end) = 0;
   virtual bool closes_fast(std::uint32_t begin, std::uint32_t end,

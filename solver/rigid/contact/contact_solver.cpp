@@ -187,7 +187,9 @@ class ContactSolver::Stages {
   void store(std::uint32_t begin, std::uint32_t end) {
     solver_.blocks_->store(begin, end, contact_step_);
   }
-
+  void prepare_impacts(std::uint32_t, std::uint32_t) {
+    solver_.impact_pass_.prepare(contact_step_, *solver_.blocks_);
+  }
   void pass_impacts(std::uint32_t, std::uint32_t) {
     solver_.impact_pass_.run(contact_step_, *solver_.blocks_);
   }
@@ -267,10 +269,11 @@ void ContactSolver::Stages::plan() {
   const auto flying = static_cast<std::uint32_t>(solver_.flying_.size());
   stages_.push_back({{0, flying, kBodyGrain}, &Stages::fly_all});
   if (solver_.active_.empty()) return;
-  const bool joints = !solver_.joint_solver_.empty();
+  const bool joints = !solver_.joint_solver_.empty(), impacts = !solver_.impact_pass_.empty();
   const bool joined = joints || guarded_;  // before the kick: what comes between needs it
   all_bodies<&Stages::begin>();
   all_blocks(&Stages::prepare);
+  if (impacts) once(&Stages::prepare_impacts);
   each_joint_color<&Stages::begin_joints>();
   for (int s = 0; s < step_.substeps; ++s) {
     if (s == 0) {
@@ -284,7 +287,7 @@ void ContactSolver::Stages::plan() {
       if (solver_.moving_) each_color(&Stages::settle), join_if_split();
     }
     strikes();
-    if (!solver_.impact_pass_.empty()) once(&Stages::pass_impacts);
+    if (impacts) once(&Stages::pass_impacts);
     sweeps<&Stages::push_joints>(&Stages::sweep_biased, &Stages::sweep_biased);
     all_bodies<&Stages::join_and_move>();
     if (solver_.moving_) all_blocks(&Stages::follow);
@@ -340,8 +343,7 @@ ContactSolver::ContactSolver(const ContactSolverOptions& options)
 
 ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies, Contacts& contacts,
                                         Joints& joints) {
-  order_.collect(step, bodies, contacts,
-                 options_.sweeps < static_cast<int>(ImpactPass::kMostSweeps));
+  order_.collect(step, bodies, contacts, options_.sweeps < ImpactPass::kMostSweeps);
   make_blocks();
   splitting_.split(order_.manifolds().subspan(order_.first_split()), bodies, contacts);
   const bool accelerated = options_.accelerated && options_.sweeps > 1 && splitting_.empty();
@@ -353,8 +355,7 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
     return bodies.velocity[body].norm() * step.dt_s > double{kStill} * bodies.reach_m[body];
   });
   blocks_->follow_bodies(moving_);
-  if (!impact_pass_.empty()) impact_pass_.begin(order_.impacts(), active_);
-  blocks_->expect_impacts(!impact_pass_.empty());
+  impact_pass_.begin(order_.impacts(), active_, *blocks_);
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(), bodies,
                         contacts);
   Stages(*this, step, bodies, contacts, joints).run();
@@ -378,8 +379,7 @@ void ContactSolver::make_blocks() {
       }
     };
     add(true);
-    impact_pass_.add(first, blocks_->size(),
-                     order_.end(color, true, 1) - order_.begin(color, true, 4));
+    impact_pass_.add(first, blocks_->size(), order_.near(color));
     add(false);
     const std::uint32_t count = blocks_->size() - first;
     if (count > 0) colors_.push_back({first, count, grain});

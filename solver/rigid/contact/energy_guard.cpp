@@ -27,8 +27,7 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
                           const Bodies& bodies, const Contacts& contacts) {
   const double slow_m_s = 2 * kSlowFalls * step.fall_m_s;
   watches_ = kGuards && std::ranges::any_of(active, [&](BodySlot body) {
-               const double spin_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
-               return bodies.velocity[body].norm() + spin_m_s > slow_m_s;
+               return bodies.fastest_m_s(body) > slow_m_s;
              });
   if (!watches_) return;
   DisjointSets groups(bodies.size());

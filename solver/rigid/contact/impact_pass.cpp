@@ -6,25 +6,32 @@ namespace sunder::solver {
 namespace {
 
 constexpr float kOverRelaxed = 1.75f;  // best for a row of 22 (Young 1954): 2 / (1 + sin(π / 23))
-constexpr std::uint32_t kMostWork = 150000;  // sweeps of a manifold in a substep
+constexpr int kMostWork = 150000;      // sweeps of a manifold in a substep
 
 }  // namespace
 
 void ImpactPass::clear() {
   blocks_.clear();
   bodies_.clear();
-  manifolds_ = sweeps_ = 0;
+  manifolds_ = 0;
 }
 
 void ImpactPass::add(std::uint32_t first, std::uint32_t end, std::uint32_t manifolds) {
   if (manifolds > 0) blocks_.emplace_back(first, end);
-  manifolds_ += manifolds;
+  manifolds_ += static_cast<int>(manifolds);
 }
 
-void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active) {
+void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active,
+                       ContactBlocks& blocks) {
+  if (empty()) return;
+  blocks.expect_impacts();
   for (const BodySlot body : active)
     if (impacts.moves(body)) bodies_.push_back(body);
   velocity_.resize(bodies_.size());
+}
+
+void ImpactPass::prepare(const ContactStep& step, ContactBlocks& blocks) const {
+  for_blocks([&](auto first, auto end) { blocks.prepare_impact(first, end, step); });
 }
 
 void ImpactPass::run(const ContactStep& step, ContactBlocks& blocks) {
@@ -45,15 +52,14 @@ bool ImpactPass::closes_fast(const ContactStep& step, const ContactBlocks& block
   });
 }
 
-void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
+void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) const {
   const auto once = [&](const ContactStep& with) {
     for_blocks([&](auto first, auto end) { blocks.sweep_relaxed(first, end, with); });
-    ++sweeps_;
   };
   ContactStep over_relaxed = step;
   over_relaxed.soft.omega = kOverRelaxed;
-  const std::uint32_t most = std::min(kMostSweeps, kMostWork / manifolds_);
-  for (std::uint32_t i = 1; i < most && closes_fast(step, blocks); ++i) once(over_relaxed);
+  const int most = std::min(kMostSweeps, kMostWork / manifolds_);
+  for (int i = 1; i < most && closes_fast(step, blocks); ++i) once(over_relaxed);
   once(step), once(step);  // friction goes by the load of the sweep before
 }
 

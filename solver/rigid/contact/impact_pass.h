@@ -16,20 +16,19 @@ namespace sunder::solver {
 class ImpactPass {
  public:
   /// Most sweeps in a substep: who asks for as many of all sweeps has no need of it.
-  static constexpr std::uint32_t kMostSweeps = 64;
+  static constexpr int kMostSweeps = 64;
 
   void clear();
   /// Blocks of so many manifolds of one colour, that are near an impact.
   void add(std::uint32_t first, std::uint32_t end, std::uint32_t manifolds);
   bool empty() const { return blocks_.empty(); }
   /// Once all blocks are added; `active` are the awake bodies in contact.
-  void begin(const Impacts& impacts, std::span<const BodySlot> active);
+  void begin(const Impacts& impacts, std::span<const BodySlot> active, ContactBlocks& blocks);
+  /// Once all blocks are prepared.
+  void prepare(const ContactStep& step, ContactBlocks& blocks) const;
   /// Lets nothing close any more as fast as impacts do. Changes BodyRow::base, and `velocity` by as
   /// much.
   void run(const ContactStep& step, ContactBlocks& blocks);
-  /// Manifolds near an impact, and sweeps of these in the step.
-  std::uint32_t manifolds() const { return manifolds_; }
-  std::uint32_t sweeps() const { return sweeps_; }
 
  private:
   template <class Visit>
@@ -37,7 +36,7 @@ class ImpactPass {
     for (const auto& [first, end] : blocks_) visit(first, end);
   }
   bool closes_fast(const ContactStep& step, const ContactBlocks& blocks) const;
-  void sweep(const ContactStep& step, ContactBlocks& blocks);
+  void sweep(const ContactStep& step, ContactBlocks& blocks) const;
   /// Lets velocities be those before the impulses of the substep; lets them be those again; and
   /// adds the impulses back.
   void set_aside(BodyRow* rows);
@@ -47,7 +46,7 @@ class ImpactPass {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> blocks_;  ///< First and end, by colour.
   std::vector<BodySlot> bodies_;                                 ///< That they may move.
   std::vector<Wide> velocity_;                                   ///< Of these, with all impulses.
-  std::uint32_t manifolds_ = 0, sweeps_ = 0;
+  int manifolds_ = 0;
 };
 
 }  // namespace sunder::solver

@@ -137,7 +137,7 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
 template <std::uint32_t lanes>
 void prepare_impact(const ContactStep& step, const ConstraintBlock<lanes>& c,
                     ImpactLanes<lanes>& impact) {
-  impact = {};
+  impact.least_m_s = WideOf<lanes>{};
   for (std::uint32_t lane = 0; lane < c.count; ++lane) {
     const Manifold& m = step.contacts.manifolds[step.manifolds[c.first + lane]];
     impact.least_m_s[lane] = static_cast<float>(least_impact_m_s(step.context, m));

@@ -156,7 +156,7 @@ void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies
     Manifold& m = contacts.manifolds[i];
     if (!m.cold) continue;  // gone, or here for the second time
     m.cold = false;
-    if (m.count == 0 || !(bodies.awake(m.body_a) || bodies.awake(m.body_b))) continue;
+    if (!touches_awake(m, bodies)) continue;
     const bool rests = std::abs(m.least_separation()) < kMargin * m.size_m;
     if (!rests || greatest_speed(m, bodies) >= slow_m_s) continue;
     resting.emplace_back(m.sweep_key(), i);

@@ -158,30 +158,29 @@ bool strike(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
   return true;
 }
 
-template <std::uint32_t lanes>
-SUNDER_INLINE void exchange(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
-  const auto swap = [](WideOf<lanes>& a, WideOf<lanes>& b) {
-    const WideOf<lanes> was = a;
-    a = b, b = was;
-  };
-  for (std::uint32_t i = 0; i < c.points; ++i) swap(c.point[i].impulse, aside.press[i]);
-  swap(c.slide_impulse_1, aside.slide_1), swap(c.slide_impulse_2, aside.slide_2);
-  swap(c.twist_impulse, aside.twist);
-  swap(c.roll.impulse_1, aside.roll_1), swap(c.roll.impulse_2, aside.roll_2);
+/// Calls visit(slot, impulse) for every impulse of a block, those of rolling too.
+template <std::uint32_t lanes, class Visit>
+SUNDER_INLINE void for_all_impulses(ConstraintBlock<lanes>& c, const Visit& visit) {
+  for_impulses(c, [&](std::uint32_t slot, WideOf<lanes>& impulse, const WideOf<lanes>&) {
+    visit(slot, impulse);
+  });
+  visit(7, c.roll.impulse_1);
+  visit(8, c.roll.impulse_2);
 }
 
 template <std::uint32_t lanes>
-void begin_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
-  const WideOf<lanes> least_m_s = aside.least_m_s;
-  aside = {};
-  aside.least_m_s = least_m_s;
-  exchange(c, aside);
+void begin_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& impact) {
+  for_all_impulses(c, [&](std::uint32_t slot, WideOf<lanes>& impulse) {
+    impact.aside[slot] = impulse;
+    impulse = WideOf<lanes>{};
+  });
 }
 
 template <std::uint32_t lanes>
-void end_impact(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& aside) {
+void end_impact(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact) {
   sum_impulses(c);
-  exchange(c, aside);
+  for_all_impulses(
+      c, [&](std::uint32_t slot, WideOf<lanes>& impulse) { impulse = impact.aside[slot]; });
 }
 
 template <std::uint32_t lanes>
@@ -219,7 +218,7 @@ bool closes_fast(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impa
   template void go_on(ConstraintBlock<lanes>&, SearchLanes<lanes>&, const SolverRows&, float); \
   template bool strike(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);   \
   template void begin_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                    \
-  template void end_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                      \
+  template void end_impact(ConstraintBlock<lanes>&, const ImpactLanes<lanes>&);                \
   template bool closes_fast(const ConstraintBlock<lanes>&, const ImpactLanes<lanes>&,          \
                             const SolverRows&, const SoftStep&);                               \
   template void separations_now(const ConstraintBlock<lanes>&, const SolverRows&, float(*)[lanes]);

@@ -108,19 +108,18 @@ template <std::uint32_t lanes>
 bool strike(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
             float h_s);
 /// What impacts need of a block: what closes no faster is none; and the impulses that an impact has
-/// nothing to do with.
+/// nothing to do with, as in SearchLanes, then those of rolling.
 template <std::uint32_t lanes>
 struct alignas(64) ImpactLanes {
   alignas(4 * lanes) WideOf<lanes> least_m_s = {};
-  WideOf<lanes> press[4] = {};
-  WideOf<lanes> slide_1 = {}, slide_2 = {}, twist = {}, roll_1 = {}, roll_2 = {};
+  WideOf<lanes> aside[9] = {};
 };
 /// Sets them aside, so that sweeps find those of the impact.
 template <std::uint32_t lanes>
-void begin_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& aside);
+void begin_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact);
 /// Puts them back; those of the impact go to the sum of the step.
 template <std::uint32_t lanes>
-void end_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& aside);
+void end_impact(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact);
 /// Whether some point of a block, that is not split, closes as fast as impacts do, beyond its gap.
 template <std::uint32_t lanes>
 bool closes_fast(const ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,

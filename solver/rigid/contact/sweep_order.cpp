@@ -21,7 +21,7 @@ void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Co
   auto for_each = [&](const auto& visit) {
     for (const ManifoldSlot i : contacts.manifolds.slots()) {
       const Manifold& m = contacts.manifolds[i];
-      if (m.count > 0 && (bodies.awake(m.body_a) || bodies.awake(m.body_b))) visit(i, m);
+      if (touches_awake(m, bodies)) visit(i, m);
     }
   };
   const auto key_of = [&](ManifoldSlot i, const Manifold& m) {

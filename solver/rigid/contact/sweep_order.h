@@ -31,6 +31,10 @@ class SweepOrder {
   std::uint32_t end(std::uint32_t color, bool near, std::uint32_t points) const {
     return start_[key(color, near, points) + 1];
   }
+  /// How many of a colour are near an impact.
+  std::uint32_t near(std::uint32_t color) const {
+    return end(color, true, 1) - begin(color, true, 4);
+  }
   /// From here on, manifolds have no colour.
   std::uint32_t first_split() const { return start_[start_.size() - 1 - kKeysAColor]; }
   const Impacts& impacts() const { return impacts_; }
