@@ -12,19 +12,19 @@ PrincipalMoments unbounded_moments(const Mat3& inertia) {
   return {solver.eigenvectors(), solver.eigenvalues()};
 }
 
+Vec3 bounded(const Vec3& moments) { return moments.cwiseMax(kLeastMoment * moments.maxCoeff()); }
+
 }  // namespace
 
 PrincipalMoments principal_moments(const Mat3& inertia) {
-  PrincipalMoments all = unbounded_moments(inertia);
-  all.moments = all.moments.cwiseMax(kLeastMoment * all.moments.maxCoeff()).eval();
-  return all;
+  const auto [axes, moments] = unbounded_moments(inertia);
+  return {axes, bounded(moments)};
 }
 
 Mat3 spinnable(const Mat3& inertia) {
-  const Vec3 moments = unbounded_moments(inertia).moments;
-  if (moments.minCoeff() >= kLeastMoment * moments.maxCoeff()) return inertia;
-  const PrincipalMoments bounded = principal_moments(inertia);
-  return bounded.axes * bounded.moments.asDiagonal() * bounded.axes.transpose();
+  const auto [axes, moments] = unbounded_moments(inertia);
+  const Vec3 enough = bounded(moments);
+  return enough == moments ? inertia : Mat3(axes * enough.asDiagonal() * axes.transpose());
 }
 
 }  // namespace sunder

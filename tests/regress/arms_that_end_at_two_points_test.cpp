@@ -3,7 +3,7 @@
 // soon as the bodies moved on; an impulse at two places is a torque from nowhere. Fixed in dc4d495.
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
+#include "bench/truths/presets.h"
 
 namespace sunder::solver {
 namespace {
@@ -11,9 +11,7 @@ namespace {
 using W = RigidWorld;
 
 TEST(RegressContact, BodiesThatMeetOffCentreKeepTheirAngularMomentum) {
-  RigidOptions options;
-  options.gravity_W.setZero();
-  RigidWorld world(options);
+  RigidWorld world(awake(Vec3::Zero()));
   const Quat leaning(Eigen::AngleAxisd(0.5, Vec3(1, 2, 3).normalized()));
   BodyDesc a = W::moving(W::box(Vec3(0.4, 0.3, 0.2), Vec3(-0.5, 0, 0)), Vec3(3, 0.2, 0));
   a.X_WB.rotation = leaning;

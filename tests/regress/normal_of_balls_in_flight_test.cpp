@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
+#include "bench/truths/presets.h"
 
 namespace sunder::solver {
 namespace {
@@ -14,9 +14,7 @@ using W = RigidWorld;
 
 TEST(RegressFlight, BallsThatMeetPartAlongTheNormalOfTheirTouch) {
   const double radius_m = 0.05, speed_m_s = 500;
-  RigidOptions options;
-  options.gravity_W.setZero();
-  RigidWorld world(options);
+  RigidWorld world(awake(Vec3::Zero()));
   const auto ball = [&](const Vec3& at_W, const Vec3& velocity_W) {
     const BodyDesc still = W::with_friction(W::sphere(radius_m, at_W), 0);
     return world.add(W::moving(still, velocity_W));

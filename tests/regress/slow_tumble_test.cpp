@@ -3,7 +3,7 @@
 // steps. Fixed in 34ec447.
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
+#include "bench/truths/presets.h"
 
 namespace sunder::solver {
 namespace {
@@ -11,9 +11,7 @@ namespace {
 using W = RigidWorld;
 
 TEST(RegressTumble, KeepsItsAngularMomentumHoweverLittleItTurnsInAStep) {
-  RigidOptions options;
-  options.gravity_W.setZero();
-  RigidWorld world(options);
+  RigidWorld world(awake(Vec3::Zero()));
   world.add(W::moving(W::box(Vec3(1, 0.2, 0.5), Vec3::Zero()), Vec3::Zero(), Vec3(1, 2, 0.5)));
   const Vec3 before = world.angular_momentum();
   const double before_J = world.kinetic_energy();

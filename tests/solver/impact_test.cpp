@@ -2,7 +2,7 @@
 // rubble is a truth (bench/truths/through.cpp).
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
+#include "bench/truths/presets.h"
 #include "engine/base/parallel.h"
 
 namespace sunder::solver {
@@ -14,9 +14,7 @@ constexpr int kSubsteps = 4, kSide = 10;  // more posts than there are colours
 
 /// A plate that strikes posts which touch another plate, all of them free.
 RigidWorld plate_strikes_posts(int lanes) {
-  RigidOptions options;
-  options.gravity_W.setZero();
-  options.sleeping = false;
+  RigidOptions options = awake(Vec3::Zero());
   options.lanes = lanes;
   RigidWorld world(options);
   const Vec3 plate(kSide, 0.2, kSide), post(0.5, 1, 0.5);
