@@ -1,11 +1,10 @@
 // Whole runs, with the real solver and the real fracture, against what can be worked out by hand:
 // what a hit has to break it breaks, at any length of a step, and it loses what that takes.
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "tests/motion/run.h"
+#include "tests/motion/decided.h"
 
 namespace sunder::tests {
 namespace {
@@ -13,23 +12,6 @@ namespace {
 class AtAnyStep : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Steps, AtAnyStep,
                          testing::Values(1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 960));
-
-/// A wall across one axis, anchored at its rim.
-Solid wall(int axis, const Vec3& center_W, double side_m, double thickness_m) {
-  Vec3 size = Vec3::Constant(side_m);
-  size[axis] = thickness_m;
-  std::uint8_t rim = kAnchoredAllRound;
-  for (const bool high : {false, true}) {
-    rim = static_cast<std::uint8_t>(rim & ~anchor_side(axis, high));
-  }
-  return box_solid(center_W, size, rim);
-}
-
-double ball_kg(const Ball& ball) {
-  return 8000 * 4.0 / 3.0 * std::numbers::pi * std::pow(ball.radius_m, 3);
-}
-
-double kinetic_J(double mass_kg, double speed_m_s) { return 0.5 * mass_kg * speed_m_s * speed_m_s; }
 
 /// How fast a mass is that has lost so much energy.
 double speed_left_m_s(double mass_kg, double speed_m_s, double lost_J) {
@@ -115,29 +97,6 @@ TEST_P(AtAnyStep, ABulletBreaksTwoPanesInOneStepAndLosesExactlyTheEnergyBooked) 
   EXPECT_GT(run.broken_J, 0.1 * all_J);
   const double speed = run.body(2).velocity_W.norm();
   EXPECT_NEAR(all_J - kinetic_J(ball_kg(bullet), speed), run.broken_J, 1e-3 * run.broken_J);
-}
-
-/// An impact of which `work_J` arrives at what may break, as `scene_of(speed)` has it: what it
-/// takes to break it decides whether it breaks, and, where that is all there is, is all that is
-/// lost.
-void expect_decided_by_work(const std::function<Scene(double)>& scene_of,
-                            const std::function<double(double)>& work_J, bool is_all = true) {
-  const auto first_break = [&](double speed) {
-    Trial run(scene_of(speed));
-    while (run.frame->time_s < 0.3 && run.breaks.empty()) run.step();
-    return run;
-  };
-  const Trial strong = first_break(20);
-  ASSERT_EQ(strong.breaks.size(), 1u);
-  const double enough = 20 * std::sqrt(strong.broken_J / work_J(20));
-  EXPECT_TRUE(first_break(0.93 * enough).breaks.empty());
-  const Trial barely = first_break(1.07 * enough);
-  ASSERT_EQ(barely.breaks.size(), 1u);
-  EXPECT_DOUBLE_EQ(barely.broken_J, strong.broken_J);
-  if (!is_all) return;
-  EXPECT_NEAR(strong.kinetic_J(), work_J(20) - strong.broken_J, 0.03 * work_J(20));
-  EXPECT_NEAR(barely.kinetic_J(), work_J(1.07 * enough) - strong.broken_J,
-              0.03 * work_J(1.07 * enough));
 }
 
 /// A ball about to hit a loose block from the side, which `joint` holds to the world.

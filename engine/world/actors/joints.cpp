@@ -29,7 +29,7 @@ void Joints::add(Physics& physics, const Actors& actors, const Joint& joint) {
   Live live;
   JointDesc desc;
   desc.kind = joint.kind;
-  live.rigid = joint.kind == JointDesc::Kind::kFixed;
+  live.kind = joint.kind;
   const bool apart =
       joint.kind == JointDesc::Kind::kDistance || joint.kind == JointDesc::Kind::kRope;
   const Vec3 end_W = apart ? joint.to_W : joint.at_W;
@@ -50,7 +50,8 @@ void Joints::add(Physics& physics, const Actors& actors, const Joint& joint) {
   set_end(joint.a, joint.at_W, live.a, desc.a, desc.anchor_a_R, desc.axis_a_R, rotation_WR[0]);
   set_end(joint.b, end_W, live.b, desc.b, desc.anchor_b_R, desc.axis_b_R, rotation_WR[1]);
   desc.rotation_RaRb = rotation_WR[0].conjugate() * rotation_WR[1];
-  desc.length_m = (end_W - joint.at_W).norm();
+  live.axis_a_R = desc.axis_a_R;
+  live.length_m = desc.length_m = (end_W - joint.at_W).norm();
   desc.breaking_N = joint.breaking_N;
   desc.breaking_Nm = joint.breaking_Nm;
   desc.collide = joint.collide;
@@ -101,20 +102,6 @@ std::uint32_t Joints::forget(const std::vector<JointId>& gone) {
     std::erase_if(live_, [&](const Live& joint) { return joint.id == id; });
   }
   return static_cast<std::uint32_t>(gone.size());
-}
-
-std::vector<std::uint32_t> Joints::fixed_to_world(const Actors& actors) const {
-  const auto stands = [&](std::uint32_t key) {
-    const Actor* actor = actors.find(key);
-    return key == kGroundKey || (actor && actor->is_static);
-  };
-  std::vector<std::uint32_t> keys;
-  for (const Live& joint : live_) {
-    if (joint.rigid && stands(joint.b.key)) keys.push_back(joint.a.key);
-    if (joint.rigid && stands(joint.a.key)) keys.push_back(joint.b.key);
-  }
-  std::ranges::sort(keys);
-  return keys;
 }
 
 }  // namespace sunder

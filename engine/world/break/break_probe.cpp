@@ -20,16 +20,19 @@ constexpr double kFaster = 2;  // than before, no contact closes once others hav
 constexpr double kLeastEvent = 0.1;
 // Contacts give a little, against the heaviest body, so that supports share what they bear.
 constexpr double kGive = 1e-5;
+constexpr double kHangs = 1e-6;  // of gravity: what joints leave no more of does not fall
 
 }  // namespace
 
 BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts,
-                       double dt_s, double still_m_s, const Vec3& gravity_W)
+                       double dt_s, double still_m_s, const Vec3& gravity_W,
+                       std::vector<ProbeJoint> joints)
     : bodies_(std::move(bodies)),
       contacts_(std::move(contacts)),
+      joints_(std::move(joints)),
       dt_s_(dt_s),
       still_m_s_(still_m_s),
-      gravity_W_(gravity_W),
+      weight_(bodies_.size()),
       velocities_(bodies_.size()),
       way_(bodies_.size()),
       falls_(bodies_.size(), 0),
@@ -38,11 +41,20 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
       undecided_(bodies_.size(), 0) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     velocities_[i] = {bodies_[i].velocity_W, bodies_[i].angular_velocity_W};
+    if (bodies_[i].inverse_mass > 0) weight_[i].linear = gravity_W;
+  }
+  const Linkage linkage(joint_rows(bodies_, way_, joints_));
+  linkage.project(weight_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    bodies_[i].leans |= weight_[i].linear.norm() < kHangs * gravity_W.norm();
   }
   for (const ProbeBody& body : bodies_) {
     if (body.breakable) least_J_ = std::min(least_J_, body.least_J);
   }
-  for (const ProbeContact& c : contacts_) rows_.push_back(make_row(c, c.arm_a_W, c.arm_b_W));
+  for (const ProbeContact& c : contacts_) {
+    rows_.push_back(make_row(bodies_, c, c.arm_a_W, c.arm_b_W));
+    linkage.join(rows_.back(), bodies_.size());
+  }
   first_rows_ = rows_;
   double least = std::numeric_limits<double>::infinity();
   for (const ProbeBody& body : bodies_) {
@@ -51,39 +63,7 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   give_ = kGive * least;
 }
 
-ContactRow BreakProbe::make_row(const ProbeContact& c, const Vec3& arm_a_W,
-                                const Vec3& arm_b_W) const {
-  const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
-  ContactRow row;
-  row.a = c.a, row.b = c.b;
-  row.moves_a = a.inverse_mass > 0, row.moves_b = b.inverse_mass > 0;
-  row.normal = c.normal_W;
-  row.angular_a = arm_a_W.cross(c.normal_W);
-  row.angular_b = arm_b_W.cross(c.normal_W);
-  row.push_a = a.inverse_mass * c.normal_W;
-  row.push_b = b.inverse_mass * c.normal_W;
-  row.spin_a = a.inverse_inertia_W * row.angular_a;
-  row.spin_b = b.inverse_inertia_W * row.angular_b;
-  row.inverse_mass = a.inverse_mass + b.inverse_mass + row.angular_a.dot(row.spin_a) +
-                     row.angular_b.dot(row.spin_b);
-  return row;
-}
-
-/// Where both are by now: in one point, midway between those of the bodies, or the blow would make
-/// angular momentum.
-ContactRow BreakProbe::meet(const ProbeContact& c) const {
-  const auto center = [&](std::uint32_t b) -> Vec3 {
-    return bodies_[b].position_W + way_[b].linear;
-  };
-  const auto arm = [&](std::uint32_t b, const Vec3& arm_W) -> Vec3 {
-    return rotation_by(way_[b].angular) * arm_W;
-  };
-  const Vec3 a_W = center(c.a), b_W = center(c.b);
-  const Vec3 point_W = 0.5 * (a_W + arm(c.a, c.arm_a_W) + b_W + arm(c.b, c.arm_b_W));
-  return make_row(c, point_W - a_W, point_W - b_W);
-}
-
-/// What hangs together by touch, and neither stands nor leans on anything, falls.
+/// What hangs together by touch or joints, and neither stands nor leans on anything, falls.
 void BreakProbe::find_falling() {
   DisjointSets groups(bodies_.size());
   std::vector<std::uint8_t> stands(bodies_.size(), 0);
@@ -93,8 +73,13 @@ void BreakProbe::find_falling() {
     if (row.inverse_mass <= 0 || !touches(i) || row.speed(velocities_) < -still_m_s_) continue;
     if (row.moves_a && row.moves_b) {
       groups.join(row.a, row.b);
-    } else {
+    } else if (!row.rope) {
       stands[row.moves_a ? row.a : row.b] = 1;
+    }
+  }
+  for (const ProbeJoint& joint : joints_) {
+    if (bodies_[joint.a].inverse_mass > 0 && bodies_[joint.b].inverse_mass > 0) {
+      groups.join(joint.a, joint.b);
     }
   }
   const std::vector<std::uint32_t> roots = groups.roots();
@@ -107,12 +92,16 @@ void BreakProbe::find_falling() {
 /// How long until contacts close that may matter; infinite if none does within the step.
 double BreakProbe::wait_s() const {
   double wait = std::numeric_limits<double>::infinity(), hardest = 0;
+  std::vector<BodyVelocity> fall(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (falls_[b]) fall[b] = weight_[b];
+  }
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ContactRow& row = rows_[i];
     if (row.inverse_mass <= 0) continue;
     const double speed = row.speed(velocities_), gap = gap_m(i);
-    const double faster = (falls_[row.a] - falls_[row.b]) * row.normal.dot(gravity_W_);
-    const double square = speed * speed + 2 * faster * std::max(0.0, gap);  // when it closes
+    const double square =  // when it closes
+        speed * speed + 2 * row.speed(fall) * std::max(0.0, gap);
     if (square < still_m_s_ * still_m_s_ || square < 2 * kLeastEvent * least_J_ * row.inverse_mass)
       continue;
     const double closing = speed + std::sqrt(square);  // twice the mean
@@ -137,8 +126,10 @@ void BreakProbe::fall(double time_s) {
     way_[i].angular += time_s * velocities_[i].angular;
     if (!falls_[i]) continue;
     fallen_s_[i] += time_s;
-    way_[i].linear += 0.5 * time_s * time_s * gravity_W_;
-    velocities_[i].linear += time_s * gravity_W_;
+    way_[i].linear += 0.5 * time_s * time_s * weight_[i].linear;
+    way_[i].angular += 0.5 * time_s * time_s * weight_[i].angular;
+    velocities_[i].linear += time_s * weight_[i].linear;
+    velocities_[i].angular += time_s * weight_[i].angular;
   }
 }
 
@@ -149,12 +140,16 @@ bool BreakProbe::advance_to_event() {
   const double wait = wait_s();
   if (time_s_ + wait > dt_s_) return false;
   fall(wait);
+  const Linkage linkage(joint_rows(bodies_, way_, joints_));
+  linkage.project(velocities_);
   closed_.clear();
   fastest_m_s_ = 0;
   for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
     if (rows_[i].inverse_mass <= 0 || !touches(i)) continue;
+    rows_[i] = meet(bodies_, way_, contacts_[i]);
+    linkage.join(rows_[i], bodies_.size());
+    if (rows_[i].inverse_mass <= 0) continue;
     closed_.push_back(i);
-    rows_[i] = meet(contacts_[i]);
     fastest_m_s_ = std::max(fastest_m_s_, rows_[i].speed(velocities_));
   }
   return true;
@@ -254,7 +249,9 @@ std::vector<ProbeLoad> BreakProbe::next() {
 void BreakProbe::note_pushed(const ClusterMotion& motion) {
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const ContactRow& row = rows_[closed_[i]];
-    if (motion.impulses_Ns[i] != 0) pushed_[row.a] = pushed_[row.b] = 1;
+    if (motion.impulses_Ns[i] == 0) continue;
+    pushed_[row.a] = pushed_[row.b] = 1;
+    for (const ContactRow::PassedOn& on : row.passed_on) pushed_[on.body] = 1;
   }
 }
 
@@ -318,11 +315,13 @@ void BreakProbe::finish(const ClusterMotion& without, double share) {
     motion.changed = bodies_[b].inverse_mass > 0 && pushed_[b] != 0;
     if (!motion.changed) continue;
     const BodyVelocity &with = with_->velocities[b], &v0 = without.velocities[b];
-    const Vec3 gain = fallen_s_[b] * gravity_W_;
-    motion.velocity_W = with.linear + share * (v0.linear - with.linear) - gain;
-    motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular);
-    motion.shift_W = way_[b].linear - time_s_ * motion.velocity_W - 0.5 * fallen_s_[b] * gain;
-    motion.rotation_W = way_[b].angular - time_s_ * motion.angular_velocity_W;
+    const double fallen_s = fallen_s_[b];
+    const BodyVelocity gain{fallen_s * weight_[b].linear, fallen_s * weight_[b].angular};
+    motion.velocity_W = with.linear + share * (v0.linear - with.linear) - gain.linear;
+    motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular) - gain.angular;
+    motion.shift_W = way_[b].linear - time_s_ * motion.velocity_W - 0.5 * fallen_s * gain.linear;
+    motion.rotation_W =
+        way_[b].angular - time_s_ * motion.angular_velocity_W - 0.5 * fallen_s * gain.angular;
     // Turned back by that, it has the same angular momentum.
     const Mat3 turn(rotation_by(motion.rotation_W));
     const Mat3& inverse_W = bodies_[b].inverse_inertia_W;
@@ -335,8 +334,9 @@ void BreakProbe::pause() {
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ProbeBody& body = bodies_[b];
-    motions_[b] = {body.velocity_W + fallen_s_[b] * gravity_W_, body.angular_velocity_W,
-                   way_[b].linear, way_[b].angular, body.inverse_mass > 0};
+    motions_[b] = {body.velocity_W + fallen_s_[b] * weight_[b].linear,
+                   body.angular_velocity_W + fallen_s_[b] * weight_[b].angular, way_[b].linear,
+                   way_[b].angular, body.inverse_mass > 0};
   }
 }
 

@@ -3,7 +3,8 @@
 //
 // Read first: BreakProbe, in the order next(), then hold() or release(). It follows the contacts as
 // they close, in order of time, on velocities and displacements of its own: the world is left as it
-// is until it takes the result over. Frictionless, without rebound.
+// is until it takes the result over. Frictionless, without rebound. Joints hold, whatever they
+// bear.
 #pragma once
 
 #include <cstdint>
@@ -14,31 +15,10 @@
 
 #include "engine/base/types.h"
 #include "engine/world/break/cluster_solve.h"
+#include "engine/world/break/linkage.h"
+#include "engine/world/break/probe_rows.h"
 
 namespace sunder {
-
-/// A body of the cluster, as it moves at the start of the step.
-struct ProbeBody {
-  std::uint32_t key = 0;
-  double inverse_mass = 0;                ///< 0: static, or fixed to the world.
-  Mat3 inverse_inertia_W = Mat3::Zero();  ///< About the centre of mass.
-  Vec3 position_W = Vec3::Zero();         ///< Of that.
-  Vec3 velocity_W = Vec3::Zero();
-  Vec3 angular_velocity_W = Vec3::Zero();
-  bool leans = false;  ///< On what is outside of the cluster.
-  bool breakable = false;
-  double least_J = 0;   ///< Work below this breaks it in no case,
-  double least_Ns = 0;  ///< nor does an impulse below this.
-};
-
-/// A point where two bodies touch, or would touch within the step.
-struct ProbeContact {
-  std::uint32_t a = 0, b = 0;                           ///< Bodies, by index.
-  std::uint32_t shape_a = 0, shape_b = 0;               ///< Opaque.
-  Vec3 arm_a_W = Vec3::Zero(), arm_b_W = Vec3::Zero();  ///< From the centres of mass.
-  Vec3 normal_W = Vec3::UnitY();                        ///< From a to b.
-  double separation_m = 0;
-};
 
 /// What a breakable body would have to bear.
 struct ProbeLoad {
@@ -71,7 +51,8 @@ class BreakProbe {
   /// What closes more slowly than `still_m_s` rests; what is as near as that closes in the step
   /// touches. Gravity moves what touches nothing that stands.
   BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts, double dt_s,
-             double still_m_s, const Vec3& gravity_W = Vec3::Zero());
+             double still_m_s, const Vec3& gravity_W = Vec3::Zero(),
+             std::vector<ProbeJoint> joints = {});
 
   /// Runs on to what next loads breakable bodies with more than their least; empty at the end of
   /// the step. Ordered by body.
@@ -90,6 +71,7 @@ class BreakProbe {
   const std::vector<ProbeMotion>& motions() const { return motions_; }
   const std::vector<ProbeBody>& bodies() const { return bodies_; }
   const std::vector<ProbeContact>& contacts() const { return contacts_; }
+  const std::vector<ProbeJoint>& joints() const { return joints_; }
 
  private:
   /// The energy between two motions.
@@ -98,8 +80,6 @@ class BreakProbe {
     double share(double energy_J) const;
   };
 
-  ContactRow make_row(const ProbeContact& c, const Vec3& arm_a_W, const Vec3& arm_b_W) const;
-  ContactRow meet(const ProbeContact& c) const;
   double gap_m(std::size_t contact) const {
     return contacts_[contact].separation_m - first_rows_[contact].speed(way_);
   }
@@ -119,9 +99,11 @@ class BreakProbe {
 
   std::vector<ProbeBody> bodies_;
   std::vector<ProbeContact> contacts_;
+  std::vector<ProbeJoint> joints_;
   double dt_s_;
   double still_m_s_;
-  Vec3 gravity_W_;
+  std::vector<BodyVelocity>
+      weight_;  ///< Per body: its acceleration where it falls, as far as joints let it.
   double least_J_ = std::numeric_limits<double>::infinity();  ///< Of the breakable bodies.
   double give_ = 0;                                           ///< Speed per impulse.
   double time_s_ = 0;

@@ -33,8 +33,8 @@ void add_impacts(const World& world, Trial& trial) {
   }
 }
 
-/// Whether what a trial hits is among what others broke: a body that is gone, or the convex hit of
-/// one that stands.
+/// Whether what a trial hits is among what others broke: a body that is gone, or, of one that
+/// stands, the convex hit, or where a joint may have been.
 bool is_stale(const World& world, const Trial& trial, std::span<const std::uint32_t> broken) {
   const std::vector<ProbeBody>& bodies = trial.probe.bodies();
   for (const std::uint32_t key : broken) {
@@ -47,8 +47,11 @@ bool is_stale(const World& world, const Trial& trial, std::span<const std::uint3
       return !actor->structure.has(ConvexSlot(shape));
     };
     for (const ProbeContact& contact : trial.probe.contacts()) {
-      if (contact.a == index && is_gone(contact.shape_a)) return true;
-      if (contact.b == index && is_gone(contact.shape_b)) return true;
+      if (contact.a == index && (contact.rope || is_gone(contact.shape_a))) return true;
+      if (contact.b == index && (contact.rope || is_gone(contact.shape_b))) return true;
+    }
+    for (const ProbeJoint& joint : trial.probe.joints()) {
+      if (joint.a == index || joint.b == index) return true;
     }
   }
   return false;

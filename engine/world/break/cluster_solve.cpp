@@ -109,6 +109,10 @@ double ContactRow::coupling(const ContactRow& other) const {
   if (other.a == b) sum -= normal.dot(other.push_a) + angular_b.dot(other.spin_a);
   if (other.b == a) sum -= normal.dot(other.push_b) + angular_a.dot(other.spin_b);
   if (other.b == b) sum += normal.dot(other.push_b) + angular_b.dot(other.spin_b);
+  for (const PassedOn& on : other.passed_on) {
+    if (on.body == a) sum -= normal.dot(on.change.linear) + angular_a.dot(on.change.angular);
+    if (on.body == b) sum += normal.dot(on.change.linear) + angular_b.dot(on.change.angular);
+  }
   return sum;
 }
 
@@ -120,6 +124,9 @@ ClusterMotion solve_cluster(const std::vector<ContactRow>& rows,
   for (const std::uint32_t i : in_way) {
     const ContactRow& row = rows[closed[i]];
     if (row.moves_a && row.moves_b) bodies.join(row.a, row.b);
+    for (const ContactRow::PassedOn& on : row.passed_on) {
+      bodies.join(row.moves_a ? row.a : row.b, on.body);
+    }
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> grouped;  // by group
   grouped.reserve(in_way.size());

@@ -14,7 +14,7 @@ struct BodyVelocity {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
 
-/// A point of contact between two bodies, as a solve sees it.
+/// A point of contact between two bodies, as a solve sees it; or what a joint does not let them do.
 struct ContactRow {
   std::uint32_t a = 0, b = 0;             ///< Bodies, by index.
   bool moves_a = false, moves_b = false;  ///< Or it is fixed.
@@ -23,6 +23,14 @@ struct ContactRow {
   Vec3 push_a = Vec3::Zero(), push_b = Vec3::Zero();  ///< Change of velocity per impulse,
   Vec3 spin_a = Vec3::Zero(), spin_b = Vec3::Zero();  ///< and of angular velocity.
   double inverse_mass = 0;                            ///< Of the pair along the normal.
+  bool rope = false;                                  ///< Of no account to what may break.
+
+  /// What joints pass on of an impulse, and keep from the two themselves.
+  struct PassedOn {
+    std::uint32_t body = 0;
+    BodyVelocity change;  ///< Per impulse.
+  };
+  std::vector<PassedOn> passed_on;
 
   /// At which it closes.
   double speed(const std::vector<BodyVelocity>& v) const {
@@ -34,10 +42,16 @@ struct ContactRow {
     v[a].angular -= impulse_Ns * spin_a;
     v[b].linear += impulse_Ns * push_b;
     v[b].angular += impulse_Ns * spin_b;
+    for (const PassedOn& on : passed_on) {
+      v[on.body].linear += impulse_Ns * on.change.linear;
+      v[on.body].angular += impulse_Ns * on.change.angular;
+    }
   }
   /// The change of speed per impulse of another row.
   double coupling(const ContactRow& other) const;
-  bool touches(const std::vector<std::uint8_t>& bodies) const { return bodies[a] || bodies[b]; }
+  bool touches(const std::vector<std::uint8_t>& bodies) const {
+    return !rope && (bodies[a] || bodies[b]);
+  }
 };
 
 /// What contacts make of velocities.

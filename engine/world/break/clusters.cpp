@@ -1,12 +1,12 @@
 #include "engine/world/break/clusters.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "engine/base/froude.h"
 #include "engine/base/rotation.h"
+#include "engine/world/break/joint_graph.h"
 
 namespace sunder {
 namespace {
@@ -28,40 +28,15 @@ bool may_break(const World& world, const Actor* actor, double energy_J) {
   return actor->is_static || actor->born_step != world.clock.step + 1;
 }
 
-/// What closes at a contact, by the time that it does, at most; things that joints fix to the world
-/// give no more than it does.
-double closing_energy_J(const World& world, const BodyStates& states, const Approach& approach,
-                        const std::vector<std::uint32_t>& fixed) {
-  const double falls_J_kg =
-      std::abs(world.scene.gravity_W.dot(approach.normal_W)) * std::max(0.0, approach.separation_m);
-  const double all_J =
-      approach.effective_mass_kg * (0.5 * approach.speed_m_s * approach.speed_m_s + falls_J_kg);
-  if (fixed.empty()) return all_J;
-  double left = 1;  // of what gives
-  for (const std::uint32_t key : {approach.body_tag_a, approach.body_tag_b}) {
-    if (!std::ranges::binary_search(fixed, key)) continue;
-    const Actor& actor = *world.actors.find(key);
-    if (actor.is_static) continue;
-    const Pose X_WB = states[actor.body].X_WB;
-    const Vec3 normal = X_WB.rotation.conjugate() * approach.normal_W;
-    const Vec3 beta = (X_WB.inverse() * approach.point_W).cross(normal);
-    left -= approach.effective_mass_kg *
-            (1 / actor.weight.mass_kg + beta.dot(actor.weight.inertia_R.inverse() * beta));
-  }
-  return left > 1e-6 ? all_J / left : 0;
-}
-
 /// Approaches with energy enough to break something in the world, in the order of find_clusters().
 std::vector<Seed> find_seeds(const World& world, const WaitingRoom& waiting,
-                             const std::vector<std::uint32_t>& fixed) {
+                             const JointGraph& joints) {
   double least_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) least_J = std::min(least_J, actor.least_J);
   if (least_J == std::numeric_limits<double>::infinity()) return {};
-  const BodyStates states = world.physics->states();
   std::vector<Seed> pairs;
   for (const Approach& approach : world.physics->approaches()) {
-    pairs.push_back({approach.body_tag_a, approach.body_tag_b,
-                     closing_energy_J(world, states, approach, fixed)});
+    pairs.push_back({approach.body_tag_a, approach.body_tag_b, joints.closing_energy_J(approach)});
   }
   std::ranges::stable_sort(pairs, {}, [](const Seed& seed) { return std::pair(seed.a, seed.b); });
   std::vector<Seed> seeds;
@@ -128,11 +103,11 @@ class Members {
   std::uint32_t clusters_ = 0;  ///< The number of the last.
 };
 
-/// Bodies reached from a seed, contact by contact.
+/// Bodies reached from a seed, contact by contact and joint by joint.
 class Reach {
  public:
-  Reach(const World& world, const std::vector<std::uint32_t>& fixed, Members& members)
-      : world_(world), states_(world.physics->states()), fixed_(fixed), members_(members) {
+  Reach(const World& world, const JointGraph& joints, Members& members)
+      : world_(world), states_(world.physics->states()), joints_(joints), members_(members) {
     members_.begin_cluster();
   }
 
@@ -154,7 +129,15 @@ class Reach {
     std::vector<BodyId> layer;
     for (std::size_t done = 0; done < moving_.size() && moving_.size() < most_;) {
       layer.clear();
-      for (; done < moving_.size(); ++done) layer.push_back(members_.actor(moving_[done])->body);
+      for (const std::size_t end = moving_.size(); done < end; ++done) {
+        const Actor& actor = *members_.actor(moving_[done]);
+        layer.push_back(actor.body);
+        for (const JointGraph::End& at : joints_.of(actor.key)) {
+          const Joints::Live& joint = world_.joints.live()[at.joint];
+          add(members_.place(joint.a.key));
+          add(members_.place(joint.b.key));
+        }
+      }
       std::pair last(kNobodyKey, kNobodyKey);
       for (const Touch& touch : world_.physics->touches(layer)) {
         const std::pair pair(touch.body_tag_a, touch.body_tag_b);
@@ -193,8 +176,12 @@ class Reach {
                           touch.shape_tag_b, touch.arm_a_W, touch.arm_b_W, touch.normal_W,
                           touch.separation_m});
     }
+    std::vector<ProbeJoint> joints;
+    for (const std::uint32_t joint : joints_of_cluster()) {
+      link(world_.joints.live()[joint], bodies, contacts, joints);
+    }
     return BreakProbe(std::move(bodies), std::move(contacts), horizon_s, still_m_s,
-                      world_.scene.gravity_W);
+                      world_.scene.gravity_W, std::move(joints));
   }
 
   bool could_break(double energy_J) const {
@@ -225,7 +212,7 @@ class Reach {
     body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
     const BodyState state = states_[actor->body];
     body.position_W = state.X_WB.position;
-    if (actor->is_static || std::ranges::binary_search(fixed_, actor->key)) return body;
+    if (actor->is_static) return body;
     const Mat3 rotation = state.X_WB.rotation.toRotationMatrix();
     body.inverse_mass = 1 / actor->weight.mass_kg;
     body.inverse_inertia_W = rotation * actor->weight.inertia_R.inverse() * rotation.transpose();
@@ -234,9 +221,58 @@ class Reach {
     return body;
   }
 
+  /// By place in Joints::live(), ascending.
+  std::vector<std::uint32_t> joints_of_cluster() const {
+    std::vector<std::uint32_t> all;
+    for (const std::uint32_t place : moving_) {
+      for (const JointGraph::End& end : joints_.of(members_.actor(place)->key)) {
+        all.push_back(end.joint);
+      }
+    }
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
+
+  /// Where a joint holds a body; anchors in W at the world's end.
+  Vec3 anchor_W(const Joints::End& end) const {
+    const Actor* actor = world_.actors.find(end.key);
+    return actor ? rest_pose(*actor, states_[actor->body].X_WB) * end.anchor_R : end.anchor_R;
+  }
+
+  /// Adds a joint to what it is to a probe; or, if it leads out of the cluster, leans on that.
+  void link(const Joints::Live& joint, std::vector<ProbeBody>& bodies,
+            std::vector<ProbeContact>& contacts, std::vector<ProbeJoint>& joints) const {
+    const std::uint32_t a = members_.place(joint.a.key), b = members_.place(joint.b.key);
+    if (!members_.holds(a) || !members_.holds(b)) {
+      bodies[members_.index(members_.holds(a) ? a : b)].leans = true;
+      return;
+    }
+    const Vec3 at_a_W = anchor_W(joint.a), at_b_W = anchor_W(joint.b);
+    ProbeJoint link{joint.kind, members_.index(a), members_.index(b)};
+    link.arm_a_W = at_a_W - bodies[link.a].position_W;
+    link.arm_b_W = at_b_W - bodies[link.b].position_W;
+    if (joint.kind == JointKind::kRope) {
+      const double length_m = (at_a_W - at_b_W).norm();
+      ProbeContact rope{link.a, link.b};
+      rope.arm_a_W = link.arm_a_W, rope.arm_b_W = link.arm_b_W;
+      if (length_m > 0) rope.normal_W = (at_a_W - at_b_W) / length_m;
+      rope.separation_m = joint.length_m - length_m;
+      rope.rope = true;
+      contacts.push_back(rope);
+      return;
+    }
+    if (const Actor* actor = members_.actor(a)) {
+      link.axis_W = states_[actor->body].X_WB.rotation * joint.axis_a_R;
+    } else {
+      link.axis_W = joint.axis_a_R;
+    }
+    joints.push_back(link);
+  }
+
   const World& world_;
   const BodyStates states_;
-  const std::vector<std::uint32_t>& fixed_;  ///< Keys: to the world, by joints.
+  const JointGraph& joints_;
   Members& members_;
   std::vector<std::uint32_t> places_;  ///< Of this cluster's bodies, fixed ones too.
   std::vector<std::uint32_t> moving_;  ///< Nearest first.
@@ -246,14 +282,14 @@ class Reach {
 }  // namespace
 
 std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting) {
-  const std::vector<std::uint32_t> fixed = world.joints.fixed_to_world(world.actors);
-  const std::vector<Seed> seeds = find_seeds(world, waiting, fixed);
+  const JointGraph joints(world);
+  const std::vector<Seed> seeds = find_seeds(world, waiting, joints);
   std::vector<BreakProbe> clusters;
   if (seeds.empty()) return clusters;
   Members members(world);
   waiting.for_each([&](const Waiter& waiter) { members.take(members.place(waiter.key)); });
   for (const Seed& seed : seeds) {
-    Reach reach(world, fixed, members);
+    Reach reach(world, joints, members);
     if (!reach.start(seed)) continue;
     reach.grow();
     if (reach.could_break(seed.energy_J)) clusters.push_back(reach.probe());
