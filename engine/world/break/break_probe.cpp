@@ -20,7 +20,7 @@ constexpr double kFaster = 2;  // than before, no contact closes once others hav
 constexpr double kLeastEvent = 0.1;
 // Contacts give a little, against the heaviest body, so that supports share what they bear.
 constexpr double kGive = 1e-5;
-constexpr double kHangs = 1e-6;  // of gravity: what joints leave no more of does not fall
+constexpr double kHangs = 1e-4;  // of gravity: what joints leave no more of does not fall
 
 }  // namespace
 
@@ -41,13 +41,8 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
       undecided_(bodies_.size(), 0) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     velocities_[i] = {bodies_[i].velocity_W, bodies_[i].angular_velocity_W};
-    if (bodies_[i].inverse_mass > 0) weight_[i].linear = gravity_W;
   }
   const Linkage linkage(joint_rows(bodies_, way_, joints_));
-  linkage.project(weight_);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    bodies_[i].leans |= weight_[i].linear.norm() < kHangs * gravity_W.norm();
-  }
   for (const ProbeBody& body : bodies_) {
     if (body.breakable) least_J_ = std::min(least_J_, body.least_J);
   }
@@ -61,6 +56,25 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
     if (body.inverse_mass > 0) least = std::min(least, body.inverse_mass);
   }
   give_ = kGive * least;
+  weigh(linkage, gravity_W);
+}
+
+/// What gravity does to what touches nothing but joints and taut ropes; what these hold up leans.
+void BreakProbe::weigh(const Linkage& linkage, const Vec3& gravity_W) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b].inverse_mass > 0) weight_[b].linear = gravity_W;
+  }
+  linkage.project(weight_);
+  std::vector<std::uint32_t> taut, all;
+  for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
+    if (!rows_[i].rope || !touches(i)) continue;
+    all.push_back(static_cast<std::uint32_t>(taut.size()));
+    taut.push_back(i);
+  }
+  weight_ = solve_cluster(rows_, taut, all, give_, gravity_W.norm(), weight_).velocities;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    bodies_[b].leans |= weight_[b].linear.norm() < kHangs * gravity_W.norm();
+  }
 }
 
 /// What hangs together by touch or joints, and neither stands nor leans on anything, falls.

@@ -84,6 +84,7 @@ class BreakProbe {
     return contacts_[contact].separation_m - first_rows_[contact].speed(way_);
   }
   bool touches(std::size_t contact) const { return gap_m(contact) <= still_m_s_ * dt_s_; }
+  void weigh(const Linkage& linkage, const Vec3& gravity_W);
   void find_falling();
   double wait_s() const;
   void fall(double time_s);

@@ -20,7 +20,7 @@ Linkage::Linkage(std::vector<ContactRow> rows) : rows_(std::move(rows)) {
     return rows_[static_cast<std::size_t>(i)];
   };
   unit_.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) unit_[i] = 1 / std::sqrt(row(i).inverse_mass);
+  for (Eigen::Index i = 0; i < n; ++i) unit_[i] = 1 / std::sqrt(row(i).coupling(row(i)));
   Eigen::MatrixXd A(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {

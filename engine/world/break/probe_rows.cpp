@@ -19,8 +19,6 @@ ContactRow make_row(const std::vector<ProbeBody>& bodies, std::uint32_t a, std::
   row.push_b = body_b.inverse_mass * normal_W;
   row.spin_a = body_a.inverse_inertia_W * row.angular_a;
   row.spin_b = body_b.inverse_inertia_W * row.angular_b;
-  row.inverse_mass = body_a.inverse_mass + body_b.inverse_mass + row.angular_a.dot(row.spin_a) +
-                     row.angular_b.dot(row.spin_b);
   return row;
 }
 
@@ -56,6 +54,8 @@ ContactRow make_row(const std::vector<ProbeBody>& bodies, const ProbeContact& co
   const Vec3& n = contact.normal_W;
   ContactRow row = make_row(bodies, contact.a, contact.b, n, arm_a_W.cross(n), arm_b_W.cross(n));
   row.rope = contact.rope;
+  row.inverse_mass = bodies[contact.a].inverse_mass + bodies[contact.b].inverse_mass +
+                     row.angular_a.dot(row.spin_a) + row.angular_b.dot(row.spin_b);
   return row;
 }
 
