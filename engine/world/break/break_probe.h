@@ -103,8 +103,7 @@ class BreakProbe {
   std::vector<ProbeJoint> joints_;
   double dt_s_;
   double still_m_s_;
-  std::vector<BodyVelocity>
-      weight_;  ///< Per body: its acceleration where it falls, as far as joints let it.
+  std::vector<BodyVelocity> weight_;  ///< Acceleration by gravity, as far as joints let it.
   double least_J_ = std::numeric_limits<double>::infinity();  ///< Of the breakable bodies.
   double give_ = 0;                                           ///< Speed per impulse.
   double time_s_ = 0;

@@ -61,12 +61,15 @@ double JointGraph::closing_energy_J(const Approach& approach) const {
                             std::max(0.0, approach.separation_m);
   const double each_J_kg = 0.5 * approach.speed_m_s * approach.speed_m_s + falls_J_kg;
   const std::uint32_t a = approach.body_tag_a, b = approach.body_tag_b;
-  if (of(a).empty() && of(b).empty()) return approach.effective_mass_kg * each_J_kg;
+  const std::span<const End> ends_a = of(a), ends_b = of(b);
+  if (ends_a.empty() && ends_b.empty()) return approach.effective_mass_kg * each_J_kg;
   const Whole all_a = whole(a), all_b = whole(b);
   const double most_J =
       all_a.kinetic_J + all_b.kinetic_J + falls_J_kg * (all_a.mass_kg + all_b.mass_kg);
   const double give = (all_a.held ? 0 : 1 / all_a.mass_kg) + (all_b.held ? 0 : 1 / all_b.mass_kg);
-  return give > 0 ? std::min(most_J, each_J_kg / give) : most_J;
+  const bool within = !ends_a.empty() && !ends_b.empty() &&
+                      whole_of_[ends_a.front().joint] == whole_of_[ends_b.front().joint];
+  return give > 0 && !within ? std::min(most_J, each_J_kg / give) : most_J;
 }
 
 }  // namespace sunder

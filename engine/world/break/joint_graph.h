@@ -25,8 +25,8 @@ class JointGraph {
   /// The joints that hold an actor.
   std::span<const End> of(std::uint32_t key) const;
   /// What closes at a contact, by the time that it does, at most. What is joined hits with no more
-  /// than the mass of all that hangs together, if nothing holds that (Thomson's theorem: the true
-  /// motion is the one of least energy), and with no more than its energy.
+  /// than the energy of all that hangs together; nor, if nothing holds that, with more than its
+  /// mass (Thomson's theorem: of all motions that the joints allow, the true one has the least).
   double closing_energy_J(const Approach& approach) const;
 
  private:

@@ -9,7 +9,7 @@ namespace sunder {
 namespace {
 
 constexpr double kYield = 1e-12;  // of each row: what repeats another has a solution by that
-constexpr double kNoWay = 1e-9;   // of a contact's inverse mass: what joints leave of it is none
+constexpr double kNoWay = 1e-11;  // of a contact's inverse mass: less than that is rounding
 
 }  // namespace
 

@@ -14,7 +14,7 @@ namespace sunder {
 /// A body of the cluster, as it moves at the start of the step.
 struct ProbeBody {
   std::uint32_t key = 0;
-  double inverse_mass = 0;                ///< 0: static, or fixed to the world.
+  double inverse_mass = 0;                ///< 0: static.
   Mat3 inverse_inertia_W = Mat3::Zero();  ///< About the centre of mass.
   Vec3 position_W = Vec3::Zero();         ///< Of that.
   Vec3 velocity_W = Vec3::Zero();
@@ -32,12 +32,12 @@ struct ProbeContact {
   Vec3 arm_a_W = Vec3::Zero(), arm_b_W = Vec3::Zero();  ///< From the centres of mass.
   Vec3 normal_W = Vec3::UnitY();                        ///< From a to b.
   double separation_m = 0;
-  /// It runs out instead: the arms are those of its ends, the normal points from b's to a's, and
-  /// the separation is its slack. Breaks nothing, and stays when what it holds breaks.
+  /// A rope that would run out: the arms are those of its ends, the normal points from b's to a's,
+  /// and the separation is its slack. It breaks nothing, and stays when what it holds breaks.
   bool rope = false;
 };
 
-/// What holds two bodies together both ways: any joint but a rope.
+/// What holds two bodies together both ways, whatever it bears: any joint but a rope.
 struct ProbeJoint {
   JointKind kind = JointKind::kBall;
   std::uint32_t a = 0, b = 0;                           ///< Bodies, by index.
