@@ -139,7 +139,8 @@ TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_impact) {
   glass.pattern = web(6, 12);
   glass.impact_radius_m = 0.4;
   const Hit hit{Vec3(0.3, -0.2, 0.003), Vec3(0.6, 0, -0.8), ConvexSlot(0), 1};
-  const BreakCommand command = breaker->command(*pane.convexes[0], glass, hit, 1, 42);
+  const BreakCommand command =
+      breaker->command(*pane.convexes[0], std::span(&glass, 1), hit, 1, 42);
   const Vec3 axis = command.X_RP.rotation * Vec3::UnitY();
   EXPECT_NEAR(std::abs(axis.z()), 1, 1e-12);
   const BreakPlan plan = break_compound(pane, command);
@@ -164,7 +165,7 @@ TEST(Fracture, uses_the_pattern_of_the_impacts_strength) {
   stone.stronger = {{100, voronoi(20), 0.7}, {1000, web(3, 6), 0.9}};
   const auto radius = [&](double energy_J) {
     const Hit hit{Vec3(0, 1, 0), Vec3(0, -1, 0), ConvexSlot(0), energy_J};
-    return breaker->command(*box.convexes[0], stone, hit, 1, 1);
+    return breaker->command(*box.convexes[0], std::span(&stone, 1), hit, 1, 1);
   };
   EXPECT_EQ(radius(99).radius_m, 0.5);
   EXPECT_EQ(radius(100).radius_m, 0.7);
