@@ -46,7 +46,7 @@ BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
   const Fragments fragments = make_fragments(structure, touched, aligned, sphere, fit);
   const double clip_ms = watch.lap_ms();
   BreakEdit edit;
-  if (!touched.empty()) edit = Reassembly(structure, touched, fragments).edit();
+  if (!touched.empty()) edit = Reassembly(structure, touched, fragments, sphere).edit();
   edit.loose.failed = fragments.failed;
   edit.loose.clip_ms = clip_ms;
   edit.loose.islands_ms = watch.ms();

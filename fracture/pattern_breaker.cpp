@@ -72,8 +72,9 @@ class PatternBreaker final : public Breaker {
  public:
   explicit PatternBreaker(std::shared_ptr<FailureLog> log) : log_(std::move(log)) {}
 
-  BreakCommand command(const Convex& convex, const Material& material, const Hit& hit,
+  BreakCommand command(const Convex& convex, std::span<const Material> materials, const Hit& hit,
                        std::uint64_t event, std::uint64_t seed) const override {
+    const Material& material = materials[convex.material.value];
     Random random(seed, 3);
     BreakCommand command;
     command.event = event;
@@ -85,6 +86,9 @@ class PatternBreaker final : public Breaker {
       if (hit.energy_J < stronger.energy_J) break;
       command.pattern = stronger.pattern;
       command.radius_m = stronger.impact_radius_m;
+    }
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+      if (!materials[m].breakable()) command.spared.emplace_back(m);
     }
     command.X_RP = {hit.point_R,
                     orientation(command.pattern.kind, convex, hit.direction_R, random)};
@@ -120,7 +124,7 @@ double reach(const Box& box, const Vec3& from) {
 
 ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library) {
   ReadyBreak ready;
-  ready.sphere = {command.X_RP.position, command.radius_m};
+  ready.sphere = {command.X_RP.position, command.radius_m, command.spared};
   const bool whole = ready.sphere.is_endless();
   const double unit = whole ? reach(bounds_R, ready.sphere.center_R) : ready.sphere.radius_m;
   ready.pattern = library.find(command.pattern, {unit, whole}, command.seed);

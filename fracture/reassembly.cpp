@@ -13,11 +13,12 @@
 namespace sunder::fracture {
 
 Reassembly::Reassembly(const Structure& structure, const std::vector<ConvexSlot>& touched,
-                       const Fragments& fragments)
+                       const Fragments& fragments, const ImpactSphere& sphere)
     : structure_(structure),
       touched_(touched),
       fragments_(fragments.all),
       ghosts_(fragments.ghosts),
+      sphere_(sphere),
       first_fragment_(structure.slot_count()) {
   find_contacts_of_fragments();
 }
@@ -266,20 +267,21 @@ void Reassembly::keep_rest(BreakEdit& edit) {
 }
 
 void Reassembly::expose(BreakPlan& plan) const {
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, double> exposed;
+  using Side = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, MaterialIndex>;
+  std::map<Side, double> exposed;
   const auto add = [&](const Contact& contact, double area) {
     const auto [piece_a, a] = place(contact.a);
     const auto [piece_b, b] = place(contact.b);
     if (piece_a == piece_b) return;
     plan.new_area_m2 += area;
-    exposed[{piece_a, a, contact.face_a}] += area;
-    exposed[{piece_b, b, contact.face_b}] += area;
+    exposed[{piece_a, a, contact.face_a, cracked(contact.a, contact.b)}] += area;
+    exposed[{piece_b, b, contact.face_b, cracked(contact.b, contact.a)}] += area;
   };
   for (const Contact& contact : contacts_) add(contact, contact.area_m2);
   for (const auto& [contact, sign] : corrections_) add(contact, sign * contact.area_m2);
-  for (const auto& [where, area] : exposed) {
-    if (area > 0)
-      plan.exposed.push_back({std::get<0>(where), std::get<1>(where), std::get<2>(where), area});
+  for (const auto& [side, area] : exposed) {
+    const auto& [piece, index, face, material] = side;
+    if (area > 0) plan.exposed.push_back({piece, index, face, area, material});
   }
 }
 

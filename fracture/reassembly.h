@@ -19,10 +19,10 @@ namespace sunder::fracture {
 /// from `slot_count()` on a fragment.
 class Reassembly {
  public:
-  /// Of the fragments that the convexes in slots `touched`, ascending, were cut into. All three
-  /// must outlive it.
+  /// Of the fragments that the convexes in slots `touched`, ascending, which `sphere` reaches, were
+  /// cut into. All four must outlive it.
   Reassembly(const Structure& structure, const std::vector<ConvexSlot>& touched,
-             const Fragments& fragments);
+             const Fragments& fragments, const ImpactSphere& sphere);
 
   /// What becomes of the structure.
   BreakEdit edit();
@@ -61,6 +61,12 @@ class Reassembly {
     return is_fragment(node) ? fragment(node).convex : structure_.convex(ConvexSlot(node));
   }
 
+  /// Of one side of a contact: what a crack there takes.
+  MaterialIndex cracked(std::uint32_t node, std::uint32_t other) const {
+    const MaterialIndex own = convex(node)->material;
+    return sphere_.spares(own) ? convex(other)->material : own;
+  }
+
   void find_contacts_of_fragments();
   void find_neighbours();
   void add_neighbours(std::vector<ConvexPtr>& convexes, std::vector<FaceEntry>& faces) const;
@@ -85,6 +91,7 @@ class Reassembly {
   const std::vector<ConvexSlot>& touched_;
   const std::vector<Fragment>& fragments_;
   const std::vector<Ghost>& ghosts_;  ///< Those that were cut, by nodes.
+  const ImpactSphere& sphere_;
   std::uint32_t first_fragment_;
   std::vector<Contact> contacts_;
   std::vector<Correction> corrections_;

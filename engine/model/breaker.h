@@ -3,7 +3,7 @@
 //
 // By an impact, a structure breaks in three steps (engine/world/break/break_stage.cpp):
 //
-//   BreakCommand command = breaker.command(convex, material, hit, event, seed);
+//   BreakCommand command = breaker.command(convex, materials, hit, event, seed);
 //   BreakEdit edit = breaker.plan(structure, command);   // nothing has changed yet
 //   if (edit.changed && /* the energy is there */) structure.apply(edit);
 //
@@ -54,6 +54,8 @@ struct BreakCommand {
   Pose X_RP;                          ///< Pose of the pattern; its origin is the impact.
   double radius_m = 1;                ///< Of the impact sphere; infinity breaks the whole compound.
   Fit fit;                            ///< How new convexes are fitted to their visual meshes.
+  /// Materials that do not break: the pattern leaves their convexes whole.
+  std::vector<MaterialIndex> spared;
 };
 
 /// A face that a break laid bare, in the rest frame R.
@@ -62,6 +64,8 @@ struct ExposedFace {
   std::uint32_t convex = 0;  ///< Index in that piece's compound; in a BreakEdit maybe a slot.
   std::uint32_t face = 0;
   double area_m2 = 0;
+  /// That cracked there: the convex's own; where a break spared that, what it was bonded to.
+  MaterialIndex material;
 };
 
 /// What a compound becomes. Pieces are islands (connected); volumes sum to the parent's.
@@ -141,10 +145,10 @@ struct StressAnswer {
 class Breaker {
  public:
   virtual ~Breaker() = default;
-  /// The command that an impact amounts to; `convex` is the one hit, `material` its own. `event` is
-  /// unique in a run and at least 1, and `seed` all that is random.
-  virtual BreakCommand command(const Convex& convex, const Material& material, const Hit& hit,
-                               std::uint64_t event, std::uint64_t seed) const = 0;
+  /// The command that an impact amounts to; `convex` is the one hit, `materials` by MaterialIndex.
+  /// `event` is unique in a run and at least 1, and `seed` all that is random.
+  virtual BreakCommand command(const Convex& convex, std::span<const Material> materials,
+                               const Hit& hit, std::uint64_t event, std::uint64_t seed) const = 0;
   /// Carries a command out, at a cost that depends on what it reaches; the structure stays as it
   /// is. A pattern that misses changes nothing.
   virtual BreakEdit plan(const Structure& structure, const BreakCommand& command) const = 0;

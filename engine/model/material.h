@@ -70,7 +70,7 @@ struct Material {
   double strength_Ns = 0;
   /// Energy taken by each square metre of new crack (both sides counted once).
   double toughness_J_m2 = 0;
-  /// kNone never breaks.
+  /// kNone never breaks: nothing cuts its convexes, but what breaks beside them parts from them.
   PatternSpec pattern;
   /// Radius of the impact sphere (paper 3.2); infinity breaks the whole solid.
   double impact_radius_m = 1;

@@ -12,7 +12,7 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr const char* kFirstLine = "sunder-break-case-3";
+constexpr const char* kFirstLine = "sunder-break-case-4";
 constexpr std::uint64_t kMost = 10000000;  // of anything
 
 class Writer {
@@ -242,6 +242,9 @@ void write_command(Writer& out, const BreakCommand& command) {
   out.put(pattern.jitter);
   out.put(pattern.brick_m);
   out.put(std::quoted(pattern.file));
+  out.word("spared");
+  out.put(command.spared.size());
+  for (const MaterialIndex material : command.spared) out.put(material.value);
   out.end_line();
 }
 
@@ -269,6 +272,10 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   pattern.jitter = in.number();
   pattern.brick_m = in.matrix<Vec3>();
   if (!(stream >> std::quoted(pattern.file))) in.fail("the pattern's file is missing");
+  in.expect("spared");
+  for (std::uint64_t left = in.integer(kMost); left > 0; --left) {
+    command.spared.emplace_back(in.integer(kMost));
+  }
   return command;
 }
 

@@ -1,5 +1,6 @@
 #include "fracture/cut/impact_sphere.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "engine/geometry/box_distance.h"
@@ -11,7 +12,12 @@ bool ImpactSphere::is_endless() const {
   return radius_m == std::numeric_limits<double>::infinity();
 }
 
+bool ImpactSphere::spares(MaterialIndex material) const {
+  return std::find(spared.begin(), spared.end(), material) != spared.end();
+}
+
 bool ImpactSphere::touches(const Convex& convex) const {
+  if (spares(convex.material)) return false;
   if (is_endless()) return true;
   return squared_distance(convex.box, center_R) <= radius_m * radius_m &&
          distance(center_R, convex.polyhedron) <= radius_m;

@@ -7,14 +7,18 @@
 
 namespace sunder::fracture {
 
-/// What a break may change: convexes outside stay as they are.
+/// What a break may change: convexes outside stay as they are, and so do those of materials that do
+/// not break.
 struct ImpactSphere {
   Vec3 center_R = Vec3::Zero();
-  double radius_m = 1;  ///< Infinity: everything breaks.
+  double radius_m = 1;                     ///< Infinity: everything breaks that may.
+  std::vector<MaterialIndex> spared = {};  ///< Materials that do not break.
 
-  /// Whether everything breaks.
+  /// Whether everything breaks that may.
   bool is_endless() const;
-  /// Whether a convex reaches into it.
+  /// Whether convexes of a material stay whole.
+  bool spares(MaterialIndex material) const;
+  /// Whether a convex that may break reaches into it.
   bool touches(const Convex& convex) const;
   /// Slots of a structure whose convexes it touches, ascending.
   std::vector<ConvexSlot> touched(const Structure& structure) const;

@@ -345,8 +345,10 @@ class StressBreaks {
     for (const Bond& bond : cut_) {
       if (island[bond.a] == island[bond.b]) continue;
       plan.new_area_m2 += bond.area_m2;
-      plan.exposed.push_back({piece_of(bond.a), place[bond.a], bond.face_a, bond.area_m2});
-      plan.exposed.push_back({piece_of(bond.b), place[bond.b], bond.face_b, bond.area_m2});
+      plan.exposed.push_back({piece_of(bond.a), place[bond.a], bond.face_a, bond.area_m2,
+                              compound_.convexes[bond.a]->material});
+      plan.exposed.push_back({piece_of(bond.b), place[bond.b], bond.face_b, bond.area_m2,
+                              compound_.convexes[bond.b]->material});
     }
   }
 

@@ -87,8 +87,8 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
     check_bricks(options, material.pattern.brick_m, compound);
   }
   const auto breaker = fracture::make_pattern_breaker();
-  BreakCommand command =
-      breaker->command(*compound.convexes[nearest_convex], material, hit, kEvent, options.seed);
+  BreakCommand command = breaker->command(*compound.convexes[nearest_convex],
+                                          std::span(&material, 1), hit, kEvent, options.seed);
   using Kind = PatternSpec::Kind;
   const Kind kind = material.pattern.kind;
   if (!options.radius_m &&

@@ -65,7 +65,7 @@ struct Pane {
   MaterialRef frame{"steel", {}};
 };
 
-/// Glass in four bars; the bars are anchored to the world, the glass is bonded to the bars.
+/// Glass in four bars, bonded where they touch; the lowest is the foot that all of it stands on.
 std::vector<Piece> build_pane(const Pane& pane) {
   Piece piece;
   const double f = pane.frame_m, w = pane.width_m / 2, h = pane.height_m, t = pane.thickness_m / 2;
@@ -73,8 +73,9 @@ std::vector<Piece> build_pane(const Pane& pane) {
   if (f == 0) return {piece};
   const double deep = std::max(t, f / 2);
   const auto bar = [&](double x0, double y0, double x1, double y1) {
+    const bool is_foot = y0 == 0;
     piece.parts.push_back(
-        {make_box(Vec3(x0, y0, -deep), Vec3(x1, y1, deep)), pane.frame.index, true});
+        {make_box(Vec3(x0, y0, -deep), Vec3(x1, y1, deep)), pane.frame.index, is_foot});
   };
   bar(-w - f, 0, w + f, f);
   bar(-w - f, f + h, w + f, h + 2 * f);
@@ -137,7 +138,7 @@ StructureType column_structure() {
 
 StructureType pane_structure() {
   return make_structure<Pane, build_pane>(
-      "pane", "An upright pane facing z, in a frame that is anchored to the world.",
+      "pane", "An upright pane facing z, in a frame whose foot the world holds.",
       {key<&Pane::width_m>("width_m", "m", kLength, "Width of the glass."),
        key<&Pane::height_m>("height_m", "m", kLength, "Height of the glass."),
        key<&Pane::thickness_m>("thickness_m", "m", kLength, "Thickness of the glass."),

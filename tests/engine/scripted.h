@@ -155,19 +155,20 @@ class ScriptedPhysics : public Physics {
 class ScriptedBreaker final : public Breaker {
  public:
   explicit ScriptedBreaker(double area_m2) : area_m2_(area_m2) {}
-  BreakCommand command(const Convex&, const Material& material, const Hit& hit, std::uint64_t event,
-                       std::uint64_t seed) const override {
+  BreakCommand command(const Convex& convex, std::span<const Material> materials, const Hit& hit,
+                       std::uint64_t event, std::uint64_t seed) const override {
     BreakCommand command;
     command.event = event;
     command.seed = seed;
-    command.pattern = material.pattern;
+    command.pattern = materials[convex.material.value].pattern;
     command.X_RP.position = hit.point_R;
     return command;
   }
   BreakEdit plan(const Structure& structure, const BreakCommand&) const override {
     BreakEdit edit = part(structure);
     for (std::uint32_t p = 1; p <= edit.loose.pieces.size(); ++p) {
-      edit.loose.exposed.push_back({p, 0, 0, area_m2_});
+      const MaterialIndex material = edit.loose.pieces[p - 1].convexes[0]->material;
+      edit.loose.exposed.push_back({p, 0, 0, area_m2_, material});
     }
     return edit;
   }

@@ -36,6 +36,13 @@ PatternSpec web(int rings, int spokes) {
   return spec;
 }
 
+PatternSpec eighths() {
+  PatternSpec spec;
+  spec.kind = PatternSpec::Kind::kGrid;
+  spec.cells = 2;
+  return spec;
+}
+
 BreakCommand impact(const PatternSpec& pattern, const Vec3& at, double radius,
                     std::uint64_t event = 1) {
   BreakCommand command;
@@ -139,7 +146,8 @@ TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_impact) {
   glass.pattern = web(6, 12);
   glass.impact_radius_m = 0.4;
   const Hit hit{Vec3(0.3, -0.2, 0.003), Vec3(0.6, 0, -0.8), ConvexSlot(0), 1};
-  const BreakCommand command = breaker->command(*pane.convexes[0], glass, hit, 1, 42);
+  const BreakCommand command =
+      breaker->command(*pane.convexes[0], std::span(&glass, 1), hit, 1, 42);
   const Vec3 axis = command.X_RP.rotation * Vec3::UnitY();
   EXPECT_NEAR(std::abs(axis.z()), 1, 1e-12);
   const BreakPlan plan = break_compound(pane, command);
@@ -164,13 +172,83 @@ TEST(Fracture, uses_the_pattern_of_the_impacts_strength) {
   stone.stronger = {{100, voronoi(20), 0.7}, {1000, web(3, 6), 0.9}};
   const auto radius = [&](double energy_J) {
     const Hit hit{Vec3(0, 1, 0), Vec3(0, -1, 0), ConvexSlot(0), energy_J};
-    return breaker->command(*box.convexes[0], stone, hit, 1, 1);
+    return breaker->command(*box.convexes[0], std::span(&stone, 1), hit, 1, 1);
   };
   EXPECT_EQ(radius(99).radius_m, 0.5);
   EXPECT_EQ(radius(100).radius_m, 0.7);
   EXPECT_EQ(radius(100).pattern.cells, 20);
   EXPECT_EQ(radius(5000).radius_m, 0.9);
   EXPECT_EQ(radius(5000).pattern.kind, PatternSpec::Kind::kWeb);
+}
+
+TEST(Fracture, spares_the_materials_that_do_not_break) {
+  const Compound box = box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  std::vector<Material> materials(4);
+  materials[0].pattern = voronoi(10);
+  materials[2].pattern = voronoi(10);
+  const BreakCommand command =
+      make_pattern_breaker()->command(*box.convexes[0], materials, Hit{}, 1, 1);
+  EXPECT_EQ(command.spared, (std::vector{MaterialIndex(1u), MaterialIndex(3u)}));
+}
+
+/// Convexes side by side, a metre wide each, of the materials given.
+Compound row_of(std::initializer_list<std::uint32_t> materials) {
+  std::vector<Part> parts;
+  for (const std::uint32_t material : materials) {
+    const auto x = static_cast<double>(parts.size());
+    parts.push_back({make_box(Vec3(x, 0, 0), Vec3(x + 1, 1, 1)), MaterialIndex(material)});
+  }
+  return make_compound(std::move(parts));
+}
+
+TEST(Fracture, parts_what_it_breaks_from_what_it_spares_along_the_bond) {
+  const Compound row = row_of({0, 1});
+  BreakCommand command = impact(eighths(), Vec3(.5, .5, .5), 0.6);
+  command.spared = {MaterialIndex(1u)};
+  const BreakPlan plan = break_compound(row, command);
+  EXPECT_EQ(broken_truth(row, plan), "");
+  ASSERT_EQ(plan.pieces.size(), 9u);
+  EXPECT_EQ(plan.pieces[0].convexes, std::vector{row.convexes[1]});
+  EXPECT_NEAR(plan.new_area_m2, 3 + 1, 1e-12);
+  double exposed = 0;
+  for (const ExposedFace& face : plan.exposed) {
+    EXPECT_EQ(face.material, MaterialIndex(0u)) << "the bond takes what the weaker side takes";
+    exposed += face.area_m2;
+  }
+  EXPECT_NEAR(exposed, 2 * plan.new_area_m2, 1e-12);
+}
+
+TEST(Fracture, charges_a_face_it_spares_to_each_of_the_materials_that_broke_off_it) {
+  Compound bar = make_compound({{make_box(Vec3(0, 0, 0), Vec3(1, 1, 1)), MaterialIndex(0u)},
+                                {make_box(Vec3(1, 0, 0), Vec3(3, 1, 1)), MaterialIndex(2u)},
+                                {make_box(Vec3(0, -1, 0), Vec3(3, 0, 1)), MaterialIndex(1u)}});
+  BreakCommand command = impact(voronoi(9), Vec3(1, .5, .5), kEndless);
+  command.spared = {MaterialIndex(1u)};
+  const BreakPlan plan = break_compound(bar, command);
+  double area[3] = {};
+  for (const ExposedFace& face : plan.exposed) {
+    const Convex& convex = *plan.pieces[face.piece].convexes[face.convex];
+    if (convex.material == MaterialIndex(1u)) area[face.material.value] += face.area_m2;
+  }
+  EXPECT_NEAR(area[0], 1, 1e-12);
+  EXPECT_EQ(area[1], 0);
+  EXPECT_NEAR(area[2], 2, 1e-12);
+}
+
+TEST(Fracture, holds_together_what_it_spares_and_what_is_out_of_its_reach) {
+  const Compound row = row_of({1, 1, 0, 1, 0, 0});
+  BreakCommand command = impact(eighths(), Vec3(2.5, .5, .5), 0.9);
+  command.spared = {MaterialIndex(1u)};
+  const BreakPlan plan = break_compound(row, command);
+  EXPECT_EQ(broken_truth(row, plan), "");
+  std::vector<std::vector<ConvexPtr>> whole;
+  for (const Compound& piece : plan.pieces) {
+    if (piece.convexes[0]->material == MaterialIndex(1u) || piece.convexes.size() > 1)
+      whole.push_back(piece.convexes);
+  }
+  const auto& was = row.convexes;
+  EXPECT_EQ(whole,
+            (std::vector<std::vector<ConvexPtr>>{{was[3], was[4], was[5]}, {was[0], was[1]}}));
 }
 
 TEST(Fracture, does_not_depend_on_the_order_of_convexes) {

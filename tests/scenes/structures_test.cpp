@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/load.h"
+#include "scenes/make_simulation.h"
 
 namespace sunder::scenes {
 namespace {
@@ -101,8 +102,25 @@ TEST(Structures, GlassHangsInAFrameThatIsHeld) {
   const Compound& compound = pane[0].compound;
   ASSERT_EQ(compound.convexes.size(), 5u);
   EXPECT_TRUE(is_connected(compound));
-  EXPECT_EQ(compound.anchored[0], 0) << "the glass itself is held by its frame only";
+  EXPECT_EQ(compound.anchored, (std::vector<std::uint8_t>{0, 1, 0, 0, 0})) << "by its foot";
   EXPECT_FALSE(solids("structure = \"pane\"\nframe_m = 0")[0].compound.is_anchored());
+}
+
+TEST(Structures, NothingOfAPaneStaysInTheAirOnceItsFootIsLetGo) {
+  const Scene scene = parse_scene(
+      "[scene]\ndescription = \"x\"\nduration_s = 0.5\n"
+      "[[solid]]\nstructure = \"pane\"\nposition = [0, 4, 0]\n"
+      "[[script.remove]]\ntime_s = 0.1\nfrom = [-9, 3.9, -9]\nto = [9, 4.2, 9]\n",
+      "x.toml", {});
+  const auto simulation = make_simulation(scene);
+  FramePtr last = simulation->next();
+  ASSERT_EQ(last->bodies.size(), 1u);
+  EXPECT_TRUE(last->bodies[0].is_static);
+  const double before = last->bodies[0].X_WB.position.y();
+  while (FramePtr frame = simulation->next()) last = std::move(frame);
+  for (const FrameBody& body : last->bodies) {
+    EXPECT_LT(body.X_WB.position.y(), before - 0.5) << "0.4 s of fall";
+  }
 }
 
 TEST(Structures, AStackIsSeparateBodies) {

@@ -83,12 +83,13 @@ Impact impact_of(const World& world, const Burst& burst, const Actor& actor, con
   structure.for_each([&](ConvexSlot slot, const Convex& convex) {
     Push& push = pushes[slot.value];
     push = push_on(blast, actor, slot, X_WR);
-    if (was_tried(world, burst, convex, push)) push = {};
+    const bool breaks = world.material(convex.material).breakable();
+    if (!breaks || was_tried(world, burst, convex, push)) push = {};
     if (push.weight_Ns > pushes[hardest.value].weight_Ns) hardest = slot;
   });
   if (pushes.empty() || pushes[hardest.value].weight_Ns <= 0) return impact;
   const Material& material = world.material(structure.convex(hardest)->material);
-  if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) return impact;
+  if (actor.volume_m3 < material.smallest_break_m3) return impact;
   impact.key = actor.key;
   impact.convex = hardest;
   impact.point_W = pushes[hardest.value].point_W();

@@ -42,12 +42,12 @@ void note_exposed(World& world, const Structure& structure, const BreakEdit& edi
   all.parents.push_back({before, world.clock.elapsed_s()});
   for (const ExposedFace& exposed : edit.loose.exposed) {
     const Convex& convex = edit.exposed_convex(structure, exposed);
-    if (!(world.material(convex.material).crumbling.particles_per_m2 > 0)) continue;
+    if (!(world.material(exposed.material).crumbling.particles_per_m2 > 0)) continue;
     Exposed::Face face;
     face.parent = static_cast<std::uint32_t>(all.parents.size() - 1);
     face.owner_key = piece_keys[exposed.piece];
     face.normal_R = convex.polyhedron.faces[exposed.face].plane.normal;
-    face.material = convex.material;
+    face.material = exposed.material;
     for_polygons(convex, exposed.face, [&](std::span<const Vec3> polygon_R) {
       all.corners_R.insert(all.corners_R.end(), polygon_R.begin(), polygon_R.end());
       face.corners_end = all.corners_R.size();

@@ -14,11 +14,10 @@ namespace {
 constexpr double kWorthPlanning = 0.7;
 
 /// Energy that the new crack surface takes; each crack has two sides.
-double crack_energy_J(const World& world, const Structure& structure, const BreakEdit& edit) {
+double crack_energy_J(const World& world, const BreakEdit& edit) {
   double energy = 0;
   for (const ExposedFace& face : edit.loose.exposed) {
-    const Convex& convex = edit.exposed_convex(structure, face);
-    energy += 0.5 * face.area_m2 * world.material(convex.material).toughness_J_m2;
+    energy += 0.5 * face.area_m2 * world.material(face.material).toughness_J_m2;
   }
   return energy;
 }
@@ -44,7 +43,7 @@ void prepare(const World& world, const Breaker& breaker, std::uint64_t event,
   // steps would be given several chances.
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
   const Convex& convex = *actor.structure.convex(impact.convex);
-  planned.command = breaker.command(convex, world.material(convex.material), hit, event, seed);
+  planned.command = breaker.command(convex, *world.materials, hit, event, seed);
 }
 
 std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
@@ -64,7 +63,7 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
       const Structure& structure = world.actors.find(planned.impact.key)->structure;
       planned.edit = breaker.plan(structure, planned.command);
       planned.plan_ms = watch.ms();
-      planned.needed_J = crack_energy_J(world, structure, planned.edit);
+      planned.needed_J = crack_energy_J(world, planned.edit);
     }
   });
 }
