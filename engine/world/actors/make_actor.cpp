@@ -19,6 +19,23 @@ bool reports_load(const World& world, const Actor& actor) {
   });
 }
 
+/// See StressState.
+double bursting_s2(const World& world, const Actor& actor) {
+  double weakest_Pa = std::numeric_limits<double>::infinity(), density_kg_m3 = 0, reach_m = 0;
+  for (const MaterialIndex index : actor.materials) {
+    const Material& material = world.material(index);
+    density_kg_m3 = std::max(density_kg_m3, material.density_kg_m3);
+    for (const double limit_Pa : {material.tensile_Pa, material.shear_Pa, material.compressive_Pa})
+      if (limit_Pa > 0) weakest_Pa = std::min(weakest_Pa, limit_Pa);
+  }
+  actor.structure.for_each([&](ConvexSlot, const Convex& convex) {
+    const Vec3 low = actor.weight.com_R - convex.box.min,
+               high = convex.box.max - actor.weight.com_R;
+    reach_m = std::max(reach_m, low.cwiseMax(high).norm());
+  });
+  return weakest_Pa / (density_kg_m3 * reach_m * reach_m);
+}
+
 std::vector<MaterialIndex> materials_of(const Compound& compound) {
   std::vector<MaterialIndex> all;
   for (const ConvexPtr& convex : compound.convexes) {
@@ -57,6 +74,8 @@ Actor make_actor(World& world, const Compound& compound) {
   actor.born_step = world.clock.step;
   actor.stress.breakable = reports_load(world, actor);
   actor.stress.since_step = world.clock.step;
+  if (actor.stress.breakable && !actor.is_static)
+    actor.stress.bursts_s2 = bursting_s2(world, actor);
   set_least(world, actor);
   return actor;
 }
