@@ -26,7 +26,7 @@ struct Press {
 /// What an actor bears, and how far it is known whether it can.
 struct StressState {
   bool breakable = false;        ///< Load can break it.
-  bool settled = false;          ///< Judged for `judged`, to the end.
+  bool settled = false;          ///< Judged for `judged` and `judged_spin_R`, to the end.
   std::uint64_t since_step = 0;  ///< Waits to be judged since then, if not settled.
   std::vector<Press> pressing;   ///< Averaged over time; ascending by convex.
   std::vector<Press> judged;
