@@ -69,8 +69,7 @@ struct Wheel {
 
 /// Wedges in rings about a hub.
 std::vector<Piece> build_wheel(const Wheel& wheel) {
-  if (wheel.hub_m >= wheel.radius_m)
-    throw InputError("wheel: hub_m must be less than radius_m");
+  if (wheel.hub_m >= wheel.radius_m) throw InputError("wheel: hub_m must be less than radius_m");
   const auto add_corners = [&](double radius_m, int sector, std::vector<Vec3>& corners) {
     const SinCos turn = sin_cos(kTurn * (sector % wheel.sectors) / wheel.sectors);
     for (const double z : {-wheel.width_m / 2, wheel.width_m / 2})
