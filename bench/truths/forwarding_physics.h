@@ -37,6 +37,7 @@ class ForwardingPhysics : public Physics {
   SolveReport solve(double dt_s, int substeps) override { return physics_->solve(dt_s, substeps); }
   BodyStates states() const override { return physics_->states(); }
   std::vector<ContactLoad> contact_loads() const override { return physics_->contact_loads(); }
+  std::vector<JointLoad> joint_loads() const override { return physics_->joint_loads(); }
   std::vector<float> penetrations() const override { return physics_->penetrations(); }
   std::vector<std::pair<const char*, double>> take_timings_ms() override {
     return physics_->take_timings_ms();

@@ -16,7 +16,8 @@
 // By a steady load, it breaks in two (engine/world/load/load_stage.cpp), whenever load or bonds
 // have changed:
 //
-//   StressAnswer answer = breaker.stress(structure, {materials, loads, gravity_R, work, memory});
+//   StressAnswer answer =
+//       breaker.stress(structure, {materials, loads, gravity_R, spin_R, work, memory});
 //   structure.apply(answer.edit);                         // bonds may go where nothing comes off
 //   memory = answer.memory;
 //
@@ -127,6 +128,7 @@ struct LoadCase {
   std::span<const Material> materials;  ///< By MaterialIndex.
   std::span<const Load> loads;          ///< Besides its own weight.
   Vec3 gravity_R = Vec3::Zero();
+  Vec3 spin_R = Vec3::Zero();  ///< Angular velocity, rad/s; of what nothing anchors.
   /// To spend on the answer, in visits of bonds, about: a few iterations are made in any case.
   std::uint64_t most_work = 0;
   StressMemoryPtr memory;  ///< Of this structure, or of what it was a piece of; null at first.

@@ -11,7 +11,8 @@
 //     collide()                      new bodies meet the others
 //   pause(), apply_impulse()         what waits sits out; blasts and drives push
 //   solve(), then take_broken()      everything moves by the step
-//   contact_loads()                  what pressed on what; overloaded bonds part it: replace(), ...
+//   contact_loads(), joint_loads()   what pressed and pulled; overloaded bonds part it: replace(),
+//   ...
 // And at the end of a frame penetrations(). states() may be asked for at any time.
 #pragma once
 
@@ -53,7 +54,7 @@ struct BodyDesc {
   Mat3 inertia_B = Mat3::Zero();  ///< kg·m², about the centre of mass; unless static.
   std::vector<ShapeDesc> shapes;
   std::uint32_t tag = 0;      ///< Opaque; comes back in contacts.
-  bool reports_load = false;  ///< What presses on it is reported.
+  bool reports_load = false;  ///< What presses and pulls on it is reported.
 };
 
 /// A change to the shapes of a body that stays; what it keeps keeps its contacts, and costs
@@ -113,6 +114,14 @@ struct ContactLoad {
   Vec3 point_W = Vec3::Zero();
 };
 
+/// What a joint did to a body that bears load, over one solve, where it is anchored to it.
+struct JointLoad {
+  std::uint32_t body_tag = 0;
+  Vec3 impulse_W = Vec3::Zero();  ///< On the body, N·s.
+  Vec3 point_W = Vec3::Zero();
+  Vec3 angular_impulse_W = Vec3::Zero();  ///< N·m·s, besides that of the impulse.
+};
+
 /// What one solve did, for the ledger.
 struct SolveReport {
   Vec3 external_impulse_Ns = Vec3::Zero();  ///< Gravity, static bodies, and what sleep took away.
@@ -169,6 +178,8 @@ class Physics {
   /// What the last solve() did to bodies that bear load, ordered by a key that does not depend on
   /// threads; contacts asleep count with what they last carried.
   virtual std::vector<ContactLoad> contact_loads() const = 0;
+  /// The same of joints.
+  virtual std::vector<JointLoad> joint_loads() const { return {}; }
   /// Depths (m, >= 0) of all contact points that carry load, unordered; for statistics.
   virtual std::vector<float> penetrations() const = 0;
   /// Time spent since the last call, by name; for the timing table.

@@ -55,12 +55,15 @@ struct Removal {
   Box anchors_W;
 };
 
-/// What holds a body's velocity, as far as the force goes.
+/// What holds a body's velocity as far as the force goes, or its spin as far as the torque does, or
+/// both.
 struct Drive {
   double time_s = 0, until_s = 0;
   std::vector<std::uint32_t> roots;  ///< As in Removal; driven until they break.
-  Vec3 velocity_W = Vec3::Zero();
+  std::optional<Vec3> velocity_W;
   double force_N = 1e6;
+  std::optional<Vec3> angular_velocity_W = std::nullopt;
+  double torque_Nm = 1e6;
 };
 
 /// The horizontal plane y = height_m, without end.

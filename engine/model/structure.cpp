@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/base/check.h"
 #include "engine/model/breaker.h"
 
 namespace sunder {
@@ -187,6 +188,23 @@ double distance_outside(const Structure& structure, const Vec3& point_R) {
     least = std::min(least, distance_outside(convex, point_R));
   });
   return least;
+}
+
+ConvexSlot nearest(const Structure& structure, const Vec3& point_R) {
+  SUNDER_CHECK(!structure.empty());
+  double least = 0;
+  ConvexSlot found;
+  const auto look = [&](double radius_m) {
+    for (const ConvexSlot slot : structure.within(point_R, radius_m)) {
+      const double distance = distance_outside(*structure.convex(slot), point_R);
+      if (!found.none() && distance >= least) continue;
+      least = distance;
+      found = slot;
+    }
+  };
+  for (double radius_m = 0; found.none(); radius_m = std::max(1e-3, 4 * radius_m)) look(radius_m);
+  if (least > 0) look(least);
+  return found;
 }
 
 }  // namespace sunder

@@ -115,5 +115,8 @@ class Structure {
 Box bounds(const Structure& structure);
 /// How far a point is from a structure, at least; 0 inside.
 double distance_outside(const Structure& structure, const Vec3& point_R);
+/// The convex that has a point, or else is nearest to it, of a structure that is not empty; the
+/// first of them.
+ConvexSlot nearest(const Structure& structure, const Vec3& point_R);
 
 }  // namespace sunder

@@ -74,7 +74,8 @@ void ConvexMasses::add_loose(std::vector<std::uint32_t> convexes) {
 }
 
 void ConvexMasses::balance(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
-                           std::vector<Vec3>& forces_N, std::vector<Vec3>& torques_Nm) const {
+                           const Vec3& spin_R, std::vector<Vec3>& forces_N,
+                           std::vector<Vec3>& torques_Nm) const {
   forces_N.resize(centroids_.size());
   torques_Nm.assign(centroids_.size(), Vec3::Zero());
   for (std::size_t c = 0; c < centroids_.size(); ++c) forces_N[c] = masses_kg_[c] * gravity_R;
@@ -86,21 +87,32 @@ void ConvexMasses::balance(std::span<const ConvexLoad> loads, const Vec3& gravit
   for (const Loose& loose : loose_) {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
     for (const std::uint32_t c : loose.convexes) {
+      const Vec3 arm = centroids_[c] - loose.com_R;
+      forces_N[c] -= masses_kg_[c] * spin_R.cross(spin_R.cross(arm));
+      torques_Nm[c] -= spin_R.cross(inertias_[c] * spin_R);
       force += forces_N[c];
-      torque += torques_Nm[c] + (centroids_[c] - loose.com_R).cross(forces_N[c]);
+      torque += torques_Nm[c] + arm.cross(forces_N[c]);
     }
-    const Vec3 acceleration = force / loose.mass_kg, spin = loose.inverse_inertia * torque;
+    // Of Euler's equations, since the torque holds that of the spin.
+    const Vec3 acceleration = force / loose.mass_kg, turn = loose.inverse_inertia * torque;
     for (const std::uint32_t c : loose.convexes) {
-      forces_N[c] -= masses_kg_[c] * (acceleration + spin.cross(centroids_[c] - loose.com_R));
-      torques_Nm[c] -= inertias_[c] * spin;
+      forces_N[c] -= masses_kg_[c] * (acceleration + turn.cross(centroids_[c] - loose.com_R));
+      torques_Nm[c] -= inertias_[c] * turn;
     }
   }
 }
 
-double ConvexMasses::applied_N(std::span<const ConvexLoad> loads, const Vec3& gravity_R) const {
+double ConvexMasses::applied_N(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
+                               const Vec3& spin_R) const {
   double applied_N = 0;
   for (const double mass : masses_kg_) applied_N += mass * gravity_R.norm();
   for (const ConvexLoad& load : loads) applied_N += load.force_N.norm();
+  for (const Loose& loose : loose_) {
+    for (const std::uint32_t c : loose.convexes) {
+      const Vec3 arm = centroids_[c] - loose.com_R;
+      applied_N += masses_kg_[c] * spin_R.cross(spin_R.cross(arm)).norm();
+    }
+  }
   return applied_N;
 }
 

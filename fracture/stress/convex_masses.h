@@ -34,11 +34,12 @@ class ConvexMasses {
   /// Per convex, whether it does not move: anchored ones, and the heaviest of an island without.
   const std::vector<std::uint8_t>& fixed() const { return fixed_; }
   /// Forces on convexes and torques about their centroids: loads and weight, less what accelerates
-  /// a loose island as a whole.
-  void balance(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
+  /// a loose island as a whole, which spins at `spin_R` (rad/s).
+  void balance(std::span<const ConvexLoad> loads, const Vec3& gravity_R, const Vec3& spin_R,
                std::vector<Vec3>& forces_N, std::vector<Vec3>& torques_Nm) const;
-  /// The sizes of all loads and weights, summed: what rounding is measured by.
-  double applied_N(std::span<const ConvexLoad> loads, const Vec3& gravity_R) const;
+  /// The sizes of all loads, weights and centrifugal forces, summed: what rounding is measured by.
+  double applied_N(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
+                   const Vec3& spin_R) const;
 
  private:
   /// Convexes that hang together without an anchor.

@@ -217,8 +217,8 @@ class StressBreaks {
     if (answer.work >= most_work_) return false;
     const auto left = static_cast<int>(
         std::min<std::uint64_t>(kMostIterations, 1 + (most_work_ - answer.work) / each));
-    const SolveResult result =
-        memory_->system->solve(loads_, load_.gravity_R, kTolerance, left, memory_->displacements);
+    const SolveResult result = memory_->system->solve(loads_, load_.gravity_R, kTolerance, left,
+                                                      memory_->displacements, load_.spin_R);
     answer.work += each * static_cast<std::uint64_t>(1 + result.iterations);
     memory_->iterations = result.converged ? 0 : memory_->iterations + result.iterations;
     answer.settled = memory_->iterations >= kMostIterations;

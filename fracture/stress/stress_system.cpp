@@ -216,11 +216,12 @@ void StressSystem::mark_changes(const Edited& edited, SpringEdit& edit) const {
 
 SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
                                 double tolerance, int most_iterations,
-                                std::vector<Displacement>& displacements) const {
+                                std::vector<Displacement>& displacements,
+                                const Vec3& spin_R) const {
   displacements.resize(masses_.size());
   if (!multigrid_) return {0, 0, 0, true};
   std::vector<Vec3> forces_N, torques_Nm;
-  masses_.balance(loads, gravity_R, forces_N, torques_Nm);
+  masses_.balance(loads, gravity_R, spin_R, forces_N, torques_Nm);
   const SpringLevel<double>& level = multigrid_->springs();
   Nodal<double> f = level.zero(), x = level.zero();
   // Nodes stand where their springs have their centre, which is not the centroid.
@@ -233,7 +234,7 @@ SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& g
     x[node] = {simd4<double>(d.shift_R - d.rotation_R.cross(arm)), simd4<double>(d.rotation_R)};
   }
   // What falls freely has forces that cancel but for rounding.
-  const double nothing_N = kNothing * masses_.applied_N(loads, gravity_R);
+  const double nothing_N = kNothing * masses_.applied_N(loads, gravity_R, spin_R);
   const SolveResult result = multigrid_->solve(f, tolerance, nothing_N, most_iterations, x);
   for (std::size_t c = 0; c < masses_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];

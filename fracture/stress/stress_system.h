@@ -41,7 +41,7 @@ struct StressOrigin {
 /// The springs of one compound; edited when its bonds change, kept while loads do.
 ///
 /// Anchored convexes do not move. An island without any is taken at rest in its own falling and
-/// rotating frame: it feels only what does not accelerate all of it alike.
+/// rotating frame: it feels only what does not accelerate all of it alike, and what its spin does.
 class StressSystem {
  public:
   /// `geometry` is that of the compound's bonds.
@@ -60,9 +60,10 @@ class StressSystem {
   const std::vector<BondGeometry>& geometry() const { return geometry_; }
   /// What an iteration costs, in visits of springs.
   std::uint64_t work() const { return springs_; }
-  /// Improves the displacements, one per convex, under loads and weight.
+  /// Improves the displacements, one per convex, under loads, weight and spin (rad/s).
   SolveResult solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, double tolerance,
-                    int most_iterations, std::vector<Displacement>& displacements) const;
+                    int most_iterations, std::vector<Displacement>& displacements,
+                    const Vec3& spin_R = Vec3::Zero()) const;
 
   /// No less than any stress over the bond's own area.
   BondStress bound(std::uint32_t bond, std::span<const Displacement> displacements) const;

@@ -71,7 +71,12 @@ void check_planar(const Scene& scene, const std::string& where) {
                     "a ball of [script] hangs in joints, which planar scenes do not have");
   }
   for (const Blast& blast : scene.blasts) checker.in_plane(blast.center_W, "a blast's centre");
-  for (const Drive& drive : scene.drives) checker.in_plane(drive.velocity_W, "a drive's velocity");
+  for (const Drive& drive : scene.drives) {
+    if (drive.velocity_W) checker.in_plane(*drive.velocity_W, "a drive's velocity");
+    checker.require(
+        !drive.angular_velocity_W || drive.angular_velocity_W->head<2>().norm() <= kFlat,
+        "a drive's spin is about another axis than z");
+  }
 }
 
 double planar_piece_m(const Scene& scene) {

@@ -207,8 +207,11 @@ Keys<DriveTable> drive_keys() {
       {key<&DriveTable::name>("name", "The solid or ball that is driven until it breaks.").must(),
        key<&DriveTable::time_s>("time_s", "s", kTime, "From when."),
        key<&DriveTable::until_s>("until_s", "s", kTime, "Until when."),
-       key<&DriveTable::velocity>("velocity", "m/s", kSpeed, "How it is to move.").must(),
-       key<&DriveTable::force_N>("force_N", "N", Range{0, 1e12}, "Most that drives it.")}};
+       key<&DriveTable::velocity>("velocity", "m/s", kSpeed, "How it is to move."),
+       key<&DriveTable::force_N>("force_N", "N", Range{0, 1e12}, "Most that drives it."),
+       key<&DriveTable::angular_velocity>("angular_velocity", "rad/s", kSpeed,
+                                          "How it is to spin."),
+       key<&DriveTable::torque_Nm>("torque_Nm", "N·m", Range{0, 1e12}, "Most that spins it.")}};
 }
 
 Schema make_schema() {

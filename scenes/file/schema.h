@@ -74,8 +74,10 @@ struct DriveTable {
   double time_s = 0;
   double until_s = 600;
   std::string name;
-  Vec3 velocity = Vec3::Zero();
+  std::optional<Vec3> velocity;
   double force_N = 1e6;
+  std::optional<Vec3> angular_velocity;
+  double torque_Nm = 1e6;
 };
 
 struct WreckingBallTable {

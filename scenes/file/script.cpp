@@ -53,6 +53,10 @@ void add_drive(const Value& table, Scene& scene) {
   if (given.until_s <= given.time_s) {
     throw InputError(table.where + ": until_s in [[script.drive]] is not after time_s");
   }
+  if (!given.velocity && !given.angular_velocity) {
+    throw InputError(table.where +
+                     ": [[script.drive]] needs velocity, or angular_velocity, or both");
+  }
   const Value& name = *find(table, "name");
   std::vector<std::uint32_t> roots = roots_named(scene, given.name, name);
   if (std::ranges::all_of(roots, [&](std::uint32_t root) { return is_anchored(scene, root); })) {
@@ -61,8 +65,8 @@ void add_drive(const Value& table, Scene& scene) {
         "' in [[script.drive]] is anchored to the world, which no force moves; take its "
         "anchored away");
   }
-  scene.drives.push_back(
-      {given.time_s, given.until_s, std::move(roots), given.velocity, given.force_N});
+  scene.drives.push_back({given.time_s, given.until_s, std::move(roots), given.velocity,
+                          given.force_N, given.angular_velocity, given.torque_Nm});
 }
 
 void add_shot(const Value& table, Scene& scene) {

@@ -48,6 +48,7 @@ StructureType house_structure();
 StructureType pane_structure();
 StructureType stack_structure();
 StructureType temple_structure();
+StructureType wheel_structure();
 
 /// The box [min, max] cut into equal blocks no longer than `longest_m`, appended to `parts`.
 void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/base/trigonometry.h"
+#include "engine/geometry/hull.h"
 #include "scenes/structures/structure.h"
 
 namespace sunder::scenes {
@@ -54,6 +55,40 @@ std::vector<Piece> build_column(const Column& column) {
     rim.emplace_back(column.radius_m * turn.sin, column.radius_m * turn.cos);
   }
   return {{{{make_prism(rim, 0, column.height_m, true), column.material.index}}, Vec3::Zero()}};
+}
+
+struct Wheel {
+  double radius_m = 1;
+  double hub_m = 0.2;
+  double width_m = 0.3;
+  int rings = 3;
+  int sectors = 24;
+  MaterialRef material{"concrete", {}};
+  MaterialRef hub{"steel", {}};
+};
+
+/// Wedges in rings about a hub.
+std::vector<Piece> build_wheel(const Wheel& wheel) {
+  if (wheel.hub_m >= wheel.radius_m) throw InputError("wheel: hub_m must be less than radius_m");
+  const auto add_corners = [&](double radius_m, int sector, std::vector<Vec3>& corners) {
+    const SinCos turn = sin_cos(kTurn * (sector % wheel.sectors) / wheel.sectors);
+    for (const double z : {-wheel.width_m / 2, wheel.width_m / 2})
+      corners.emplace_back(radius_m * turn.sin, wheel.radius_m + radius_m * turn.cos, z);
+  };
+  Piece piece;
+  std::vector<Vec3> hub;
+  for (int s = 0; s < wheel.sectors; ++s) add_corners(wheel.hub_m, s, hub);
+  piece.parts.push_back({make_hull(hub), wheel.hub.index});
+  const double ring_m = (wheel.radius_m - wheel.hub_m) / wheel.rings;
+  for (int r = 0; r < wheel.rings; ++r) {
+    for (int s = 0; s < wheel.sectors; ++s) {
+      std::vector<Vec3> wedge;
+      for (const int ring : {r, r + 1})
+        for (const int side : {s, s + 1}) add_corners(wheel.hub_m + ring * ring_m, side, wedge);
+      piece.parts.push_back({make_hull(wedge), wheel.material.index});
+    }
+  }
+  return {piece};
 }
 
 struct Pane {
@@ -147,10 +182,23 @@ StructureType pane_structure() {
        key<&Pane::frame>("frame", "What the frame is made of.")});
 }
 
+StructureType wheel_structure() {
+  return make_structure<Wheel, build_wheel>(
+      "wheel", "A disc on edge, facing z, of wedges about a hub.",
+      {key<&Wheel::radius_m>("radius_m", "m", kLength, "Radius."),
+       key<&Wheel::hub_m>("hub_m", "m", kLength, "Radius of the hub."),
+       key<&Wheel::width_m>("width_m", "m", kLength, "Width."),
+       key<&Wheel::rings>("rings", "", Range{1, 30}, "Rings of wedges."),
+       key<&Wheel::sectors>("sectors", "", Range{3, 64}, "Wedges of a ring."),
+       key<&Wheel::material>("material", "What it is made of."),
+       key<&Wheel::hub>("hub", "What the hub is made of.")});
+}
+
 std::span<const StructureType> structures() {
   static const std::vector<StructureType> all = {
-      box_structure(),   brick_wall_structure(), bridge_structure(), column_structure(),
-      house_structure(), pane_structure(),       stack_structure(),  temple_structure()};
+      box_structure(),    brick_wall_structure(), bridge_structure(),
+      column_structure(), house_structure(),      pane_structure(),
+      stack_structure(),  temple_structure(),     wheel_structure()};
   return all;
 }
 

@@ -55,6 +55,7 @@ class RigidPhysics final : public Physics {
   std::vector<ContactLoad> contact_loads() const override {
     return find_contact_loads(contacts_, bodies_, shapes_);
   }
+  std::vector<JointLoad> joint_loads() const override { return joints_.loads(bodies_); }
   std::vector<float> penetrations() const override { return find_penetrations(contacts_); }
   std::vector<std::pair<const char*, double>> take_timings_ms() override;
 

@@ -135,6 +135,20 @@ TEST(Drive, HoldsAVelocityAsFarAsItsForceGoes) {
   EXPECT_NEAR(run.state(0).velocity_W.x(), 2, 1e-9);
 }
 
+TEST(Drive, HoldsASpinAsFarAsItsTorqueGoesAndPushesNowhere) {
+  Scene scene = empty_scene();
+  scene.solids = {row(Vec3::Zero(), 1, false)};  // 1000 kg, 1 m: 167 kg m²
+  const Vec3 axis = Vec3(2, 1, -2) / 3;
+  scene.drives = {{0.5, 1.5, {0}, std::nullopt, 0, 2 * axis, 500}};
+  ActRun run(scene);
+  for (int i = 0; i < 60; ++i) run.simulation->next();
+  EXPECT_LT((run.state(0).angular_velocity_W - 1.5 * axis).norm(), 0.06)
+      << "half a second at 3 rad/s²";
+  for (int i = 0; i < 20; ++i) run.simulation->next();
+  EXPECT_LT((run.state(0).angular_velocity_W - 2 * axis).norm(), 1e-9);
+  EXPECT_LT(run.state(0).velocity_W.norm(), 1e-9);
+}
+
 TEST(WreckingBall, HangsOnARopeToItsCentre) {
   Scene scene = empty_scene();
   scene.shots = {

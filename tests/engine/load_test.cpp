@@ -39,7 +39,8 @@ struct LoadRun {
 
   ScriptedPhysics* physics = nullptr;
   int asked = 0;
-  Vec3 asked_force = Vec3::Zero();
+  Vec3 asked_force = Vec3::Zero(), asked_spin_R = Vec3::Zero();
+  std::vector<Load> asked_loads;
   std::unique_ptr<Simulation> simulation;
 
   LoadRun(Scene scene, Answer answer) {
@@ -50,6 +51,8 @@ struct LoadRun {
     breaker->stressed = [this, answer](const Structure& structure, const LoadCase& load) {
       ++asked;
       asked_force.setZero();
+      asked_spin_R = load.spin_R;
+      asked_loads.assign(load.loads.begin(), load.loads.end());
       for (const Load& one : load.loads) asked_force += one.force_N;
       return answer(structure, load);
     };
@@ -156,8 +159,82 @@ TEST(LoadStage, WhatLosesItsNeighbourShowsTheFaceThatItCovered) {
   EXPECT_EQ(indices_of(*frame, 0), 6u * 6) << "with its upper face";
 }
 
-TEST(LoadStage, DoesNotAskAboutSmallThingsThatMoveNorAboutWhatNoLoadBreaks) {
-  LoadRun moving(scene_of(two_boxes(false)), parts);
+TEST(LoadStage, AJointLoadsTheConvexThatIsNearestToItsAnchor) {
+  LoadRun run(scene_of(two_boxes(true)), holds);
+  const Vec3 pull(0, -5e4, 0), turn(3e4, 0, 0);
+  for (const double y : {1.5, 2.4}) {  // inside and outside
+    run.physics->pulls = {{0, pull / 60, Vec3(0.25, y, 0.5), turn / 60}};
+    run.frames(120);
+    ASSERT_EQ(run.asked_loads.size(), 1u);
+    const Load& load = run.asked_loads[0];
+    EXPECT_EQ(load.convex, ConvexSlot(1));
+    EXPECT_LT((load.force_N - pull).norm(), 0.1 * pull.norm());
+    const Vec3 about = (Vec3(0.25, y, 0.5) - load.point_R).cross(pull) + turn;
+    EXPECT_LT((load.torque_Nm - about).norm(), 0.1 * about.norm());
+  }
+  run.physics->pulls[0].point_W = Vec3(0.5, -0.1, 0.5);
+  run.frames(120);
+  EXPECT_EQ(run.asked_loads[0].convex, ConvexSlot(0));
+  EXPECT_LT((run.asked_loads[0].force_N - pull).norm(), 0.1 * pull.norm());
+}
+
+TEST(LoadStage, AWrenchWithoutAForceLoadsToo) {
+  LoadRun run(scene_of(two_boxes(true)), holds);
+  run.physics->pulls = {{0, Vec3::Zero(), Vec3(0.5, 1.5, 0.5), Vec3(0, 5e4 / 60, 0)}};
+  run.frames(120);
+  ASSERT_EQ(run.asked_loads.size(), 1u);
+  EXPECT_NEAR(run.asked_loads[0].torque_Nm.y(), 5e4, 0.1 * 5e4);
+}
+
+// ρ ω² r² is the limit of 1 MPa at 667 s⁻², and a thirtieth of that is at 4.5 rad/s.
+TEST(LoadStage, JudgesSpinWhenItCanMatterAndAgainWhenItHasChanged) {
+  Scene scene = scene_of(two_boxes(false));
+  scene.gravity_W.setZero();
+  LoadRun run(scene, holds);
+  const auto spin = [&](double spin_rad_s) {
+    run.physics->bodies[1].state.angular_velocity_W = Vec3(spin_rad_s, 0, 0);
+    run.frames(10);
+    return run.asked;
+  };
+  EXPECT_EQ(spin(4), 0);
+  EXPECT_EQ(spin(20), 1);
+  EXPECT_EQ(run.asked_spin_R, Vec3(20, 0, 0));
+  EXPECT_EQ(spin(20.9), 1);
+  EXPECT_EQ(spin(-20.9), 1) << "it feels the same the other way round";
+  EXPECT_EQ(spin(21.1), 2);
+  EXPECT_EQ(spin(-21.1), 2);
+}
+
+TEST(LoadStage, OfSmallFragmentsOnlySpinIsLookedAt) {
+  Compound compound = two_boxes(true);
+  compound.convexes.push_back(
+      make_convex(make_box(Vec3(0, 2, 0), Vec3(1, 3, 1)), MaterialIndex(0)));
+  compound.anchored.push_back(0);
+  compound.bonds.push_back({1, 2, 3, 2, 1});
+  LoadRun run(scene_of(compound), [](const Structure& structure, const LoadCase&) {
+    StressAnswer answer;
+    answer.settled = true;
+    answer.edit.changed = structure.size() == 3;
+    if (!answer.edit.changed) return answer;
+    const auto& box = [&](std::uint32_t slot) { return structure.convex(ConvexSlot(slot)); };
+    answer.edit.removed = {ConvexSlot(1), ConvexSlot(2)};
+    answer.edit.loose.pieces = {{{box(1), box(2)}, {0, 0}, {{0, 1, 3, 2, 1}}, {}}};
+    return answer;
+  });
+  run.frames(2);
+  ASSERT_EQ(run.physics->bodies.size(), 3u);  // with the ground
+  EXPECT_TRUE(run.physics->bodies[1].desc.reports_load);
+  EXPECT_FALSE(run.physics->bodies[2].desc.reports_load);
+  const int asked = run.asked;
+  run.physics->bodies[2].state.angular_velocity_W = Vec3(20, 0, 0);
+  run.frames(10);
+  EXPECT_EQ(run.asked, asked + 1);
+}
+
+TEST(LoadStage, DoesNotAskAboutSingleConvexesNorAboutWhatNoLoadBreaks) {
+  Compound box = two_boxes(false);
+  box.convexes.resize(1), box.anchored.resize(1), box.bonds.clear();
+  LoadRun moving(scene_of(box), parts);
   moving.press(1e6);
   moving.frames(30);
   EXPECT_EQ(moving.asked, 0);

@@ -106,6 +106,7 @@ class ScriptedPhysics : public Physics {
     return table_.states();
   }
   std::vector<ContactLoad> contact_loads() const override { return loads; }
+  std::vector<JointLoad> joint_loads() const override { return pulls; }
   std::vector<float> penetrations() const override { return {}; }
   std::vector<std::pair<const char*, double>> take_timings_ms() override { return {}; }
 
@@ -135,7 +136,8 @@ class ScriptedPhysics : public Physics {
   std::vector<Body> bodies;
   std::vector<JointDesc> joints;  ///< All there ever were.
   std::vector<bool> cut_joints;
-  std::vector<ContactLoad> loads;  ///< What contact_loads() answers.
+  std::vector<ContactLoad> loads;  ///< What contact_loads() answers,
+  std::vector<JointLoad> pulls;    ///< and joint_loads().
 
  private:
   static double inverse_mass(const Body& body, const Vec3& point_W, const Vec3& normal_W) {

@@ -29,8 +29,8 @@ Outcome loaded(const Compound& compound, const std::vector<Material>& materials,
                std::vector<Load> loads = {}, StressMemoryPtr memory = nullptr,
                std::uint64_t most_work = kPlenty) {
   Structure structure(compound);
-  Outcome outcome{
-      break_by_stress(structure, {materials, loads, kDown, most_work, std::move(memory)})};
+  Outcome outcome{break_by_stress(
+      structure, {materials, loads, kDown, Vec3::Zero(), most_work, std::move(memory)})};
   outcome.cut = outcome.edit.cut.size();
   if (outcome.edit.changed || outcome.cut > 0) outcome.plan = as_pieces(structure, outcome.edit);
   return outcome;

@@ -167,6 +167,26 @@ TEST(Ledger, WhatBreaksInMotionIsPartedWithoutMakingEnergy) {
 }
 
 /// Struck off its axis, it spins about that as the solver has it, not as its slimness would.
+TEST(Ledger, WhatBurstsBySpinKeepsMassMotionAndEnergy) {
+  Scene scene = bare_scene(1.0 / 120, 50, 2000);
+  scene.materials[0].tensile_Pa = 1e5;
+  Solid wheel{"wheel", fracture::ring_compound(24, 0.8, 1, 0.2), {}};
+  wheel.velocity_W = Vec3(3, 2, 1);
+  wheel.angular_velocity_W = Vec3(1, 0, 12);  // it bursts at 7.9
+  scene.solids = {wheel};
+  auto spy = std::make_unique<SpyPhysics>(solver::make_rigid_physics({scene.gravity_W}));
+  const SpyPhysics& physics = *spy;
+  Simulation simulation(scene, std::move(spy), fracture::make_pattern_breaker());
+  simulation.next();
+  simulation.next();
+  ASSERT_GT(physics.replacements.size(), 0u);
+  for (const SpyPhysics::Replacement& burst : physics.replacements) {
+    expect_same_momentum(burst.after, burst.before);
+    expect_same_spin(burst.after, burst.before);
+    EXPECT_NEAR(burst.after.kinetic_J, burst.before.kinetic_J, kExact * burst.before.kinetic_J);
+  }
+}
+
 TEST(Ledger, ReportsTheEnergyOfANeedleAsItIsMoved) {
   Scene scene = bare_scene(1.0 / 240, 100, 1000);
   scene.materials[1].restitution = 1;

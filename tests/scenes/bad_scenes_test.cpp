@@ -201,6 +201,8 @@ constexpr Fault kFaults[] = {
     {"[[ball]]\nname = \"b\"\n[[script.drive]]\nname = \"b\"\nvelocity = [1, 0, 0]\ntime_s = "
      "2\nuntil_s = 1",
      "bad.toml:5: until_s in [[script.drive]] is not after time_s"},
+    {"[[ball]]\nname = \"b\"\n[[script.drive]]\nname = \"b\"",
+     "bad.toml:5: [[script.drive]] needs velocity, or angular_velocity, or both"},
     {"[[solid]]\nstructure = \"box\"\nanchored = \"bottom\"\n[[script.drive]]\nvelocity = [1, 0, "
      "0]\nname = \"box\"",
      "bad.toml:8: 'box' in [[script.drive]] is anchored to the world, which no force moves; take "

@@ -1,6 +1,8 @@
 // Scenes about own weight: they stand as long as nobody shoots, and come down when their support
 // is gone.
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <functional>
 #include <set>
 
@@ -107,6 +109,29 @@ TEST(Collapse, SlabsBreakByWhatStrikesThem) {
         if (slabs.contains(event.body_key)) broken.insert(event.body_key);
     }
     EXPECT_GE(broken.size(), 9u) << "only the first was shot; seed " << seed;
+  }
+}
+
+// A disc cannot bear more than its strength in the mean over a diameter, which half of it pulls
+// with 2/3 ρ ω² h (r³ − a³), a the radius of its hub; and as long as it is nowhere stressed beyond,
+// as it would be without a hub, at the edge of the hole, by ρ ω² (3 r² + a²)/4.
+TEST(Collapse, AGrindstoneBurstsAtASpinThatItsStrengthSets) {
+  constexpr double kRadius_m = 1.2, kHub_m = 0.2, kTensile_Pa = 2e6, kDensity_kg_m3 = 2300;
+  const double strength = kTensile_Pa / kDensity_kg_m3;
+  const double edge = (3 * kRadius_m * kRadius_m + kHub_m * kHub_m) / 4;
+  const double mean = (std::pow(kRadius_m, 3) - std::pow(kHub_m, 3)) / (3 * (kRadius_m - kHub_m));
+  for (const char* preset : {"draft", "realtime"}) {
+    const auto simulation = simulation_of("flywheel", {}, preset);
+    FramePtr frame;
+    double spin = 0;  // before
+    while ((frame = simulation->next()) && frame->breaks.empty())
+      spin = frame->bodies[0].angular_velocity_W.norm();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->breaks[0].body_key, 0u) << "nothing has struck it";
+    EXPECT_GE(frame->breaks[0].pieces, 3u);
+    std::printf("%s: bursts at %.1f rad/s\n", preset, spin);
+    EXPECT_GT(spin, std::sqrt(strength / edge));
+    EXPECT_LT(spin, std::sqrt(strength / mean));
   }
 }
 

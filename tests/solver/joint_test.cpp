@@ -184,6 +184,48 @@ TEST(Joint, WhatIsJoinedSleepsAndWakesTogether) {
   EXPECT_TRUE(world.state(b).asleep) << "they are parted";
 }
 
+/// Of all loads on a body with a tag, about a point.
+std::pair<Vec3, Vec3> load_on(RigidWorld& world, std::uint32_t tag, const Vec3& about_W) {
+  std::pair<Vec3, Vec3> sum(Vec3::Zero(), Vec3::Zero());
+  for (const JointLoad& load : world.physics().joint_loads()) {
+    if (load.body_tag != tag) continue;
+    sum.first += load.impulse_W;
+    sum.second += (load.point_W - about_W).cross(load.impulse_W) + load.angular_impulse_W;
+  }
+  return sum;
+}
+
+TEST(Joint, ReportsWhatHangsOnBothItsBodies) {
+  for (const Kind kind : {Kind::kRope, Kind::kDistance, Kind::kFixed}) {
+    RigidWorld world;
+    BodyDesc beam = W::box(Vec3(4, 0.2, 0.2), Vec3::Zero());
+    beam.is_static = true;
+    beam.tag = 1;
+    BodyDesc load = W::box(Vec3(0.5, 0.5, 0.5), Vec3(1.5, -1, 0));
+    load.tag = 2;
+    beam.reports_load = load.reports_load = true;
+    const BodyId a = world.add(beam), b = world.add(load);
+    const Vec3 anchor(kind == Kind::kFixed ? 1 : 1.5, 0, 0);  // a rope is plumb
+    JointDesc joint = joint_at(world, kind, a, b, anchor);
+    if (kind != Kind::kFixed) {
+      joint.anchor_b_R = Vec3::Zero();
+      joint.length_m = 1;
+    }
+    world.physics().join(joint);
+    for (const double s : {0.5, 3.0}) {
+      world.run(s, kDt_s, kSubsteps);
+      const Vec3 weight_Ns = kDt_s * load.mass_kg * Vec3(0, -kG, 0);
+      const auto [down, turn] = load_on(world, 1, Vec3::Zero());
+      EXPECT_LT((down - weight_Ns).norm(), 1e-3 * weight_Ns.norm());
+      EXPECT_LT((turn - Vec3(1.5, 0, 0).cross(weight_Ns)).norm(), 1e-3 * weight_Ns.norm());
+      const auto [up, back] = load_on(world, 2, Vec3(1.5, -1, 0));
+      EXPECT_LT((up + weight_Ns).norm(), 1e-3 * weight_Ns.norm());
+      EXPECT_LT(back.norm(), 1e-3 * weight_Ns.norm());
+    }
+    EXPECT_TRUE(world.state(b).asleep) << "and sleepers are borne as well";
+  }
+}
+
 TEST(Joint, WhatIsJoinedToAnotherBodyWakes) {
   RigidWorld world;
   world.add(W::ground());

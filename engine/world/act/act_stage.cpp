@@ -134,16 +134,33 @@ void age(World& world) {
   if (!resting.empty()) drop(world, resting);
 }
 
+Vec3 no_more_than(double most, const Vec3& impulse) {
+  return impulse.norm() > most ? Vec3(impulse * (most / impulse.norm())) : impulse;
+}
+
 void drive_by(World& world, const Drive& drive) {
+  const double dt_s = world.clock.dt_s;
   for (const std::uint32_t root : drive.roots) {
     const Actor* actor = world.actors.find(root);
     if (!actor || actor->is_static) continue;
     const BodyState state = world.physics->state(actor->body);
-    Vec3 impulse = actor->weight.mass_kg * (drive.velocity_W - state.velocity_W);
-    const double most = drive.force_N * world.clock.dt_s;
-    if (impulse.norm() > most) impulse *= most / impulse.norm();
-    if (impulse.norm() > 0) {
-      world.physics->apply_impulse(actor->body, impulse, state.X_WB.position);
+    const auto push = [&](const Vec3& impulse, const Vec3& arm) {
+      world.physics->apply_impulse(actor->body, impulse, state.X_WB.position + arm);
+    };
+    if (drive.velocity_W) {
+      const Vec3 missing = *drive.velocity_W - state.velocity_W;
+      const Vec3 impulse = no_more_than(drive.force_N * dt_s, actor->weight.mass_kg * missing);
+      if (impulse.norm() > 0) push(impulse, Vec3::Zero());
+    }
+    if (drive.angular_velocity_W) {
+      const Quat& q = state.X_WB.rotation;
+      const Vec3 missing = *drive.angular_velocity_W - state.angular_velocity_W;
+      const Vec3 turn = no_more_than(drive.torque_Nm * dt_s,
+                                     q * (actor->weight.inertia_R * (q.conjugate() * missing)));
+      if (!(turn.norm() > 0)) continue;
+      const Vec3 arm = turn.unitOrthogonal();  // a couple: impulse and counterpart, 1 m apart
+      push(turn.cross(arm), 0.5 * arm);
+      push(-turn.cross(arm), -0.5 * arm);
     }
   }
 }

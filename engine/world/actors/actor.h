@@ -16,7 +16,7 @@
 
 namespace sunder {
 
-/// What presses on a convex: force in the rest frame, torque about its centroid.
+/// What presses or pulls on a convex: force in the rest frame, torque about its centroid.
 struct Press {
   ConvexSlot convex;
   Vec3 force_R = Vec3::Zero();
@@ -26,10 +26,14 @@ struct Press {
 /// What an actor bears, and how far it is known whether it can.
 struct StressState {
   bool breakable = false;        ///< Load can break it.
-  bool settled = false;          ///< Judged for `judged`, to the end.
+  bool settled = false;          ///< Judged for `judged` and `judged_spin_R`, to the end.
   std::uint64_t since_step = 0;  ///< Waits to be judged since then, if not settled.
   std::vector<Press> pressing;   ///< Averaged over time; ascending by convex.
   std::vector<Press> judged;
+  /// Where ω² is so much, ρ ω² r² is the weakest limit, r its radius about the centre of mass.
+  double bursts_s2 = std::numeric_limits<double>::infinity();
+  Vec3 spin_R = Vec3::Zero();  ///< Angular velocity, rad/s, if it matters; else 0.
+  Vec3 judged_spin_R = Vec3::Zero();
   StressMemoryPtr memory;
 };
 

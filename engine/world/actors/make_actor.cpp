@@ -10,13 +10,33 @@
 namespace sunder {
 namespace {
 
-/// Whether load may break a compound: one that stands, or a large one that moves.
-bool reports_load(const World& world, const Actor& actor) {
-  constexpr std::size_t kLeastMoving = 16;  // convexes
-  if (actor.structure.size() < (actor.is_static ? 2 : kLeastMoving)) return false;
+// Small fragments are many, and what strikes them is the business of stage `break`: what presses on
+// them is not looked at, only their spin.
+constexpr std::size_t kLeastPressed = 16;  // convexes
+
+/// Whether load may break a compound.
+bool breaks_by_load(const World& world, const Actor& actor) {
+  if (actor.structure.size() < 2) return false;
   return std::ranges::any_of(actor.materials, [&](MaterialIndex material) {
     return world.material(material).breaks_by_load();
   });
+}
+
+/// See StressState.
+double bursting_s2(const World& world, const Actor& actor) {
+  double weakest_Pa = std::numeric_limits<double>::infinity(), density_kg_m3 = 0, reach_m = 0;
+  for (const MaterialIndex index : actor.materials) {
+    const Material& material = world.material(index);
+    density_kg_m3 = std::max(density_kg_m3, material.density_kg_m3);
+    for (const double limit_Pa : {material.tensile_Pa, material.shear_Pa, material.compressive_Pa})
+      if (limit_Pa > 0) weakest_Pa = std::min(weakest_Pa, limit_Pa);
+  }
+  actor.structure.for_each([&](ConvexSlot, const Convex& convex) {
+    const Vec3 low = actor.weight.com_R - convex.box.min,
+               high = convex.box.max - actor.weight.com_R;
+    reach_m = std::max(reach_m, low.cwiseMax(high).norm());
+  });
+  return weakest_Pa / (density_kg_m3 * reach_m * reach_m);
 }
 
 std::vector<MaterialIndex> materials_of(const Compound& compound) {
@@ -55,8 +75,10 @@ Actor make_actor(World& world, const Compound& compound) {
   actor.volume_m3 = volume(compound);
   actor.materials = materials_of(compound);
   actor.born_step = world.clock.step;
-  actor.stress.breakable = reports_load(world, actor);
+  actor.stress.breakable = breaks_by_load(world, actor);
   actor.stress.since_step = world.clock.step;
+  if (actor.stress.breakable && !actor.is_static)
+    actor.stress.bursts_s2 = bursting_s2(world, actor);
   set_least(world, actor);
   return actor;
 }
@@ -87,7 +109,9 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
   actor.structure.for_each(
       [&](ConvexSlot slot, const Convex&) { body.shapes.push_back(shape_of(world, actor, slot)); });
   body.tag = actor.key;
-  body.reports_load = actor.stress.breakable;
+  const bool is_fragment = actor.key != actor.root_key && !actor.is_static;
+  body.reports_load =
+      actor.stress.breakable && (!is_fragment || actor.structure.size() >= kLeastPressed);
   return body;
 }
 

@@ -16,6 +16,10 @@ constexpr double kAverage_s = 0.1;  // over which what presses is averaged
 constexpr double kChange = 0.1;
 // ... unless that is less than this share of the whole actor's weight.
 constexpr double kTrifle = 1e-5;
+// Spin matters from so much of ρ ω² r² on, in parts of the weakest limit; the largest stress is
+// half of that in a rod, all of it in a ring, and more only where spin bends what is hollow or
+// crooked.
+constexpr double kSpinTrifle = 0.03;
 // Work to reserve for an actor, in visits of each of its bonds; what is left over goes to others.
 constexpr std::uint64_t kReserve = 300;
 constexpr std::size_t kLarge = 1000;  // convexes of an actor that takes all threads for itself
@@ -29,6 +33,7 @@ double weight_N(const World& world, double mass_kg) {
 std::vector<Press> averaged(const World& world, const Actor& actor, const std::vector<Press>& now) {
   const double dt = world.clock.dt_s, share = dt / (kAverage_s + dt);
   const double trifle = kTrifle * weight_N(world, actor.weight.mass_kg);
+  const double size_m = std::cbrt(actor.volume_m3);
   std::vector<Press> mean;
   auto old = actor.stress.pressing.begin();
   const auto end = actor.stress.pressing.end();
@@ -45,7 +50,8 @@ std::vector<Press> averaged(const World& world, const Actor& actor, const std::v
       press.force_R += share * it->force_R;
       press.torque_R += share * it->torque_R;
     }
-    if (press.force_R.norm() > 0.1 * trifle) mean.push_back(press);
+    if (press.force_R.norm() > 0.1 * trifle || press.torque_R.norm() > 0.1 * trifle * size_m)
+      mean.push_back(press);
   }
   return mean;
 }
@@ -71,24 +77,49 @@ bool changed(const World& world, const Actor& actor) {
   return false;
 }
 
-/// What presses on each actor in this step, in the order of actors; forces are in the
+/// What the actor feels of its spin: nothing if that cannot matter.
+Vec3 spin_felt(const Actor& actor, const BodyState& state) {
+  const Vec3& spin_W = state.angular_velocity_W;
+  if (!(spin_W.squaredNorm() > kSpinTrifle * actor.stress.bursts_s2)) return Vec3::Zero();
+  return state.X_WB.rotation.conjugate() * spin_W;
+}
+
+/// Whether it spins otherwise than it was judged for: what it feels, ω × (ω × r), is the same for
+/// the opposite spin.
+bool spin_changed(const StressState& stress) {
+  const Vec3 &before = stress.judged_spin_R, &after = stress.spin_R;
+  const double allowed = std::max(kChange * before.squaredNorm(), kSpinTrifle * stress.bursts_s2);
+  return (after - before).norm() * (after + before).norm() > allowed;
+}
+
+/// What presses and pulls on each actor in this step, in the order of actors; forces are in the
 /// rest frame, torques about the convex's centroid.
 std::vector<std::vector<Press>> presses(const World& world) {
   std::vector<std::vector<Press>> all(world.actors.size());
   const BodyStates states = world.physics->states();
   const double dt = world.clock.dt_s;
+  const auto point_R = [&](const Actor& actor, const Vec3& point_W) -> Vec3 {
+    return states[actor.body].X_WB.inverse() * point_W + actor.weight.com_R;
+  };
+  const auto add = [&](const Actor& actor, ConvexSlot slot, const Vec3& impulse_W, const Vec3& at_R,
+                       const Vec3& angular_impulse_W) {
+    const Quat rotation_BW = states[actor.body].X_WB.rotation.conjugate();
+    const Vec3 force_R = rotation_BW * impulse_W / dt;
+    const Vec3 arm = at_R - actor.structure.convex(slot)->solid.centroid;
+    all[world.actors.place_of(actor)].push_back(
+        {slot, force_R, arm.cross(force_R) + rotation_BW * angular_impulse_W / dt});
+  };
   for (const ContactLoad& contact : world.physics->contact_loads()) {
     const Actor* actor = world.actors.find(contact.body_tag);
     const ConvexSlot slot(contact.shape_tag);
     if (!actor || !actor->structure.has(slot)) continue;
-    const Pose X_WB = states[actor->body].X_WB;
-    Press press;
-    press.convex = slot;
-    press.force_R = X_WB.rotation.conjugate() * contact.impulse_W / dt;
-    const Vec3 point_R = X_WB.inverse() * contact.point_W + actor->weight.com_R;
-    const Vec3 centroid = actor->structure.convex(press.convex)->solid.centroid;
-    press.torque_R = (point_R - centroid).cross(press.force_R);
-    all[world.actors.place_of(*actor)].push_back(press);
+    add(*actor, slot, contact.impulse_W, point_R(*actor, contact.point_W), Vec3::Zero());
+  }
+  for (const JointLoad& joint : world.physics->joint_loads()) {
+    const Actor* actor = world.actors.find(joint.body_tag);
+    if (!actor || actor->structure.empty()) continue;
+    const Vec3 at_R = point_R(*actor, joint.point_W);
+    add(*actor, nearest(actor->structure, at_R), joint.impulse_W, at_R, joint.angular_impulse_W);
   }
   for (std::vector<Press>& of_actor : all) {
     std::stable_sort(of_actor.begin(), of_actor.end(),
@@ -100,15 +131,17 @@ std::vector<std::vector<Press>> presses(const World& world) {
 /// Takes note of what presses; the keys of those to be judged, the longest waiting first.
 std::vector<std::uint32_t> due(World& world) {
   const std::vector<std::vector<Press>> now = presses(world);
+  const BodyStates states = world.physics->states();
   std::vector<std::pair<std::uint64_t, std::uint32_t>> waiting;
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
     Actor& actor = world.actors[i];
     StressState& stress = actor.stress;
     if (!stress.breakable) continue;
     stress.pressing = averaged(world, actor, now[i]);
-    // What falls freely feels nothing.
-    if (!actor.is_static && stress.pressing.empty()) continue;
-    if (stress.settled && changed(world, actor)) {
+    stress.spin_R = spin_felt(actor, states[actor.body]);
+    // What falls freely feels nothing but its spin.
+    if (!actor.is_static && stress.pressing.empty() && stress.spin_R.isZero()) continue;
+    if (stress.settled && (changed(world, actor) || spin_changed(stress))) {
       stress.settled = false;
       stress.since_step = world.clock.step;
     }
@@ -131,6 +164,7 @@ StressAnswer judge(const World& world, const Breaker& breaker, const Actor& acto
   load.materials = *world.materials;
   load.loads = loads;
   load.gravity_R = rotation_WB.conjugate() * world.scene.gravity_W;
+  load.spin_R = actor.stress.spin_R;
   load.most_work = most_work;
   load.memory = actor.stress.memory;
   return breaker.stress(actor.structure, load);
@@ -169,6 +203,7 @@ void apply(World& world, Judged& judged) {
   Actor& actor = *world.actors.find(judged.key);
   StressAnswer& answer = judged.answer;
   actor.stress.judged = actor.stress.pressing;
+  actor.stress.judged_spin_R = actor.stress.spin_R;
   actor.stress.memory = answer.memory;
   actor.stress.settled = answer.settled;
   actor.stress.since_step = world.clock.step;

@@ -1,10 +1,10 @@
-// Stage `load`: own weight, and what presses on a compound, break what they overload. Internal to
-// engine/world.
+// Stage `load`: own weight, what presses and pulls on a compound, and its spin break what they
+// overload. Internal to engine/world.
 //
-// Read first: LoadStage::run(). What presses is averaged over a tenth of a second, so that a push
-// counts alike at every length of a step; impacts are the business of stage `break`. An actor is
-// judged when its load has changed since it was judged last, or its bonds have. The breaker judges
-// by the stress in balance with the load: nothing is worn out by time.
+// Read first: LoadStage::run(). What presses and pulls is averaged over a tenth of a second, so
+// that a push counts alike at every length of a step; impacts are the business of stage `break`. An
+// actor is judged when its load or spin has changed since it was judged last, or its bonds have.
+// The breaker judges by the stress in balance with the load: nothing is worn out by time.
 #pragma once
 
 #include <cstdint>

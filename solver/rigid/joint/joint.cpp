@@ -123,4 +123,20 @@ std::vector<JointId> Joints::take_broken() {
   return std::exchange(broken_, {});
 }
 
+std::vector<JointLoad> Joints::loads(const Bodies& bodies) const {
+  std::vector<JointLoad> loads;
+  const auto add = [&](BodySlot body, const Vec3& anchor_R, const JointImpulse& impulse) {
+    if (body.none() || !bodies.reports_load[body]) return;
+    const Vec3 arm = bodies.rotation[body] * (anchor_R - bodies.com_R[body]);
+    loads.push_back(
+        {bodies.tag[body], impulse.linear_W, bodies.position[body] + arm, impulse.angular_W});
+  };
+  for (const Joint& joint : items_) {
+    if (!joint.holds()) continue;
+    add(joint.body_a, joint.desc.anchor_a_R, -joint.total);
+    add(joint.body_b, joint.desc.anchor_b_R, joint.total);
+  }
+  return loads;
+}
+
 }  // namespace sunder::solver

@@ -15,6 +15,18 @@ namespace sunder::solver {
 /// Rows of a joint at most: three of place, three of rotation.
 inline constexpr int kMostJointRows = 6;
 
+/// What a joint did to b, and the opposite of what it did to a.
+struct JointImpulse {
+  Vec3 linear_W = Vec3::Zero();   ///< At the anchors.
+  Vec3 angular_W = Vec3::Zero();  ///< Besides that of the linear one.
+
+  JointImpulse& operator+=(const JointImpulse& o) {
+    linear_W += o.linear_W, angular_W += o.angular_W;
+    return *this;
+  }
+  JointImpulse operator-() const { return {-linear_W, -angular_W}; }
+};
+
 struct Joint {
   JointDesc desc;  ///< `a` and `b` as they are now.
   bool present = false;
@@ -22,6 +34,7 @@ struct Joint {
   BodySlot body_a = {}, body_b = {};                ///< None: the world, or a lost end.
   bool lost = false;                                ///< An end's body is gone: it holds nothing.
   std::array<double, kMostJointRows> impulse = {};  ///< Of the last substep, by row.
+  JointImpulse total = {};                          ///< Over the last step it was solved in.
 
   bool holds() const { return present && !lost; }
 };
@@ -40,6 +53,8 @@ class Joints {
   /// A joint that bore too much goes, and is remembered for take_broken().
   void break_off(std::uint32_t joint, Bodies& bodies);
   std::vector<JointId> take_broken();
+  /// See Physics::joint_loads().
+  std::vector<JointLoad> loads(const Bodies& bodies) const;
 
   bool empty() const { return items_.size() == free_slots_.size(); }
   std::uint32_t size() const { return static_cast<std::uint32_t>(items_.size()); }

@@ -99,13 +99,14 @@ double bias(const JointWork& work, int i, const StepContext& step, bool biased) 
          0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].bend_s2;
 }
 
-/// On b, of this substep.
-Vec3 push_of(const JointWork& work) {
-  Vec3 push = Vec3::Zero();
+/// Of this substep.
+JointImpulse impulse_of(const JointWork& work) {
+  JointImpulse sum;
   for (std::size_t i = 0; i < static_cast<std::size_t>(work.rows); ++i) {
-    push += work.impulse[i] * work.row[i].push.cast<double>();
+    sum.linear_W += work.impulse[i] * work.row[i].push.cast<double>();
+    sum.angular_W += work.impulse[i] * work.row[i].turn.cast<double>();
   }
-  return push;
+  return sum;
 }
 
 /// What all rows have to add so that they hold.
@@ -233,7 +234,7 @@ void settle_group(JointGroup& group, std::span<JointWork> works, const StepConte
   begin_group(group, works, step, rows);
   solve_group(group, works, step, false, rows);
   for (JointWork& work : works) {
-    work.total_W += push_of(work);
+    work.total += impulse_of(work);
     work.impulse = work.kept_impulse;
   }
 }
@@ -247,12 +248,12 @@ void scale_group(JointGroup& group, std::span<JointWork> works, const StepContex
     return;
   for (JointWork& work : works) {
     const float share = share_of(work);
-    work.total_W -= push_of(work);
+    work.total += -impulse_of(work);
     for (double& impulse : work.impulse) impulse *= double{share};
     work.owed = {share * work.owed.push, share * work.owed.angular_a, share * work.owed.angular_b};
   }
   solve_group(group, works, step, false, rows);
-  for (JointWork& work : works) work.total_W += push_of(work);
+  for (JointWork& work : works) work.total += impulse_of(work);
 }
 
 void test_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
@@ -260,15 +261,15 @@ void test_group(JointGroup& group, std::span<JointWork> works, const StepContext
   bool any = false;
   for (JointWork& work : works) {
     if (work.broken) continue;
-    const Vec3 push = push_of(work);
+    const JointImpulse impulse = impulse_of(work);
     double square = 0;
     for (int i = work.place_rows; i < work.held_rows; ++i) {
-      const double impulse = work.impulse[static_cast<std::size_t>(i)];
-      square += impulse * impulse;
+      const double along = work.impulse[static_cast<std::size_t>(i)];
+      square += along * along;
     }
-    if (push.norm() <= step.h_s * work.breaking_N &&
+    if (impulse.linear_W.norm() <= step.h_s * work.breaking_N &&
         std::sqrt(square) <= step.h_s * work.breaking_Nm) {
-      work.total_W += push;
+      work.total += impulse;
       continue;
     }
     work.apply(JointPush{} - work.sum(work.impulse), rows);

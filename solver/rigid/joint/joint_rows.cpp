@@ -35,6 +35,7 @@ void place_row(JointWork& w, const Vec3& arm_a, const Vec3& arm_b, const Vec3& d
                double error, double bend_s2) {
   JointRow& row = w.row[static_cast<std::size_t>(w.rows++)];
   row.push = direction.cast<float>();
+  row.turn.setZero();
   row.angular_a = w.root_a.transpose() * arm_a.cross(direction).cast<float>();
   row.angular_b = w.root_b.transpose() * arm_b.cross(direction).cast<float>();
   row.error = error;
@@ -47,6 +48,7 @@ void angular_row(JointWork& w, const Vec3& direction, double error, double bend_
                  double softness = 0) {
   JointRow& row = w.row[static_cast<std::size_t>(w.rows++)];
   row.push.setZero();
+  row.turn = direction.cast<float>();
   row.angular_a = w.root_a.transpose() * direction.cast<float>();
   row.angular_b = w.root_b.transpose() * direction.cast<float>();
   row.error = error;

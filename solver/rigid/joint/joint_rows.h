@@ -15,6 +15,7 @@ namespace sunder::solver {
 
 struct JointRow {
   Vec3f push = Vec3f::Zero();                                  ///< On b; linear.
+  Vec3f turn = Vec3f::Zero();                                  ///< On b; of an angular row.
   Vec3f angular_a = Vec3f::Zero(), angular_b = Vec3f::Zero();  ///< Root space.
   double error = 0;                                            ///< m or rad.
   double bend_s2 = 0;  ///< What motion at a constant rate does to the error: its second derivative.
@@ -52,7 +53,7 @@ struct JointWork {
   std::array<JointRow, kMostJointRows> row;
   std::array<double, kMostJointRows> impulse = {};       ///< Of this substep.
   std::array<double, kMostJointRows> kept_impulse = {};  ///< While the end of the step is settled.
-  Vec3 total_W = Vec3::Zero();                           ///< On b, over the step.
+  JointImpulse total;                                    ///< Over the step.
 
   /// What the impulses of this substep would do along rows that have turned since, less what they
   /// did: owed to the next substep, which starts from them.

@@ -165,7 +165,7 @@ void JointSolver::settle(std::uint32_t i, const StepContext& step, const Bodies&
     const JointWork solved =
         std::exchange(work, begin_joint(joints[work.joint], work.joint, bodies, root_W));
     work.impulse = solved.impulse;
-    work.total_W = solved.total_W;
+    work.total = solved.total;
   }
   settle_group(groups_[i], works(groups_[i]), step, rows);
 }
@@ -173,9 +173,10 @@ void JointSolver::settle(std::uint32_t i, const StepContext& step, const Bodies&
 Vec3 JointSolver::finish(Bodies& bodies, Joints& joints) {
   Vec3 outside = Vec3::Zero();
   for (const JointWork& work : works_) {
-    if (work.row_a == 0) outside += work.total_W;
-    if (work.row_b == 0) outside -= work.total_W;
+    if (work.row_a == 0) outside += work.total.linear_W;
+    if (work.row_b == 0) outside -= work.total.linear_W;
     joints[work.joint].impulse = work.impulse;
+    joints[work.joint].total = work.total;
   }
   for (const JointWork& work : works_)
     if (work.broken) joints.break_off(work.joint, bodies);
