@@ -36,6 +36,47 @@ TEST(Joint, AHingeKeepsItsAxis) {
   EXPECT_NEAR(std::abs(open), 1.4 / (1.01 / 12 + 0.25), 0.01 * std::abs(open));
 }
 
+TEST(Joint, AHingeBetweenBodiesThatTumbleKeepsItsAxis) {
+  RigidWorld world(awake(Vec3::Zero()));
+  const Vec3 spin(3, 20, 1);
+  BodyDesc left = W::box(Vec3(0.9, 0.4, 0.3), Vec3(-0.5, 0, 0));
+  BodyDesc right = W::box(Vec3(0.8, 0.3, 0.5), Vec3(0.5, 0, 0));
+  for (BodyDesc* body : {&left, &right}) {
+    body->velocity_W = spin.cross(body->X_WB.position);
+    body->angular_velocity_W = spin;
+  }
+  const BodyId a = world.add(left), b = world.add(right);
+  const JointDesc joint = joint_at(world, Kind::kHinge, a, b, Vec3::Zero(), Vec3::UnitZ());
+  world.physics().join(joint);
+  const Vec3 L = world.angular_momentum();
+  const double energy = world.kinetic_energy();
+  double lean = 0, apart = 0;
+  for (int i = 0; i < 240; ++i) {
+    world.step(kDt_s, kSubsteps);
+    const Vec3 axis_a = world.state(a).X_WB.rotation * joint.axis_a_R;
+    const Vec3 axis_b = world.state(b).X_WB.rotation * joint.axis_b_R;
+    lean = std::max(lean, axis_a.cross(axis_b).norm());
+    apart = std::max(apart, gap(world, joint));
+  }
+  EXPECT_LT(lean, 2e-5);
+  EXPECT_LT(apart, 2e-5);
+  EXPECT_LT((world.angular_momentum() - L).norm(), 1e-5 * L.norm());
+  EXPECT_NEAR(world.kinetic_energy() / energy, 1, 1e-3);
+}
+
+TEST(Joint, AFixedJointDoesNotMindTheSignOfAQuaternion) {
+  RigidWorld world(awake());
+  BodyDesc box = W::box(Vec3(0.2, 0.1, 0.1), Vec3(0.1, 0, 0));
+  box.X_WB.rotation = Quat(-1, 0, 0, 0);
+  const BodyId id = world.add(box);
+  JointDesc joint = joint_at(world, Kind::kFixed, {}, id, Vec3::Zero());
+  joint.rotation_RaRb = Quat::Identity();  // the same, by the other quaternion
+  world.physics().join(joint);
+  world.run(0.2, kDt_s, kSubsteps);
+  EXPECT_LT((world.state(id).X_WB.position - Vec3(0.1, 0, 0)).norm(), 1e-4);
+  EXPECT_LT(world.state(id).velocity_W.norm(), 1e-3);
+}
+
 TEST(Joint, AnUprightDoorOnTwoHingesIsNotTornByOneTooMany) {
   RigidWorld world(awake());
   const BodyId door = world.add(W::box(Vec3(1, 2, 0.1), Vec3(0.5, 0, 0)));
