@@ -145,6 +145,36 @@ TEST(Planar, ApproachesTellSpeedAndMassOfWhatWillMeetWithinTheStep) {
   EXPECT_NEAR(found[0].effective_mass_kg, ball.mass_kg, 1e-3 * ball.mass_kg);
 }
 
+TEST(Planar, ApproachesAreFoundWhicheverOfTwoMoves) {
+  for (const int fast : {0, 1}) {
+    RigidWorld world = plane();
+    for (const int i : {0, 1}) {
+      BodyDesc ball = W::sphere(0.5, Vec3(i == 0 ? -0.6 : 0.6, 0, 0));
+      if (i == fast) ball.velocity_W = Vec3(i == 0 ? 20 : -20, 0, 0);
+      world.add(ball);
+    }
+    world.physics().collide(1.0 / 60);
+    EXPECT_EQ(world.physics().approaches().size(), 1u) << fast;
+  }
+}
+
+TEST(Planar, PenetrationsAreOfWhatPresses) {
+  RigidWorld world = plane();
+  world.add(W::ground());
+  world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+  world.run(0.25, 1.0 / 60, 4);
+  const std::vector<float> depths_m = world.physics().penetrations();
+  ASSERT_EQ(depths_m.size(), 2u) << "at either corner";
+  for (const float depth_m : depths_m) EXPECT_LT(depth_m, 2e-3f);
+  PlanarOptions weightless;
+  weightless.gravity_W = Vec3::Zero();
+  RigidWorld loose(make_planar_physics(weightless));
+  loose.add(W::ground());
+  loose.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+  loose.run(0.25, 1.0 / 60, 4);
+  EXPECT_TRUE(loose.physics().penetrations().empty());
+}
+
 TEST(Planar, TouchesNameBothBodiesAndWhereTheyMeet) {
   RigidWorld world = plane();
   world.add(W::ground());
