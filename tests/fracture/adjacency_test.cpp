@@ -120,6 +120,14 @@ TEST(Polygon, overlap_of_any_polygons_is_that_of_their_convex_parts) {
   }
 }
 
+TEST(Polygon, overlap_of_a_triangle_and_a_dart_on_its_corners_is_the_dart) {
+  const std::vector<Vec2> triangle{{0, 0}, {4, 0}, {0, 4}};
+  const std::vector<Vec2> dart{{0, 0}, {4, 0}, {0, 4}, {1, 1}};
+  const std::span<const Vec2> a[] = {triangle}, b[] = {dart};
+  EXPECT_NEAR(overlap_area(a, b, 1e-12), 6, 1e-12);
+  EXPECT_NEAR(overlap_area(b, a, 1e-12), 6, 1e-12);
+}
+
 TEST(Polygon, distance_to_a_box_is_that_of_its_nearest_point) {
   const ConvexPolyhedron box = make_box(Vec3(0, 0, 0), Vec3(1, 2, 3));
   Random random(4);
