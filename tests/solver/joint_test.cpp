@@ -225,6 +225,27 @@ TEST(Joint, WhatIsJoinedSleepsAndWakesTogether) {
   EXPECT_TRUE(world.state(b).asleep) << "they are parted";
 }
 
+TEST(Joint, WhatIsJoinedThroughOthersToWhatMovesDoesNotRest) {
+  for (const double spin_rad_s : {0.0, 20.0}) {
+    RigidWorld world;
+    world.add(W::ground());
+    std::vector<BodyId> bodies;
+    for (int i = 0; i < 4; ++i) {
+      bodies.push_back(world.add(W::box(Vec3::Ones(), Vec3(1.5 * i, 0.5, 0))));
+    }
+    BodyDesc wheel = W::sphere(0.2, Vec3(6, 0.5, 0));
+    wheel.angular_velocity_W = Vec3(0, 0, spin_rad_s);
+    bodies.push_back(world.add(wheel));
+    for (std::size_t i = 0; i < 4; ++i) {  // that of the wheel comes last
+      const Kind kind = i < 3 ? Kind::kBall : Kind::kHinge;
+      const Vec3 at = i < 3 ? Vec3(1.5 * double(i) + 0.75, 0.5, 0) : wheel.X_WB.position;
+      world.physics().join(joint_at(world, kind, bodies[i], bodies[i + 1], at));
+    }
+    world.run(3, kDt_s, 4);
+    for (const BodyId body : bodies) EXPECT_EQ(world.state(body).asleep, spin_rad_s == 0);
+  }
+}
+
 TEST(Joint, WhatIsJoinedToAnotherBodyWakes) {
   RigidWorld world;
   world.add(W::ground());

@@ -7,6 +7,7 @@
 
 #include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
+#include "solver/rigid/contact/sweep_kernels.h"
 
 namespace sunder::solver {
 namespace {
@@ -119,6 +120,17 @@ void expect_convergence(const char* name, const std::vector<BodyDesc>& bodies) {
     for (std::size_t i = 1; i < curve.size(); ++i)
       EXPECT_LT(curve[i], std::max(curve[i - 1], 1e-3)) << max_colors << " " << i;
     EXPECT_LT(curve.back(), 0.01) << max_colors;
+  }
+}
+
+TEST(Splitting, LeavesTheSpringBetweenBodiesAsItWas) {
+  Softness soft;
+  soft.mass_scale = 0.8f, soft.impulse_scale = 0.2f;
+  for (const float parts : {1.f, 2.f, 7.f}) {
+    const auto spring = Spring<Wide>::of<true>(soft, splat<Wide>(parts));
+    EXPECT_NEAR(spring.mass_scale[0] + spring.impulse_scale[0], 1, 1e-6);
+    // Parts so many times lighter take so many times the share of what the spring gives.
+    EXPECT_NEAR(parts * spring.mass_scale[0] / spring.impulse_scale[0], 4, 1e-5);
   }
 }
 
