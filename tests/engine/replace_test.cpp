@@ -27,7 +27,8 @@ struct Column {
   World world;
   ScriptedPhysics* physics;
 
-  Column() : Column(std::make_unique<ScriptedPhysics>(nullptr)) {}
+  explicit Column(const Compound& compound = column())
+      : Column(compound, std::make_unique<ScriptedPhysics>(nullptr)) {}
   Actor& actor(std::size_t i) { return world.actors[i]; }
   /// Takes off the two upper boxes, which hold on to each other.
   void break_in_two() {
@@ -44,10 +45,10 @@ struct Column {
   }
 
  private:
-  explicit Column(std::unique_ptr<ScriptedPhysics> owned)
+  Column(const Compound& compound, std::unique_ptr<ScriptedPhysics> owned)
       : world(scene(), std::move(owned)),
         physics(static_cast<ScriptedPhysics*>(world.physics.get())) {
-    const Solid solid{"column", column(), {}};
+    const Solid solid{"column", compound, {}};
     add_compounds(world, std::span(&solid, 1));
   }
   static Scene scene() {
@@ -82,6 +83,36 @@ TEST(CarryOut, LeavesStandingWhatIsLikeNewOfItsSize) {
   ASSERT_EQ(left.stress.pressing.size(), 1u) << "what pressed on the rest is forgotten";
   EXPECT_EQ(left.stress.pressing[0].convex, ConvexSlot(1));
   EXPECT_EQ(column.physics->bodies[0].desc.shapes.size(), 2u);
+}
+
+/// Three boxes along x that overlap, 3 m³ together; the last one is held.
+Compound overlapping() {
+  Compound compound;
+  const double low[] = {0, 1, 0.5}, high[] = {2, 3, 1.5};
+  const auto box = [](double from, double to) {
+    return make_convex(make_box(Vec3(from, 0, 0), Vec3(to, 1, 1)), MaterialIndex(0));
+  };
+  for (std::size_t i = 0; i < 3; ++i) compound.convexes.push_back(box(low[i], high[i]));
+  compound.anchored = {0, 0, 1};
+  compound.ghosts = {{box(1, 2), {0, 1}, -1},
+                     {box(1, 1.5), {0, 1, 2}, 1},
+                     {box(0.5, 1.5), {0, 2}, -1},
+                     {box(1, 1.5), {1, 2}, -1}};
+  return compound;
+}
+
+TEST(CarryOut, TakesAnOverlapOffOnceHoweverManyOfThoseThatShareItGo) {
+  Column column(overlapping());
+  ASSERT_NEAR(column.actor(0).volume_m3, 3, 1e-12);
+  BreakEdit edit;
+  edit.changed = true;
+  edit.removed = {ConvexSlot(0), ConvexSlot(1)};
+  const Compound whole = overlapping();
+  edit.loose.pieces = {{{whole.convexes[0], whole.convexes[1]}, {0, 0}, {}, {whole.ghosts[0]}}};
+  carry_out(column.world, column.actor(0).key, edit);
+  EXPECT_NEAR(column.actor(0).volume_m3, 1, 1e-12);
+  EXPECT_NEAR(column.actor(0).weight.mass_kg, 1000, 1e-9);
+  EXPECT_NEAR(column.actor(1).volume_m3, 3, 1e-12);
 }
 
 TEST(CarryOut, MakesPiecesThatKnowWhatTheyCameOf) {

@@ -259,6 +259,19 @@ TEST(Vacd, FlatConvexPiecesNeedNoVisualMesh) {
   EXPECT_EQ(surface_faces, 54u);  // nine on each side of the cube
 }
 
+TEST(Vacd, ConvexPiecesThatAreShadedSmoothKeepTheirVisualMeshes) {
+  RepairedMesh mesh = cube();
+  PolygonMesh& shell = mesh.shells[0];
+  for (std::size_t c = 0; c < shell.corners.size(); ++c) {
+    const Vec3 out = shell.vertices[shell.corners[c]] - Vec3::Constant(0.5);
+    shell.corner_normals[c] = out.normalized().cast<float>();
+  }
+  const Vacd vacd = decompose(mesh, grid_nodes());
+  EXPECT_EQ(std::count_if(vacd.compound.convexes.begin(), vacd.compound.convexes.end(),
+                          [](const ConvexPtr& convex) { return convex->is_internal(); }),
+            1);
+}
+
 TEST(Vacd, NodesComeFromAFileAndErrorsNameTheLine) {
   std::istringstream good("# a row\n0 0 0\n\n1.5 -2 3e-1 # last\n");
   EXPECT_EQ(read_nodes(good, "row.txt"), (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1.5, -2, 0.3)}));

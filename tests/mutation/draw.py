@@ -214,7 +214,7 @@ class Source:
             if "//" in text or word in KEYWORDS:
                 continue
             if word == "return":
-                if not re.fullmatch(r"return( (\{\}|false|0u?|0\.0f?|nullptr))?", text):
+                if not re.fullmatch(r"return( (\{\}|false|0u?|0\.0f?|nullptr|\w+::Zero\(\)))?", text):
                     self.offer("returns nothing", start, end + 1, "return {};", keep_lines(
                         f"{{ if ({SPACE}on<{{k}}>()) return {{}}; {text}; }}", text))
                 continue

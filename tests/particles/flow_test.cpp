@@ -1,6 +1,8 @@
 // A flow that is linear in space is what it was said to be everywhere, its gradient included.
 #include "solver/particles/flow.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "engine/base/random.h"
@@ -46,6 +48,16 @@ Vec3 random_point(Random& random, const Grid& grid, double rim = 0) {
   const auto uniform = [&] { return random.uniform(rim, 1 - rim); };
   const Vec3 part(uniform(), uniform(), uniform());
   return grid.origin_W + part.cwiseProduct(grid.extent_m());
+}
+
+TEST(Lattice, TheLargestInARowIsFoundWhereverItIs) {
+  for (int count = 1; count <= 19; ++count) {
+    for (int at = 0; at < count; ++at) {
+      std::vector<float> row(static_cast<std::size_t>(count), 1.0f);
+      row[static_cast<std::size_t>(at)] = -2;
+      ASSERT_EQ(largest_in(row.data(), count), 2) << at << " of " << count;
+    }
+  }
 }
 
 TEST(Flow, HasTheGradientOfALinearField) {

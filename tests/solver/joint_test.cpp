@@ -205,12 +205,15 @@ TEST(Joint, WhatIsJoinedSleepsAndWakesTogether) {
   const BodyId a = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(0, 0.25, 0)));
   const BodyId b = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(2, 0.25, 0)));
   const BodyId hanging = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(4, 2, 0)));
+  const BodyId first = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(6, 2, 0)));
   JointDesc rod = joint_at(world, Kind::kDistance, a, b, Vec3(0, 0.25, 0));
   rod.anchor_a_R = rod.anchor_b_R = Vec3::Zero();
   rod.length_m = 2;
   const JointId id = world.physics().join(rod);
   world.physics().join(joint_at(world, Kind::kBall, {}, hanging, Vec3(4, 2.25, 0)));
+  world.physics().join(joint_at(world, Kind::kBall, first, {}, Vec3(6, 2.25, 0)));
   world.run(3, kDt_s, 4);
+  EXPECT_TRUE(world.state(first).asleep) << "whichever end the world is";
   EXPECT_TRUE(world.state(a).asleep && world.state(b).asleep && world.state(hanging).asleep);
   world.physics().apply_impulse(a, Vec3(0, 5, 0), Vec3(0, 0.25, 0));
   world.step(kDt_s, 4);

@@ -289,6 +289,20 @@ TEST(Planar, ABodyThatIsNoLongerFiniteIsFrozenAndCounted) {
   EXPECT_TRUE(world.state(id).X_WB.position.allFinite());
 }
 
+TEST(Planar, ABodyFasterThanAnythingIsFrozenAndWhatItHadIsInTheBooks) {
+  PlanarOptions weightless;
+  weightless.gravity_W = Vec3::Zero();
+  RigidWorld world(make_planar_physics(weightless));
+  const BodyDesc box = W::box(Vec3(1, 1, 1), Vec3::Zero());
+  const BodyId id = world.add(box);
+  world.physics().apply_impulse(id, Vec3(2e9 * box.mass_kg, 0, 0), Vec3::Zero());
+  const SolveReport report = world.step(1.0 / 60, 4);
+  EXPECT_EQ(report.frozen, 1u);
+  EXPECT_EQ(report.momentum_after_Ns, Vec3(Vec3::Zero()));
+  EXPECT_NEAR(report.external_impulse_Ns.x(), -report.momentum_before_Ns.x(), 1e-5 * 2e9 * 1e4);
+  EXPECT_EQ(world.state(id).velocity_W, Vec3(Vec3::Zero()));
+}
+
 TEST(Planar, TheSameBitsComeOutOfEveryRunAndAnyNumberOfThreads) {
   const auto run = [](int count) {
     set_threads(count);

@@ -134,6 +134,21 @@ TEST(Splitting, LeavesTheSpringBetweenBodiesAsItWas) {
   }
 }
 
+TEST(Splitting, SlowsASpinOnTheSpotAsColouredSweepsDo) {
+  std::array<double, 2> left_rad_s;
+  for (std::size_t i = 0; i < 2; ++i) {
+    RigidWorld world(with(i == 0 ? 0 : 64));
+    std::vector<BodyDesc> bodies = stack(2);
+    bodies[2].angular_velocity_W = Vec3(0, 5, 0);
+    add(bodies, world);
+    world.run(0.1, kDt_s, 8);
+    left_rad_s[i] = world.state(world.id(2)).angular_velocity_W.y();
+  }
+  EXPECT_GT(left_rad_s[1], 0.5);
+  EXPECT_LT(left_rad_s[1], 4);
+  EXPECT_NEAR(left_rad_s[0], left_rad_s[1], 0.05 * left_rad_s[1]);
+}
+
 TEST(Splitting, ComesToTheSolutionOfColouredSweepsInAFrozenPile) {
   expect_convergence("rubble", frozen(rubble(48, 0), 50));
 }
