@@ -28,6 +28,7 @@ SKIPPED = re.compile(r"^\s*#|\b(constexpr|static_assert|SUNDER_CHECK|reserve|shr
 
 # Statements that are not dropped: what declares would be missing, what controls has others within.
 DECLARATION = re.compile(r"[\w:]+(<.*>)?(::\w+)?( ?[&*]+ ?| )\w+( = |$|[{(,;\[])")
+NOTHING = re.compile(r"return( (\{\}|false|0u?|0\.0f?|nullptr|\w+::Zero\(\)))?")
 KEYWORDS = ("if", "for", "while", "do", "else", "goto", "const", "auto", "struct", "switch",
             "static", "try", "catch")
 
@@ -214,7 +215,7 @@ class Source:
             if "//" in text or word in KEYWORDS:
                 continue
             if word == "return":
-                if not re.fullmatch(r"return( (\{\}|false|0u?|0\.0f?|nullptr|\w+::Zero\(\)))?", text):
+                if not NOTHING.fullmatch(text):
                     self.offer("returns nothing", start, end + 1, "return {};", keep_lines(
                         f"{{ if ({SPACE}on<{{k}}>()) return {{}}; {text}; }}", text))
                 continue
