@@ -106,6 +106,22 @@ TEST(BreakProbe, FindsTheWorkOfABlowPassedAlongARow) {
   }
 }
 
+TEST(BreakProbe, GoesOnToTheHardestOnceADozenHaveMet) {
+  std::vector<ProbeBody> bodies = {pane(), ball(100, Vec3(0, -5, 0)), pane(),
+                                   ball(0.01, Vec3(0, -10, 0))};
+  std::vector<ProbeContact> contacts = {contact(1, 0, 0.05), contact(3, 2, 0.06)};
+  for (int i = 0; i < 13; ++i) {
+    bodies.push_back(ball(1, Vec3(0, i == 0 ? -20 : 0, 0)));
+    const auto self = static_cast<std::uint32_t>(bodies.size() - 1);
+    if (i > 0) contacts.push_back(contact(self - 1, self, 1e-3));
+  }
+  // Of what is left, the light ball would be there first.
+  const auto loads = BreakProbe(bodies, contacts, kStep_s, kStill_m_s).next();
+  ASSERT_FALSE(loads.empty());
+  EXPECT_EQ(loads[0].body, 0u);
+  EXPECT_NEAR(loads[0].work_J, 0.5 * 100 * 25, 1);
+}
+
 TEST(BreakProbe, SharesAFlatLandingAmongTenColumns) {
   const double m = 500, v = 3;
   std::vector<ProbeBody> bodies(10, pane());

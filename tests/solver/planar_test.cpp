@@ -175,6 +175,16 @@ TEST(Planar, PenetrationsAreOfWhatPresses) {
   EXPECT_TRUE(loose.physics().penetrations().empty());
 }
 
+TEST(Planar, WhatLiesStillAHairApartTouches) {
+  RigidWorld world = plane();
+  world.add(W::fixed(W::box(Vec3(2, 1, 1), Vec3(0, -0.5, 0))));
+  const BodyId id = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.502, 0)));
+  world.physics().collide(1e-6);
+  const std::vector<Touch> touches = world.physics().touches(std::span(&id, 1));
+  ASSERT_EQ(touches.size(), 2u);
+  for (const Touch& touch : touches) EXPECT_NEAR(touch.separation_m, 0.002, 1e-5);
+}
+
 TEST(Planar, TouchesNameBothBodiesAndWhereTheyMeet) {
   RigidWorld world = plane();
   world.add(W::ground());
