@@ -131,6 +131,24 @@ TEST(RigidPhysics, ReportsApproachesBeforeTheyTouch) {
   EXPECT_LT((approach.point_W - Vec3(-0.05, 0.3, 0)).norm(), 1e-4);
 }
 
+TEST(RigidPhysics, ReportsAnApproachHoweverTheBodiesWereTurnedWhenTheyWereModelled) {
+  for (const double angle : {0.0, 0.5, -0.5}) {  // of π
+    RigidWorld world(weightless());
+    BodyDesc wall =
+        angle == 0 ? W::box(Vec3(0.1, 2, 2), Vec3::Zero()) : W::box(Vec3(2, 0.1, 2), Vec3::Zero());
+    wall.X_WB.rotation = Quat(Eigen::AngleAxisd(angle * 3.14159265358979, Vec3::UnitZ()));
+    world.add(W::fixed(wall));
+    BodyDesc cube = W::box(Vec3::Constant(0.4), Vec3(-0.6, 0.3, 0));
+    cube.velocity_W = Vec3(20, 0, 0);
+    world.add(cube);
+    for (int step = 0; step < 4; ++step) {  // of 10 cm; the cube is 35 cm away
+      world.physics().collide(1.0 / 200);
+      EXPECT_EQ(world.physics().approaches().empty(), step < 3) << angle << ", step " << step;
+      world.physics().solve(1.0 / 200, 1);
+    }
+  }
+}
+
 TEST(RigidPhysics, ReportsWhatPressesOnABodyThatBearsLoadAsleepOrAwake) {
   RigidWorld world;
   BodyDesc table = W::fixed(W::box(Vec3(2, 1, 2), Vec3(0, 0.5, 0)));
