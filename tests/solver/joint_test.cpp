@@ -244,8 +244,12 @@ TEST(Joint, WhatIsJoinedThroughOthersToWhatMovesDoesNotRest) {
       const Vec3 at = i < 3 ? Vec3(1.5 * double(i) + 0.75, 0.5, 0) : wheel.X_WB.position;
       world.physics().join(joint_at(world, kind, bodies[i], bodies[i + 1], at));
     }
-    world.run(3, kDt_s, 4);
-    for (const BodyId body : bodies) EXPECT_EQ(world.state(body).asleep, spin_rad_s == 0);
+    bool any = false;
+    for (int step = 0; step < 360; ++step) {
+      world.step(kDt_s, 4);
+      for (const BodyId body : bodies) any |= world.state(body).asleep;
+    }
+    EXPECT_EQ(any, spin_rad_s == 0);
   }
 }
 
