@@ -114,7 +114,6 @@ std::vector<ConvexPolyhedron> voronoi_cells(std::span<const Vec3> sites,
       const auto [it, is_new] = names.emplace(pair, static_cast<std::uint32_t>(planes.size()));
       if (is_new) planes.push_back(bisector(sites[pair.first], sites[pair.second]));
       face.id = pattern_plane(it->second, site == pair.second);
-      face.plane = site == pair.first ? planes[it->second] : planes[it->second].flipped();
     }
   }
   return cells;

@@ -69,6 +69,16 @@ TEST(Blast, PushesEachFaceThatSeesItByAreaAndDistance) {
   EXPECT_NEAR(run.state(0).velocity_W.x(), 0.6 * 0.6, 1e-9) << "once";
 }
 
+TEST(Blast, WithinASolidWhoseFacesAllLookAwayLeavesItAlone) {
+  Scene scene = empty_scene();
+  scene.solids = {row(Vec3::Constant(-0.5), 1, false)};
+  scene.blasts = {{0, Vec3::Zero(), 5, 1000}};
+  ActRun run(scene);
+  for (int i = 0; i < 5; ++i) run.simulation->next();
+  EXPECT_EQ(run.state(0).velocity_W, Vec3(Vec3::Zero()));
+  EXPECT_EQ(run.state(0).angular_velocity_W, Vec3(Vec3::Zero()));
+}
+
 TEST(Blast, BreaksWhatItsEnergyCanAndPushesThePieces) {
   // Each box gets 0.36 i N·s: 0.065 i² / 1000 J together; the crack takes 100 J.
   for (const double impulse : {500.0, 5000.0}) {

@@ -3,6 +3,7 @@
 #include "engine/world/break/break_probe.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -87,8 +88,8 @@ TEST(BreakProbe, TellsWhichWayABlowGoesWhicheverBodyComesFirst) {
 }
 
 TEST(BreakProbe, FindsTheWorkOfABlowPassedAlongARow) {
-  for (const double gap_m : {0.0, 1e-3}) {
-    const int n = 6;
+  // Of twenty, more meet one after the other than are all looked at.
+  for (const auto& [n, gap_m] : {std::pair(6, 0.0), {6, 1e-3}, {20, 1e-3}}) {
     const double m = 3, v = 20;
     std::vector<ProbeBody> bodies = {pane()};
     std::vector<ProbeContact> contacts;
@@ -97,12 +98,28 @@ TEST(BreakProbe, FindsTheWorkOfABlowPassedAlongARow) {
       const auto self = static_cast<std::uint32_t>(i + 1);
       contacts.push_back(contact(self, self - 1, i == n - 1 ? 0 : gap_m));
     }
-    BreakProbe probe(bodies, contacts, 1.0 / 30, kStill_m_s);
+    BreakProbe probe(bodies, contacts, kStep_s, kStill_m_s);
     const auto loads = probe.next();
-    ASSERT_EQ(loads.size(), 1u) << gap_m;
+    ASSERT_EQ(loads.size(), 1u) << n << ", " << gap_m;
     const double work_J = 0.5 * m * v * v / n;
-    EXPECT_NEAR(loads[0].work_J, work_J, 0.05 * work_J) << gap_m;
+    EXPECT_NEAR(loads[0].work_J, work_J, 0.05 * work_J) << n << ", " << gap_m;
   }
+}
+
+TEST(BreakProbe, GoesOnToTheHardestOnceADozenHaveMet) {
+  std::vector<ProbeBody> bodies = {pane(), ball(100, Vec3(0, -5, 0)), pane(),
+                                   ball(0.01, Vec3(0, -10, 0))};
+  std::vector<ProbeContact> contacts = {contact(1, 0, 0.05), contact(3, 2, 0.06)};
+  for (int i = 0; i < 13; ++i) {
+    bodies.push_back(ball(1, Vec3(0, i == 0 ? -20 : 0, 0)));
+    const auto self = static_cast<std::uint32_t>(bodies.size() - 1);
+    if (i > 0) contacts.push_back(contact(self - 1, self, 1e-3));
+  }
+  // Of what is left, the light ball would be there first.
+  const auto loads = BreakProbe(bodies, contacts, kStep_s, kStill_m_s).next();
+  ASSERT_FALSE(loads.empty());
+  EXPECT_EQ(loads[0].body, 0u);
+  EXPECT_NEAR(loads[0].work_J, 0.5 * 100 * 25, 1);
 }
 
 TEST(BreakProbe, SharesAFlatLandingAmongTenColumns) {

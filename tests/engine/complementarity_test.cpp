@@ -78,6 +78,17 @@ TEST(Complementarity, TakesEnergyAndStopsWhatClosesHoweverUnlikeTheMasses) {
   EXPECT_GE(tight, 1950) << "the others as far as rounding allows";
 }
 
+TEST(Complementarity, IsTheSameInAnyUnits) {
+  Random random(8);
+  for (int i = 0; i < 200; ++i) {
+    const Contacts c = random_contacts(random);
+    const Eigen::VectorXd x = solve_complementarity(c.A, c.closing_m_s);
+    const double speed = std::exp2(-30), mass = std::exp2(20);  // exact, whatever is rounded
+    const Eigen::VectorXd scaled = solve_complementarity(c.A / mass, speed * c.closing_m_s);
+    ASSERT_EQ(scaled, speed * mass * x) << i;
+  }
+}
+
 TEST(Complementarity, OfOneContactIsItsClosedForm) {
   const Eigen::MatrixXd A = Eigen::MatrixXd::Constant(1, 1, 4);
   EXPECT_DOUBLE_EQ(solve_complementarity(A, Eigen::VectorXd::Constant(1, 2))[0], 0.5);

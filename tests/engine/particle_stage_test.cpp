@@ -98,7 +98,8 @@ class KickingPhysics final : public ScriptedPhysics {
 /// Two unit boxes of stone that fly along z, and a ball that parts them in the first step.
 struct ParticleRun {
   explicit ParticleRun(double dt_s, double smallest_piece_m3 = 0, double particles_per_m2 = 10,
-                       bool visual = false, const Vec3& kick_m_s = Vec3::Zero(), int late = 0) {
+                       bool visual = false, const Vec3& kick_m_s = Vec3::Zero(), int late = 0,
+                       const Vec3& spin_rad_s = Vec3::Zero()) {
     Material stone;
     stone.density_kg_m3 = 1000;
     stone.pattern.kind = PatternSpec::Kind::kVoronoi;
@@ -119,6 +120,7 @@ struct ParticleRun {
       solid.compound.anchored.push_back(0);
     }
     solid.velocity_W = Vec3(0, 0, 2);
+    solid.angular_velocity_W = spin_rad_s;
     scene.solids = {solid};
     scene.balls = {{"ball", 0.25, MaterialIndex(1), Vec3(-0.3, 0.5, 0.5), Vec3(60, 0, 2)}};
     auto owned = std::make_unique<RecordingParticles>();
@@ -163,6 +165,17 @@ TEST(ParticleStage, FacesMoveAsTheirPiecesDoOnceTheBlowHasDrivenThemApart) {
   const Vec3 corner = box.vertices[box.face_corners(0)[0]];
   EXPECT_LT((run.particles->faces[0].corners_W[0] - corner).norm(), 1e-9)
       << "they start where the frame began, so that they keep up with their piece";
+}
+
+TEST(ParticleStage, PiecesThatGoOnAsTheirSolidSpunDoNotPart) {
+  // Without a blow that would have driven them: what breaks takes no energy and pushes nothing.
+  ParticleRun run(1.0 / 60, 0, 10, false, Vec3::Zero(), 3, Vec3(2, 0, 0));
+  for (int i = 0; i < 4; ++i) run.simulation->next();
+  ASSERT_EQ(run.particles->faces.size(), 2u);
+  for (const RecordingParticles::Face& face : run.particles->faces) {
+    EXPECT_GT((face.emission.motion(face.corners_W[0]) - Vec3(0, 0, 2)).norm(), 0.1);
+    EXPECT_LT(face.emission.parting_m_s, 1e-9);
+  }
 }
 
 TEST(ParticleStage, AVisualMeshCrumblesWhereItsCapsAre) {

@@ -133,6 +133,27 @@ TEST(BreakStage, LeavesWholeWhatIsHitBelowItsStrength) {
   EXPECT_TRUE(run.simulation.next()->breaks.empty());
 }
 
+TEST(BreakStage, BreaksWhatIsWeakBesideWhatIsTooStrong) {
+  Solid strong{"strong", two_boxes(Vec3::Zero(), false), {}};
+  strong.compound.convexes[0] = make_convex(make_box(Vec3::Zero(), Vec3::Ones()), MaterialIndex(2));
+  const Solid weak{"weak", two_boxes(Vec3(3, 0, 0), false), {}};
+  Ball ball = ball_at(Vec3(2, 0.5, 1.3), Vec3(0, 0, -30));
+  Scene scene = scene_of({strong, weak}, {ball});
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[2].name = "granite";
+  scene.materials[2].strength_Ns = 1e9;
+  ScriptedRun run(scene, [](const ScriptedPhysics& physics, int) {
+    std::vector<Approach> both = physics.approach(2, 0, Vec3(0.5, 0.5, 1), Vec3(0, 0, -1));
+    for (const Approach& other : physics.approach(2, 1, Vec3(3.5, 0.5, 1), Vec3(0, 0, -1)))
+      both.push_back(other);
+    return both;
+  });
+  run.simulation.next();
+  const FramePtr frame = run.simulation.next();
+  ASSERT_EQ(frame->breaks.size(), 1u);
+  EXPECT_EQ(frame->report.counts.compounds, 3u) << "two pieces of what is weak";
+}
+
 TEST(BreakStage, LetsTheAnchoredPartStandAndTheRestGo) {
   const Solid solid{"box", two_boxes(Vec3::Zero(), true), {}};
   ScriptedRun run(scene_of({solid}, {ball_at(Vec3(2.3, 0.5, 0.5), Vec3(-9, 0, 0))}),

@@ -120,6 +120,23 @@ TEST(Polygon, overlap_of_any_polygons_is_that_of_their_convex_parts) {
   }
 }
 
+TEST(Polygon, overlap_of_a_triangle_and_a_dart_on_its_corners_is_the_dart) {
+  const std::vector<Vec2> triangle{{0, 0}, {4, 0}, {0, 4}};
+  const std::vector<Vec2> dart{{0, 0}, {4, 0}, {0, 4}, {1, 1}};
+  const std::span<const Vec2> a[] = {triangle}, b[] = {dart};
+  EXPECT_NEAR(overlap_area(a, b, 1e-12), 6, 1e-12);
+  EXPECT_NEAR(overlap_area(b, a, 1e-12), 6, 1e-12);
+}
+
+TEST(Polygon, overlap_of_what_is_the_same_but_for_rounding_is_all_of_it) {
+  const std::vector<Vec2> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  std::vector<Vec2> moved{{1, 1}, {0, 1}, {0, 0}, {1, 0}};  // from another corner on
+  for (Vec2& point : moved) point.x() += 1e-3;
+  const std::span<const Vec2> a[] = {square}, b[] = {moved};
+  EXPECT_EQ(overlap_area(a, b, 2e-3), 1);
+  EXPECT_NEAR(overlap_area(a, b, 1e-4), 0.999, 1e-12);
+}
+
 TEST(Polygon, distance_to_a_box_is_that_of_its_nearest_point) {
   const ConvexPolyhedron box = make_box(Vec3(0, 0, 0), Vec3(1, 2, 3));
   Random random(4);

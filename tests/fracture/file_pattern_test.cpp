@@ -88,6 +88,7 @@ TEST(FilePattern, says_what_is_wrong_with_a_file) {
   EXPECT_NE(message_of("g a\nv 0 0 0\nf 1 2 3\n").find("p.obj:3: vertex 2"), std::string::npos);
   EXPECT_NE(message_of("g a\nv 0 0 0\nf 1 1\n").find("three vertices"), std::string::npos);
   EXPECT_NE(message_of("g a\nv 0 0 0\nf 1 x 1\n").find("'x' is no vertex"), std::string::npos);
+  EXPECT_EQ(message_of("usemtl red" + box.substr(box.find('\n'))), "accepted") << "without groups";
   const std::string gap = as_obj(
       {make_box(Vec3(-1, -1, -1), Vec3(0, 1, 1)), make_box(Vec3(.5, -1, -1), Vec3(1, 1, 1))}, 6);
   EXPECT_NE(message_of(gap).find("overlap or leave gaps"), std::string::npos);

@@ -72,8 +72,9 @@ TEST(Fracture, breaks_every_solid_that_is_built_in) {
     EXPECT_EQ(broken_truth(solid, plan), "") << name;
     EXPECT_GT(plan.pieces.size(), 5u) << name;
   }
-  for (const char* name : {"", "box", "box:1,2", "box:1,2,-3", "torus:1,2", "grid:1.5,1,1",
-                           "voronoi:x", "ball:1", "voronoi:2e9"}) {
+  for (const char* name :
+       {"", "box", "box:1,2", "box:1,2,-3", "torus:1,2", "grid:1.5,1,1", "voronoi:x", "ball:1",
+        "voronoi:2e9", "grid:1000,1000,2", "grid:2,1000,1000"}) {
     EXPECT_THROW(make_solid(name), InputError) << name;
   }
 }

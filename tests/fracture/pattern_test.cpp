@@ -46,6 +46,20 @@ TEST(Pattern, of_a_web_tiles_its_box) {
   expect_tiling(pattern);
 }
 
+TEST(Pattern, of_a_web_ends_a_tenth_beyond_its_radius_at_most) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    double farthest = 0;
+    for (const Cell& cell : web_pattern(2, 24, 1, seed).cells) {
+      if (cell.outer) continue;
+      for (const Vec3& v : cell.polyhedron.vertices) {
+        farthest = std::max(farthest, std::hypot(v.x(), v.z()));
+      }
+    }
+    EXPECT_GT(farthest, 1);
+    EXPECT_LE(farthest, 1.1 + 1e-9);
+  }
+}
+
 TEST(Pattern, of_every_other_kind_tiles_its_box) {
   const Pattern grid = grid_pattern(5);
   EXPECT_EQ(grid.cells.size(), 125u + 6);

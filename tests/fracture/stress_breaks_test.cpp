@@ -84,6 +84,24 @@ TEST(StressBreaks, ACantileverWithstandsNineTenthsOfItsLoadForEverAndSnapsAtElev
   expect_snapped_at_root(answer.plan);
 }
 
+TEST(StressBreaks, WhatPartsIsLaidBareOnBothSides) {
+  const Compound compound = bar(kLength, kWidth, 40, 4);
+  const BreakPlan plan =
+      loaded(compound, weightless(kRootStrength), at_tip(compound, 1.1 * kSnaps_N)).plan;
+  ASSERT_GT(plan.new_area_m2, 0);
+  double bare_m2 = 0;
+  Vec3 out = Vec3::Zero();
+  for (const ExposedFace& exposed : plan.exposed) {
+    const ConvexPolyhedron& convex =
+        plan.pieces.at(exposed.piece).convexes.at(exposed.convex)->polyhedron;
+    EXPECT_LE(exposed.area_m2, face_area(convex, exposed.face) * (1 + 1e-9));
+    bare_m2 += exposed.area_m2;
+    out += exposed.area_m2 * convex.faces.at(exposed.face).plane.normal;
+  }
+  EXPECT_NEAR(bare_m2, 2 * plan.new_area_m2, 1e-12);
+  EXPECT_LT(out.norm(), 1e-12);
+}
+
 TEST(StressBreaks, ACantileverThatIsTooLongSnapsUnderItsOwnWeightAtTheRoot) {
   // 3 ρ g L² / h
   const double length = std::sqrt(kRootStrength * kWidth / (3 * kDensity * kGravity));

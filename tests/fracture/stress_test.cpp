@@ -1,15 +1,41 @@
 // Stress on bonds against the theory of beams, frames and arches.
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
 #include "engine/geometry/hull.h"
 #include "fracture/fracture.h"
 #include "fracture/pattern/pattern.h"
+#include "fracture/stress/spring_level.h"
 #include "fracture/stress/stress_system.h"
 #include "tests/fracture/frames.h"
 
 namespace sunder::fracture {
 namespace {
+
+TEST(SpringLevel, FindsTheSpringsAtItsNodes) {
+  constexpr std::uint32_t kNodes = 3000;
+  std::vector<Spring> springs(kNodes);  // a chain that hangs on the world
+  for (std::uint32_t i = 0; i < kNodes; ++i) {
+    springs[i] = {i, i > 0 ? i - 1 : Spring::kWorld, Vec3(i, 0, 0), 1, Mat3::Identity()};
+  }
+  const SpringLevel<double> level(kNodes, springs);
+  for (const auto& [first, last] : {std::pair(0u, 0u), {0u, kNodes}, {1024u, 2048u}, {7u, 8u}}) {
+    std::vector<int> seen(kNodes, 0);
+    level.for_springs_near([&](std::uint32_t node) { return node >= first && node < last; },
+                           [&](const Spring& spring) { ++seen[spring.a]; });
+    for (std::uint32_t i = 0; i < kNodes; ++i) {
+      ASSERT_LE(seen[i], 1) << i;
+      const bool has_an_end_there = i >= first && i <= last && first < last;
+      ASSERT_TRUE(seen[i] == 1 || !has_an_end_there) << i;
+    }
+    const bool any = std::count(seen.begin(), seen.end(), 1) > 0;
+    ASSERT_EQ(any, first < last);
+  }
+}
 
 TEST(Stress, ACantileversRootCarriesWhatBeamTheorySays) {
   for (const int across : {1, 2, 4}) {

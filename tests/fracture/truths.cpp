@@ -53,6 +53,7 @@ std::string broken_solid(const BreakPlan& plan) {
       if (ghost.of.empty() || ghost.of.back() >= piece.convexes.size()) return "a ghost of nothing";
       if (!std::is_sorted(ghost.of.begin(), ghost.of.end())) return "a ghost out of order";
     }
+    if (!std::ranges::is_sorted(piece.ghosts, {}, &Ghost::of)) return "ghosts out of order";
     if (!(volume(piece) > 0)) return "a piece without volume";
     const auto islands = find_islands(piece);
     if (*std::max_element(islands.begin(), islands.end()) > 0) return "a piece in two parts";

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -14,6 +16,7 @@
 #include "engine/base/random.h"
 #include "engine/geometry/repair/winding.h"
 #include "engine/io/mesh/mesh_reader.h"
+#include "fracture/vacd/nodes.h"
 #include "tests/mesh/meshes.h"
 
 namespace sunder::fracture {
@@ -233,6 +236,16 @@ TEST(Vacd, CellsWithinTheMeshAreInternal) {
   EXPECT_EQ(vacd.compound.bonds.size(), 54u);  // between neighbours in a 3 × 3 × 3 grid
 }
 
+TEST(Vacd, TwoNodesOfABarLieAtTheMeansOfTheSurfaceOfItsHalves) {
+  const PolygonMesh bar = polygon_mesh(make_box(Vec3::Zero(), Vec3(10, 1, 1)));
+  std::vector<Vec3> nodes = automatic_nodes(bar, 2);
+  ASSERT_EQ(nodes.size(), 2u);
+  if (nodes[0].x() > nodes[1].x()) std::swap(nodes[0], nodes[1]);
+  const double mean_m = 2.5 * 20 / 21;  // of four sides of 5 m², and one end of 1 m² at 0
+  EXPECT_LT((nodes[0] - Vec3(mean_m, 0.5, 0.5)).norm(), 0.2) << "as far as samples allow";
+  EXPECT_LT((nodes[1] - Vec3(10 - mean_m, 0.5, 0.5)).norm(), 0.2);
+}
+
 TEST(Vacd, FlatConvexPiecesNeedNoVisualMesh) {
   const Vacd vacd = decompose(cube(), grid_nodes());
   EXPECT_EQ(broken_promise(vacd.compound, cube()), "");
@@ -244,6 +257,19 @@ TEST(Vacd, FlatConvexPiecesNeedNoVisualMesh) {
     }
   }
   EXPECT_EQ(surface_faces, 54u);  // nine on each side of the cube
+}
+
+TEST(Vacd, ConvexPiecesThatAreShadedSmoothKeepTheirVisualMeshes) {
+  RepairedMesh mesh = cube();
+  PolygonMesh& shell = mesh.shells[0];
+  for (std::size_t c = 0; c < shell.corners.size(); ++c) {
+    const Vec3 out = shell.vertices[shell.corners[c]] - Vec3::Constant(0.5);
+    shell.corner_normals[c] = out.normalized().cast<float>();
+  }
+  const Vacd vacd = decompose(mesh, grid_nodes());
+  EXPECT_EQ(std::count_if(vacd.compound.convexes.begin(), vacd.compound.convexes.end(),
+                          [](const ConvexPtr& convex) { return convex->is_internal(); }),
+            1);
 }
 
 TEST(Vacd, NodesComeFromAFileAndErrorsNameTheLine) {

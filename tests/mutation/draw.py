@@ -3,7 +3,9 @@
 Read first: candidates(). Nothing here knows C++: a line is read by the spaces that clang-format
 puts around operators, and what does not compile is drawn again by mutate.py.
 """
+import random
 import re
+from collections import Counter
 from dataclasses import dataclass
 
 SPACE = "::sunder::mutants::"
@@ -26,6 +28,7 @@ SKIPPED = re.compile(r"^\s*#|\b(constexpr|static_assert|SUNDER_CHECK|reserve|shr
 
 # Statements that are not dropped: what declares would be missing, what controls has others within.
 DECLARATION = re.compile(r"[\w:]+(<.*>)?(::\w+)?( ?[&*]+ ?| )\w+( = |$|[{(,;\[])")
+NOTHING = re.compile(r"return( (\{\}|false|0u?|0\.0f?|nullptr|\w+::Zero\(\)))?")
 KEYWORDS = ("if", "for", "while", "do", "else", "goto", "const", "auto", "struct", "switch",
             "static", "try", "catch")
 
@@ -212,7 +215,7 @@ class Source:
             if "//" in text or word in KEYWORDS:
                 continue
             if word == "return":
-                if not re.fullmatch(r"return( (\{\}|false|0u?|0\.0f?|nullptr))?", text):
+                if not NOTHING.fullmatch(text):
                     self.offer("returns nothing", start, end + 1, "return {};", keep_lines(
                         f"{{ if ({SPACE}on<{{k}}>()) return {{}}; {text}; }}", text))
                 continue
@@ -248,7 +251,7 @@ class Source:
 
 
 def candidates(path, text):
-    """The mutants that a file offers: a list a line, of lists of mutants of one family."""
+    """What a file offers: of each line its code, and lists of mutants of one family."""
     source = Source(path, text)
     code_lines = source.code.split("\n")
     lines = {}
@@ -260,16 +263,19 @@ def candidates(path, text):
             if source.inside[mutant.start] and not SKIPPED.search(code_lines[mutant.line - 1]):
                 families = lines.setdefault(mutant.line, {})
                 families.setdefault(offers.__name__, []).append(mutant)
-    return [list(lines[line].values()) for line in sorted(lines)]
+    return [(code_lines[line - 1].strip(), list(lines[line].values())) for line in sorted(lines)]
 
 
-def draw(texts, folders, rng):
-    """Mutants without end, each of a line drawn evenly from all that offer one."""
-    lines = []
+def draw(texts, folders, seed):
+    """Mutants without end, each of a line drawn evenly from all that offer one. A line is drawn by
+    what it says: what changes elsewhere does not move it."""
+    drawn, alike = [], Counter()
     for path in sorted(texts):
         inside = path.startswith(tuple(f"{folder}/" for folder in folders))
         if inside and path.endswith((".h", ".cpp")):
-            lines += candidates(path, texts[path].decode())
-    rng.shuffle(lines)
-    for families in lines:
-        yield rng.choice(rng.choice(families))
+            for code, families in candidates(path, texts[path].decode()):
+                alike[path, code] += 1
+                rng = random.Random(f"{seed} {path} {code} {alike[path, code]}")
+                drawn.append((rng.random(), rng.choice(rng.choice(families))))
+    for _, mutant in sorted(drawn, key=lambda entry: entry[0]):
+        yield mutant

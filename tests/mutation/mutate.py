@@ -7,7 +7,6 @@ first: main(). All mutants are built at once (mutant.h); which one is on is chos
 import argparse
 import json
 import os
-import random
 import re
 import resource
 import shutil
@@ -100,7 +99,7 @@ def drawn(texts, seeds, count, wrong):
     mutants = {}
     for place, seed in enumerate(seeds):
         number, last = place * 1000, len(mutants) + count
-        for mutant in draw(texts, FOLDERS, random.Random(seed)):
+        for mutant in draw(texts, FOLDERS, seed):
             if len(mutants) == last:
                 break
             if fits(mutant, mutants.values()):

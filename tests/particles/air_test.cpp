@@ -70,6 +70,19 @@ TEST(Air, IsDisplacedByAMovingSlab) {
   EXPECT_LT(air.velocity(Vec3f(-0.25f, 0.9f, 0.5f)).z(), -0.02f);
 }
 
+TEST(Air, IsSolvedAsFastWhereverItIsBlown) {
+  const TestObstacles obstacles;
+  for (const int i : {1, 16, 32}) {
+    Air air = air_about(Vec3(0, 1, 0));
+    const std::size_t cell = air.grid().lattice.index(i, 8, 16);
+    air.add_dust(cell, 1e-3f);
+    air.add_momentum(cell, 1e-3f, Vec3f(10, 0, 0));
+    air.advance(kDt, Vec3::Zero(), obstacles.view());
+    EXPECT_GT(air.iterations(), 0) << i;
+    EXPECT_LE(air.iterations(), 6) << i;
+  }
+}
+
 TEST(Air, DoesNotPassAWall) {
   TestObstacles obstacles;
   obstacles.add_box(Vec3(0.6, 1, 0), Vec3(0.1, 5, 5));
@@ -193,7 +206,7 @@ TEST(PressureSolver, ReachesItsToleranceInAClosedRoomWithALeak) {
   }
   solver.inflow()[lattice.index(15, 8, 8)] = 1;
   solver.inflow()[lattice.index(12, 4, 3)] = -0.5f;
-  EXPECT_LE(solver.solve(1e-5f), 12);
+  EXPECT_LE(solver.solve(1e-5f), 9);
   for (const float left : solver.inflow()) ASSERT_LE(std::abs(left), 1e-5f);
 }
 

@@ -36,6 +36,47 @@ TEST(Joint, AHingeKeepsItsAxis) {
   EXPECT_NEAR(std::abs(open), 1.4 / (1.01 / 12 + 0.25), 0.01 * std::abs(open));
 }
 
+TEST(Joint, AHingeBetweenBodiesThatTumbleKeepsItsAxis) {
+  RigidWorld world(awake(Vec3::Zero()));
+  const Vec3 spin(3, 20, 1);
+  BodyDesc left = W::box(Vec3(0.9, 0.4, 0.3), Vec3(-0.5, 0, 0));
+  BodyDesc right = W::box(Vec3(0.8, 0.3, 0.5), Vec3(0.5, 0, 0));
+  for (BodyDesc* body : {&left, &right}) {
+    body->velocity_W = spin.cross(body->X_WB.position);
+    body->angular_velocity_W = spin;
+  }
+  const BodyId a = world.add(left), b = world.add(right);
+  const JointDesc joint = joint_at(world, Kind::kHinge, a, b, Vec3::Zero(), Vec3::UnitZ());
+  world.physics().join(joint);
+  const Vec3 L = world.angular_momentum();
+  const double energy = world.kinetic_energy();
+  double lean = 0, apart = 0;
+  for (int i = 0; i < 240; ++i) {
+    world.step(kDt_s, kSubsteps);
+    const Vec3 axis_a = world.state(a).X_WB.rotation * joint.axis_a_R;
+    const Vec3 axis_b = world.state(b).X_WB.rotation * joint.axis_b_R;
+    lean = std::max(lean, axis_a.cross(axis_b).norm());
+    apart = std::max(apart, gap(world, joint));
+  }
+  EXPECT_LT(lean, 2e-5);
+  EXPECT_LT(apart, 2e-5);
+  EXPECT_LT((world.angular_momentum() - L).norm(), 1e-5 * L.norm());
+  EXPECT_NEAR(world.kinetic_energy() / energy, 1, 1e-3);
+}
+
+TEST(Joint, AFixedJointDoesNotMindTheSignOfAQuaternion) {
+  RigidWorld world(awake());
+  BodyDesc box = W::box(Vec3(0.2, 0.1, 0.1), Vec3(0.1, 0, 0));
+  box.X_WB.rotation = Quat(-1, 0, 0, 0);
+  const BodyId id = world.add(box);
+  JointDesc joint = joint_at(world, Kind::kFixed, {}, id, Vec3::Zero());
+  joint.rotation_RaRb = Quat::Identity();  // the same, by the other quaternion
+  world.physics().join(joint);
+  world.run(0.2, kDt_s, kSubsteps);
+  EXPECT_LT((world.state(id).X_WB.position - Vec3(0.1, 0, 0)).norm(), 1e-4);
+  EXPECT_LT(world.state(id).velocity_W.norm(), 1e-3);
+}
+
 TEST(Joint, AnUprightDoorOnTwoHingesIsNotTornByOneTooMany) {
   RigidWorld world(awake());
   const BodyId door = world.add(W::box(Vec3(1, 2, 0.1), Vec3(0.5, 0, 0)));
@@ -164,12 +205,15 @@ TEST(Joint, WhatIsJoinedSleepsAndWakesTogether) {
   const BodyId a = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(0, 0.25, 0)));
   const BodyId b = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(2, 0.25, 0)));
   const BodyId hanging = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(4, 2, 0)));
+  const BodyId first = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(6, 2, 0)));
   JointDesc rod = joint_at(world, Kind::kDistance, a, b, Vec3(0, 0.25, 0));
   rod.anchor_a_R = rod.anchor_b_R = Vec3::Zero();
   rod.length_m = 2;
   const JointId id = world.physics().join(rod);
   world.physics().join(joint_at(world, Kind::kBall, {}, hanging, Vec3(4, 2.25, 0)));
+  world.physics().join(joint_at(world, Kind::kBall, first, {}, Vec3(6, 2.25, 0)));
   world.run(3, kDt_s, 4);
+  EXPECT_TRUE(world.state(first).asleep) << "whichever end the world is";
   EXPECT_TRUE(world.state(a).asleep && world.state(b).asleep && world.state(hanging).asleep);
   world.physics().apply_impulse(a, Vec3(0, 5, 0), Vec3(0, 0.25, 0));
   world.step(kDt_s, 4);
@@ -223,6 +267,31 @@ TEST(Joint, ReportsWhatHangsOnBothItsBodies) {
       EXPECT_LT(back.norm(), 1e-3 * weight_Ns.norm());
     }
     EXPECT_TRUE(world.state(b).asleep) << "and sleepers are borne as well";
+  }
+}
+
+TEST(Joint, WhatIsJoinedThroughOthersToWhatMovesDoesNotRest) {
+  for (const double spin_rad_s : {0.0, 20.0}) {
+    RigidWorld world;
+    world.add(W::ground());
+    std::vector<BodyId> bodies;
+    for (int i = 0; i < 4; ++i) {
+      bodies.push_back(world.add(W::box(Vec3::Ones(), Vec3(1.5 * i, 0.5, 0))));
+    }
+    BodyDesc wheel = W::sphere(0.2, Vec3(6, 0.5, 0));
+    wheel.angular_velocity_W = Vec3(0, 0, spin_rad_s);
+    bodies.push_back(world.add(wheel));
+    for (std::size_t i = 0; i < 4; ++i) {  // that of the wheel comes last
+      const Kind kind = i < 3 ? Kind::kBall : Kind::kHinge;
+      const Vec3 at = i < 3 ? Vec3(1.5 * double(i) + 0.75, 0.5, 0) : wheel.X_WB.position;
+      world.physics().join(joint_at(world, kind, bodies[i], bodies[i + 1], at));
+    }
+    bool any = false;
+    for (int step = 0; step < 360; ++step) {
+      world.step(kDt_s, 4);
+      for (const BodyId body : bodies) any |= world.state(body).asleep;
+    }
+    EXPECT_EQ(any, spin_rad_s == 0);
   }
 }
 

@@ -145,6 +145,46 @@ TEST(Planar, ApproachesTellSpeedAndMassOfWhatWillMeetWithinTheStep) {
   EXPECT_NEAR(found[0].effective_mass_kg, ball.mass_kg, 1e-3 * ball.mass_kg);
 }
 
+TEST(Planar, ApproachesAreFoundWhicheverOfTwoMoves) {
+  for (const int fast : {0, 1}) {
+    RigidWorld world = plane();
+    for (const int i : {0, 1}) {
+      BodyDesc ball = W::sphere(0.5, Vec3(i == 0 ? -0.6 : 0.6, 0, 0));
+      if (i == fast) ball.velocity_W = Vec3(i == 0 ? 20 : -20, 0, 0);
+      world.add(ball);
+    }
+    world.physics().collide(1.0 / 60);
+    EXPECT_EQ(world.physics().approaches().size(), 1u) << fast;
+  }
+}
+
+TEST(Planar, PenetrationsAreOfWhatPresses) {
+  RigidWorld world = plane();
+  world.add(W::ground());
+  world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+  world.run(0.25, 1.0 / 60, 4);
+  const std::vector<float> depths_m = world.physics().penetrations();
+  ASSERT_EQ(depths_m.size(), 2u) << "at either corner";
+  for (const float depth_m : depths_m) EXPECT_LT(depth_m, 2e-3f);
+  PlanarOptions weightless;
+  weightless.gravity_W = Vec3::Zero();
+  RigidWorld loose(make_planar_physics(weightless));
+  loose.add(W::ground());
+  loose.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+  loose.run(0.25, 1.0 / 60, 4);
+  EXPECT_TRUE(loose.physics().penetrations().empty());
+}
+
+TEST(Planar, WhatLiesStillAHairApartTouches) {
+  RigidWorld world = plane();
+  world.add(W::fixed(W::box(Vec3(2, 1, 1), Vec3(0, -0.5, 0))));
+  const BodyId id = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.502, 0)));
+  world.physics().collide(1e-6);
+  const std::vector<Touch> touches = world.physics().touches(std::span(&id, 1));
+  ASSERT_EQ(touches.size(), 2u);
+  for (const Touch& touch : touches) EXPECT_NEAR(touch.separation_m, 0.002, 1e-5);
+}
+
 TEST(Planar, TouchesNameBothBodiesAndWhereTheyMeet) {
   RigidWorld world = plane();
   world.add(W::ground());
@@ -257,6 +297,20 @@ TEST(Planar, ABodyThatIsNoLongerFiniteIsFrozenAndCounted) {
   EXPECT_EQ(world.step(1.0 / 60, 4).frozen, 1u);
   EXPECT_EQ(world.step(1.0 / 60, 4).frozen, 0u);
   EXPECT_TRUE(world.state(id).X_WB.position.allFinite());
+}
+
+TEST(Planar, ABodyFasterThanAnythingIsFrozenAndWhatItHadIsInTheBooks) {
+  PlanarOptions weightless;
+  weightless.gravity_W = Vec3::Zero();
+  RigidWorld world(make_planar_physics(weightless));
+  const BodyDesc box = W::box(Vec3(1, 1, 1), Vec3::Zero());
+  const BodyId id = world.add(box);
+  world.physics().apply_impulse(id, Vec3(2e9 * box.mass_kg, 0, 0), Vec3::Zero());
+  const SolveReport report = world.step(1.0 / 60, 4);
+  EXPECT_EQ(report.frozen, 1u);
+  EXPECT_EQ(report.momentum_after_Ns, Vec3(Vec3::Zero()));
+  EXPECT_NEAR(report.external_impulse_Ns.x(), -report.momentum_before_Ns.x(), 1e-5 * 2e9 * 1e4);
+  EXPECT_EQ(world.state(id).velocity_W, Vec3(Vec3::Zero()));
 }
 
 TEST(Planar, TheSameBitsComeOutOfEveryRunAndAnyNumberOfThreads) {

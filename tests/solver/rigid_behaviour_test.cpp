@@ -131,6 +131,31 @@ TEST(RigidPhysics, ReportsApproachesBeforeTheyTouch) {
   EXPECT_LT((approach.point_W - Vec3(-0.05, 0.3, 0)).norm(), 1e-4);
 }
 
+/// After how many steps a cube's approach to a leaning plank is reported; both are as they are
+/// whichever way they were turned when they were modelled.
+int steps_to_approach(bool turned) {
+  RigidWorld world(weightless());
+  BodyDesc plank = W::box(turned ? Vec3(0.1, 2, 2) : Vec3(2, 0.1, 2), Vec3::Zero());
+  BodyDesc cube = W::box(Vec3::Constant(0.4), Vec3(-1.2, 0, 0));
+  const double angle = (turned ? -0.25 : 0.25) * 3.14159265358979;
+  plank.X_WB.rotation = cube.X_WB.rotation = Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
+  cube.velocity_W = Vec3(20, 0, 0);
+  world.add(W::fixed(plank));
+  world.add(cube);
+  for (int step = 0; step < 20; ++step) {
+    world.physics().collide(1.0 / 200);
+    if (!world.physics().approaches().empty()) return step;
+    world.physics().solve(1.0 / 200, 1);
+  }
+  return -1;
+}
+
+TEST(RigidPhysics, ReportsAnApproachHoweverTheBodiesWereTurnedWhenTheyWereModelled) {
+  // Its face is 1.2/√2 − 0.25 m from the plank's and closes by 0.1/√2 m a step.
+  EXPECT_EQ(steps_to_approach(false), 8);
+  EXPECT_EQ(steps_to_approach(true), 8);
+}
+
 TEST(RigidPhysics, ReportsWhatPressesOnABodyThatBearsLoadAsleepOrAwake) {
   RigidWorld world;
   BodyDesc table = W::fixed(W::box(Vec3(2, 1, 2), Vec3(0, 0.5, 0)));

@@ -7,6 +7,7 @@
 
 #include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
+#include "solver/rigid/contact/sweep_kernels.h"
 
 namespace sunder::solver {
 namespace {
@@ -120,6 +121,32 @@ void expect_convergence(const char* name, const std::vector<BodyDesc>& bodies) {
       EXPECT_LT(curve[i], std::max(curve[i - 1], 1e-3)) << max_colors << " " << i;
     EXPECT_LT(curve.back(), 0.01) << max_colors;
   }
+}
+
+TEST(Splitting, LeavesTheSpringBetweenBodiesAsItWas) {
+  Softness soft;
+  soft.mass_scale = 0.8f, soft.impulse_scale = 0.2f;
+  for (const float parts : {1.f, 2.f, 7.f}) {
+    const auto spring = Spring<Wide>::of<true>(soft, splat<Wide>(parts));
+    EXPECT_NEAR(spring.mass_scale[0] + spring.impulse_scale[0], 1, 1e-6);
+    // Parts so many times lighter take so many times the share of what the spring gives.
+    EXPECT_NEAR(parts * spring.mass_scale[0] / spring.impulse_scale[0], 4, 1e-5);
+  }
+}
+
+TEST(Splitting, SlowsASpinOnTheSpotAsColouredSweepsDo) {
+  std::array<double, 2> left_rad_s;
+  for (std::size_t i = 0; i < 2; ++i) {
+    RigidWorld world(with(i == 0 ? 0 : 64));
+    std::vector<BodyDesc> bodies = stack(2);
+    bodies[2].angular_velocity_W = Vec3(0, 5, 0);
+    add(bodies, world);
+    world.run(0.1, kDt_s, 8);
+    left_rad_s[i] = world.state(world.id(2)).angular_velocity_W.y();
+  }
+  EXPECT_GT(left_rad_s[1], 0.5);
+  EXPECT_LT(left_rad_s[1], 4);
+  EXPECT_NEAR(left_rad_s[0], left_rad_s[1], 0.05 * left_rad_s[1]);
 }
 
 TEST(Splitting, ComesToTheSolutionOfColouredSweepsInAFrozenPile) {
