@@ -231,8 +231,6 @@ Truths load_truths() {
             spinning(ring, ring_rad_s), {0.036, 0.036, 0.036, 0.036}),
       truth(36, "cantilever struck at its tip: length left standing", "", "largest moment", 0.1,
             left_standing, {0.01, 0.01, 0.01, 0.01}),
-      truth(36, "beam struck at midspan, portal at a corner: place of the break", "",
-            "largest moment", 0.1, nullptr, {}),
   };
 }
 

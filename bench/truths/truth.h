@@ -57,6 +57,7 @@ Truths sphere_truths();
 Truths energy_truths();
 Truths break_truths();
 Truths load_truths();
+Truths blow_truths();
 Truths through_truths();
 
 /// All of these, in the order of their rows.

@@ -123,7 +123,15 @@ class StressMemory {
 };
 using StressMemoryPtr = std::shared_ptr<const StressMemory>;
 
-/// The steady load on a structure.
+/// What hits a structure within no time.
+struct Blow {
+  std::span<const Load> impulses;  ///< N·s in place of N.
+  double energy_J = 0;             ///< The work that they would do on it: see break_probe.h.
+  Vec3 center_R = Vec3::Zero();    ///< Where it lands,
+  double reach_m = 0;              ///< and what a break by pattern would reach from there.
+};
+
+/// The steady load on a structure, and what hits it besides.
 struct LoadCase {
   std::span<const Material> materials;  ///< By MaterialIndex.
   std::span<const Load> loads;          ///< Besides its own weight.
@@ -132,6 +140,14 @@ struct LoadCase {
   /// To spend on the answer, in visits of bonds, about: a few iterations are made in any case.
   std::uint64_t most_work = 0;
   StressMemoryPtr memory;  ///< Of this structure, or of what it was a piece of; null at first.
+  Blow blow = {};          ///< None, as a rule.
+};
+
+/// What a blow amounts to, before anything gives way.
+struct BlowStress {
+  double local = 1;             ///< Share of its energy that stays within reach of where it lands.
+  double worst = 0;             ///< Highest stress, in parts of the limit,
+  Vec3 worst_R = Vec3::Zero();  ///< and where.
 };
 
 /// What becomes of a structure under a load.
@@ -141,6 +157,7 @@ struct StressAnswer {
   bool settled = false;    ///< Nothing is left to do until the load, or the compound, changes.
   std::uint64_t work = 0;  ///< Spent.
   StressMemoryPtr memory;  ///< For the next time, of any of the pieces.
+  BlowStress blow;         ///< If there was one.
 };
 
 /// Decides what breaks. Pure and const: any thread may ask about any structure.

@@ -79,12 +79,12 @@ struct FrameDust {
 
 struct BreakEvent {
   double time_s = 0;
-  std::uint64_t body_key = 0;  ///< Of the body that broke.
-  Vec3 point_W = Vec3::Zero();
-  double energy_J = 0;  ///< Taken from the impact.
+  std::uint64_t body_key = 0;   ///< Of the body that broke.
+  Vec3 point_W = Vec3::Zero();  ///< Where it was hit, or where a blow elsewhere bent it most.
+  double energy_J = 0;          ///< Taken from the impact.
   double new_area_m2 = 0;
-  double plan_ms = 0;  ///< Wall time of the fracture.
-  std::uint32_t pieces = 0;
+  double plan_ms = 0;        ///< Wall time of the fracture.
+  std::uint32_t pieces = 0;  ///< That it is in now; 1: it is cracked.
 };
 
 /// The stages of a step, in order.

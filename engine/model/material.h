@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -94,7 +95,21 @@ struct Material {
   Crumbling crumbling;
 
   bool breakable() const { return pattern.kind != PatternSpec::Kind::kNone; }
+  /// Infinite if no stress breaks it.
+  double weakest_Pa() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const double limit : {tensile_Pa, shear_Pa, compressive_Pa})
+      if (limit > 0 && limit < least) least = limit;
+    return least;
+  }
   bool breaks_by_load() const { return tensile_Pa > 0 || shear_Pa > 0 || compressive_Pa > 0; }
 };
+
+/// Energy that a crack takes where two materials meet: each side pays for itself, unless only one
+/// of them breaks.
+inline double crack_J_m2(const Material& a, const Material& b) {
+  if (a.breakable() != b.breakable()) return (a.breakable() ? a : b).toughness_J_m2;
+  return 0.5 * (a.toughness_J_m2 + b.toughness_J_m2);
+}
 
 }  // namespace sunder

@@ -102,6 +102,30 @@ void ConvexMasses::balance(std::span<const ConvexLoad> loads, const Vec3& gravit
   }
 }
 
+SwingResponse ConvexMasses::response(std::span<const ConvexLoad> loads,
+                                     std::span<const Displacement> displacements) const {
+  std::vector<Vec3> forces_N, torques_Nm;
+  balance(loads, Vec3::Zero(), Vec3::Zero(), forces_N, torques_Nm);
+  SwingResponse all;
+  for (std::size_t c = 0; c < centroids_.size(); ++c) {
+    const Vec3 &u = displacements[c].shift_R, &turn = displacements[c].rotation_R;
+    all.work_J += forces_N[c].dot(u) + torques_Nm[c].dot(turn);
+    all.mass_kg_m2 += masses_kg_[c] * u.squaredNorm() + turn.dot(inertias_[c] * turn);
+  }
+  for (const Loose& loose : loose_) {
+    Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+    for (const std::uint32_t c : loose.convexes) {
+      const Vec3 push = masses_kg_[c] * displacements[c].shift_R;
+      linear += push;
+      angular +=
+          (centroids_[c] - loose.com_R).cross(push) + inertias_[c] * displacements[c].rotation_R;
+    }
+    all.mass_kg_m2 -=
+        linear.squaredNorm() / loose.mass_kg + angular.dot(loose.inverse_inertia * angular);
+  }
+  return all;
+}
+
 double ConvexMasses::applied_N(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
                                const Vec3& spin_R) const {
   double applied_N = 0;

@@ -19,6 +19,18 @@ struct ConvexLoad {
   Vec3 torque_Nm = Vec3::Zero();
 };
 
+/// Small displacement of a convex: of its centroid, in metres, and its rotation vector, in radians.
+struct Displacement {
+  Vec3 shift_R = Vec3::Zero();
+  Vec3 rotation_R = Vec3::Zero();
+};
+
+/// What forces do on displacements, and what there is to be moved on the way.
+struct SwingResponse {
+  double work_J = 0;      ///< Σ f·u: twice the energy of springs that the forces have bent.
+  double mass_kg_m2 = 0;  ///< Σ m u², but for what moves a loose island as a whole.
+};
+
 /// Masses, centroids and inertias per convex, and the islands that nothing anchors.
 class ConvexMasses {
  public:
@@ -37,6 +49,9 @@ class ConvexMasses {
   /// a loose island as a whole, which spins at `spin_R` (rad/s).
   void balance(std::span<const ConvexLoad> loads, const Vec3& gravity_R, const Vec3& spin_R,
                std::vector<Vec3>& forces_N, std::vector<Vec3>& torques_Nm) const;
+  /// What loads without weight do.
+  SwingResponse response(std::span<const ConvexLoad> loads,
+                         std::span<const Displacement> displacements) const;
   /// The sizes of all loads, weights and centrifugal forces, summed: what rounding is measured by.
   double applied_N(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
                    const Vec3& spin_R) const;

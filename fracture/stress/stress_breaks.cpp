@@ -3,49 +3,27 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <tuple>
-#include <unordered_map>
+#include <span>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "fracture/adjacency/islands.h"
-#include "fracture/stress/stress_system.h"
+#include "fracture/stress/stress_memory.h"
 
 namespace sunder::fracture {
 namespace {
 
-constexpr double kTolerance = 1e-3;  // of the solve
+constexpr double kTolerance = 1e-3, kBlowTolerance = 1e-2;  // of the solve
 // Of an overloaded region the worst bond goes, and those of its plane whose stress is this near:
 // by symmetry many are alike, and which is a shade worse is rounding.
 constexpr double kAlike = 0.97;
 constexpr int kRounds = 64;            // of cutting and solving again in one answer
 constexpr int kMostIterations = 2000;  // a solve that needs more is given up, and cuts nothing
-// Iterations that making a system costs, about, and editing one.
-constexpr std::uint64_t kSetUpWork = 10, kEditWork = 4;
-// A system is edited if so much of it stays; else it is made anew.
-constexpr double kStays = 0.5;
 // However much making the system took: or breaks in every frame would keep it from being solved.
 constexpr std::uint64_t kLeastIterations = 2;
 // Stress at a bond's own corners is at most so many times that of its section: those well below
 // the limit need no closer look.
 constexpr double kWorthALook = 0.6;
-
-/// What is handed back to the next solve.
-struct Memory final : StressMemory {
-  std::vector<ConvexSlot> slots;  ///< Per convex.
-  std::vector<ConvexPtr> convexes;
-  std::vector<std::uint8_t> anchored;
-  std::vector<Bond> bonds;
-  std::shared_ptr<const StressSystem> system;
-  std::vector<Displacement> displacements;
-  int iterations = 0;  ///< Without coming to an end.
-
-  bool is_of(const Compound& compound) const {
-    // Bonds are only ever lost, so their number tells.
-    return bonds.size() == compound.bonds.size() && convexes == compound.convexes &&
-           anchored == compound.anchored;
-  }
-};
 
 struct Limits {
   double tensile_Pa, shear_Pa, compressive_Pa;
@@ -67,34 +45,7 @@ double part_of(const BondStress& stress, const Limits& limits) {
                    stress.compression_Pa / limits.compressive_Pa});
 }
 
-auto place_of(const Bond& bond) { return std::tie(bond.a, bond.b, bond.face_a, bond.face_b); }
-
-constexpr std::uint32_t kNew = StressOrigin::kNew;
-
-/// Where the convexes and bonds of a compound, with these slots, were in what the memory is of; few
-/// are known if that was no earlier state of the same structure.
-StressOrigin origin_in(const Memory& old, const Compound& compound,
-                       const std::vector<ConvexSlot>& slots) {
-  StressOrigin origin;
-  std::uint32_t was = 0;
-  for (std::uint32_t c = 0; c < slots.size(); ++c) {
-    while (was < old.slots.size() && old.slots[was] < slots[c]) ++was;
-    const bool known = was < old.slots.size() && old.slots[was] == slots[c] &&
-                       old.convexes[was] == compound.convexes[c];
-    origin.convexes.push_back(known ? was : kNew);
-  }
-  std::uint32_t next = 0;
-  for (Bond bond : compound.bonds) {
-    bond.a = origin.convexes[bond.a];
-    bond.b = origin.convexes[bond.b];
-    origin.bonds.push_back(kNew);
-    if (bond.a == kNew || bond.b == kNew) continue;
-    while (next < old.bonds.size() && place_of(old.bonds[next]) < place_of(bond)) ++next;
-    if (next == old.bonds.size() || place_of(old.bonds[next]) != place_of(bond)) continue;
-    origin.bonds.back() = next;
-  }
-  return origin;
-}
+constexpr std::uint32_t kNone = 0xffffffff;
 
 /// A structure while its bonds are cut.
 class StressBreaks {
@@ -103,28 +54,26 @@ class StressBreaks {
       : compound_(structure.compound()),
         slots_(structure.slots()),
         load_(load),
-        memory_(std::make_shared<Memory>()) {
-    for (const Load& one : load.loads) {
-      const auto at = std::lower_bound(slots_.begin(), slots_.end(), one.convex);
-      const auto convex = static_cast<std::uint32_t>(at - slots_.begin());
-      loads_.push_back({convex, one.force_N, one.point_R, one.torque_Nm});
-    }
-  }
+        loads_(by_convex(load.loads)),
+        impulses_(by_convex(load.blow.impulses)),
+        blow_J_(load.blow.energy_J) {}
 
   StressAnswer run() {
     StressAnswer answer;
-    recall(answer);
+    memory_ = recall(load_.memory.get(), compound_, slots_, load_.materials, answer.work);
     most_work_ =
         std::max(load_.most_work, answer.work + kLeastIterations * memory_->system->work());
     for (int round = 0; round < kRounds; ++round) {
-      if (!solve(answer)) break;
+      if (!solve(answer) || !strike(answer)) break;
       const std::vector<std::uint32_t> cut = overloaded(answer);
+      if (round == 0) note_blow(answer);
       if (cut.empty()) {
         answer.settled = true;
         break;
       }
       remove(cut);
       answer.work += kEditWork * memory_->system->work();
+      if (!impulses_.empty() && parted()) break;  // what is struck is another body now
     }
     part(answer.edit);
     memory_->slots = slots_;
@@ -136,107 +85,93 @@ class StressBreaks {
   }
 
  private:
-  /// Takes over what is known of the compound, or of what it was a part of.
-  void recall(StressAnswer& answer) {
-    const auto* old = dynamic_cast<const Memory*>(load_.memory.get());
-    if (old && old->is_of(compound_)) {
-      *memory_ = *old;
-      return;
+  std::vector<ConvexLoad> by_convex(std::span<const Load> loads) const {
+    std::vector<ConvexLoad> all;
+    for (const Load& one : loads) {
+      const auto at = std::lower_bound(slots_.begin(), slots_.end(), one.convex);
+      const auto convex = static_cast<std::uint32_t>(at - slots_.begin());
+      all.push_back({convex, one.force_N, one.point_R, one.torque_Nm});
     }
-    memory_->displacements.resize(compound_.convexes.size());
-    if (old && edit_system(*old)) {
-      answer.work += kEditWork * memory_->system->work();
-      return;
-    }
-    make_system(old);
-    answer.work += kSetUpWork * memory_->system->work();
+    return all;
   }
 
-  /// False if too little of the system is still there.
-  bool edit_system(const Memory& old) {
-    const StressOrigin origin = origin_in(old, compound_, slots_);
-    const auto known = std::ranges::count_if(origin.convexes, [](auto was) { return was != kNew; });
-    if (static_cast<double>(known) < kStays * static_cast<double>(old.slots.size())) return false;
-    for (std::size_t c = 0; c < origin.convexes.size(); ++c) {
-      if (origin.convexes[c] != kNew) {
-        memory_->displacements[c] = old.displacements[origin.convexes[c]];
-      }
-    }
-    std::vector<BondGeometry> geometry;
-    for (std::size_t i = 0; i < origin.bonds.size(); ++i) {
-      geometry.push_back(origin.bonds[i] != kNew ? old.system->geometry()[origin.bonds[i]]
-                                                 : bond_geometry(compound_, compound_.bonds[i]));
-    }
-    memory_->system = std::make_shared<const StressSystem>(
-        *old.system, compound_, std::move(geometry), load_.materials, origin);
-    return true;
-  }
-
-  void make_system(const Memory* old) {
-    std::vector<BondGeometry> geometry(compound_.bonds.size());
-    std::vector<std::uint32_t> old_of_new(compound_.convexes.size(), kNew);
-    if (old) {
-      std::unordered_map<const Convex*, std::uint32_t> numbers;
-      for (std::uint32_t c = 0; c < old->convexes.size(); ++c) {
-        numbers.emplace(old->convexes[c].get(), c);
-      }
-      for (std::uint32_t c = 0; c < old_of_new.size(); ++c) {
-        const auto found = numbers.find(compound_.convexes[c].get());
-        if (found == numbers.end()) continue;
-        old_of_new[c] = found->second;
-        memory_->displacements[c] = old->displacements[found->second];
-      }
-    }
-    for_chunks(geometry.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const BondGeometry* known = old ? known_geometry(*old, old_of_new, i) : nullptr;
-        geometry[i] = known ? *known : bond_geometry(compound_, compound_.bonds[i]);
-      }
-    });
-    memory_->system = std::make_shared<const StressSystem>(
-        compound_, std::move(geometry), load_.materials, StressSystem::spare_nodes(compound_));
-  }
-
-  const BondGeometry* known_geometry(const Memory& old,
-                                     const std::vector<std::uint32_t>& old_of_new,
-                                     std::size_t i) const {
-    Bond bond = compound_.bonds[i];
-    bond.a = old_of_new[bond.a];
-    bond.b = old_of_new[bond.b];
-    if (bond.a == kNew || bond.b == kNew || bond.a > bond.b) return nullptr;
-    const auto at =
-        std::lower_bound(old.bonds.begin(), old.bonds.end(), bond,
-                         [](const Bond& x, const Bond& y) { return place_of(x) < place_of(y); });
-    if (at == old.bonds.end() || place_of(*at) != place_of(bond)) return nullptr;
-    return &old.system->geometry()[static_cast<std::size_t>(at - old.bonds.begin())];
-  }
-
-  /// False if the stress is not known by now: there is no work left, or it is given up.
-  bool solve(StressAnswer& answer) {
+  /// False if there is no work left, or it is given up.
+  bool improve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, const Vec3& spin_R,
+               double tolerance, std::vector<Displacement>& displacements, int& iterations,
+               StressAnswer& answer) {
     const std::uint64_t each = std::max<std::uint64_t>(1, memory_->system->work());
     if (answer.work >= most_work_) return false;
     const auto left = static_cast<int>(
         std::min<std::uint64_t>(kMostIterations, 1 + (most_work_ - answer.work) / each));
-    const SolveResult result = memory_->system->solve(loads_, load_.gravity_R, kTolerance, left,
-                                                      memory_->displacements, load_.spin_R);
+    const SolveResult result =
+        memory_->system->solve(loads, gravity_R, tolerance, left, displacements, spin_R);
     answer.work += each * static_cast<std::uint64_t>(1 + result.iterations);
-    memory_->iterations = result.converged ? 0 : memory_->iterations + result.iterations;
-    answer.settled = memory_->iterations >= kMostIterations;
+    iterations = result.converged ? 0 : iterations + result.iterations;
     return result.converged;
   }
 
-  /// The worst bonds of each overloaded region, ascending.
-  std::vector<std::uint32_t> overloaded(StressAnswer& answer) const {
+  /// False if the stress of the steady load is not known by now.
+  bool solve(StressAnswer& answer) {
+    const bool known = improve(loads_, load_.gravity_R, load_.spin_R, kTolerance,
+                               memory_->displacements, memory_->iterations, answer);
+    answer.settled = memory_->iterations >= kMostIterations;
+    return known;
+  }
+
+  /// Adds what the blow does, at its worst, to what the load does; false if that is not known.
+  ///
+  /// The structure swings out the way that the impulses, as forces, would bend it: by u, in which
+  /// these do the work 2U. Swinging so at a rate q it has the energy ½Mq², M = Σ m u², and what
+  /// strikes it ½mq²; that m is what the impulses, 2U in this direction, and the work that they
+  /// do, W = (2U)² / 2m, tell. Cox (1849): they swing on together, and bend it by λu at most, when
+  /// all of that energy is in the bending: λ² = 2U / (m + M). The rest, a share M / (m + M) of W,
+  /// stays where the blow lands, and so does what is bent there.
+  bool strike(StressAnswer& answer) {
+    if (impulses_.empty()) return true;
+    int iterations = 0;
+    if (!improve(impulses_, Vec3::Zero(), Vec3::Zero(), kBlowTolerance, swing_, iterations, answer))
+      return false;
+    const auto [work, mass] = memory_->system->response(impulses_, swing_);
+    const double striker = work * work / (2 * blow_J_);
+    if (!(work > 0) || !(blow_J_ > 0)) return false;
+    const double most = std::sqrt(work / (striker + mass));
+    const double bent_near =
+        memory_->system->energy_J(swing_, load_.blow.center_R, load_.blow.reach_m);
+    local_ = (mass + striker * std::min(1.0, 2 * bent_near / work)) / (striker + mass);
+    bent_ = memory_->displacements;
+    for (std::size_t c = 0; c < bent_.size(); ++c) {
+      bent_[c].shift_R += most * swing_[c].shift_R;
+      bent_[c].rotation_R += most * swing_[c].rotation_R;
+    }
+    return true;
+  }
+
+  std::span<const Displacement> displacements() const {
+    return impulses_.empty() ? memory_->displacements : bent_;
+  }
+
+  void note_blow(StressAnswer& answer) const {
+    if (impulses_.empty()) return;
+    answer.blow.local = local_;
+    answer.blow.worst = answer.worst;
+    if (worst_ != kNone) answer.blow.worst_R = memory_->system->geometry()[worst_].centroid_R;
+  }
+
+  /// The worst bonds of each overloaded region, ascending; of a blow the worst of all, which go
+  /// first.
+  std::vector<std::uint32_t> overloaded(StressAnswer& answer) {
     std::vector<double> parts(compound_.bonds.size(), 0);
     for_chunks(parts.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) parts[i] = part_of_limit(i);
     });
-    answer.worst = 0;
+    const auto most = std::ranges::max_element(parts);
+    answer.worst = most == parts.end() ? 0 : *most;
+    worst_ = answer.worst > 0 ? static_cast<std::uint32_t>(most - parts.begin()) : kNone;
+    const double least = impulses_.empty() ? 1 : std::max(1.0, kAlike * answer.worst);
     std::vector<Bond> too_weak;
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
-      answer.worst = std::max(answer.worst, parts[i]);
-      if (parts[i] <= 1) continue;
+      if (parts[i] <= least) continue;
       too_weak.push_back(compound_.bonds[i]);
       numbers.push_back(i);
     }
@@ -244,31 +179,41 @@ class StressBreaks {
     // Overloaded bonds that share a convex are one region.
     const std::vector<std::uint32_t> region = find_islands(compound_.convexes.size(), too_weak);
     const auto region_of = [&](std::uint32_t i) { return region[compound_.bonds[i].a]; };
-    std::vector<std::uint32_t> worst(compound_.convexes.size(), kNew);
+    std::vector<std::uint32_t> worst(compound_.convexes.size(), kNone);
     for (const std::uint32_t i : numbers) {
-      std::uint32_t& most = worst[region_of(i)];
-      if (most == kNew || parts[i] > parts[most]) most = i;
+      std::uint32_t& most_of_it = worst[region_of(i)];
+      if (most_of_it == kNone || parts[i] > parts[most_of_it]) most_of_it = i;
     }
     std::erase_if(numbers, [&](std::uint32_t i) {
-      const std::uint32_t most = worst[region_of(i)];
-      return plane_of(i) != plane_of(most) || parts[i] < kAlike * parts[most];
+      const std::uint32_t most_of_it = worst[region_of(i)];
+      return plane_of(i) != plane_of(most_of_it) || parts[i] < kAlike * parts[most_of_it];
     });
     return numbers;
   }
+
+  /// Whether it hangs together no longer.
+  bool parted() const { return std::ranges::max(find_islands(compound_)) > 0; }
 
   std::uint64_t plane_of(std::uint32_t i) const {
     const Bond& bond = compound_.bonds[i];
     return compound_.convexes[bond.a]->polyhedron.faces[bond.face_a].id.value >> 1;
   }
 
+  const Material& material_of(std::uint32_t convex) const {
+    return load_.materials[compound_.convexes[convex]->material.value];
+  }
+
+  double crack_J(const Bond& bond) const {
+    return bond.area_m2 * crack_J_m2(material_of(bond.a), material_of(bond.b));
+  }
+
   double part_of_limit(std::size_t i) const {
     const Bond& bond = compound_.bonds[i];
     const auto number = static_cast<std::uint32_t>(i);
-    const Limits limits = limits_of(load_.materials[compound_.convexes[bond.a]->material.value],
-                                    load_.materials[compound_.convexes[bond.b]->material.value]);
-    const double most = part_of(memory_->system->bound(number, memory_->displacements), limits);
+    const Limits limits = limits_of(material_of(bond.a), material_of(bond.b));
+    const double most = part_of(memory_->system->bound(number, displacements()), limits);
     if (!(most > kWorthALook)) return most;
-    return part_of(memory_->system->stress(compound_, number, memory_->displacements), limits);
+    return part_of(memory_->system->stress(compound_, number, displacements()), limits);
   }
 
   void remove(const std::vector<std::uint32_t>& cut) {
@@ -281,6 +226,7 @@ class StressBreaks {
     for (std::uint32_t i = 0; i < compound_.bonds.size(); ++i) {
       if (next != cut.end() && *next == i) {
         cut_.push_back(compound_.bonds[i]);
+        blow_J_ -= crack_J(compound_.bonds[i]);
         ++next;
         continue;
       }
@@ -356,7 +302,12 @@ class StressBreaks {
   std::vector<ConvexSlot> slots_;  ///< Per convex.
   const LoadCase& load_;
   std::vector<ConvexLoad> loads_;
-  std::shared_ptr<Memory> memory_;
+  std::vector<ConvexLoad> impulses_;        ///< Of the blow, N·s in place of N.
+  double blow_J_;                           ///< Less what the cuts have taken.
+  std::vector<Displacement> swing_, bent_;  ///< By the blow; by all at once.
+  double local_ = 1;                        ///< Share of the blow's energy.
+  std::uint32_t worst_ = kNone;             ///< Bond.
+  std::shared_ptr<KnownStress> memory_;
   std::uint64_t most_work_ = 0;
   std::vector<Bond> cut_;
 };

@@ -92,17 +92,18 @@ StressSystem::ElasticBond StressSystem::make_bond(const Compound& compound, std:
                                                   std::span<const Material> materials) const {
   const Bond& bond = compound.bonds[number];
   const BondGeometry& g = geometry_[number];
-  const auto stiffness = [&](std::uint32_t c) {
-    return materials[compound.convexes[c]->material.value].youngs_Pa;
-  };
   ElasticBond elastic;
   elastic.plane = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].id.value >> 1;
   if (!(g.area_m2 > 0)) return elastic;
-  const double distance =
-      std::max(g.normal_R.dot(masses_.centroid(bond.b) - masses_.centroid(bond.a)),
-               kLeastDistance * std::sqrt(g.area_m2));
-  const double e_a = stiffness(bond.a), e_b = stiffness(bond.b);
-  elastic.stiffness_Pa_m = 2 * e_a * e_b / (e_a + e_b) / distance;
+  // What each convex gives, from its centroid to the bond.
+  double gives_m_Pa = 0;
+  for (const std::uint32_t c : {bond.a, bond.b}) {
+    if (compound.anchored[c]) continue;
+    const double distance_m = std::max(std::abs(g.normal_R.dot(g.centroid_R - masses_.centroid(c))),
+                                       kLeastDistance * std::sqrt(g.area_m2));
+    gives_m_Pa += distance_m / materials[compound.convexes[c]->material.value].youngs_Pa;
+  }
+  if (gives_m_Pa > 0) elastic.stiffness_Pa_m = 1 / gives_m_Pa;
   return elastic;
 }
 
@@ -261,6 +262,21 @@ StressSystem::Field StressSystem::field(std::uint32_t bond,
   field.shear_Pa = stress - field.mean_Pa * g.normal_R;
   field.twist_Pa_m = g.normal_R.dot(rotation);
   return field;
+}
+
+double StressSystem::energy_J(std::span<const Displacement> displacements, const Vec3& center_R,
+                              double radius_m) const {
+  double energy = 0;
+  for (std::uint32_t i = 0; i < bonds_.size(); ++i) {
+    const BondGeometry& g = geometry_[i];
+    if (!has_spring(i) || (g.centroid_R - center_R).norm() > radius_m) continue;
+    const Field f = field(i, displacements);
+    const double square = g.area_m2 * (f.mean_Pa * f.mean_Pa + f.shear_Pa.squaredNorm()) +
+                          f.slope_Pa_m.dot(g.second_moment * f.slope_Pa_m) +
+                          f.twist_Pa_m * f.twist_Pa_m * g.second_moment.trace();
+    energy += 0.5 * square / bonds_[i].stiffness_Pa_m;
+  }
+  return energy;
 }
 
 BondStress StressSystem::bound(std::uint32_t bond,

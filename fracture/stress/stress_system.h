@@ -26,12 +26,6 @@ struct BondStress {
   double shear_Pa = 0;
 };
 
-/// Small displacement of a convex: of its centroid, in metres, and its rotation vector, in radians.
-struct Displacement {
-  Vec3 shift_R = Vec3::Zero();
-  Vec3 rotation_R = Vec3::Zero();
-};
-
 /// Where convexes and bonds were in another system: their numbers there, ascending, or kNew.
 struct StressOrigin {
   static constexpr std::uint32_t kNew = ConvexMasses::kNew;
@@ -64,6 +58,16 @@ class StressSystem {
   SolveResult solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, double tolerance,
                     int most_iterations, std::vector<Displacement>& displacements,
                     const Vec3& spin_R = Vec3::Zero()) const;
+
+  /// Of displacements that the loads alone have led to.
+  SwingResponse response(std::span<const ConvexLoad> loads,
+                         std::span<const Displacement> displacements) const {
+    return masses_.response(loads, displacements);
+  }
+
+  /// Of the springs of bonds whose centroids are within a sphere.
+  double energy_J(std::span<const Displacement> displacements, const Vec3& center_R,
+                  double radius_m) const;
 
   /// No less than any stress over the bond's own area.
   BondStress bound(std::uint32_t bond, std::span<const Displacement> displacements) const;

@@ -1,6 +1,7 @@
 // A solid in the running world. Internal to engine/world.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -35,6 +36,8 @@ struct StressState {
   Vec3 spin_R = Vec3::Zero();  ///< Angular velocity, rad/s, if it matters; else 0.
   Vec3 judged_spin_R = Vec3::Zero();
   StressMemoryPtr memory;
+  /// No blow with less energy can overload it, as far as is known.
+  double least_J = std::numeric_limits<double>::infinity();
 };
 
 /// Stands for a mesh that is not made yet: until the next snapshot, nobody looks.
@@ -53,11 +56,13 @@ struct Actor {
   double volume_m3 = 0;
   std::vector<MaterialIndex> materials;  ///< Of its convexes when it was made, each once.
   std::uint64_t born_step = 0;
-  /// No impact with less energy can break it: it is too tough, or its last fruitless plan asked for
-  /// more. Infinite if nothing can.
+  /// No impact with less energy can break it by a pattern: it is too tough, or its last fruitless
+  /// plan asked for more. Infinite if nothing can.
   double least_J = std::numeric_limits<double>::infinity();
   double least_Ns = 0;  ///< No impact with less impulse can break it.
   StressState stress;
+  /// No impact with less energy can break it by pattern or by stress.
+  double least_of_all_J() const { return std::min(least_J, stress.least_J); }
   std::vector<MeshIndex> meshes;  ///< Per slot; none() where nothing shows, or kUndrawn.
   std::vector<std::vector<std::uint8_t>> hidden;  ///< Per slot, a flag for each face.
 };

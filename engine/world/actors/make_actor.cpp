@@ -22,14 +22,19 @@ bool breaks_by_load(const World& world, const Actor& actor) {
   });
 }
 
+/// Whether what presses on it and strikes it is looked at.
+bool feels_pushes(const Actor& actor) {
+  const bool is_fragment = actor.key != actor.root_key && !actor.is_static;
+  return actor.stress.breakable && (!is_fragment || actor.structure.size() >= kLeastPressed);
+}
+
 /// See StressState.
 double bursting_s2(const World& world, const Actor& actor) {
   double weakest_Pa = std::numeric_limits<double>::infinity(), density_kg_m3 = 0, reach_m = 0;
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
     density_kg_m3 = std::max(density_kg_m3, material.density_kg_m3);
-    for (const double limit_Pa : {material.tensile_Pa, material.shear_Pa, material.compressive_Pa})
-      if (limit_Pa > 0) weakest_Pa = std::min(weakest_Pa, limit_Pa);
+    weakest_Pa = std::min(weakest_Pa, material.weakest_Pa());
   }
   actor.structure.for_each([&](ConvexSlot, const Convex& convex) {
     const Vec3 low = actor.weight.com_R - convex.box.min,
@@ -53,6 +58,7 @@ constexpr double kLeastCrack = 0.1;
 
 }  // namespace
 
+// A block that is pulled and bent both ways, by σ at its corner, holds the energy σ²V / 14 E.
 void set_least(const World& world, Actor& actor) {
   actor.least_J = actor.least_Ns = std::numeric_limits<double>::infinity();
   for (const MaterialIndex index : actor.materials) {
@@ -63,6 +69,16 @@ void set_least(const World& world, Actor& actor) {
     const double crack_m2 = kLeastCrack * std::cbrt(reach_m3 * reach_m3);
     actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);
     actor.least_Ns = std::min(actor.least_Ns, material.strength_Ns);
+  }
+  actor.stress.least_J = std::numeric_limits<double>::infinity();
+  if (!feels_pushes(actor)) return;
+  const double convex_m3 = actor.volume_m3 / static_cast<double>(actor.structure.size());
+  for (const MaterialIndex index : actor.materials) {
+    const Material& material = world.material(index);
+    if (!material.breaks_by_load()) continue;
+    const double limit_Pa = material.weakest_Pa();
+    actor.stress.least_J =
+        std::min(actor.stress.least_J, limit_Pa * limit_Pa / (14 * material.youngs_Pa) * convex_m3);
   }
 }
 
@@ -109,9 +125,7 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
   actor.structure.for_each(
       [&](ConvexSlot slot, const Convex&) { body.shapes.push_back(shape_of(world, actor, slot)); });
   body.tag = actor.key;
-  const bool is_fragment = actor.key != actor.root_key && !actor.is_static;
-  body.reports_load =
-      actor.stress.breakable && (!is_fragment || actor.structure.size() >= kLeastPressed);
+  body.reports_load = feels_pushes(actor);
   return body;
 }
 

@@ -15,7 +15,7 @@ Actor make_actor(World& world, const Compound& compound);
 BodyDesc describe(const World& world, const Actor& actor, const Motion& motion);
 /// The shape of one of its convexes; its tag is the slot.
 ShapeDesc shape_of(const World& world, const Actor& actor, ConvexSlot slot);
-/// The least energy and impulse that could break it.
+/// The least energy and impulse that could break it, by pattern or by stress.
 void set_least(const World& world, Actor& actor);
 
 void add_compounds(World& world, std::span<const Solid> solids);

@@ -105,6 +105,7 @@ struct Pieces {
     Actor& piece = actors.emplace_back(make_actor(world, compound));
     piece.born_step = world.clock.step + 1;
     piece.root_key = parent.root_key;
+    set_least(world, piece);  // of a fragment
     if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;
     world.ledger.debris_mass_kg -= piece.weight.mass_kg;
     bodies.push_back(describe(world, piece, motion));

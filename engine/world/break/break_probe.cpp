@@ -188,46 +188,6 @@ ClusterMotion BreakProbe::solve(const std::vector<std::uint8_t>& removed) const 
   return solve_cluster(rows_, closed_, in_way, give_, fastest_m_s_, velocities_);
 }
 
-/// The undecided body that a contact's work counts for: the weaker, if both are.
-std::uint32_t BreakProbe::charged(const ProbeContact& c) const {
-  if (!undecided_[c.a]) return c.b;
-  if (!undecided_[c.b]) return c.a;
-  const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
-  return std::pair(a.least_J, a.key) < std::pair(b.least_J, b.key) ? c.a : c.b;
-}
-
-std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
-  std::vector<ProbeLoad> all(bodies_.size());
-  std::vector<double> most(bodies_.size(), 0);
-  for (std::uint32_t b = 0; b < all.size(); ++b) all[b].body = b;
-  for (ProbeLoad& load : all) load.direction_W.setZero();
-  for (std::size_t i = 0; i < closed_.size(); ++i) {
-    const ProbeContact& c = contacts_[closed_[i]];
-    const double impulse = with_->impulses_Ns[i];
-    const ContactRow& row = rows_[closed_[i]];
-    if (impulse <= 0 || !row.touches(undecided_)) continue;
-    const std::uint32_t body = charged(c);
-    ProbeLoad& load = all[body];
-    load.work_J += 0.5 * impulse * (row.speed(without.velocities) + row.speed(with_->velocities));
-    load.impulse_Ns += impulse;
-    load.arm_W += impulse * (body == c.b ? c.arm_b_W : c.arm_a_W);
-    load.direction_W += (body == c.b ? impulse : -impulse) * c.normal_W;
-    if (impulse <= most[body]) continue;
-    most[body] = impulse;
-    load.shape = body == c.b ? c.shape_b : c.shape_a;
-  }
-  std::erase_if(all, [&](const ProbeLoad& load) {
-    const ProbeBody& body = bodies_[load.body];
-    return load.impulse_Ns <= body.least_Ns || load.work_J <= body.least_J ||
-           load.direction_W.squaredNorm() <= 0;
-  });
-  for (ProbeLoad& load : all) {
-    load.arm_W /= load.impulse_Ns;
-    load.direction_W.normalize();
-  }
-  return all;
-}
-
 /// Whether the impulses are enough to load an undecided body beyond its least.
 bool BreakProbe::may_load() const {
   std::vector<double> impulses_Ns(bodies_.size(), 0);

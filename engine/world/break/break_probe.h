@@ -20,6 +20,15 @@
 
 namespace sunder {
 
+/// What one contact or joint does to a body.
+struct ProbePush {
+  static constexpr std::uint32_t kNearest = 0xffffffff;  ///< The shape that is nearest.
+  std::uint32_t shape = 0;
+  Vec3 arm_W = Vec3::Zero();  ///< From the body's centre of mass.
+  Vec3 impulse_W = Vec3::Zero();
+  Vec3 angular_W = Vec3::Zero();  ///< Angular impulse besides.
+};
+
 /// What a breakable body would have to bear.
 struct ProbeLoad {
   std::uint32_t body = 0;            ///< By index.
@@ -28,6 +37,7 @@ struct ProbeLoad {
   Vec3 direction_W = Vec3::UnitY();  ///< Into the body.
   double work_J = 0;
   double impulse_Ns = 0;
+  std::vector<ProbePush> pushes = {};  ///< All that it feels at once, what it leans on too.
 };
 
 /// How a body moves if something breaks: at the start of the step, such that it is where it is, and
@@ -94,6 +104,8 @@ class BreakProbe {
   ClusterMotion solve(const std::vector<std::uint8_t>& removed) const;
   std::uint32_t charged(const ProbeContact& c) const;
   std::vector<ProbeLoad> loads(const ClusterMotion& without) const;
+  void add_pushes(ProbeLoad& load) const;
+  void add_joint_pushes(ProbeLoad& load) const;
   Release released(const ClusterMotion& without) const;
   void note_pushed(const ClusterMotion& motion);
   void finish(const ClusterMotion& without, double share);

@@ -21,9 +21,20 @@ void add_impacts(const World& world, Trial& trial) {
     const Actor& actor = *world.actors.find(trial.probe.bodies()[load.body].key);
     const ConvexSlot slot(load.shape);
     const Material& material = world.material(actor.structure.convex(slot)->material);
-    if (!material.breakable() || load.impulse_Ns < material.strength_Ns) continue;
     PlannedBreak planned;
     planned.load = i;
+    planned.by_pattern = material.breakable() && load.impulse_Ns >= material.strength_Ns &&
+                         load.work_J > actor.least_J;
+    planned.by_stress = load.work_J > actor.stress.least_J;
+    if (!planned.by_pattern && !planned.by_stress) continue;
+    const Quat R_of_W = states[actor.body].X_WB.rotation.conjugate();
+    for (const ProbePush& push : load.pushes) {
+      const Vec3 at_R = R_of_W * push.arm_W + actor.weight.com_R;
+      const bool by_place = push.shape == ProbePush::kNearest;
+      planned.impulses.push_back(
+          {by_place ? nearest(actor.structure, at_R) : ConvexSlot(push.shape),
+           R_of_W * push.impulse_W, at_R, R_of_W * push.angular_W});
+    }
     planned.impact.key = actor.key;
     planned.impact.convex = slot;
     planned.impact.point_W = states[actor.body].X_WB.position + load.arm_W;
@@ -130,6 +141,7 @@ bool BreakBudget::try_spend(std::uint32_t parts) {
 bool BreakStage::take_on(const World& world, const Breaker& breaker, std::span<PlannedBreak> all) {
   std::uint32_t parts = 0;
   for (PlannedBreak& planned : all) {
+    if (!planned.by_pattern) continue;
     prepare(world, breaker, next_event_++, planned);
     parts += parts_to_cut(world, planned);
   }

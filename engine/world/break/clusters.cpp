@@ -24,7 +24,7 @@ struct Seed {
 
 /// Pieces that came off in this step do not break again in it; what stands may be hit by others.
 bool may_break(const World& world, const Actor* actor, double energy_J) {
-  if (!actor || energy_J <= actor->least_J) return false;
+  if (!actor || energy_J <= actor->least_of_all_J()) return false;
   return actor->is_static || actor->born_step != world.clock.step + 1;
 }
 
@@ -32,7 +32,9 @@ bool may_break(const World& world, const Actor* actor, double energy_J) {
 std::vector<Seed> find_seeds(const World& world, const WaitingRoom& waiting,
                              const JointGraph& joints) {
   double least_J = std::numeric_limits<double>::infinity();
-  for (const Actor& actor : world.actors) least_J = std::min(least_J, actor.least_J);
+  for (const Actor& actor : world.actors) {
+    least_J = std::min(least_J, actor.least_of_all_J());
+  }
   if (least_J == std::numeric_limits<double>::infinity()) return {};
   std::vector<Seed> pairs;
   for (const Approach& approach : world.physics->approaches()) {
@@ -207,8 +209,8 @@ class Reach {
     const Actor* actor = members_.actor(place);
     body.key = actor ? actor->key : kGroundKey;
     if (!actor) return body;
-    body.least_J = actor->least_J;
-    body.least_Ns = actor->least_Ns;
+    body.least_J = actor->least_of_all_J();
+    body.least_Ns = std::isfinite(actor->stress.least_J) ? 0 : actor->least_Ns;
     body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
     const BodyState state = states_[actor->body];
     body.position_W = state.X_WB.position;

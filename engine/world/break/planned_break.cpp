@@ -1,10 +1,13 @@
 #include "engine/world/break/planned_break.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
+#include "engine/world/actors/bearing.h"
 #include "engine/world/actors/replace.h"
 
 namespace sunder {
@@ -12,6 +15,13 @@ namespace {
 
 // An impact with less than this part of what the last fruitless plan asked for is not planned.
 constexpr double kWorthPlanning = 0.7;
+// One with less than this part of what would have bent it to its limit when it was last struck, at
+// another place perhaps, is not asked about.
+constexpr double kWorthAsking = 0.1;
+// In visits of bonds: what is not known by then is not asked about again until it is harder.
+constexpr std::uint64_t kMostBlowWork = 100;
+// What cracks at its bonds takes this much of a blow at most: it is stress that decides.
+constexpr double kMostTaken = 0.9;
 
 /// Energy that the new crack surface takes; each crack has two sides.
 double crack_energy_J(const World& world, const BreakEdit& edit) {
@@ -20,6 +30,45 @@ double crack_energy_J(const World& world, const BreakEdit& edit) {
     energy += 0.5 * face.area_m2 * world.material(face.material).toughness_J_m2;
   }
   return energy;
+}
+
+double crack_energy_J(const World& world, const Structure& structure, std::span<const Bond> cut) {
+  const auto material = [&](std::uint32_t slot) -> const Material& {
+    return world.material(structure.convex(ConvexSlot(slot))->material);
+  };
+  double energy = 0;
+  for (const Bond& bond : cut)
+    energy += bond.area_m2 * crack_J_m2(material(bond.a), material(bond.b));
+  return energy;
+}
+
+double area_m2(const PlannedBreak& planned) {
+  if (!planned.at_bonds) return planned.edit.loose.new_area_m2;
+  double area = 0;
+  for (const Bond& bond : planned.edit.cut) area += bond.area_m2;
+  return area;
+}
+
+/// Of both ways to break the one that would come first if the blow grew from nothing: at this
+/// share of its energy the pattern can be paid for, by what stays where the blow lands; at that
+/// some bond is overloaded. What is overloaded where the pattern reaches is the pattern's.
+void choose(const World& world, const Structure& structure, PlannedBreak& planned) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const BlowStress& blow = planned.stressed.blow;
+  const double overloads = 1 / (blow.worst * blow.worst), energy_J = planned.impact.energy_J;
+  double by_pattern = kNever;
+  double by_stress = planned.stressed.edit.cut.empty() ? kNever : overloads;
+  if (planned.edit.changed) {
+    by_pattern = planned.needed_J / (blow.local * energy_J);
+    const double distance_m = (blow.worst_R - planned.command.X_RP.position).norm();
+    if (by_pattern < 1 && distance_m < planned.command.radius_m) by_stress = kNever;
+  }
+  planned.at_bonds = by_stress < by_pattern;
+  planned.breaks = std::min(by_pattern, by_stress) < 1;
+  if (!planned.breaks || !planned.at_bonds) return;
+  planned.edit = std::move(planned.stressed.edit);
+  planned.needed_J =
+      std::min(kMostTaken * energy_J, crack_energy_J(world, structure, planned.edit.cut));
 }
 
 /// The impact as the actor's rest frame sees it.
@@ -56,21 +105,32 @@ std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
 }
 
 void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
+  const BodyStates states = world.physics->states();
   for_chunks(all.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       PlannedBreak& planned = *all[i];
       const Stopwatch watch;
-      const Structure& structure = world.actors.find(planned.impact.key)->structure;
-      planned.edit = breaker.plan(structure, planned.command);
+      const Actor& actor = *world.actors.find(planned.impact.key);
+      if (planned.by_pattern) {
+        planned.edit = breaker.plan(actor.structure, planned.command);
+        planned.needed_J = crack_energy_J(world, planned.edit);
+      }
+      if (planned.by_stress) {
+        std::vector<Load> loads;
+        LoadCase load = bearing(world, actor, states[actor.body].X_WB.rotation, loads);
+        load.blow = {planned.impulses, planned.impact.energy_J, planned.command.X_RP.position,
+                     planned.by_pattern ? planned.command.radius_m : 0};
+        load.most_work = kMostBlowWork * (actor.structure.bond_count() + 1);
+        planned.stressed = breaker.stress(actor.structure, load);
+      }
+      choose(world, actor.structure, planned);
       planned.plan_ms = watch.ms();
-      planned.needed_J = crack_energy_J(world, planned.edit);
     }
   });
 }
 
 Verdict verdict_on(const World& world, const PlannedBreak& planned) {
-  const bool pays = planned.edit.changed && planned.impact.energy_J > planned.needed_J;
-  if (!pays) return Verdict::kHolds;
+  if (!planned.breaks) return Verdict::kHolds;
   return has_room(world, planned.edit) ? Verdict::kBreaks : Verdict::kNoRoom;
 }
 
@@ -78,17 +138,38 @@ void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {
   if (verdict == Verdict::kNoRoom) ++world.ledger.report.limits_hit;
   if (verdict != Verdict::kHolds) return;
   Actor& actor = *world.actors.find(planned.impact.key);
-  actor.least_J = std::max(actor.least_J, planned.edit.changed ? kWorthPlanning * planned.needed_J
-                                                               : 1.4 * planned.impact.energy_J);
+  const double energy_J = planned.impact.energy_J;
+  if (planned.by_pattern)
+    actor.least_J = std::max(
+        actor.least_J, planned.edit.changed ? kWorthPlanning * planned.needed_J : 1.4 * energy_J);
+  if (!planned.by_stress) return;
+  if (planned.stressed.edit.cut.empty()) actor.stress.memory = planned.stressed.memory;
+  const BlowStress& blow = planned.stressed.blow;
+  const double bends_J = (1 - blow.local) * energy_J;
+  actor.stress.least_J =
+      std::max(actor.stress.least_J,
+               blow.worst > 0 ? kWorthAsking * bends_J / (blow.worst * blow.worst) : energy_J);
 }
 
 void break_actor(World& world, PlannedBreak& planned) {
   const Impact& impact = planned.impact;
-  const std::uint32_t pieces = pieces_after(world.actors.find(impact.key)->structure, planned.edit);
-  world.ledger.breaks.push_back({world.clock.time_s(), impact.key, impact.point_W, planned.needed_J,
-                                 planned.edit.loose.new_area_m2, planned.plan_ms, pieces});
+  Actor& actor = *world.actors.find(impact.key);
+  BreakEvent event{
+      world.clock.time_s(), impact.key, impact.point_W, planned.needed_J, area_m2(planned),
+      planned.plan_ms,      1};
+  if (planned.at_bonds) {
+    const Pose X_WB = world.physics->state(actor.body).X_WB;
+    event.point_W = X_WB * Vec3(planned.stressed.blow.worst_R - actor.weight.com_R);
+    actor.stress.memory = planned.stressed.memory;
+  }
+  if (planned.edit.changed) event.pieces = pieces_after(actor.structure, planned.edit);
+  world.ledger.breaks.push_back(event);
   world.ledger.report.failed += planned.edit.loose.failed;
-  carry_out(world, impact.key, planned.edit);
+  if (planned.edit.changed) {
+    carry_out(world, impact.key, planned.edit);
+  } else {  // it is cracked, and hangs together still
+    actor.structure.apply(planned.edit);
+  }
 }
 
 }  // namespace sunder

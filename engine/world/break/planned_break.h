@@ -1,4 +1,7 @@
 // An impact, and what it would do: planned, but not carried out. Internal to engine/world.
+//
+// There are two ways to break: by the material's pattern, where the impact lands, and by stress,
+// where the impact overloads bonds. Both are planned where both may be.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +16,17 @@ namespace sunder {
 
 struct PlannedBreak {
   Impact impact;
-  std::uint32_t load = 0;  ///< Index in the probe's answer.
-  BreakCommand command;
-  BreakEdit edit;
+  std::uint32_t load = 0;      ///< Index in the probe's answer.
+  std::vector<Load> impulses;  ///< All that the actor feels, N·s in place of N.
+  bool by_pattern = true;      ///< Strong enough for the material,
+  bool by_stress = false;      ///< and for some bond.
+  BreakCommand command;        ///< By pattern.
+  StressAnswer stressed;       ///< By stress.
+  BreakEdit edit;              ///< Of the way that it breaks.
   double plan_ms = 0;
-  double needed_J = 0;  ///< By the crack.
+  double needed_J = 0;    ///< By its cracks.
+  bool breaks = false;    ///< The impact pays for them.
+  bool at_bonds = false;  ///< By stress.
 };
 
 /// Makes the command that the impact amounts to.

@@ -6,6 +6,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
+#include "engine/world/actors/bearing.h"
 #include "engine/world/actors/replace.h"
 
 namespace sunder {
@@ -20,8 +21,6 @@ constexpr double kTrifle = 1e-5;
 // half of that in a rod, all of it in a ring, and more only where spin bends what is hollow or
 // crooked.
 constexpr double kSpinTrifle = 0.03;
-// Work to reserve for an actor, in visits of each of its bonds; what is left over goes to others.
-constexpr std::uint64_t kReserve = 300;
 constexpr std::size_t kLarge = 1000;  // convexes of an actor that takes all threads for itself
 constexpr ConvexSlot kAfterAll;       // none() is greater than any slot
 
@@ -156,17 +155,8 @@ std::vector<std::uint32_t> due(World& world) {
 StressAnswer judge(const World& world, const Breaker& breaker, const Actor& actor,
                    const Quat& rotation_WB, std::uint64_t most_work) {
   std::vector<Load> loads;
-  for (const Press& press : actor.stress.pressing) {
-    const Vec3& centroid = actor.structure.convex(press.convex)->solid.centroid;
-    loads.push_back({press.convex, press.force_R, centroid, press.torque_R});
-  }
-  LoadCase load;
-  load.materials = *world.materials;
-  load.loads = loads;
-  load.gravity_R = rotation_WB.conjugate() * world.scene.gravity_W;
-  load.spin_R = actor.stress.spin_R;
+  LoadCase load = bearing(world, actor, rotation_WB, loads);
   load.most_work = most_work;
-  load.memory = actor.stress.memory;
   return breaker.stress(actor.structure, load);
 }
 

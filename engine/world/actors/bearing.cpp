@@ -1,0 +1,21 @@
+#include "engine/world/actors/bearing.h"
+
+namespace sunder {
+
+LoadCase bearing(const World& world, const Actor& actor, const Quat& rotation_WB,
+                 std::vector<Load>& loads) {
+  for (const Press& press : actor.stress.pressing) {
+    const Vec3& centroid = actor.structure.convex(press.convex)->solid.centroid;
+    loads.push_back({press.convex, press.force_R, centroid, press.torque_R});
+  }
+  LoadCase load;
+  load.materials = *world.materials;
+  load.loads = loads;
+  load.gravity_R = rotation_WB.conjugate() * world.scene.gravity_W;
+  load.spin_R = actor.stress.spin_R;
+  load.most_work = kReserve * (actor.structure.bond_count() + 1);
+  load.memory = actor.stress.memory;
+  return load;
+}
+
+}  // namespace sunder

@@ -1,0 +1,28 @@
+#include "engine/world/break/even_load.h"
+
+#include <algorithm>
+
+#include <Eigen/Dense>
+
+namespace sunder {
+
+void spread_evenly(std::span<PressedPoint> points) {
+  const auto n = static_cast<Eigen::Index>(points.size());
+  double reach_m = 0;
+  for (const PressedPoint& point : points) reach_m = std::max(reach_m, point.arm_W.norm());
+  if (n < 2 || !(reach_m > 0)) return;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> G(6, n);  // of unit impulses, sum and moment
+  Eigen::VectorXd impulses_Ns(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const PressedPoint& point = points[static_cast<std::size_t>(i)];
+    impulses_Ns[i] = point.impulse_Ns;
+    G.col(i) << point.along_W, point.arm_W.cross(point.along_W) / reach_m;
+  }
+  const Eigen::Matrix<double, 6, 6> square = G * G.transpose();
+  const Eigen::Matrix<double, 6, 1> sum = G * impulses_Ns;
+  const Eigen::VectorXd even = G.transpose() * square.completeOrthogonalDecomposition().solve(sum);
+  if (!even.allFinite() || even.minCoeff() < 0) return;
+  for (Eigen::Index i = 0; i < n; ++i) points[static_cast<std::size_t>(i)].impulse_Ns = even[i];
+}
+
+}  // namespace sunder

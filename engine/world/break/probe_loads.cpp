@@ -1,0 +1,97 @@
+// What solids have to bear in an event of a break probe, and by what they bear it.
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "engine/world/break/break_probe.h"
+#include "engine/world/break/even_load.h"
+
+namespace sunder {
+
+/// The undecided body that a contact's work counts for: the weaker, if both are.
+std::uint32_t BreakProbe::charged(const ProbeContact& c) const {
+  if (!undecided_[c.a]) return c.b;
+  if (!undecided_[c.b]) return c.a;
+  const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
+  return std::pair(a.least_J, a.key) < std::pair(b.least_J, b.key) ? c.a : c.b;
+}
+
+std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
+  std::vector<ProbeLoad> all(bodies_.size());
+  std::vector<double> most(bodies_.size(), 0);
+  for (std::uint32_t b = 0; b < all.size(); ++b) all[b].body = b;
+  for (ProbeLoad& load : all) load.direction_W.setZero();
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    const ProbeContact& c = contacts_[closed_[i]];
+    const double impulse = with_->impulses_Ns[i];
+    const ContactRow& row = rows_[closed_[i]];
+    if (impulse <= 0 || !row.touches(undecided_)) continue;
+    const std::uint32_t body = charged(c);
+    ProbeLoad& load = all[body];
+    load.work_J += 0.5 * impulse * (row.speed(without.velocities) + row.speed(with_->velocities));
+    load.impulse_Ns += impulse;
+    load.arm_W += impulse * (body == c.b ? c.arm_b_W : c.arm_a_W);
+    load.direction_W += (body == c.b ? impulse : -impulse) * c.normal_W;
+    if (impulse <= most[body]) continue;
+    most[body] = impulse;
+    load.shape = body == c.b ? c.shape_b : c.shape_a;
+  }
+  std::erase_if(all, [&](const ProbeLoad& load) {
+    const ProbeBody& body = bodies_[load.body];
+    return load.impulse_Ns <= body.least_Ns || load.work_J <= body.least_J ||
+           load.direction_W.squaredNorm() <= 0;
+  });
+  for (ProbeLoad& load : all) {
+    load.arm_W /= load.impulse_Ns;
+    load.direction_W.normalize();
+    add_pushes(load);
+  }
+  return all;
+}
+
+/// By other bodies, of which each presses as evenly as it can.
+void BreakProbe::add_pushes(ProbeLoad& load) const {
+  std::map<std::uint32_t, std::vector<PressedPoint>> by_body;
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    const ProbeContact& c = contacts_[closed_[i]];
+    const double impulse = with_->impulses_Ns[i];
+    const auto add = [&](std::uint32_t other, std::uint32_t shape, const Vec3& arm_W, double sign) {
+      by_body[other].push_back(
+          {c.rope ? ProbePush::kNearest : shape, arm_W, sign * c.normal_W, impulse});
+    };
+    if (c.a == load.body) add(c.b, c.shape_a, c.arm_a_W, -1);
+    if (c.b == load.body) add(c.a, c.shape_b, c.arm_b_W, 1);
+  }
+  for (auto& [other, points] : by_body) {
+    spread_evenly(points);
+    for (const PressedPoint& point : points) {
+      if (point.impulse_Ns <= 0) continue;
+      load.pushes.push_back({point.shape, point.arm_W, point.impulse_Ns * point.along_W});
+    }
+  }
+  add_joint_pushes(load);
+}
+
+/// What its joints do is what its motion tells, less what contacts do: to each an equal share.
+void BreakProbe::add_joint_pushes(ProbeLoad& load) const {
+  const ProbeBody& body = bodies_[load.body];
+  std::vector<Vec3> arms_W;
+  for (const ProbeJoint& joint : joints_) {
+    if (joint.a == load.body) arms_W.push_back(joint.arm_a_W);
+    if (joint.b == load.body) arms_W.push_back(joint.arm_b_W);
+  }
+  if (arms_W.empty() || body.inverse_mass <= 0) return;
+  const BodyVelocity &after = with_->velocities[load.body], &before = velocities_[load.body];
+  Vec3 linear = (after.linear - before.linear) / body.inverse_mass;
+  Vec3 angular = body.inverse_inertia_W.inverse() * (after.angular - before.angular);
+  for (const ProbePush& push : load.pushes) {
+    linear -= push.impulse_W;
+    angular -= push.arm_W.cross(push.impulse_W);
+  }
+  const double share = 1 / static_cast<double>(arms_W.size());
+  for (const Vec3& arm_W : arms_W) angular -= share * arm_W.cross(linear);
+  for (const Vec3& arm_W : arms_W)
+    load.pushes.push_back({ProbePush::kNearest, arm_W, share * linear, share * angular});
+}
+
+}  // namespace sunder

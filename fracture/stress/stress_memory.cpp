@@ -1,0 +1,141 @@
+#include "fracture/stress/stress_memory.h"
+
+#include <algorithm>
+#include <tuple>
+#include <unordered_map>
+
+#include "engine/base/parallel.h"
+
+namespace sunder::fracture {
+namespace {
+
+// Iterations that making a system costs, about.
+constexpr std::uint64_t kSetUpWork = 10;
+// A system is edited if so much of it stays; else it is made anew.
+constexpr double kStays = 0.5;
+
+auto place_of(const Bond& bond) { return std::tie(bond.a, bond.b, bond.face_a, bond.face_b); }
+
+constexpr std::uint32_t kNew = StressOrigin::kNew;
+
+/// Where the convexes and bonds of a compound, with these slots, were in what the memory is of; few
+/// are known if that was no earlier state of the same structure.
+StressOrigin origin_in(const KnownStress& old, const Compound& compound,
+                       const std::vector<ConvexSlot>& slots) {
+  StressOrigin origin;
+  std::uint32_t was = 0;
+  for (std::uint32_t c = 0; c < slots.size(); ++c) {
+    while (was < old.slots.size() && old.slots[was] < slots[c]) ++was;
+    const bool known = was < old.slots.size() && old.slots[was] == slots[c] &&
+                       old.convexes[was] == compound.convexes[c];
+    origin.convexes.push_back(known ? was : kNew);
+  }
+  std::uint32_t next = 0;
+  for (Bond bond : compound.bonds) {
+    bond.a = origin.convexes[bond.a];
+    bond.b = origin.convexes[bond.b];
+    origin.bonds.push_back(kNew);
+    if (bond.a == kNew || bond.b == kNew) continue;
+    while (next < old.bonds.size() && place_of(old.bonds[next]) < place_of(bond)) ++next;
+    if (next == old.bonds.size() || place_of(old.bonds[next]) != place_of(bond)) continue;
+    origin.bonds.back() = next;
+  }
+  return origin;
+}
+
+/// Makes what is known of a compound out of what was known of an earlier one.
+class Recollection {
+ public:
+  Recollection(const Compound& compound, const std::vector<ConvexSlot>& slots,
+               std::span<const Material> materials)
+      : compound_(compound), slots_(slots), materials_(materials) {}
+
+  /// From `old`, if there is any; adds to `work` what that took.
+  std::shared_ptr<KnownStress> run(const KnownStress* old, std::uint64_t& work) {
+    known_->displacements.resize(compound_.convexes.size());
+    if (old && edit_system(*old)) {
+      work += kEditWork * known_->system->work();
+    } else {
+      make_system(old);
+      work += kSetUpWork * known_->system->work();
+    }
+    return known_;
+  }
+
+ private:
+  /// False if too little of the system is still there.
+  bool edit_system(const KnownStress& old) {
+    const StressOrigin origin = origin_in(old, compound_, slots_);
+    const auto known = std::ranges::count_if(origin.convexes, [](auto was) { return was != kNew; });
+    if (static_cast<double>(known) < kStays * static_cast<double>(old.slots.size())) return false;
+    for (std::size_t c = 0; c < origin.convexes.size(); ++c) {
+      if (origin.convexes[c] != kNew) {
+        known_->displacements[c] = old.displacements[origin.convexes[c]];
+      }
+    }
+    std::vector<BondGeometry> geometry;
+    for (std::size_t i = 0; i < origin.bonds.size(); ++i) {
+      geometry.push_back(origin.bonds[i] != kNew ? old.system->geometry()[origin.bonds[i]]
+                                                 : bond_geometry(compound_, compound_.bonds[i]));
+    }
+    known_->system = std::make_shared<const StressSystem>(*old.system, compound_,
+                                                          std::move(geometry), materials_, origin);
+    return true;
+  }
+
+  void make_system(const KnownStress* old) {
+    std::vector<BondGeometry> geometry(compound_.bonds.size());
+    std::vector<std::uint32_t> old_of_new(compound_.convexes.size(), kNew);
+    if (old) {
+      std::unordered_map<const Convex*, std::uint32_t> numbers;
+      for (std::uint32_t c = 0; c < old->convexes.size(); ++c) {
+        numbers.emplace(old->convexes[c].get(), c);
+      }
+      for (std::uint32_t c = 0; c < old_of_new.size(); ++c) {
+        const auto found = numbers.find(compound_.convexes[c].get());
+        if (found == numbers.end()) continue;
+        old_of_new[c] = found->second;
+        known_->displacements[c] = old->displacements[found->second];
+      }
+    }
+    for_chunks(geometry.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const BondGeometry* known = old ? known_geometry(*old, old_of_new, i) : nullptr;
+        geometry[i] = known ? *known : bond_geometry(compound_, compound_.bonds[i]);
+      }
+    });
+    known_->system = std::make_shared<const StressSystem>(
+        compound_, std::move(geometry), materials_, StressSystem::spare_nodes(compound_));
+  }
+
+  const BondGeometry* known_geometry(const KnownStress& old,
+                                     const std::vector<std::uint32_t>& old_of_new,
+                                     std::size_t i) const {
+    Bond bond = compound_.bonds[i];
+    bond.a = old_of_new[bond.a];
+    bond.b = old_of_new[bond.b];
+    if (bond.a == kNew || bond.b == kNew || bond.a > bond.b) return nullptr;
+    const auto at =
+        std::lower_bound(old.bonds.begin(), old.bonds.end(), bond,
+                         [](const Bond& x, const Bond& y) { return place_of(x) < place_of(y); });
+    if (at == old.bonds.end() || place_of(*at) != place_of(bond)) return nullptr;
+    return &old.system->geometry()[static_cast<std::size_t>(at - old.bonds.begin())];
+  }
+
+  const Compound& compound_;
+  const std::vector<ConvexSlot>& slots_;
+  std::span<const Material> materials_;
+  std::shared_ptr<KnownStress> known_ = std::make_shared<KnownStress>();
+};
+
+}  // namespace
+
+std::shared_ptr<KnownStress> recall(const StressMemory* memory, const Compound& compound,
+                                    const std::vector<ConvexSlot>& slots,
+                                    std::span<const Material> materials, std::uint64_t& work) {
+  const auto* old = dynamic_cast<const KnownStress*>(memory);
+  if (old && old->is_of(compound)) return std::make_shared<KnownStress>(*old);
+  return Recollection(compound, slots, materials).run(old, work);
+}
+
+}  // namespace sunder::fracture

@@ -1,0 +1,40 @@
+// What is known of a compound's stress from before: its springs, and where they last came to rest.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/model/breaker.h"
+#include "fracture/stress/stress_system.h"
+
+namespace sunder::fracture {
+
+/// What is handed back to the next solve.
+struct KnownStress final : StressMemory {
+  std::vector<ConvexSlot> slots;  ///< Per convex.
+  std::vector<ConvexPtr> convexes;
+  std::vector<std::uint8_t> anchored;
+  std::vector<Bond> bonds;
+  std::shared_ptr<const StressSystem> system;
+  std::vector<Displacement> displacements;  ///< Under the steady load.
+  int iterations = 0;                       ///< Without coming to an end.
+
+  bool is_of(const Compound& compound) const {
+    // Bonds are only ever lost, so their number tells.
+    return bonds.size() == compound.bonds.size() && convexes == compound.convexes &&
+           anchored == compound.anchored;
+  }
+};
+
+// Iterations that editing a system costs, about.
+inline constexpr std::uint64_t kEditWork = 4;
+
+/// The system of a compound, and a guess of its displacements, from the memory of it or of what it
+/// was a part of; null: of nothing. Adds to `work` what that took, in visits of springs.
+std::shared_ptr<KnownStress> recall(const StressMemory* memory, const Compound& compound,
+                                    const std::vector<ConvexSlot>& slots,
+                                    std::span<const Material> materials, std::uint64_t& work);
+
+}  // namespace sunder::fracture
