@@ -149,6 +149,7 @@ double broken_J(const Block& block, const Preset& preset, double speed_m_s, doub
   const std::string text =
       "[scene]\ndescription = \"A landing.\"\nduration_s = 0.4\n[limits]\ndebris = 0\ndust = 0\n"
       "[[material]]\nname = \"concrete\"\ntoughness_J_m2 = 400\n"
+      "tensile_Pa = 0\nshear_Pa = 0\ncompressive_Pa = 0\n"  // it is not bent when it rocks
       "[[solid]]\nstructure = \"box\"\nmaterial = \"concrete\"\nposition = [0, " +
       std::to_string(above_m) + ", 0]\nvelocity = [0, " + std::to_string(-start_m_s) + ", 0]\n" +
       block.size;
