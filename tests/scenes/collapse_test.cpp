@@ -128,7 +128,7 @@ TEST(Collapse, AGrindstoneBurstsAtASpinThatItsStrengthSets) {
       spin = frame->bodies[0].angular_velocity_W.norm();
     ASSERT_TRUE(frame);
     EXPECT_EQ(frame->breaks[0].body_key, 0u) << "nothing has struck it";
-    EXPECT_GE(frame->breaks[0].pieces, 3u);
+    EXPECT_GE(frame->breaks[0].pieces, 2u);
     std::printf("%s: bursts at %.1f rad/s\n", preset, spin);
     EXPECT_GT(spin, std::sqrt(strength / edge));
     EXPECT_LT(spin, std::sqrt(strength / mean));
