@@ -26,6 +26,9 @@
 // pieces as it is, and may be dropped at any time: the answer then costs more, and is the same
 // within the tolerance of the solve.
 //
+// A blow is asked about in both ways: as a command, and with `load.blow` set, which cuts the bonds
+// that the blow overloads (engine/world/break/planned_break.cpp).
+//
 // An edit is for the structure that it was asked of, as it was then, and is applied once.
 #pragma once
 

@@ -10,6 +10,8 @@
 namespace sunder {
 namespace {
 
+// A part takes about as long to cut as so many visits of bonds in a solve for stress.
+constexpr std::uint64_t kVisitsAPart = 160;
 constexpr int kRounds = 8;  // solids that can break one behind the other within one step
 
 /// The impacts that a probe's loads amount to, if they are strong enough for the material.
@@ -202,6 +204,10 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
       }
     }
     plan_trials(world, breaker, taken_on);
+    for (const Trial& trial : taken_on) {
+      for (const PlannedBreak& planned : trial.planned)
+        budget_.charge(planned.stressed.work / kVisitsAPart);
+    }
     for (Trial& trial : taken_on) {
       if (stale(trial) || settle(world, trial, broken)) {
         again = true;

@@ -2,11 +2,13 @@
 // stop the ball. Internal to engine/world.
 //
 // Read first: BreakStage::run(), then decide(). Break probes (break_probe.h) tell what the
-// breakable solids would have to bear. A solid breaks if the work exceeds the toughness times the
-// crack's area, and the impulse the strength. Exactly that energy is taken from the motion; the
-// pieces inherit the velocity field of the whole.
+// breakable solids would have to bear. A solid breaks by its pattern if the work exceeds the
+// toughness times the crack's area, and the impulse the strength; and at its bonds where the blow
+// overloads them. Exactly the energy of the cracks is taken from the motion; the pieces inherit the
+// velocity field of the whole.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,6 +33,10 @@ class BreakBudget {
   /// cheap. A frame that has spent none yet can afford anything, or what costs more than a frame
   /// has would wait for ever.
   bool try_spend(std::uint32_t parts);
+  /// For what costs nobody knows before: what it has cost is not there for what comes later.
+  void charge(std::uint64_t parts) {
+    left_ -= static_cast<std::uint32_t>(std::min<std::uint64_t>(left_, parts));
+  }
 
  private:
   std::uint32_t a_frame_;
