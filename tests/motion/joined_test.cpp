@@ -27,6 +27,8 @@ Scene scene_of_pane(double dt_s, double toughness_J_m2 = 300) {
   return scene;
 }
 
+constexpr double kOnArc = 0.005;  // what turns meets the pane a little elsewhere
+
 Joint joint_of(JointKind kind, std::optional<std::uint32_t> a, std::optional<std::uint32_t> b,
                const Vec3& at_W, const Vec3& to_W = Vec3::Zero()) {
   Joint joint;
@@ -46,7 +48,8 @@ TEST_P(JoinedAtAnyStep, ABallHitsWithTheMassOfWhatItIsFixedTo) {
       scene.joints = {joint_of(kind, 1u, 2u, Vec3(-0.1, 0, 0), Vec3(-0.4, 0, 0))};
       return scene;
     };
-    expect_decided_by_work(scene_of, [](double speed) { return kinetic_J(10, speed); });
+    expect_decided_by_work(
+        scene_of, [](double speed) { return kinetic_J(10, speed); }, true, kOnArc);
   }
 }
 
@@ -59,7 +62,8 @@ TEST_P(JoinedAtAnyStep, APendulumHitsAtTheBottomWithTheMassOfItsBall) {
       scene.balls[0].velocity_W.y() = 0.1 / 8 * speed;  // on its circle
       return scene;
     };
-    expect_decided_by_work(scene_of, [](double speed) { return kinetic_J(5, speed); });
+    expect_decided_by_work(
+        scene_of, [](double speed) { return kinetic_J(5, speed); }, true, kOnArc);
   }
 }
 
@@ -76,7 +80,8 @@ TEST_P(JoinedAtAnyStep, AChainThatComesEndOnHitsWithAllOfItsMass) {
     }
     return scene;
   };
-  expect_decided_by_work(scene_of, [](double speed) { return kinetic_J(kLinks, speed); });
+  expect_decided_by_work(
+      scene_of, [](double speed) { return kinetic_J(kLinks, speed); }, true, kOnArc);
 }
 
 /// A door in the plane z = 0, with its hinge along y at x = −1, about to hit, or be hit, at x = 0.
@@ -104,7 +109,7 @@ TEST_P(JoinedAtAnyStep, ADoorHitsWithWhatItTurnsWith) {
   };
   // What is left of the pane stops it next.
   expect_decided_by_work(
-      scene_of, [](double w) { return 0.5 * door_kgm2(8000) * w * w; }, false);
+      scene_of, [](double w) { return 0.5 * door_kgm2(8000) * w * w; }, false, kOnArc);
 }
 
 TEST_P(JoinedAtAnyStep, ADoorThatIsHitAtItsEdgeGivesAsItTurns) {
