@@ -13,7 +13,6 @@ LoadCase bearing(const World& world, const Actor& actor, const Quat& rotation_WB
   load.loads = loads;
   load.gravity_R = rotation_WB.conjugate() * world.scene.gravity_W;
   load.spin_R = actor.stress.spin_R;
-  load.most_work = kReserve * (actor.structure.bond_count() + 1);
   load.memory = actor.stress.memory;
   return load;
 }

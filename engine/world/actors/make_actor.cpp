@@ -58,7 +58,6 @@ constexpr double kLeastCrack = 0.1;
 
 }  // namespace
 
-// A block that is pulled and bent both ways, by σ at its corner, holds the energy σ²V / 14 E.
 void set_least(const World& world, Actor& actor) {
   actor.least_J = actor.least_Ns = std::numeric_limits<double>::infinity();
   for (const MaterialIndex index : actor.materials) {
@@ -76,6 +75,7 @@ void set_least(const World& world, Actor& actor) {
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
     if (!material.breaks_by_load()) continue;
+    // A block that is pulled and bent both ways, by σ at its corner, holds the energy σ²V / 14 E.
     const double limit_Pa = material.weakest_Pa();
     actor.stress.least_J =
         std::min(actor.stress.least_J, limit_Pa * limit_Pa / (14 * material.youngs_Pa) * convex_m3);

@@ -21,6 +21,8 @@ constexpr double kTrifle = 1e-5;
 // half of that in a rod, all of it in a ring, and more only where spin bends what is hollow or
 // crooked.
 constexpr double kSpinTrifle = 0.03;
+// Work to reserve for an actor, in visits of each of its bonds; what is left over goes to others.
+constexpr std::uint64_t kReserve = 300;
 constexpr std::size_t kLarge = 1000;  // convexes of an actor that takes all threads for itself
 constexpr ConvexSlot kAfterAll;       // none() is greater than any slot
 
