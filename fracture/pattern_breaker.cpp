@@ -8,6 +8,7 @@
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
 #include "fracture/fracture.h"
+#include "fracture/rejoin.h"
 #include "fracture/stress/stress_breaks.h"
 
 namespace sunder::fracture {
@@ -82,6 +83,7 @@ class PatternBreaker final : public Breaker {
     command.pattern = material.pattern;
     command.radius_m = material.impact_radius_m;
     command.fit = material.fit;
+    command.smallest_m3 = material.smallest_break_m3;
     for (const StrongerImpact& stronger : material.stronger) {
       if (hit.energy_J < stronger.energy_J) break;
       command.pattern = stronger.pattern;
@@ -109,6 +111,7 @@ class PatternBreaker final : public Breaker {
   StressAnswer stress(const Structure& structure, const LoadCase& load) const override {
     return break_by_stress(structure, load);
   }
+  Rejoined rejoin(const BentPair& bent) const override { return rejoin_bent(bent); }
 
  private:
   std::shared_ptr<FailureLog> log_;
@@ -124,7 +127,7 @@ double reach(const Box& box, const Vec3& from) {
 
 ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library) {
   ReadyBreak ready;
-  ready.sphere = {command.X_RP.position, command.radius_m, command.spared};
+  ready.sphere = {command.X_RP.position, command.radius_m, command.spared, command.smallest_m3};
   const bool whole = ready.sphere.is_endless();
   const double unit = whole ? reach(bounds_R, ready.sphere.center_R) : ready.sphere.radius_m;
   ready.pattern = library.find(command.pattern, {unit, whole}, command.seed);

@@ -29,9 +29,14 @@ class ForwardingPhysics : public Physics {
   }
   void pause(std::span<const BodyId> bodies) override { physics_->pause(bodies); }
   JointId join(const JointDesc& joint) override { return physics_->join(joint); }
-  void attach(JointId joint, bool end_a, BodyId body) override {
-    physics_->attach(joint, end_a, body);
+  void attach(JointId joint, bool end_a, BodyId body,
+              std::span<const std::uint32_t> quiet_tags) override {
+    physics_->attach(joint, end_a, body, quiet_tags);
   }
+  void strengthen(JointId joint, const SectionStrength& strength) override {
+    physics_->strengthen(joint, strength);
+  }
+  std::vector<JointFlow> joint_flows() const override { return physics_->joint_flows(); }
   void cut(JointId joint) override { physics_->cut(joint); }
   std::vector<JointId> take_broken() override { return physics_->take_broken(); }
   SolveReport solve(double dt_s, int substeps) override { return physics_->solve(dt_s, substeps); }

@@ -199,7 +199,7 @@ double left_standing(const Preset& preset) {
     if (last->bodies[instance.body].key != 0) continue;
     const Mesh& mesh = *(*last->meshes)[instance.mesh.value];
     for (const Mesh::Vertex& vertex : mesh.vertices)
-      end_m = std::max(end_m, mesh.origin_R.x() + static_cast<double>(vertex.position.x()));
+      end_m = std::max(end_m, mesh.origin_T.x() + static_cast<double>(vertex.position.x()));
   }
   return end_m / kLength_m;
 }

@@ -58,6 +58,7 @@ Truths energy_truths();
 Truths break_truths();
 Truths load_truths();
 Truths blow_truths();
+Truths steel_truths();
 Truths through_truths();
 
 /// All of these, in the order of their rows.

@@ -37,6 +37,9 @@ struct Pose {
     const Quat back = rotation.conjugate();
     return {back * -position, back};
   }
+  bool operator==(const Pose& other) const {
+    return position == other.position && rotation.coeffs() == other.rotation.coeffs();
+  }
 };
 
 /// An axis-aligned box; empty (min > max) until extended.

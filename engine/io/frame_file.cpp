@@ -1,5 +1,5 @@
-// Layout: "SUNDERF2" (or 1: without debris and dust), XXH3 of the rest (8 bytes), size of the
-// content (8 bytes), content in zstd.
+// Layout: "SUNDERF3" (or 2: without poses of meshes; or 1: without debris and dust, either), XXH3
+// of the rest (8 bytes), size of the content (8 bytes), content in zstd.
 #include "engine/io/frame_file.h"
 
 #include <cstring>
@@ -14,8 +14,8 @@
 namespace sunder {
 namespace {
 
-constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '2'};
-constexpr char kMagicBefore[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '1'};
+constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '3'};
+constexpr std::size_t kName = sizeof kMagic - 1;  // what precedes the version
 constexpr std::size_t kHeader = sizeof kMagic + 8;
 constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refused
 constexpr int kLevel = 19;                      // written once, kept for years
@@ -82,8 +82,7 @@ std::vector<std::byte> content_of(const Frame& frame) {
   return std::move(out.bytes);
 }
 
-FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file,
-                  bool has_particles) {
+FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file, int version) {
   ByteReader in(content, file);
   auto frame = std::make_shared<Frame>();
   in.take_to(frame->index, frame->time_s);
@@ -91,7 +90,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
   std::vector<Material> materials = take_materials(in);
   auto meshes = std::make_shared<MeshStore>(in.take_count(kLeastMeshBytes));
   for (auto& mesh : *meshes) {
-    mesh = std::make_shared<const Mesh>(take_mesh(in, file, materials.size()));
+    mesh = std::make_shared<const Mesh>(take_mesh(in, file, materials.size(), version >= 3));
   }
   frame->bodies.resize(in.take_count(89));
   for (FrameBody& body : frame->bodies) body = take_body(in);
@@ -102,7 +101,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
       throw InputError(file + ": corrupt: an instance names no mesh or body");
     }
   }
-  if (has_particles) {
+  if (version >= 2) {
     frame->debris = take_codes(in, file, materials.size(), decode_debris);
     frame->dust = take_codes(in, file, materials.size(), decode_dust);
   }
@@ -135,10 +134,9 @@ void write_frame(const std::filesystem::path& path, const Frame& frame) {
 FramePtr read_frame(const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::vector<std::byte> file = read_file(path);
-  const auto is = [&](const char* magic) {
-    return std::memcmp(file.data(), magic, sizeof kMagic) == 0;
-  };
-  if (file.size() < kHeader + 8 || !(is(kMagic) || is(kMagicBefore))) {
+  const bool is_frame = file.size() >= kHeader + 8 && std::memcmp(file.data(), kMagic, kName) == 0;
+  const int version = is_frame ? static_cast<char>(file[kName]) - '0' : 0;
+  if (version < 1 || version > kMagic[kName] - '0') {
     throw InputError(name + ": not a frame file of this version of sunder; record it again");
   }
   ByteReader header(file, name);
@@ -153,7 +151,7 @@ FramePtr read_frame(const std::filesystem::path& path) {
   const std::size_t got = ZSTD_decompress(content.data(), content.size(), file.data() + kHeader + 8,
                                           file.size() - kHeader - 8);
   if (ZSTD_isError(got) || got != size) throw InputError(name + ": corrupt: cannot be unpacked");
-  return frame_of(content, name, is(kMagic));
+  return frame_of(content, name, version);
 }
 
 }  // namespace sunder

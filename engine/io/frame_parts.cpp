@@ -13,7 +13,7 @@ View take_view(ByteReader& in) {
 }
 
 void put(ByteWriter& out, const Mesh& mesh) {
-  out.put(mesh.origin_R, mesh.material);
+  out.put(mesh.X_RT.position, mesh.X_RT.rotation.coeffs(), mesh.origin_T, mesh.material);
   out.put(static_cast<std::uint32_t>(mesh.vertices.size()));
   for (const Mesh::Vertex& vertex : mesh.vertices) {
     out.put(vertex.position, vertex.normal, vertex.interior);
@@ -21,9 +21,10 @@ void put(ByteWriter& out, const Mesh& mesh) {
   out.put_list(mesh.indices);
 }
 
-Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials) {
+Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials, bool posed) {
   Mesh mesh;
-  in.take_to(mesh.origin_R, mesh.material);
+  if (posed) in.take_to(mesh.X_RT.position, mesh.X_RT.rotation.coeffs());
+  in.take_to(mesh.origin_T, mesh.material);
   mesh.vertices.resize(in.take_count(28));
   for (Mesh::Vertex& vertex : mesh.vertices) {
     in.take_to(vertex.position, vertex.normal, vertex.interior);

@@ -16,7 +16,8 @@ std::vector<Material> take_materials(ByteReader& in);
 void put(ByteWriter& out, const Mesh& mesh);
 /// Throws InputError, naming `file`, if the mesh does not fit together or its material is none of
 /// `materials`.
-Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials);
+/// `posed`: with Mesh::X_RT, as put() has it; older files have none.
+Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials, bool posed = true);
 /// The least bytes that a mesh takes.
 inline constexpr std::size_t kLeastMeshBytes = 36;
 

@@ -95,6 +95,7 @@ Json frame_json(const FrameReport& report, double ms) {
           {"carried_over", report.carried_over},
           {"kinetic_J", report.kinetic_J},
           {"momentum_residual", report.momentum_residual},
+          {"plastic_J", report.plastic_J},
           {"potential_J", report.potential_J}};
 }
 
@@ -179,7 +180,9 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["penetration_m"] = {
       {"p50", quantile(depth, 0.5)}, {"p99", quantile(depth, 0.99)}, {"max", quantile(depth, 1)}};
   if (s.info.accuracy.error_target_m > 0) json["error_target_m"] = s.info.accuracy.error_target_m;
-  json["energy_J"] = {{"kinetic", s.last.kinetic_J}, {"potential", s.last.potential_J}};
+  json["energy_J"] = {{"kinetic", s.last.kinetic_J},
+                      {"potential", s.last.potential_J},
+                      {"plastic", s.last.plastic_J}};
   json["momentum_residual"] = s.momentum_residual();
   json["mass_kg"] = {{"initial", s.first.mass_kg}, {"final", s.last.mass_kg}};
   json["limits_hit"] = s.sum(&FrameReport::limits_hit);

@@ -37,6 +37,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/model/section.h"
 #include "engine/model/structure.h"
 
 namespace sunder {
@@ -60,6 +61,7 @@ struct BreakCommand {
   Fit fit;                            ///< How new convexes are fitted to their visual meshes.
   /// Materials that do not break: the pattern leaves their convexes whole.
   std::vector<MaterialIndex> spared;
+  double smallest_m3 = 0;  ///< What is smaller, and overlaps such a convex, is left whole as well.
 };
 
 /// A face that a break laid bare, in the rest frame R.
@@ -87,6 +89,14 @@ struct BreakPlan {
   bool broke() const { return pieces.size() > 1; }
 };
 
+/// Two parts of what an edit leaves that go on as bodies of their own, held together by a section
+/// that flows.
+struct PlasticHinge {
+  std::uint32_t piece_a = 0, piece_b = 0;  ///< As exposed faces name them; its normal leads to b.
+  PlasticSection section;
+  std::vector<Bond> bonds;  ///< Of a convex of piece a and one of piece b, in this order.
+};
+
 /// What a break does to a structure, and what comes off it.
 struct BreakEdit {
   std::vector<ConvexSlot> removed;  ///< Whose convexes were cut or came off; ascending.
@@ -100,6 +110,8 @@ struct BreakEdit {
   BreakPlan loose;
   bool changed = false;   ///< Something came off; otherwise nothing above is set.
   std::vector<Bond> cut;  ///< Contacts that hold no longer, by slots; also where nothing came off.
+  /// Between what came off, and it and what is left; their bonds are not in `cut`.
+  std::vector<PlasticHinge> hinges;
 
   /// The convex of a face of `loose.exposed`; of `structure` as it was before the edit.
   const Convex& exposed_convex(const Structure& structure, const ExposedFace& face) const {
@@ -144,6 +156,8 @@ struct LoadCase {
   std::uint64_t most_work = 0;
   StressMemoryPtr memory;  ///< Of this structure, or of what it was a piece of; null at first.
   Blow blow = {};          ///< None, as a rule.
+  /// Whose convexes are beside a hinge already, ascending: what holds them does not flow again.
+  std::vector<ConvexSlot> hinged = {};
 };
 
 /// What a blow amounts to, before anything gives way.
@@ -155,12 +169,39 @@ struct BlowStress {
 
 /// What becomes of a structure under a load.
 struct StressAnswer {
-  BreakEdit edit;          ///< Bonds that were too weak are cut; what they held comes off.
-  double worst = 0;        ///< Highest stress in what is left, in parts of the limit; <= 1.
+  BreakEdit edit;  ///< Bonds that were too weak are cut; what they held comes off.
+  /// Highest stress in what is left, in parts of the limit; <= 1, but where what yields can let
+  /// nothing come loose.
+  double worst = 0;
   bool settled = false;    ///< Nothing is left to do until the load, or the compound, changes.
   std::uint64_t work = 0;  ///< Spent.
   StressMemoryPtr memory;  ///< For the next time, of any of the pieces.
   BlowStress blow;         ///< If there was one.
+};
+
+/// A section that has bent: per bond that it had, where it is in two structures.
+struct BentSection {
+  Vec3 centroid_A = Vec3::Zero(), centroid_B = Vec3::Zero();  ///< In either rest frame,
+  Vec3 normal_A = Vec3::UnitX(), normal_B = -Vec3::UnitX();   ///< unit, out of either.
+  double reach_m = 0;  ///< From the centroid to what is farthest in it.
+  std::vector<std::uint32_t> slots_a, faces_a, slots_b, faces_b;
+  std::vector<double> areas_m2;
+};
+
+/// Two structures that sections held together while they bent.
+struct BentPair {
+  const Structure& a;
+  const Structure& b;
+  Pose X_AB;  ///< Of b's rest frame in a's.
+  std::vector<BentSection> sections;
+  std::uint64_t event = 1;  ///< As of a BreakCommand.
+};
+
+/// Both as one.
+struct Rejoined {
+  BreakEdit edit;  ///< Of a, which takes in all of b; nothing changes if they stay two.
+  /// Per slot of b, where its convex is now in a; none() if it has none, or ends otherwise.
+  std::vector<ConvexSlot> slot_of_b;
 };
 
 /// Decides what breaks. Pure and const: any thread may ask about any structure.
@@ -177,6 +218,9 @@ class Breaker {
   /// Which bonds of a structure, that is not empty, a steady load breaks, judged by the stress that
   /// balances it; spends about `load.most_work`.
   virtual StressAnswer stress(const Structure& structure, const LoadCase& load) const = 0;
+  /// Makes one structure of two that have bent against each other: both end midway between them,
+  /// and b's convexes are moved into a's rest frame. Mass is kept.
+  virtual Rejoined rejoin(const BentPair& /*bent*/) const { return {}; }
 };
 
 }  // namespace sunder

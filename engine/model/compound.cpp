@@ -22,8 +22,9 @@ void for_each_solid(const Compound& compound, const Visit& visit) {
 }  // namespace
 
 ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
-                      std::shared_ptr<const PolygonMesh> visual) {
+                      std::shared_ptr<const PolygonMesh> visual, const Pose& X_RT) {
   auto convex = std::make_shared<Convex>();
+  convex->X_RT = X_RT;
   convex->solid = visual ? mass_properties(*visual) : mass_properties(polyhedron);
   convex->visual = std::move(visual);
   convex->box = bounds(polyhedron);

@@ -22,6 +22,8 @@ struct Convex {
   MaterialIndex material;
   MassProperties solid;  ///< Of `visual` if there is one, else of `polyhedron`; unit density.
   Box box;               ///< Of `polyhedron`.
+  /// Where the rest frame is now that it was painted in: a solid that is bent has a new one.
+  Pose X_RT;
 
   bool is_internal() const { return !visual; }
 };
@@ -29,7 +31,7 @@ using ConvexPtr = std::shared_ptr<const Convex>;
 
 /// A convex with its mass properties and box worked out.
 ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
-                      std::shared_ptr<const PolygonMesh> visual = nullptr);
+                      std::shared_ptr<const PolygonMesh> visual = nullptr, const Pose& X_RT = {});
 
 /// Two convexes of a compound that share part of a plane (property (c) of paper 3.1).
 struct Bond {

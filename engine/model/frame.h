@@ -12,16 +12,18 @@
 
 namespace sunder {
 
-/// What is drawn of one convex (or ball): immutable. Positions are floats around `origin_R`, so
-/// precision does not depend on where in the solid the piece was; rest-space textures use
-/// origin_R + position.
+/// What is drawn of one convex (or ball): immutable. It lies in the frame T that it is painted in,
+/// the rest frame R, or what that was before the solid was bent. Positions are floats around
+/// `origin_T`, so precision does not depend on where in the solid the piece was; textures use
+/// origin_T + position.
 struct Mesh {
   struct Vertex {
     Vec3f position = Vec3f::Zero();
     Vec3f normal = Vec3f::UnitY();
     std::uint32_t interior = 0;  ///< 1 where a break made the face.
   };
-  Vec3 origin_R = Vec3::Zero();
+  Pose X_RT;
+  Vec3 origin_T = Vec3::Zero();
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;  ///< Triangles, counter-clockwise seen from outside.
   MaterialIndex material;
@@ -53,7 +55,7 @@ struct FrameBody {
   bool asleep = false;
 };
 
-/// A mesh drawn on a body: world = X_WB * (origin_R − com_R + position).
+/// A mesh drawn on a body: world = X_WB * (X_RT * (origin_T + position) − com_R).
 struct Instance {
   MeshIndex mesh;
   std::uint32_t body = 0;  ///< Index in Frame::bodies.
@@ -111,6 +113,7 @@ struct FrameReport {
   double mass_kg = 0;  ///< Everything: debris, what the script took and shots yet to come included.
   double kinetic_J = 0;
   double potential_J = 0;
+  double plastic_J = 0;  ///< That hinges have taken since the start.
   /// |change of momentum − external impulses| of the frame over the momentum that changed hands.
   double momentum_residual = 0;
   std::uint32_t carried_over = 0;  ///< Impacts and loads waiting for a later step's budget.

@@ -15,6 +15,7 @@ enum class JointKind : std::uint8_t {
   kFixed,     ///< And neither body turns against the other.
   kDistance,  ///< The anchors stay `length_m` apart.
   kRope,      ///< No farther than that.
+  kPlastic,   ///< As kFixed, until the section between them flows; not for scenes.
 };
 
 /// What holds two things of the scene together, or one and the world, as they stand at the start.

@@ -1,6 +1,7 @@
 // What solids are made of: how heavy, how strong, how they break and what they look like.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -84,6 +85,10 @@ struct Material {
   double compressive_Pa = 0;
   /// Stiffness: how convexes share a load between them.
   double youngs_Pa = 3e10;
+  /// Stress at which it flows in place of breaking, where both sides of a bond do; 0: it does not.
+  double yield_Pa = 0;
+  double hardening_Pa = 0;  ///< By which that grows for each part of its length it was drawn out.
+  double elongation = 0.2;  ///< The part of its length by which it is drawn out when it tears.
   /// How the convexes of a break are fitted to the visual meshes in them (paper 3.3).
   Fit fit;
   /// Pieces below this volume no longer break.
@@ -95,14 +100,15 @@ struct Material {
   Crumbling crumbling;
 
   bool breakable() const { return pattern.kind != PatternSpec::Kind::kNone; }
-  /// Infinite if no stress breaks it.
+  bool yields() const { return yield_Pa > 0; }
+  /// Infinite if no stress breaks it, or makes it flow.
   double weakest_Pa() const {
     double least = std::numeric_limits<double>::infinity();
-    for (const double limit : {tensile_Pa, shear_Pa, compressive_Pa})
+    for (const double limit : {tensile_Pa, shear_Pa, compressive_Pa, yield_Pa})
       if (limit > 0 && limit < least) least = limit;
     return least;
   }
-  bool breaks_by_load() const { return tensile_Pa > 0 || shear_Pa > 0 || compressive_Pa > 0; }
+  bool breaks_by_load() const { return weakest_Pa() < std::numeric_limits<double>::infinity(); }
 };
 
 /// Energy that a crack takes where two materials meet: each side pays for itself, unless only one
@@ -110,6 +116,13 @@ struct Material {
 inline double crack_J_m2(const Material& a, const Material& b) {
   if (a.breakable() != b.breakable()) return (a.breakable() ? a : b).toughness_J_m2;
   return 0.5 * (a.toughness_J_m2 + b.toughness_J_m2);
+}
+
+/// Stress at which a bond of two materials flows: the weaker's, or, on what no stress breaks, the
+/// other's; 0: it breaks instead.
+inline double yield_Pa(const Material& a, const Material& b) {
+  if (!a.breaks_by_load()) return b.yield_Pa;
+  return b.breaks_by_load() ? std::min(a.yield_Pa, b.yield_Pa) : a.yield_Pa;
 }
 
 }  // namespace sunder

@@ -12,6 +12,7 @@
 //   pause(), apply_impulse()         what waits sits out; blasts and drives push
 //   solve(), then take_broken()      everything moves by the step
 //   contact_loads(), joint_loads()   what pressed and pulled; overloaded bonds part it: replace(),
+//   joint_flows(), strengthen()      what flowed, and hardens by it
 //   ...
 // And at the end of a frame penetrations(). states() may be asked for at any time.
 #pragma once
@@ -26,6 +27,7 @@
 #include "engine/geometry/convex_polyhedron.h"
 #include "engine/model/body_states.h"
 #include "engine/model/joint.h"
+#include "engine/model/section.h"
 
 namespace sunder {
 
@@ -77,12 +79,18 @@ struct JointDesc {
   BodyId a, b;  ///< None: the world.
   Vec3 anchor_a_R = Vec3::Zero(), anchor_b_R = Vec3::Zero();
   Vec3 axis_a_R = Vec3::UnitZ(), axis_b_R = Vec3::UnitZ();  ///< kHinge: unit.
-  Quat rotation_RaRb = Quat::Identity();                    ///< kFixed: of b as a sees it.
-  double length_m = 0;                                      ///< kDistance, kRope.
+  Quat rotation_RaRb = Quat::Identity();  ///< kFixed, kPlastic: of b as a sees it.
+  double length_m = 0;                    ///< kDistance, kRope.
   /// It breaks when it would have to bear more, within any substep.
   double breaking_N = std::numeric_limits<double>::infinity();
   double breaking_Nm = std::numeric_limits<double>::infinity();
   bool collide = false;  ///< Whether the two bodies touch each other.
+  /// kPlastic: of the section at the anchors, in the rest frame of a.
+  SectionStrength strength;
+  /// kPlastic: tags of the shapes beside the section, on either side. The bodies touch each other,
+  /// but for pairs of shapes one of which is among these. Where one of the bodies is static, such
+  /// shapes of the other touch nothing that is: a post's foot is held by the ground that it is in.
+  std::vector<std::uint32_t> quiet_a, quiet_b;
 };
 
 /// A contact that closes, or would close within the step. Ordered by a key that does not depend on
@@ -120,6 +128,14 @@ struct JointLoad {
   Vec3 impulse_W = Vec3::Zero();  ///< On the body, N·s.
   Vec3 point_W = Vec3::Zero();
   Vec3 angular_impulse_W = Vec3::Zero();  ///< N·m·s, besides that of the impulse.
+};
+
+/// How a plastic joint has flowed over one solve: how b moved against a, in the rest frame of a.
+struct JointFlow {
+  JointId joint;
+  Vec3 turn_R = Vec3::Zero();   ///< Rotation vector.
+  Vec3 drawn_R = Vec3::Zero();  ///< m, of the anchors.
+  double work_J = 0;            ///< That it took; >= 0.
 };
 
 /// What one solve did, for the ledger.
@@ -162,8 +178,12 @@ class Physics {
   virtual JointId join(const JointDesc&) {
     throw InputError("this physics has no joints: take [[joint]] out of the scene");
   }
-  /// Moves an end of a joint (a, or else b) to another body with the same rest frame.
-  virtual void attach(JointId, bool /*end_a*/, BodyId) {}
+  /// Moves an end of a joint (a, or else b) to another body with the same rest frame; its quiet
+  /// shapes, if it is plastic, have these tags.
+  virtual void attach(JointId, bool /*end_a*/, BodyId,
+                      std::span<const std::uint32_t> /*quiet_tags*/ = {}) {}
+  /// Of a plastic joint that has hardened.
+  virtual void strengthen(JointId, const SectionStrength&) {}
   /// Takes a joint away and wakes what it held.
   virtual void cut(JointId) {}
   /// The joints that broke under load since the last call, which are gone; ascending.
@@ -180,6 +200,8 @@ class Physics {
   virtual std::vector<ContactLoad> contact_loads() const = 0;
   /// The same of joints.
   virtual std::vector<JointLoad> joint_loads() const { return {}; }
+  /// Of the plastic joints that flowed in the last solve(); ascending.
+  virtual std::vector<JointFlow> joint_flows() const { return {}; }
   /// Depths (m, >= 0) of all contact points that carry load, unordered; for statistics.
   virtual std::vector<float> penetrations() const = 0;
   /// Time spent since the last call, by name; for the timing table.

@@ -73,6 +73,14 @@ std::vector<std::uint8_t> covered_caps(const Convex& convex,
   return covered;
 }
 
+/// From the origin of a mesh, in the frame that it is painted in.
+Vec3f place_T(const Mesh& mesh, const Vec3& point_R) {
+  return (mesh.X_RT.inverse() * point_R - mesh.origin_T).cast<float>();
+}
+Vec3f direction_T(const Mesh& mesh, const Vec3f& direction_R) {
+  return mesh.X_RT.rotation.conjugate().cast<float>() * direction_R;
+}
+
 void add_polyhedron(const ConvexPolyhedron& polyhedron, const std::vector<std::uint8_t>& hidden,
                     Mesh& mesh) {
   for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
@@ -81,8 +89,8 @@ void add_polyhedron(const ConvexPolyhedron& polyhedron, const std::vector<std::u
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const std::uint32_t corner = face.first_corner + k;
-      const Vec3 position = polyhedron.vertices[polyhedron.corners[corner]] - mesh.origin_R;
-      mesh.vertices.push_back({position.cast<float>(), polyhedron.corner_normals[corner],
+      mesh.vertices.push_back({place_T(mesh, polyhedron.vertices[polyhedron.corners[corner]]),
+                               direction_T(mesh, polyhedron.corner_normals[corner]),
                                face.kind == FaceKind::kInterior ? 1u : 0u});
       if (k >= 2) {
         mesh.indices.insert(mesh.indices.end(), {first, first + k - 1, first + k});
@@ -110,13 +118,12 @@ void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, M
     for (const Triangle& triangle : triangulate(visual, f)) {
       for (const std::uint32_t corner : triangle) {
         const std::uint32_t vertex = visual.corners[corner];
-        const Vec3f& normal = visual.corner_normals[corner];
+        const Vec3f normal = direction_T(mesh, visual.corner_normals[corner]);
         std::uint32_t& drawn = latest[vertex];
         if (drawn == kNone || mesh.vertices[drawn].interior != interior ||
             mesh.vertices[drawn].normal != normal) {
           drawn = static_cast<std::uint32_t>(mesh.vertices.size());
-          const Vec3 position = visual.vertices[vertex] - mesh.origin_R;
-          mesh.vertices.push_back({position.cast<float>(), normal, interior});
+          mesh.vertices.push_back({place_T(mesh, visual.vertices[vertex]), normal, interior});
         }
         mesh.indices.push_back(drawn);
       }
@@ -161,7 +168,8 @@ std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound) {
 std::shared_ptr<const Mesh> make_mesh(const Convex& convex,
                                       const std::vector<std::uint8_t>& hidden) {
   auto mesh = std::make_shared<Mesh>();
-  mesh->origin_R = convex.box.center();
+  mesh->X_RT = convex.X_RT;
+  mesh->origin_T = convex.X_RT.inverse() * convex.box.center();
   mesh->material = convex.material;
   if (convex.is_internal()) {
     add_polyhedron(convex.polyhedron, hidden, *mesh);

@@ -5,6 +5,7 @@
 
 #include "engine/base/trace.h"
 #include "engine/world/act/act_stage.h"
+#include "engine/world/actors/hinges.h"
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/break/break_stage.h"
 #include "engine/world/load/load_stage.h"
@@ -27,12 +28,13 @@ void add_ground(const Ground& ground, Physics& physics) {
   physics.replace({}, std::span(&body, 1));
 }
 
-/// Everything moves by the step; joints that bear too much break.
+/// Everything moves by the step; joints that bear too much break, and what flows is noted.
 void solve(World& world) {
   const Clock& clock = world.clock;
   const SolveReport report = world.physics->solve(clock.dt_s, clock.substeps);
   world.ledger.note(report, world.scene.gravity_W.norm() * clock.dt_s);
   world.ledger.report.joints_lost += world.joints.take_broken(*world.physics);
+  flow(world);
 }
 
 }  // namespace

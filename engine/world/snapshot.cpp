@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/world/actors/draw_bends.h"
 #include "engine/world/actors/make_actor.h"
 
 namespace sunder {
@@ -74,6 +75,7 @@ void add_bodies(const World& world, Frame& frame) {
 std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
                                 std::span<const Shot> shots_to_come, std::uint32_t carried_over) {
   Ledger& ledger = world.ledger;
+  draw_bends(world);
   world.meshes.draw(world.actors);
   auto frame = std::make_shared<Frame>();
   frame->index = world.clock.frame;
@@ -94,6 +96,7 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   }
   report.penetrations_m = world.physics->penetrations();
   report.carried_over = carried_over;
+  report.plastic_J = ledger.plastic_J;
   report.momentum_residual = ledger.momentum_residual();
   ledger.momentum_error_Ns = ledger.momentum_moved_Ns = 0;
   frame->breaks = std::exchange(ledger.breaks, {});

@@ -245,6 +245,7 @@ void write_command(Writer& out, const BreakCommand& command) {
   out.word("spared");
   out.put(command.spared.size());
   for (const MaterialIndex material : command.spared) out.put(material.value);
+  out.put(command.smallest_m3);
   out.end_line();
 }
 
@@ -276,6 +277,7 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   for (std::uint64_t left = in.integer(kMost); left > 0; --left) {
     command.spared.emplace_back(in.integer(kMost));
   }
+  command.smallest_m3 = in.number();
   return command;
 }
 

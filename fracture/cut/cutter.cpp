@@ -79,8 +79,7 @@ void Cutter::cut_cell(std::uint32_t index) {
   const ConvexPolyhedron& shape = pattern_.pattern->cells[cell.index].polyhedron;
   region_.clear();
   for (const ConvexPolyhedron::Face& face : shape.faces) region_.push_back(face.id);
-  ConvexPtr convex =
-      contains(cell) ? make_convex(pattern_.polyhedron(cell), parent_->material) : clip_by(region_);
+  ConvexPtr convex = contains(cell) ? made(pattern_.polyhedron(cell)) : clip_by(region_);
   if (convex) add_draft(index, region_, std::move(convex));
 }
 
@@ -114,6 +113,10 @@ bool Cutter::find_cuts(const std::vector<PlaneId>& region, std::vector<Cut>& cut
   return true;
 }
 
+ConvexPtr Cutter::made(ConvexPolyhedron polyhedron) const {
+  return make_convex(std::move(polyhedron), parent_->material, nullptr, parent_->X_RT);
+}
+
 /// The parent within a region: null if there is nothing, the parent itself if all of it.
 ConvexPtr Cutter::clip_by(const std::vector<PlaneId>& region) {
   if (!find_cuts(region, cuts_)) return nullptr;
@@ -126,7 +129,7 @@ ConvexPtr Cutter::clip_by(const std::vector<PlaneId>& region) {
     std::swap(current_, next_);
     from = &current_;
   }
-  return from == &current_ ? make_convex(current_, parent_->material) : parent_;
+  return from == &current_ ? made(current_) : parent_;
 }
 
 std::uint32_t Cutter::largest_cell() const {
@@ -240,7 +243,7 @@ void Cutter::cut_in_turn(const std::vector<std::uint32_t>& cells, double floor_m
   debris_ = 0;
   std::vector<Remnant> left{{parent_->polyhedron, {}}}, beyond;
   const auto take = [&](std::uint32_t cell, Remnant& part) {
-    add_draft(cell, std::move(part.region), make_convex(std::move(part.solid), parent_->material));
+    add_draft(cell, std::move(part.region), made(std::move(part.solid)));
   };
   for (const std::uint32_t index : cells) {
     const ConvexPolyhedron& cell = pattern_.pattern->cells[pattern_.cells[index].index].polyhedron;

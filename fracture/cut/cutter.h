@@ -65,6 +65,8 @@ class Cutter {
   bool contains(const AlignedPattern::Cell& cell) const;
   bool find_cuts(const std::vector<PlaneId>& region, std::vector<Cut>& cuts) const;
   ConvexPtr clip_by(const std::vector<PlaneId>& region);
+  /// A convex of the parent's material, painted as that is.
+  ConvexPtr made(ConvexPolyhedron polyhedron) const;
   void add_draft(std::uint32_t cell, std::vector<PlaneId> region, ConvexPtr convex);
   bool hand_over(std::size_t sliver);
   bool take_over(std::span<const std::pair<double, std::size_t>> takers,

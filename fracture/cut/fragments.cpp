@@ -35,8 +35,10 @@ class Welder {
       : pattern_(pattern), slot_count_(slot_count), fragments_(fragments) {
     into_.resize(fragments.all.size());
     std::iota(into_.begin(), into_.end(), 0u);
+    held_by_.assign(fragments.all.size(), kNobody);
     for (std::uint32_t g = 0; g < fragments.ghosts.size(); ++g) {
       const Ghost& ghost = fragments.ghosts[g];
+      note_holders(ghost);
       const auto is_here = [&](std::uint32_t node) {
         return node >= slot_count && cell(node - slot_count) == cell_of(ghost);
       };
@@ -60,12 +62,29 @@ class Welder {
   }
 
  private:
+  static constexpr std::uint32_t kNobody = 0xffffffff, kSeveral = 0xfffffffe;
+
+  static void add_holder(std::uint32_t holder, std::uint32_t& all) {
+    if (holder != kNobody && holder != all) all = all == kNobody ? holder : kSeveral;
+  }
+  void note_holders(const Ghost& ghost) {
+    for (const std::uint32_t node : ghost.of) {
+      if (node < slot_count_) continue;
+      for (const std::uint32_t other : ghost.of)
+        if (other < slot_count_) add_holder(other, held_by_[node - slot_count_]);
+    }
+  }
+
   std::uint32_t cell(std::uint32_t fragment) const { return fragments_.all[fragment].cell; }
   std::uint32_t cell_of(const Ghost& ghost) const {
     return ghost.of.back() < slot_count_ ? CellPart::kFarCell : cell(ghost.of.back() - slot_count_);
   }
 
+  /// Unless it would tie together what is not cut: two lengths of a bar, say.
   void weld_cell(std::span<const std::uint32_t> members) {
+    std::uint32_t held_by = kNobody;
+    for (const std::uint32_t i : members) add_holder(held_by_[i], held_by);
+    if (held_by == kSeveral) return;
     Fragment& first = fragments_.all[members[0]];
     std::vector<ConvexPtr> parts;
     std::uint8_t anchored = 0;
@@ -113,7 +132,8 @@ class Welder {
   const AlignedPattern& pattern_;
   std::uint32_t slot_count_;
   Fragments& fragments_;
-  std::vector<std::uint32_t> into_;  ///< Per fragment: the one it is part of now.
+  std::vector<std::uint32_t> into_;     ///< Per fragment: the one it is part of now.
+  std::vector<std::uint32_t> held_by_;  ///< Per fragment: the slot, not cut, that it overlaps.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ghosts_of_cells_;  ///< Cell, ghost.
 };
 

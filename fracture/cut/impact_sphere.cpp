@@ -23,9 +23,20 @@ bool ImpactSphere::touches(const Convex& convex) const {
          distance(center_R, convex.polyhedron) <= radius_m;
 }
 
+bool ImpactSphere::is_lump(const Structure& structure, ConvexSlot slot) const {
+  if (!(structure.convex(slot)->solid.volume_m3 < smallest_m3)) return false;
+  return std::ranges::any_of(structure.ghosts_of(slot), [&](std::uint32_t ghost) {
+    return std::ranges::any_of(structure.ghost(ghost).of, [&](std::uint32_t of) {
+      return spares(structure.convex(ConvexSlot(of))->material);
+    });
+  });
+}
+
 std::vector<ConvexSlot> ImpactSphere::touched(const Structure& structure) const {
   std::vector<ConvexSlot> slots = structure.within(center_R, radius_m);
-  std::erase_if(slots, [&](ConvexSlot slot) { return !touches(*structure.convex(slot)); });
+  std::erase_if(slots, [&](ConvexSlot slot) {
+    return !touches(*structure.convex(slot)) || is_lump(structure, slot);
+  });
   return slots;
 }
 

@@ -13,6 +13,7 @@ struct ImpactSphere {
   Vec3 center_R = Vec3::Zero();
   double radius_m = 1;                     ///< Infinity: everything breaks that may.
   std::vector<MaterialIndex> spared = {};  ///< Materials that do not break.
+  double smallest_m3 = 0;  ///< Nor does what is smaller and overlaps one that does not.
 
   /// Whether everything breaks that may.
   bool is_endless() const;
@@ -20,7 +21,9 @@ struct ImpactSphere {
   bool spares(MaterialIndex material) const;
   /// Whether a convex that may break reaches into it.
   bool touches(const Convex& convex) const;
-  /// Slots of a structure whose convexes it touches, ascending.
+  /// Whether a convex is a lump that one which does not break holds.
+  bool is_lump(const Structure& structure, ConvexSlot slot) const;
+  /// Slots of a structure whose convexes it touches and breaks, ascending.
   std::vector<ConvexSlot> touched(const Structure& structure) const;
 };
 

@@ -25,7 +25,7 @@ ConvexPtr internal_convex(const Convex& part) {
     std::fill_n(polyhedron.corner_normals.begin() + face.first_corner, face.corner_count,
                 Vec3f(face.plane.normal.cast<float>()));
   }
-  return make_convex(std::move(polyhedron), part.material);
+  return make_convex(std::move(polyhedron), part.material, nullptr, part.X_RT);
 }
 
 class SurfaceCutter {
@@ -33,7 +33,7 @@ class SurfaceCutter {
   SurfaceCutter(const AlignedPattern& pattern, const ConvexPtr& parent, const Fit& fit)
       : parent_(parent),
         fit_(fit),
-        hull_(make_convex(parent->polyhedron, parent->material)),
+        hull_(make_convex(parent->polyhedron, parent->material, nullptr, parent->X_RT)),
         cutter_(pattern, hull_),
         whole_m3_(parent->solid.volume_m3),
         floor_m3_(cutter_.least_m3(whole_m3_)) {}
@@ -140,6 +140,7 @@ class SurfaceCutter {
     convex->visual = std::make_shared<PolygonMesh>(std::move(mesh));
     convex->material = parent_->material;
     convex->solid = solid;
+    convex->X_RT = parent_->X_RT;
     convex->box = bounds(convex->polyhedron);
     return convex;
   }

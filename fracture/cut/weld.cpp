@@ -32,7 +32,9 @@ ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
                std::span<const ConvexPtr> parts, std::span<const Ghost> ghosts) {
   double volume = 0;
   for (const ConvexPtr& part : parts) {
-    if (!part->is_internal() || part->material != parts[0]->material) return nullptr;
+    if (!part->is_internal() || part->material != parts[0]->material ||
+        !(part->X_RT == parts[0]->X_RT))
+      return nullptr;
     volume += part->solid.volume_m3;
   }
   for (const Ghost& ghost : ghosts) volume += ghost.sign * ghost.convex->solid.volume_m3;
@@ -44,7 +46,7 @@ ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
   for (const Ghost& ghost : ghosts) boundary += ghost.sign * area_on(*ghost.convex, whole);
   const double area = surface_area(whole);
   if (std::abs(boundary - area) > kSame * area) return nullptr;
-  return make_convex(std::move(whole), parts[0]->material);
+  return make_convex(std::move(whole), parts[0]->material, nullptr, parts[0]->X_RT);
 }
 
 }  // namespace sunder::fracture

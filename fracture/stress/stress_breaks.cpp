@@ -1,14 +1,19 @@
 #include "fracture/stress/stress_breaks.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "fracture/adjacency/islands.h"
+#include "fracture/stress/parting.h"
 #include "fracture/stress/stress_memory.h"
+#include "fracture/stress/yielding.h"
 
 namespace sunder::fracture {
 namespace {
@@ -45,7 +50,12 @@ double part_of(const BondStress& stress, const Limits& limits) {
                    stress.compression_Pa / limits.compressive_Pa});
 }
 
-constexpr std::uint32_t kNone = 0xffffffff;
+double mises_Pa(const BondStress& stress) {
+  const double normal_Pa = std::max(stress.tension_Pa, stress.compression_Pa);
+  return std::sqrt(normal_Pa * normal_Pa + 3 * stress.shear_Pa * stress.shear_Pa);
+}
+
+constexpr std::uint32_t kNoBond = 0xffffffff;
 
 /// A structure while its bonds are cut.
 class StressBreaks {
@@ -56,7 +66,11 @@ class StressBreaks {
         load_(load),
         loads_(by_convex(load.loads)),
         impulses_(by_convex(load.blow.impulses)),
-        blow_J_(load.blow.energy_J) {}
+        blow_J_(load.blow.energy_J),
+        hinged_(slots_.size(), 0) {
+    for (std::size_t c = 0; c < slots_.size(); ++c)
+      hinged_[c] = std::ranges::binary_search(load.hinged, slots_[c]) ? 1 : 0;
+  }
 
   StressAnswer run() {
     StressAnswer answer;
@@ -65,17 +79,27 @@ class StressBreaks {
         std::max(load_.most_work, answer.work + kLeastIterations * memory_->system->work());
     for (int round = 0; round < kRounds; ++round) {
       if (!solve(answer) || !strike(answer)) break;
-      const std::vector<std::uint32_t> cut = overloaded(answer);
+      Yielding yielding = judge(answer);
       if (round == 0) note_blow(answer);
-      if (cut.empty()) {
-        answer.settled = true;
-        break;
-      }
-      remove(cut);
+      // What cracks does so first: what yields bears what it did meanwhile.
+      std::vector<std::uint32_t> cut = overloaded(yielding, least(answer.worst));
+      Flow flow;
+      if (cut.empty()) flow = yielding.flow(least(answer.worst));
+      if (cut.empty() && flow.bonds.empty()) cut = overloaded(yielding, least(cracking(yielding)));
+      answer.work += yielding.work();
+      if (!flow.hinges.empty()) cut = std::move(flow.cracks);
+      hinges_ = std::move(flow.hinges);
+      answer.settled = cut.empty() && hinges_.empty();
+      if (answer.settled) break;
+      spend(cut);
+      std::vector<std::uint32_t> gone;
+      std::ranges::merge(cut, flow.bonds, std::back_inserter(gone));
+      remove(gone);
       answer.work += kEditWork * memory_->system->work();
+      if (!hinges_.empty()) break;  // what moves feels its hinges only in the next step
       if (!impulses_.empty() && parted()) break;  // what is struck is another body now
     }
-    part(answer.edit);
+    answer.edit = part(compound_, slots_, cut_, std::move(hinges_));
     memory_->slots = slots_;
     memory_->bonds = compound_.bonds;
     memory_->convexes = compound_.convexes;
@@ -154,24 +178,41 @@ class StressBreaks {
     if (impulses_.empty()) return;
     answer.blow.local = local_;
     answer.blow.worst = answer.worst;
-    if (worst_ != kNone) answer.blow.worst_R = memory_->system->geometry()[worst_].centroid_R;
+    if (worst_ != kNoBond) answer.blow.worst_R = memory_->system->geometry()[worst_].centroid_R;
   }
 
-  /// The worst bonds of each overloaded region, ascending; of a blow the worst of all, which go
-  /// first.
-  std::vector<std::uint32_t> overloaded(StressAnswer& answer) {
+  Yielding judge(StressAnswer& answer) {
     std::vector<double> parts(compound_.bonds.size(), 0);
     for_chunks(parts.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) parts[i] = part_of_limit(i);
     });
-    const auto most = std::ranges::max_element(parts);
-    answer.worst = most == parts.end() ? 0 : *most;
-    worst_ = answer.worst > 0 ? static_cast<std::uint32_t>(most - parts.begin()) : kNone;
-    const double least = impulses_.empty() ? 1 : std::max(1.0, kAlike * answer.worst);
+    Yielding yielding(compound_, *memory_->system, displacements(), load_.materials, hinged_,
+                      std::move(parts));
+    const auto most = std::ranges::max_element(yielding.parts());
+    answer.worst = most == yielding.parts().end() ? 0 : *most;
+    worst_ =
+        answer.worst > 0 ? static_cast<std::uint32_t>(most - yielding.parts().begin()) : kNoBond;
+    return yielding;
+  }
+
+  /// What is worse than this gives way: of a blow the worst goes first.
+  double least(double worst) const { return impulses_.empty() ? 1 : std::max(1.0, kAlike * worst); }
+
+  /// The worst of bonds that do not yield.
+  double cracking(const Yielding& yielding) const {
+    double worst = 0;
+    for (std::uint32_t i = 0; i < compound_.bonds.size(); ++i)
+      if (!yielding.yields(i)) worst = std::max(worst, yielding.parts()[i]);
+    return worst;
+  }
+
+  /// Of bonds that do not yield the worst of each overloaded region, ascending.
+  std::vector<std::uint32_t> overloaded(const Yielding& yielding, double least) const {
+    const std::vector<double>& parts = yielding.parts();
     std::vector<Bond> too_weak;
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
-      if (parts[i] <= least) continue;
+      if (parts[i] <= least || yielding.yields(i)) continue;
       too_weak.push_back(compound_.bonds[i]);
       numbers.push_back(i);
     }
@@ -179,10 +220,10 @@ class StressBreaks {
     // Overloaded bonds that share a convex are one region.
     const std::vector<std::uint32_t> region = find_islands(compound_.convexes.size(), too_weak);
     const auto region_of = [&](std::uint32_t i) { return region[compound_.bonds[i].a]; };
-    std::vector<std::uint32_t> worst(compound_.convexes.size(), kNone);
+    std::vector<std::uint32_t> worst(compound_.convexes.size(), kNoBond);
     for (const std::uint32_t i : numbers) {
       std::uint32_t& most_of_it = worst[region_of(i)];
-      if (most_of_it == kNone || parts[i] > parts[most_of_it]) most_of_it = i;
+      if (most_of_it == kNoBond || parts[i] > parts[most_of_it]) most_of_it = i;
     }
     std::erase_if(numbers, [&](std::uint32_t i) {
       const std::uint32_t most_of_it = worst[region_of(i)];
@@ -210,23 +251,32 @@ class StressBreaks {
   double part_of_limit(std::size_t i) const {
     const Bond& bond = compound_.bonds[i];
     const auto number = static_cast<std::uint32_t>(i);
-    const Limits limits = limits_of(material_of(bond.a), material_of(bond.b));
-    const double most = part_of(memory_->system->bound(number, displacements()), limits);
+    const Material &a = material_of(bond.a), &b = material_of(bond.b);
+    const BondStress at_most = memory_->system->bound(number, displacements());
+    if (const double flows_Pa = yield_Pa(a, b); flows_Pa > 0) return mises_Pa(at_most) / flows_Pa;
+    const Limits limits = limits_of(a, b);
+    const double most = part_of(at_most, limits);
     if (!(most > kWorthALook)) return most;
     return part_of(memory_->system->stress(compound_, number, displacements()), limits);
   }
 
-  void remove(const std::vector<std::uint32_t>& cut) {
+  /// What cracks takes of the energy of a blow.
+  void spend(const std::vector<std::uint32_t>& cut) {
+    for (const std::uint32_t i : cut) {
+      cut_.push_back(compound_.bonds[i]);
+      blow_J_ -= crack_J(compound_.bonds[i]);
+    }
+  }
+
+  void remove(const std::vector<std::uint32_t>& gone) {
     std::vector<BondGeometry> geometry;
     std::vector<Bond> bonds;
     StressOrigin origin;
     origin.convexes.resize(compound_.convexes.size());
     std::iota(origin.convexes.begin(), origin.convexes.end(), 0u);
-    auto next = cut.begin();
+    auto next = gone.begin();
     for (std::uint32_t i = 0; i < compound_.bonds.size(); ++i) {
-      if (next != cut.end() && *next == i) {
-        cut_.push_back(compound_.bonds[i]);
-        blow_J_ -= crack_J(compound_.bonds[i]);
+      if (next != gone.end() && *next == i) {
         ++next;
         continue;
       }
@@ -239,65 +289,6 @@ class StressBreaks {
         *memory_->system, compound_, std::move(geometry), load_.materials, origin);
   }
 
-  /// The island that stays: the largest of those that are anchored, or of all.
-  std::uint32_t staying(const std::vector<std::uint32_t>& island, std::uint32_t islands) const {
-    std::vector<std::pair<bool, std::uint32_t>> rank(islands);
-    for (std::uint32_t c = 0; c < island.size(); ++c) {
-      rank[island[c]].first |= compound_.anchored[c] != 0;
-      ++rank[island[c]].second;
-    }
-    return static_cast<std::uint32_t>(std::max_element(rank.begin(), rank.end()) - rank.begin());
-  }
-
-  Bond by_slots(const Bond& bond) const {
-    return {slots_[bond.a].value, slots_[bond.b].value, bond.face_a, bond.face_b, bond.area_m2};
-  }
-
-  /// Islands but one come off, as pieces in the order of their first convex.
-  void part(BreakEdit& edit) const {
-    for (const Bond& bond : cut_) edit.cut.push_back(by_slots(bond));
-    const std::vector<std::uint32_t> island = find_islands(compound_);
-    const std::uint32_t islands = 1 + *std::max_element(island.begin(), island.end());
-    if (islands == 1) return;
-    const std::uint32_t stays = staying(island, islands);
-    const auto piece_of = [&](std::uint32_t c) {  // as exposed faces name it
-      return island[c] == stays ? 0 : island[c] + (island[c] < stays ? 1 : 0);
-    };
-    edit.changed = true;
-    BreakPlan& plan = edit.loose;
-    plan.pieces.resize(islands - 1);
-    plan.untouched = static_cast<std::uint32_t>(island.size());
-    std::vector<std::uint32_t> place(island.size());
-    for (std::uint32_t c = 0; c < island.size(); ++c) {
-      place[c] = slots_[c].value;
-      if (island[c] == stays) continue;
-      Compound& piece = plan.pieces[piece_of(c) - 1];
-      edit.removed.push_back(slots_[c]);
-      place[c] = static_cast<std::uint32_t>(piece.convexes.size());
-      piece.convexes.push_back(compound_.convexes[c]);
-      piece.anchored.push_back(compound_.anchored[c]);
-    }
-    for (const Bond& bond : compound_.bonds) {
-      if (island[bond.a] == stays) continue;
-      plan.pieces[piece_of(bond.a) - 1].bonds.push_back(
-          {place[bond.a], place[bond.b], bond.face_a, bond.face_b, bond.area_m2});
-    }
-    for (Ghost ghost : compound_.ghosts) {
-      if (island[ghost.of[0]] == stays) continue;
-      Compound& piece = plan.pieces[piece_of(ghost.of[0]) - 1];
-      for (std::uint32_t& c : ghost.of) c = place[c];
-      piece.ghosts.push_back(std::move(ghost));
-    }
-    for (const Bond& bond : cut_) {
-      if (island[bond.a] == island[bond.b]) continue;
-      plan.new_area_m2 += bond.area_m2;
-      plan.exposed.push_back({piece_of(bond.a), place[bond.a], bond.face_a, bond.area_m2,
-                              compound_.convexes[bond.a]->material});
-      plan.exposed.push_back({piece_of(bond.b), place[bond.b], bond.face_b, bond.area_m2,
-                              compound_.convexes[bond.b]->material});
-    }
-  }
-
   Compound compound_;              ///< Less the bonds that are cut.
   std::vector<ConvexSlot> slots_;  ///< Per convex.
   const LoadCase& load_;
@@ -306,10 +297,12 @@ class StressBreaks {
   double blow_J_;                           ///< Less what the cuts have taken.
   std::vector<Displacement> swing_, bent_;  ///< By the blow; by all at once.
   double local_ = 1;                        ///< Share of the blow's energy.
-  std::uint32_t worst_ = kNone;             ///< Bond.
+  std::uint32_t worst_ = kNoBond;           ///< Bond.
   std::shared_ptr<KnownStress> memory_;
   std::uint64_t most_work_ = 0;
+  std::vector<std::uint8_t> hinged_;  ///< Per convex: beside a hinge.
   std::vector<Bond> cut_;
+  std::vector<PlasticHinge> hinges_;
 };
 
 }  // namespace

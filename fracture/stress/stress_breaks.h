@@ -2,8 +2,8 @@
 //
 // Stress is solved for; the worst bonds of every overloaded region are cut, and it is solved for
 // again, until nothing is overloaded. Only a converged stress cuts, and nothing is kept of one
-// besides a start for the next: a load that
-// a structure withstands once it withstands for ever.
+// besides a start for the next: a load that a structure withstands once it withstands for ever.
+// Bonds that yield are not cut: where no others are overloaded, their sections flow (yielding.h).
 #pragma once
 
 #include "engine/model/breaker.h"

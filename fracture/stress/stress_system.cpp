@@ -11,7 +11,7 @@ namespace {
 
 // A bond is no stiffer than one between convexes this share of its width apart.
 constexpr double kLeastDistance = 0.05;
-constexpr double kNothing = 1e-11;  // of all forces: rounding
+constexpr double kUnbalanced = 1e-11;  // of all forces: rounding
 // Bonds of one plane within so many cells make one section.
 constexpr double kWindowCells = 2;
 
@@ -235,7 +235,7 @@ SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& g
     x[node] = {simd4<double>(d.shift_R - d.rotation_R.cross(arm)), simd4<double>(d.rotation_R)};
   }
   // What falls freely has forces that cancel but for rounding.
-  const double nothing_N = kNothing * masses_.applied_N(loads, gravity_R, spin_R);
+  const double nothing_N = kUnbalanced * masses_.applied_N(loads, gravity_R, spin_R);
   const SolveResult result = multigrid_->solve(f, tolerance, nothing_N, most_iterations, x);
   for (std::size_t c = 0; c < masses_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];
@@ -277,6 +277,14 @@ double StressSystem::energy_J(std::span<const Displacement> displacements, const
     energy += 0.5 * square / bonds_[i].stiffness_Pa_m;
   }
   return energy;
+}
+
+Wrench StressSystem::wrench(std::uint32_t bond, std::span<const Displacement> displacements) const {
+  const BondGeometry& g = geometry_[bond];
+  const Field f = field(bond, displacements);
+  const Vec3 rotation = f.twist_Pa_m * g.normal_R + f.slope_Pa_m.cross(g.normal_R);
+  return {g.area_m2 * (f.mean_Pa * g.normal_R + f.shear_Pa),
+          g.second_moment.trace() * rotation - g.second_moment * rotation};
 }
 
 BondStress StressSystem::bound(std::uint32_t bond,

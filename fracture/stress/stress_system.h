@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/model/compound.h"
+#include "engine/model/section.h"
 #include "fracture/stress/bond_geometry.h"
 #include "fracture/stress/convex_masses.h"
 #include "fracture/stress/multigrid.h"
@@ -69,6 +70,9 @@ class StressSystem {
   double energy_J(std::span<const Displacement> displacements, const Vec3& center_R,
                   double radius_m) const;
 
+  /// What convex b of a bond does to convex a, about the bond's centroid. Of all bonds together it
+  /// balances the loads, however far the stress in one of them is from that of a beam.
+  Wrench wrench(std::uint32_t bond, std::span<const Displacement> displacements) const;
   /// No less than any stress over the bond's own area.
   BondStress bound(std::uint32_t bond, std::span<const Displacement> displacements) const;
   /// The worst at the corners of a bond of `compound`, for which this was made. Tension and

@@ -9,7 +9,7 @@ namespace sunder::fracture {
 namespace {
 
 /// Volumes below this share of the size's cube are rounding.
-constexpr double kNothing = 1e-12;
+constexpr double kFlat = 1e-12;
 /// Faces that are looked at together.
 constexpr std::size_t kBlock = 16;
 /// Points are moved by up to this share of the size: of slices and of well-made solids many lie in
@@ -49,10 +49,10 @@ bool SweepHull::start(const Vec3& point) {
   const auto apart = [&] {
     if (points_.empty()) return true;
     const Vec3 a = point - points_[0];
-    if (points_.size() == 1) return a.norm() > kNothing * size_;
+    if (points_.size() == 1) return a.norm() > kFlat * size_;
     const Vec3 ab = points_[1] - points_[0];
-    if (points_.size() == 2) return ab.cross(a).norm() > kNothing * size_ * size_;
-    return std::abs(ab.cross(points_[2] - points_[0]).dot(a)) > kNothing * size_ * size_ * size_;
+    if (points_.size() == 2) return ab.cross(a).norm() > kFlat * size_ * size_;
+    return std::abs(ab.cross(points_[2] - points_[0]).dot(a)) > kFlat * size_ * size_ * size_;
   };
   if (!apart()) {
     waiting_.push_back(point);

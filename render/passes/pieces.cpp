@@ -160,9 +160,11 @@ void Pieces::place(const Frame& frame) {
     const FrameBody& body = frame.bodies[frame.instances[i].body];
     const std::uint32_t s = slot_of_instance_[i];
     const Slot& slot = slots_[s];
-    const Vec3 origin = slot.mesh->origin_R;
-    const Mat3f rotation = body.X_WB.rotation.toRotationMatrix().cast<float>();
-    const Vec3f translation = (body.X_WB * (origin - body.com_R) - frame.view.eye_W).cast<float>();
+    const Pose& X_RT = slot.mesh->X_RT;
+    const Vec3 origin = slot.mesh->origin_T;
+    const Mat3f rotation = (body.X_WB.rotation * X_RT.rotation).toRotationMatrix().cast<float>();
+    const Vec3f translation =
+        (body.X_WB * (X_RT * origin - body.com_R) - frame.view.eye_W).cast<float>();
     float* texels = slot_texels_.data() + s * kFloatsPerSlot;
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 3; ++column) texels[4 * row + column] = rotation(row, column);

@@ -46,7 +46,11 @@ class RigidPhysics final : public Physics {
   void set_state(BodyId body, const BodyState& state) override;
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
   JointId join(const JointDesc& joint) override;
-  void attach(JointId joint, bool end_a, BodyId body) override;
+  void attach(JointId joint, bool end_a, BodyId body,
+              std::span<const std::uint32_t> quiet_tags) override;
+  void strengthen(JointId joint, const SectionStrength& strength) override {
+    joints_.strengthen(joint, strength);
+  }
   void cut(JointId joint) override;
   std::vector<JointId> take_broken() override { return joints_.take_broken(); }
   void pause(std::span<const BodyId> bodies) override;
@@ -56,6 +60,7 @@ class RigidPhysics final : public Physics {
     return find_contact_loads(contacts_, bodies_, shapes_);
   }
   std::vector<JointLoad> joint_loads() const override { return joints_.loads(bodies_); }
+  std::vector<JointFlow> joint_flows() const override { return joints_.flows(); }
   std::vector<float> penetrations() const override { return find_penetrations(contacts_); }
   std::vector<std::pair<const char*, double>> take_timings_ms() override;
 
@@ -187,7 +192,7 @@ void RigidPhysics::update_contacts() {
       const bool touched = pair.touching();
       Manifold& m = touched ? contacts_.manifolds[pair.manifold] : fresh;
       if (same_as_before(bodies_, reach_, pair, touched ? &m : nullptr)) continue;
-      const bool apart = joints_.apart(pair.body_a, pair.body_b);
+      const bool apart = joints_.apart(pair, shapes_, bodies_);
       pair.fresh = apart;  // looked at again when they cease to ignore each other
       const bool near = !apart && broad_phase_.near(pair);
       if (near) update_contact(step_, shapes_, bodies_, pair, m, scratch);
@@ -283,8 +288,9 @@ JointId RigidPhysics::join(const JointDesc& joint) {
   return id;
 }
 
-void RigidPhysics::attach(JointId id, bool end_a, BodyId body) {
-  joints_.attach(id, end_a, body, bodies_);
+void RigidPhysics::attach(JointId id, bool end_a, BodyId body,
+                          std::span<const std::uint32_t> quiet_tags) {
+  joints_.attach(id, end_a, body, quiet_tags, bodies_);
   look_again(id);
 }
 
@@ -303,6 +309,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   report.momentum_before_Ns = bodies_.momentum().momentum_Ns;
   report.external_impulse_Ns = freeze_broken();
   joints_.wake(bodies_);
+  joints_.forget_flows();
   paused_.stop(bodies_);
   double awake_mass = 0;
   for (const BodySlot body : bodies_.slots()) {

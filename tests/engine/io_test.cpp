@@ -37,7 +37,9 @@ Frame sample_frame() {
   frame.materials = std::make_shared<const std::vector<Material>>(std::vector{stone, stone});
   auto meshes = std::make_shared<MeshStore>();
   meshes->push_back(make_ball_mesh(3, MaterialIndex(0)));  // not drawn: not written
-  meshes->push_back(make_ball_mesh(0.5, MaterialIndex(1)));
+  auto bent = std::make_shared<Mesh>(*make_ball_mesh(0.5, MaterialIndex(1)));
+  bent->X_RT = {Vec3(0.3, -0.7, 11), Quat(0.5, -0.5, 0.5, 0.5)};
+  meshes->push_back(bent);
   frame.meshes = meshes;
   FrameBody body;
   body.key = 42;
@@ -64,6 +66,8 @@ TEST(FrameFile, GivesBackWhatWasWritten) {
   ASSERT_EQ(read->meshes->size(), 1u);
   const Mesh &mesh = *read->meshes->at(0), &drawn = *frame.meshes->at(1);
   EXPECT_EQ(mesh.indices, drawn.indices);
+  EXPECT_EQ(mesh.X_RT.position, drawn.X_RT.position);
+  EXPECT_EQ(mesh.X_RT.rotation.coeffs(), drawn.X_RT.rotation.coeffs());
   EXPECT_EQ(mesh.vertices.back().position, drawn.vertices.back().position);
   EXPECT_EQ(mesh.material, MaterialIndex(1));
   EXPECT_EQ(read->bodies[0].X_WB.position, frame.bodies[0].X_WB.position);
@@ -116,6 +120,20 @@ TEST(FrameFile, RefusesEveryTruncationAndCorruptionWithAWord) {
     EXPECT_THROW(read_frame(file.path), InputError);
   }
   EXPECT_THROW(read_frame("/nowhere/at/all.frame"), InputError);
+}
+
+TEST(FrameFile, OfEarlierVersionsIsRead) {
+  const Frame frame = sample_frame();
+  for (const char version : {'1', '2'}) {
+    const FramePtr read =
+        read_frame(fs::path(SUNDER_FRAMES_FOLDER) / (std::string("version_") + version + ".frame"));
+    const Mesh& mesh = *read->meshes->at(0);
+    EXPECT_TRUE(mesh.X_RT.position.isZero());
+    EXPECT_EQ(mesh.X_RT.rotation.coeffs(), Quat::Identity().coeffs());
+    EXPECT_EQ(mesh.indices.size(), frame.meshes->at(1)->indices.size());
+    EXPECT_EQ(read->bodies[0].key, 42u);
+    EXPECT_EQ(read->debris.size(), version < '2' ? 0u : 1u);
+  }
 }
 
 TEST(StateHash, ChangesWithOneBitAndOnlyThen) {

@@ -78,7 +78,7 @@ class ScriptedPhysics : public Physics {
     cut_joints.push_back(false);
     return {static_cast<std::uint32_t>(joints.size() - 1), 0};
   }
-  void attach(JointId id, bool end_a, BodyId body) override {
+  void attach(JointId id, bool end_a, BodyId body, std::span<const std::uint32_t>) override {
     (end_a ? joints[id.slot].a : joints[id.slot].b) = body;
   }
   void cut(JointId id) override { cut_joints[id.slot] = true; }

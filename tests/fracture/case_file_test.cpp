@@ -25,6 +25,7 @@ BreakCase example(const char* solid = "voronoi:7") {
   example.command.pattern.cells = 30;
   example.command.pattern.file = "a file with \"quotes\"";
   example.command.spared = {MaterialIndex(2u), MaterialIndex(4u)};
+  example.command.smallest_m3 = 0.01;
   example.command.stretch_P = Vec3(1, 1. / 3, 1).asDiagonal();
   example.command.X_RP.position = Vec3(.7, .1, .1);
   return example;
@@ -43,6 +44,7 @@ TEST(CaseFile, replays_to_the_same_bits) {
     EXPECT_EQ(read.compound.anchored, written.compound.anchored);
     EXPECT_EQ(read.command.pattern.file, written.command.pattern.file);
     EXPECT_EQ(read.command.spared, written.command.spared);
+    EXPECT_EQ(read.command.smallest_m3, written.command.smallest_m3);
     const BreakPlan again = break_compound(read.compound, read.command);
     EXPECT_TRUE(again.broke());
     EXPECT_EQ(hash_of(again), hash_of(break_compound(written.compound, written.command)));

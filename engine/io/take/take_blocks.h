@@ -1,4 +1,4 @@
-// The blocks a take consists of. Layout of the file: "SUNDERT4", blocks one after the other, and,
+// The blocks a take consists of. Layout of the file: "SUNDERT5", blocks one after the other, and,
 // where the run came to its end, an index of them, of which the last 16 bytes say where it begins.
 //
 // A block is a header and bytes in zstd. Blocks of one chunk of frames (a key frame and those that
@@ -17,7 +17,7 @@ struct ZSTD_DCtx_s;
 
 namespace sunder {
 
-inline constexpr char kTakeMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'T', '4'};
+inline constexpr char kTakeMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'T', '5'};
 inline constexpr std::size_t kTakeName = sizeof kTakeMagic - 1;  ///< What precedes the version.
 inline constexpr char kIndexMagic[8] = {'T', 'A', 'K', 'E', 'E', 'N', 'D', '1'};
 inline constexpr std::uint64_t kFramesAChunk = 120;

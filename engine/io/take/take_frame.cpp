@@ -167,7 +167,8 @@ std::vector<Particle> read_particles(ByteReader& in, const std::string& file, Ta
 void write_report(ByteWriter& out, const Frame& frame) {
   const FrameReport& report = frame.report;
   out.put(report.counts);
-  out.put(report.mass_kg, report.kinetic_J, report.potential_J, report.momentum_residual);
+  out.put(report.mass_kg, report.kinetic_J, report.potential_J, report.plastic_J,
+          report.momentum_residual);
   out.put(report.carried_over, report.limits_hit, report.aged, report.frozen, report.joints_lost);
   out.put(static_cast<std::uint32_t>(frame.breaks.size()));
   for (const BreakEvent& event : frame.breaks) {
@@ -178,7 +179,7 @@ void write_report(ByteWriter& out, const Frame& frame) {
 
 void read_report(ByteReader& in, Frame& frame) {
   FrameReport& report = frame.report;
-  in.take_to(report.counts, report.mass_kg, report.kinetic_J, report.potential_J,
+  in.take_to(report.counts, report.mass_kg, report.kinetic_J, report.potential_J, report.plastic_J,
              report.momentum_residual);
   in.take_to(report.carried_over, report.limits_hit, report.aged, report.frozen,
              report.joints_lost);

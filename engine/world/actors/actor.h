@@ -56,6 +56,7 @@ struct Actor {
   double volume_m3 = 0;
   std::vector<MaterialIndex> materials;  ///< Of its convexes when it was made, each once.
   std::uint64_t born_step = 0;
+  std::uint32_t rejoined = 0;  ///< How often parts of it have become one again.
   /// No impact with less energy can break it by a pattern: it is too tough, or its last fruitless
   /// plan asked for more. Infinite if nothing can.
   double least_J = std::numeric_limits<double>::infinity();

@@ -14,6 +14,7 @@ LoadCase bearing(const World& world, const Actor& actor, const Quat& rotation_WB
   load.gravity_R = rotation_WB.conjugate() * world.scene.gravity_W;
   load.spin_R = actor.stress.spin_R;
   load.memory = actor.stress.memory;
+  load.hinged = world.joints.hinged(actor.key);
   return load;
 }
 

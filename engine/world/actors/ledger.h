@@ -13,6 +13,7 @@ struct Ledger {
   std::vector<BreakEvent> breaks;  ///< Of the frame under way.
   double debris_mass_kg = 0;       ///< Of all that became too small for a body.
   double removed_mass_kg = 0;      ///< By the script.
+  double plastic_J = 0;            ///< That bending took, of the whole run.
   double momentum_error_Ns = 0, momentum_moved_Ns = 0;  ///< Of the frame under way.
 
   /// What a solve did, of a step in which gravity changes velocities by `fall_m_s`. Momentum that

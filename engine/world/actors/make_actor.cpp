@@ -22,10 +22,14 @@ bool breaks_by_load(const World& world, const Actor& actor) {
   });
 }
 
-/// Whether what presses on it and strikes it is looked at.
-bool feels_pushes(const Actor& actor) {
+/// Whether what presses on it and strikes it is looked at. However small, what may bend is.
+bool feels_pushes(const World& world, const Actor& actor) {
+  if (!actor.stress.breakable) return false;
   const bool is_fragment = actor.key != actor.root_key && !actor.is_static;
-  return actor.stress.breakable && (!is_fragment || actor.structure.size() >= kLeastPressed);
+  return !is_fragment || actor.structure.size() >= kLeastPressed ||
+         std::ranges::any_of(actor.materials, [&](MaterialIndex material) {
+           return world.material(material).yields();
+         });
 }
 
 /// See StressState.
@@ -70,7 +74,7 @@ void set_least(const World& world, Actor& actor) {
     actor.least_Ns = std::min(actor.least_Ns, material.strength_Ns);
   }
   actor.stress.least_J = std::numeric_limits<double>::infinity();
-  if (!feels_pushes(actor)) return;
+  if (!feels_pushes(world, actor)) return;
   const double convex_m3 = actor.volume_m3 / static_cast<double>(actor.structure.size());
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
@@ -125,7 +129,7 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
   actor.structure.for_each(
       [&](ConvexSlot slot, const Convex&) { body.shapes.push_back(shape_of(world, actor, slot)); });
   body.tag = actor.key;
-  body.reports_load = feels_pushes(actor);
+  body.reports_load = feels_pushes(world, actor);
   return body;
 }
 

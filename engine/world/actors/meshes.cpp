@@ -50,6 +50,16 @@ void Meshes::renew(Actor& actor, std::span<const ConvexSlot> slots) {
   }
 }
 
+void Meshes::show(Actor& actor, ConvexSlot slot, std::shared_ptr<const Mesh> mesh) {
+  MeshIndex& shown = actor.meshes[slot.value];
+  if (mesh) {
+    shown = add(std::move(mesh));
+  } else if (shown != kUndrawn) {
+    shown = kUndrawn;
+    undrawn_.push_back({actor.key, slot});
+  }
+}
+
 void Meshes::draw(Actors& actors) {
   std::vector<Undrawn> todo = std::exchange(undrawn_, {});
   std::ranges::sort(todo);

@@ -26,6 +26,10 @@ class Meshes {
   /// Draws convexes of an actor anew whose faces are hidden otherwise than before; slots may be
   /// new.
   void renew(Actor& actor, std::span<const ConvexSlot> slots);
+  /// Draws a convex of an actor otherwise than it is; null: as it is.
+  void show(Actor& actor, ConvexSlot slot, std::shared_ptr<const Mesh> mesh);
+  /// Leaves it out.
+  void hide(Actor& actor, ConvexSlot slot) { actor.meshes[slot.value] = {}; }
   /// Makes the meshes that are still missing.
   void draw(Actors& actors);
   /// All there are, for a frame: they stay as they are.

@@ -4,6 +4,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "engine/world/actors/hinges.h"
 #include "engine/world/actors/make_actor.h"
 
 namespace sunder {
@@ -18,10 +19,17 @@ Vec3 momentum_of(const World& world, std::span<const Actor> actors) {
   return sum;
 }
 
-/// Whether a piece is a body: anchored, or large enough.
-bool is_body(const World& world, const Compound& piece) {
-  if (piece.is_anchored()) return true;
+/// Whether a piece is a body: anchored, held by a hinge, or large enough.
+bool is_body(const World& world, const Compound& piece, bool hinged) {
+  if (piece.is_anchored() || hinged) return true;
   return volume(piece) >= world.material(piece.convexes[0]->material).smallest_piece_m3;
+}
+
+/// Whether a hinge of the edit holds a piece, as exposed faces name it.
+bool is_hinged(const BreakEdit& edit, std::uint32_t piece) {
+  return std::ranges::any_of(edit.hinges, [&](const PlasticHinge& hinge) {
+    return hinge.piece_a == piece || hinge.piece_b == piece;
+  });
 }
 
 /// Momentum of what the pieces leave of the parent: debris flies on with the parent's motion.
@@ -96,15 +104,17 @@ struct Pieces {
   std::vector<BodyDesc> bodies;
 
   /// A body, or debris if it is too small. Returns its key.
-  std::uint32_t add(World& world, const Compound& compound, const Actor& parent,
+  std::uint32_t add(World& world, const Compound& compound, bool hinged, const Actor& parent,
                     const Motion& motion) {
-    if (!is_body(world, compound)) {
+    if (!is_body(world, compound, hinged)) {
       note_chip(world, compound, motion);
       return kNobodyKey;
     }
     Actor& piece = actors.emplace_back(make_actor(world, compound));
-    piece.born_step = world.clock.step + 1;
+    // What hangs on by a hinge is what it was to whoever strikes it.
+    piece.born_step = hinged ? parent.born_step : world.clock.step + 1;
     piece.root_key = parent.root_key;
+    piece.rejoined = parent.rejoined;
     set_least(world, piece);  // of a fragment
     if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;
     world.ledger.debris_mass_kg -= piece.weight.mass_kg;
@@ -180,10 +190,11 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
       if (slot.value >= parent.meshes.size()) return;  // new
       looks[&convex] = {parent.meshes[slot.value], parent.hidden[slot.value]};
     });
-    keys[0] = pieces.add(world, rest, parent, motion);
+    keys[0] = pieces.add(world, rest, is_hinged(edit, 0), parent, motion);
   }
   for (const Compound& piece : edit.loose.pieces) {
-    keys.push_back(pieces.add(world, piece, parent, motion));
+    const auto number = static_cast<std::uint32_t>(keys.size());
+    keys.push_back(pieces.add(world, piece, is_hinged(edit, number), parent, motion));
   }
   note_exposed(world, parent.structure, edit, motion, keys);
   world.meshes.add_to(pieces.actors, looks);
@@ -205,6 +216,7 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
         momentum_of(world, pieces.actors) + debris_momentum(parent, pieces.actors, motion);
     world.ledger.momentum_error_Ns += (after - before).norm();
   }
+  join_hinges(world, parent, edit, pieces.actors, keys);
   if (!stays) world.actors.erase(world.actors.place_of(parent));
   for (Actor& piece : pieces.actors) world.actors.add(std::move(piece));
 }

@@ -29,6 +29,7 @@ struct World {
   Joints joints;
   Meshes meshes;
   Ledger ledger;
+  std::uint64_t next_event = 1;    ///< Names the planes that breaks and bends make.
   std::optional<Exposed> exposed;  ///< None where nobody wants to know: without particles.
 
   World(Scene given, std::unique_ptr<Physics> moves)

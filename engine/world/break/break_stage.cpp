@@ -83,7 +83,9 @@ bool settle(World& world, Trial& trial, std::vector<std::uint32_t>& all_broken) 
   }
   const std::vector<std::uint32_t> broken = trial.probe.release(wanted);
   if (broken.empty()) return false;
-  take_over(world, trial.probe);
+  const auto bends = [&](auto load) { return trial.planned[of_load[load]].only_bends(); };
+  // What only bends is still in the way, and is met as what it has become.
+  if (!std::ranges::all_of(broken, bends)) take_over(world, trial.probe);
   for (const std::uint32_t load : broken) {
     PlannedBreak& planned = trial.planned[of_load[load]];
     break_actor(world, planned);
@@ -140,11 +142,11 @@ bool BreakBudget::try_spend(std::uint32_t parts) {
   return true;
 }
 
-bool BreakStage::take_on(const World& world, const Breaker& breaker, std::span<PlannedBreak> all) {
+bool BreakStage::take_on(World& world, const Breaker& breaker, std::span<PlannedBreak> all) {
   std::uint32_t parts = 0;
   for (PlannedBreak& planned : all) {
     if (!planned.by_pattern) continue;
-    prepare(world, breaker, next_event_++, planned);
+    prepare(world, breaker, world.next_event++, planned);
     parts += parts_to_cut(world, planned);
   }
   return budget_.try_spend(parts);

@@ -64,7 +64,7 @@ class BreakStage {
 
  private:
   /// Makes impacts ready to be planned, and spends what they cost; false if that is too much.
-  bool take_on(const World& world, const Breaker& breaker, std::span<PlannedBreak> all);
+  bool take_on(World& world, const Breaker& breaker, std::span<PlannedBreak> all);
   /// Impacts that come with an energy of their own; true if something broke.
   bool break_by_blasts(World& world, const Breaker& breaker, std::span<const Impact> impacts);
   /// Follows all probes until each has broken something or come to the end of the step, or has to
@@ -73,7 +73,6 @@ class BreakStage {
   bool decide(World& world, const Breaker& breaker, std::vector<Trial> trials, bool in_time);
 
   BreakBudget budget_;
-  std::uint64_t next_event_ = 1;
   std::vector<Impact> impacts_waiting_;  ///< Over the frame's budget: decided first in the next.
   WaitingRoom waiting_room_;
 };

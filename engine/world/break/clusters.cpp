@@ -242,32 +242,34 @@ class Reach {
     return actor ? rest_pose(*actor, states_[actor->body].X_WB) * end.anchor_R : end.anchor_R;
   }
 
-  /// Adds a joint to what it is to a probe; or, if it leads out of the cluster, leans on that.
+  /// Adds a joint to what it is to a probe; or, if it leads out of the cluster, leans on that. A
+  /// hinge of this very step is none: what made it has it flow before it bears anything.
   void link(const Joints::Live& joint, std::vector<ProbeBody>& bodies,
             std::vector<ProbeContact>& contacts, std::vector<ProbeJoint>& joints) const {
+    if (joint.hinge && joint.hinge->flowed_step == world_.clock.step) return;
     const std::uint32_t a = members_.place(joint.a.key), b = members_.place(joint.b.key);
     if (!members_.holds(a) || !members_.holds(b)) {
       bodies[members_.index(members_.holds(a) ? a : b)].leans = true;
       return;
     }
     const Vec3 at_a_W = anchor_W(joint.a), at_b_W = anchor_W(joint.b);
-    ProbeJoint link{joint.kind, members_.index(a), members_.index(b)};
+    ProbeJoint link{joint.desc.kind, members_.index(a), members_.index(b)};
     link.arm_a_W = at_a_W - bodies[link.a].position_W;
     link.arm_b_W = at_b_W - bodies[link.b].position_W;
-    if (joint.kind == JointKind::kRope) {
+    if (joint.desc.kind == JointKind::kRope) {
       const double length_m = (at_a_W - at_b_W).norm();
       ProbeContact rope{link.a, link.b};
       rope.arm_a_W = link.arm_a_W, rope.arm_b_W = link.arm_b_W;
       if (length_m > 0) rope.normal_W = (at_a_W - at_b_W) / length_m;
-      rope.separation_m = joint.length_m - length_m;
+      rope.separation_m = joint.desc.length_m - length_m;
       rope.rope = true;
       contacts.push_back(rope);
       return;
     }
     if (const Actor* actor = members_.actor(a)) {
-      link.axis_W = states_[actor->body].X_WB.rotation * joint.axis_a_R;
+      link.axis_W = states_[actor->body].X_WB.rotation * joint.desc.axis_a_R;
     } else {
-      link.axis_W = joint.axis_a_R;
+      link.axis_W = joint.desc.axis_a_R;
     }
     joints.push_back(link);
   }

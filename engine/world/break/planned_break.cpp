@@ -18,8 +18,9 @@ constexpr double kWorthPlanning = 0.7;
 // One with less than this part of what would have bent it to its limit when it was last struck, at
 // another place perhaps, is not asked about.
 constexpr double kWorthAsking = 0.1;
-// In visits of bonds: what is not known by then is not asked about again until it is harder.
-constexpr std::uint64_t kMostBlowWork = 100;
+// In visits of each bond: what is not known by then is not asked about again until it is harder.
+// Where no pattern is, stress alone can answer, and slender frames take it long.
+constexpr std::uint64_t kMostBlowWork = 100, kMostWorkOfFrames = 1200;
 // What cracks at its bonds takes this much of a blow at most: it is stress that decides.
 constexpr double kMostTaken = 0.9;
 
@@ -42,6 +43,11 @@ double crack_energy_J(const World& world, const Structure& structure, std::span<
   return energy;
 }
 
+/// Whether stress breaks it, or bends it.
+bool gives_way(const BreakEdit& by_stress) {
+  return !by_stress.cut.empty() || !by_stress.hinges.empty();
+}
+
 double area_m2(const PlannedBreak& planned) {
   if (!planned.at_bonds) return planned.edit.loose.new_area_m2;
   double area = 0;
@@ -57,7 +63,7 @@ void choose(const World& world, const Structure& structure, PlannedBreak& planne
   const BlowStress& blow = planned.stressed.blow;
   const double overloads = 1 / (blow.worst * blow.worst), energy_J = planned.impact.energy_J;
   double by_pattern = kNever;
-  double by_stress = planned.stressed.edit.cut.empty() ? kNever : overloads;
+  double by_stress = gives_way(planned.stressed.edit) ? overloads : kNever;
   if (planned.edit.changed) {
     by_pattern = planned.needed_J / (blow.local * energy_J);
     const double distance_m = (blow.worst_R - planned.command.X_RP.position).norm();
@@ -120,7 +126,10 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         LoadCase load = bearing(world, actor, states[actor.body].X_WB.rotation, loads);
         load.blow = {planned.impulses, planned.impact.energy_J, planned.command.X_RP.position,
                      planned.by_pattern ? planned.command.radius_m : 0};
-        load.most_work = kMostBlowWork * (actor.structure.bond_count() + 1);
+        const Convex& convex = *actor.structure.convex(planned.impact.convex);
+        const bool has_pattern = world.material(convex.material).breakable();
+        load.most_work =
+            (has_pattern ? kMostBlowWork : kMostWorkOfFrames) * (actor.structure.bond_count() + 1);
         planned.stressed = breaker.stress(actor.structure, load);
       }
       choose(world, actor.structure, planned);
@@ -143,7 +152,7 @@ void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {
     actor.least_J = std::max(
         actor.least_J, planned.edit.changed ? kWorthPlanning * planned.needed_J : 1.4 * energy_J);
   if (!planned.by_stress) return;
-  if (planned.stressed.edit.cut.empty()) actor.stress.memory = planned.stressed.memory;
+  if (!gives_way(planned.stressed.edit)) actor.stress.memory = planned.stressed.memory;
   const BlowStress& blow = planned.stressed.blow;
   const double bends_J = (1 - blow.local) * energy_J;
   actor.stress.least_J =
@@ -163,7 +172,7 @@ void break_actor(World& world, PlannedBreak& planned) {
     actor.stress.memory = planned.stressed.memory;
   }
   if (planned.edit.changed) event.pieces = pieces_after(actor.structure, planned.edit);
-  world.ledger.breaks.push_back(event);
+  if (!planned.only_bends()) world.ledger.breaks.push_back(event);
   world.ledger.report.failed += planned.edit.loose.failed;
   if (planned.edit.changed) {
     carry_out(world, impact.key, planned.edit);

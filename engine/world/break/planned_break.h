@@ -27,6 +27,9 @@ struct PlannedBreak {
   double needed_J = 0;    ///< By its cracks.
   bool breaks = false;    ///< The impact pays for them.
   bool at_bonds = false;  ///< By stress.
+
+  /// It parts at hinges and cracks nowhere.
+  bool only_bends() const { return at_bonds && edit.cut.empty(); }
 };
 
 /// Makes the command that the impact amounts to.

@@ -96,7 +96,7 @@ std::vector<ContactRow> joint_rows(const std::vector<ProbeBody>& bodies,
       const Vec3 across = axis.unitOrthogonal();
       hold_turn(across);
       hold_turn(axis.cross(across));
-    } else if (joint.kind == JointKind::kFixed) {
+    } else if (joint.kind == JointKind::kFixed) {  // within no time, what flows bears no moment
       for (int i = 0; i < 3; ++i) hold_turn(Vec3::Unit(i));
     }
   }

@@ -8,6 +8,7 @@
 #include "engine/base/trace.h"
 #include "engine/world/actors/bearing.h"
 #include "engine/world/actors/replace.h"
+#include "engine/world/load/rejoin.h"
 
 namespace sunder {
 namespace {
@@ -214,9 +215,11 @@ void apply(World& world, Judged& judged) {
   if (!edit.loose.exposed.empty()) {
     middle_R = edit.exposed_convex(actor.structure, edit.loose.exposed[0]).solid.centroid;
   }
-  world.ledger.breaks.push_back(
-      {world.clock.time_s(), actor.key, X_WB * Vec3(middle_R - actor.weight.com_R), 0,
-       edit.loose.new_area_m2, judged.ms, pieces_after(actor.structure, edit)});
+  if (edit.hinges.empty() || !edit.cut.empty()) {  // it broke, and did not only bend
+    world.ledger.breaks.push_back(
+        {world.clock.time_s(), actor.key, X_WB * Vec3(middle_R - actor.weight.com_R), 0,
+         edit.loose.new_area_m2, judged.ms, pieces_after(actor.structure, edit)});
+  }
   carry_out(world, judged.key, edit);
 }
 
@@ -247,6 +250,7 @@ void LoadStage::run(World& world, const Breaker& breaker) {
     }
   }
   waiting_ = static_cast<std::uint32_t>(keys.size() - next);
+  if (work_left_ > 0) work_left_ -= static_cast<std::int64_t>(rejoin(world, breaker));
 }
 
 }  // namespace sunder

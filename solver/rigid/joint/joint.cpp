@@ -6,12 +6,19 @@
 namespace sunder::solver {
 namespace {
 
+// In place of a pair of bodies: whatever stands.
+constexpr std::uint64_t kStanding = ~std::uint64_t{0};
+
 std::uint64_t body_pair(BodySlot a, BodySlot b) {
   return std::uint64_t{std::min(a, b).value} << 32 | std::max(a, b).value;
 }
 
 BodySlot slot_of(BodyId id, const Bodies& bodies) {
   return id.none() ? BodySlot() : bodies.slot(id);
+}
+
+bool bears(const SectionStrength& strength) {
+  return strength.axial_N > 0 && strength.shear_N > 0 && strength.moment_Nm.minCoeff() > 0;
 }
 
 void wake_body(BodySlot body, Bodies& bodies) {
@@ -34,13 +41,26 @@ void Joints::wake_ends(const Joint& joint, Bodies& bodies) const {
   wake_body(joint.body_b, bodies);
 }
 
-void Joints::note_pairs() {
+void Joints::note_pairs(const Bodies& bodies) {
   apart_.clear();
+  quiet_.clear();
   for (const Joint& joint : items_) {
-    if (joint.holds() && !joint.desc.collide && !joint.body_a.none() && !joint.body_b.none())
-      apart_.push_back(body_pair(joint.body_a, joint.body_b));
+    if (!joint.holds() || joint.body_a.none() || joint.body_b.none()) continue;
+    const std::uint64_t pair = body_pair(joint.body_a, joint.body_b);
+    if (joint.desc.kind == JointKind::kPlastic) {
+      const auto add = [&](BodySlot body, BodySlot other, const std::vector<std::uint32_t>& tags) {
+        const bool stands = bodies.motion[other] == Motion::kStatic;
+        for (const std::uint32_t tag : tags)
+          quiet_.push_back({stands ? kStanding : pair, body, tag});
+      };
+      add(joint.body_a, joint.body_b, joint.desc.quiet_a);
+      add(joint.body_b, joint.body_a, joint.desc.quiet_b);
+    } else if (!joint.desc.collide) {
+      apart_.push_back(pair);
+    }
   }
   std::ranges::sort(apart_);
+  std::ranges::sort(quiet_);
 }
 
 JointId Joints::add(const JointDesc& desc, Bodies& bodies) {
@@ -55,13 +75,16 @@ JointId Joints::add(const JointDesc& desc, Bodies& bodies) {
   joint.body_a = slot_of(desc.a, bodies);
   joint.body_b = slot_of(desc.b, bodies);
   SUNDER_CHECK(joint.body_a != joint.body_b);
+  SUNDER_CHECK(desc.kind != JointKind::kPlastic || bears(desc.strength));
   wake_ends(joint, bodies);
-  note_pairs();
+  note_pairs(bodies);
   return {slot, joint.generation};
 }
 
-void Joints::attach(JointId id, bool end_a, BodyId body, Bodies& bodies) {
+void Joints::attach(JointId id, bool end_a, BodyId body, std::span<const std::uint32_t> quiet_tags,
+                    Bodies& bodies) {
   Joint& joint = at(id);
+  (end_a ? joint.desc.quiet_a : joint.desc.quiet_b).assign(quiet_tags.begin(), quiet_tags.end());
   const BodySlot slot = slot_of(body, bodies);
   (end_a ? joint.desc.a : joint.desc.b) = body;
   (end_a ? joint.body_a : joint.body_b) = slot;
@@ -69,7 +92,12 @@ void Joints::attach(JointId id, bool end_a, BodyId body, Bodies& bodies) {
   const bool lost_b = joint.body_b.none() && !joint.desc.b.none();
   joint.lost = lost_a || lost_b || joint.body_a == joint.body_b;
   wake_ends(joint, bodies);
-  note_pairs();
+  note_pairs(bodies);
+}
+
+void Joints::strengthen(JointId id, const SectionStrength& strength) {
+  SUNDER_CHECK(bears(strength));
+  at(id).desc.strength = strength;
 }
 
 void Joints::cut(JointId id, Bodies& bodies) {
@@ -78,7 +106,7 @@ void Joints::cut(JointId id, Bodies& bodies) {
   joint = Joint{};
   joint.generation = id.generation + 1;
   free_slots_.push_back(id.slot);
-  note_pairs();
+  note_pairs(bodies);
 }
 
 void Joints::lose(BodySlot body, Bodies& bodies) {
@@ -88,7 +116,7 @@ void Joints::lose(BodySlot body, Bodies& bodies) {
     joint.lost = true;
     wake_ends(joint, bodies);
   }
-  note_pairs();
+  note_pairs(bodies);
 }
 
 void Joints::wake(Bodies& bodies) const {
@@ -108,8 +136,17 @@ void Joints::wake(Bodies& bodies) const {
   }
 }
 
-bool Joints::apart(BodySlot body_a, BodySlot body_b) const {
-  return !apart_.empty() && std::ranges::binary_search(apart_, body_pair(body_a, body_b));
+bool Joints::apart(const Pair& pair, const Shapes& shapes, const Bodies& bodies) const {
+  if (apart_.empty() && quiet_.empty()) return false;
+  const std::uint64_t key = body_pair(pair.body_a, pair.body_b);
+  const auto quiet = [&](BodySlot body, ShapeSlot shape, BodySlot other) {
+    const std::uint32_t tag = shapes[shape].tag;
+    return std::ranges::binary_search(quiet_, Quiet{key, body, tag}) ||
+           (bodies.motion[other] == Motion::kStatic &&
+            std::ranges::binary_search(quiet_, Quiet{kStanding, body, tag}));
+  };
+  return std::ranges::binary_search(apart_, key) || quiet(pair.body_a, pair.shape_a, pair.body_b) ||
+         quiet(pair.body_b, pair.shape_b, pair.body_a);
 }
 
 void Joints::break_off(std::uint32_t joint, Bodies& bodies) {
@@ -137,6 +174,20 @@ std::vector<JointLoad> Joints::loads(const Bodies& bodies) const {
     add(joint.body_b, joint.desc.anchor_b_R, joint.total);
   }
   return loads;
+}
+
+std::vector<JointFlow> Joints::flows() const {
+  std::vector<JointFlow> flows;
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    if (!items_[i].holds() || !(items_[i].flow.work_J > 0)) continue;
+    flows.push_back(items_[i].flow);
+    flows.back().joint = {i, items_[i].generation};
+  }
+  return flows;
+}
+
+void Joints::forget_flows() {
+  for (Joint& joint : items_) joint.flow = {};
 }
 
 }  // namespace sunder::solver

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/model/physics.h"
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/contacts.h"
 
 namespace sunder::solver {
 
@@ -27,6 +29,12 @@ struct JointImpulse {
   JointImpulse operator-() const { return {-linear_W, -angular_W}; }
 };
 
+/// What a plastic joint keeps from substep to substep: see plastic.h.
+struct PlasticState {
+  double axial = 0;  ///< Impulse, of what the section bears.
+  double speed = 0;  ///< Of flow along; in turned rows.
+};
+
 struct Joint {
   JointDesc desc;  ///< `a` and `b` as they are now.
   bool present = false;
@@ -35,6 +43,8 @@ struct Joint {
   bool lost = false;                                ///< An end's body is gone: it holds nothing.
   std::array<double, kMostJointRows> impulse = {};  ///< Of the last substep, by row.
   JointImpulse total = {};                          ///< Over the last step it was solved in.
+  JointFlow flow = {};                              ///< Of the last solve.
+  PlasticState plastic = {};
 
   bool holds() const { return present && !lost; }
 };
@@ -42,19 +52,25 @@ struct Joint {
 class Joints {
  public:
   JointId add(const JointDesc& desc, Bodies& bodies);
-  void attach(JointId id, bool end_a, BodyId body, Bodies& bodies);
+  void attach(JointId id, bool end_a, BodyId body, std::span<const std::uint32_t> quiet_tags,
+              Bodies& bodies);
+  void strengthen(JointId id, const SectionStrength& strength);
   void cut(JointId id, Bodies& bodies);
   /// Before a body goes: its ends are lost, and what they held wakes.
   void lose(BodySlot body, Bodies& bodies);
   /// Wakes every sleeper that is joined to something awake, through others.
   void wake(Bodies& bodies) const;
-  /// Whether two bodies ignore each other because they are joined.
-  bool apart(BodySlot body_a, BodySlot body_b) const;
+  /// Whether two shapes ignore each other because their bodies are joined.
+  bool apart(const Pair& pair, const Shapes& shapes, const Bodies& bodies) const;
   /// A joint that bore too much goes, and is remembered for take_broken().
   void break_off(std::uint32_t joint, Bodies& bodies);
   std::vector<JointId> take_broken();
   /// See Physics::joint_loads().
   std::vector<JointLoad> loads(const Bodies& bodies) const;
+  /// See Physics::joint_flows().
+  std::vector<JointFlow> flows() const;
+  /// Nothing has flowed yet.
+  void forget_flows();
 
   bool empty() const { return items_.size() == free_slots_.size(); }
   std::uint32_t size() const { return static_cast<std::uint32_t>(items_.size()); }
@@ -65,11 +81,19 @@ class Joints {
  private:
   Joint& at(JointId id);
   void wake_ends(const Joint& joint, Bodies& bodies) const;
-  void note_pairs();
+  void note_pairs(const Bodies& bodies);
 
   std::vector<Joint> items_;
   std::vector<std::uint32_t> free_slots_;
+  /// A shape of a pair of bodies.
+  struct Quiet {
+    std::uint64_t pair;
+    BodySlot body;
+    std::uint32_t tag;
+    auto operator<=>(const Quiet&) const = default;
+  };
   std::vector<std::uint64_t> apart_;  ///< Keys of body pairs that ignore each other, ascending.
+  std::vector<Quiet> quiet_;          ///< What the other body of the pair ignores, ascending.
   std::vector<JointId> broken_;
 };
 

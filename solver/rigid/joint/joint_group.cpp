@@ -4,12 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/rigid/joint/plastic.h"
 #include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr int kRopeRounds = 8;
+constexpr int kAimRounds = 3;
 constexpr double kSoftness = 1e-6;  // of a row's response: two hinges of a door say the same twice
 
 /// Response of row i of one joint to an impulse along row j of another, through what they share.
@@ -34,6 +35,12 @@ bool share(const JointWork& m, const JointWork& n) {
   return meets(m.row_a) || meets(m.row_b);
 }
 
+template <class Visit>
+void for_plastic(std::span<JointWork> works, const Visit& visit) {
+  for (JointWork& work : works)
+    if (work.kind == JointKind::kPlastic) visit(work);
+}
+
 /// Lays out the envelope: a joint's rows begin with those of the first joint it shares a body with.
 void lay_out(JointGroup& group, std::span<const JointWork> works) {
   Envelope& e = group.matrix;
@@ -54,36 +61,56 @@ void lay_out(JointGroup& group, std::span<const JointWork> works) {
     }
   }
   e.entries.resize(e.start.back());
+  group.bounded = std::ranges::any_of(works, [](const JointWork& work) {
+    return work.kind == JointDesc::Kind::kRope || work.kind == JointDesc::Kind::kPlastic;
+  });
   group.softness.resize(e.rows());
   group.change.resize(e.rows());
+}
+
+/// Of the rows of one joint to those of another, or of itself: then half of them say it all, unless
+/// they are turned.
+Mat6 responses(const JointWork& m, const JointWork& n) {
+  Mat6 block = Mat6::Zero();
+  const bool half = &m == &n && m.kind != JointKind::kPlastic;
+  for (int i = 0; i < m.rows; ++i)
+    for (int j = 0; j < (half ? i + 1 : n.rows); ++j)
+      block(i, j) =
+          response(m, m.row[static_cast<std::size_t>(i)], n, n.row[static_cast<std::size_t>(j)]);
+  return block;
+}
+
+/// What a joint's rows give way by themselves.
+void soften(const JointWork& work, std::span<double> softness, Mat6& block) {
+  for (int i = 0; i < work.rows; ++i) {
+    const double own = work.row[static_cast<std::size_t>(i)].softness;
+    double& diagonal = block(i, i);
+    // What a broken joint, or what is between two immovable ends, is asked does not matter.
+    const bool moves = diagonal > 0 && !work.broken;
+    double& soft = softness[static_cast<std::size_t>(i)];
+    soft = own > 0 ? own : moves ? kSoftness * diagonal : 1;
+    diagonal = moves ? diagonal + soft : 1;
+  }
 }
 
 void fill(JointGroup& group, std::span<const JointWork> works) {
   Envelope& e = group.matrix;
   std::fill(e.entries.begin(), e.entries.end(), 0.0);
-  const std::vector<std::uint32_t>& first_row = group.first_row;
   for (std::size_t m = 0; m < works.size(); ++m) {
-    const JointWork& work = works[m];
-    const std::uint32_t at = first_row[m];
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(work.rows); ++i) {
-      for (std::size_t n = group.first_shared[m]; n <= m; ++n) {
-        if (n < m && !share(work, works[n])) continue;
-        if (work.slack || works[n].slack) continue;
+    const std::uint32_t at = group.first_row[m];
+    for (std::size_t n = group.first_shared[m]; n <= m; ++n) {
+      if (n < m && !share(works[m], works[n])) continue;
+      Mat6 block = responses(works[m], works[n]);
+      if (n == m) soften(works[m], std::span(group.softness).subspan(at), block);
+      turn_rows(works[m], works[n], block);
+      for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(works[m].rows); ++i) {
         const auto columns = n < m ? static_cast<std::uint32_t>(works[n].rows) : i + 1;
         for (std::uint32_t j = 0; j < columns; ++j)
-          e.at(at + i, first_row[n] + j) = response(work, work.row[i], works[n], works[n].row[j]);
+          e.at(at + i, group.first_row[n] + j) = block(i, j);
       }
-      double& diagonal = e.at(at + i, at + i);
-      // What a broken joint, a slack rope, or what is between two immovable ends is asked does not
-      // matter.
-      const bool moves = diagonal > 0 && !work.broken;
-      group.softness[at + i] = work.row[i].softness > 0 ? work.row[i].softness
-                               : moves                  ? kSoftness * diagonal
-                                                        : 1;
-      diagonal = moves ? diagonal + group.softness[at + i] : 1;
     }
   }
-  e.factor();
+  group.bounded ? group.pinned.forget() : e.factor();
 }
 
 /// What the correction of an error asks for, as a speed: of what there is, and of what the turn of
@@ -93,10 +120,11 @@ double bias(const JointWork& work, int i, const StepContext& step, bool biased) 
   const double apart = work.kind == JointDesc::Kind::kRope ? std::min(0.0, error) : 0;
   if (apart < 0) return apart / step.h_s;  // a slack rope may run out
   if (!biased || i >= work.held_rows) return 0;
+  const double ahead = 0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].bend_s2;
+  if (i > 0 && work.plastic.softness > 0) return ahead;  // what it flows is no error
   const double push_m_s = kPush * step.froude.speed_m_s(work.reach_m);
   const double most = i < work.place_rows ? push_m_s : push_m_s / work.reach_m;
-  return std::clamp(kStiffness / step.h_s * error, -most, most) +
-         0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].bend_s2;
+  return std::clamp(kStiffness / step.h_s * error, -most, most) + ahead;
 }
 
 /// Of this substep.
@@ -109,36 +137,54 @@ JointImpulse impulse_of(const JointWork& work) {
   return sum;
 }
 
-/// What all rows have to add so that they hold.
-void find_change(JointGroup& group, std::span<const JointWork> works, const StepContext& step,
+/// Solves for the change with bounds, along rows as plastic joints turn them.
+void find_bounded_change(JointGroup& group, std::span<JointWork> works) {
+  const auto each = [&](const auto& visit) {
+    for (std::size_t m = 0; m < works.size(); ++m) {
+      const std::span change = std::span(group.change).subspan(group.first_row[m]);
+      visit(works[m], change.first(static_cast<std::size_t>(works[m].rows)));
+    }
+  };
+  std::vector<RowBounds>& bounds = group.pinned.bounds;
+  bounds.clear();
+  each([&](JointWork& work, std::span<double> asked) {
+    if (work.kind == JointKind::kPlastic) turn_asked(work, asked);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      if (work.kind != JointKind::kPlastic) work.bounds[i].now = work.impulse[i];
+      bounds.push_back(work.bounds[i]);
+    }
+  });
+  group.pinned.solve(group.matrix, group.change);
+  const RowBounds* row = bounds.data();
+  each([&](JointWork& work, std::span<double> change) {
+    for (std::size_t i = 0; i < change.size(); ++i) work.bounds[i].pin = (row++)->pin;
+    if (work.kind == JointKind::kPlastic) turn_back(work, change);
+  });
+}
+
+/// What all rows have to add so that they hold, as far as their bounds let them.
+void find_change(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  bool biased, const BodyRow* rows) {
   std::size_t at = 0;
   for (const JointWork& work : works) {
     for (int i = 0; i < work.rows; ++i, ++at) {
-      const bool bears = !work.broken && !work.slack;
-      group.change[at] = !bears
+      group.change[at] = work.broken
                              ? 0
                              : -work.speed(i, rows) - bias(work, i, step, biased) -
                                    group.softness[at] * work.impulse[static_cast<std::size_t>(i)];
     }
   }
-  group.matrix.solve(group.change);
+  group.bounded ? find_bounded_change(group, works) : group.matrix.solve(group.change);
 }
 
-/// A rope pulls and never pushes: lets go of those that would; whether there are any.
-bool let_go(const JointGroup& group, std::span<JointWork> works, BodyRow* rows) {
-  bool any = false;
-  std::size_t at = 0;
-  for (JointWork& work : works) {
-    if (work.kind == JointDesc::Kind::kRope && !work.slack && !work.broken &&
-        work.impulse[0] + group.change[at] > 0) {
-      work.apply(JointPush{} - work.sum(work.impulse), rows);
-      work.impulse = {};
-      work.slack = any = true;
-    }
-    at += static_cast<std::size_t>(work.rows);
-  }
-  return any;
+/// Whether some plastic joint bears more than it can, since its direction was another.
+bool is_over(std::span<JointWork> works, const StepContext& step, const BodyRow* rows) {
+  bool over = false;
+  for_plastic(works, [&](JointWork& work) {
+    note_flow(work, rows);
+    over = over || is_over(work, step.h_s);
+  });
+  return over;
 }
 
 void take_out(JointWork& work) {
@@ -148,34 +194,9 @@ void take_out(JointWork& work) {
   for (JointRow& row : work.row) row = JointRow{};
 }
 
-}  // namespace
-
-void Envelope::factor() {
-  for (std::uint32_t i = 0; i < rows(); ++i) {
-    for (std::uint32_t j = first[i]; j <= i; ++j) {
-      double sum = at(i, j);
-      for (std::uint32_t k = std::max(first[i], first[j]); k < j; ++k) sum -= at(i, k) * at(j, k);
-      at(i, j) = j < i ? sum / at(j, j) : std::sqrt(std::max(sum, 1e-12 * at(i, i)));
-    }
-  }
-}
-
-void Envelope::solve(std::span<double> x) const {
-  const auto entry = [&](std::uint32_t row, std::uint32_t column) {
-    return entries[start[row] + column - first[row]];
-  };
-  for (std::uint32_t i = 0; i < rows(); ++i) {
-    for (std::uint32_t k = first[i]; k < i; ++k) x[i] -= entry(i, k) * x[k];
-    x[i] /= entry(i, i);
-  }
-  for (std::uint32_t i = rows(); i-- > 0;) {
-    x[i] /= entry(i, i);
-    for (std::uint32_t k = first[i]; k < i; ++k) x[k] -= entry(i, k) * x[i];
-  }
-}
-
-void begin_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                 const BodyRow* rows) {
+/// For the bodies as they lie and move.
+void renew_rows(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                const BodyRow* rows) {
   bool other = false;  // numbers of rows than were laid out
   for (JointWork& work : works) {
     if (work.broken) continue;
@@ -184,6 +205,14 @@ void begin_group(JointGroup& group, std::span<JointWork> works, const StepContex
     other = other || work.rows != before;
   }
   if (other) lay_out(group, works);
+}
+
+}  // namespace
+
+void begin_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                 const BodyRow* rows) {
+  renew_rows(group, works, step, rows);
+  for_plastic(works, [&](JointWork& work) { aim(work, step.h_s); });
   fill(group, works);
 }
 
@@ -199,39 +228,38 @@ void solve_group(JointGroup& group, std::span<JointWork> works, const StepContex
   if (biased) {
     for (JointWork& work : works) work.apply(std::exchange(work.owed, {}), rows);
   }
-  bool other = false;  // ropes bear than were factored
-  for (JointWork& work : works) {
-    if (!work.slack || work.speed(0, rows) + bias(work, 0, step, biased) <= 0) continue;
-    work.slack = false;
-    other = true;
-  }
-  for (int round = 0; round < kRopeRounds; ++round) {
-    if (other) fill(group, works);
+  for (int round = 1;; ++round) {
     find_change(group, works, step, biased, rows);
-    other = let_go(group, works, rows);
-    if (!other) break;
+    std::size_t at = 0;
+    for (JointWork& work : works) {
+      work.apply(work.sum(std::span(group.change).subspan(at)), rows);
+      for (int i = 0; i < work.rows; ++i, ++at)
+        work.impulse[static_cast<std::size_t>(i)] += group.change[at];
+    }
+    if (!biased || !is_over(works, step, rows) || round == kAimRounds) return;
+    for_plastic(works, [&](JointWork& work) { aim(work, step.h_s); });
+    fill(group, works);
   }
-  std::size_t at = 0;
-  for (JointWork& work : works) {
-    if (work.slack) group.change[at] = 0;
-    work.apply(work.sum(std::span(group.change).subspan(at)), rows);
-    for (int i = 0; i < work.rows; ++i, ++at)
-      work.impulse[static_cast<std::size_t>(i)] += group.change[at];
-  }
-  if (other) fill(group, works);
 }
 
 void refresh_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                    const BodyRow* rows) {
   for (JointWork& work : works) work.owed = work.sum(work.impulse);
-  begin_group(group, works, step, rows);
+  renew_rows(group, works, step, rows);
+  for_plastic(works, [&](JointWork& work) {
+    follow_flow(work, rows);
+    aim(work, step.h_s);
+  });
+  fill(group, works);
   for (JointWork& work : works) work.owed = work.sum(work.impulse) - work.owed;
 }
 
 void settle_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                   BodyRow* rows) {
   for (JointWork& work : works) work.kept_impulse = std::exchange(work.impulse, {});
-  begin_group(group, works, step, rows);
+  renew_rows(group, works, step, rows);
+  for_plastic(works, hold);
+  fill(group, works);
   solve_group(group, works, step, false, rows);
   for (JointWork& work : works) {
     work.total += impulse_of(work);
@@ -259,6 +287,7 @@ void scale_group(JointGroup& group, std::span<JointWork> works, const StepContex
 void test_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                 BodyRow* rows) {
   bool any = false;
+  for_plastic(works, [&](JointWork& work) { note_axial(work, step.h_s); });
   for (JointWork& work : works) {
     if (work.broken) continue;
     const JointImpulse impulse = impulse_of(work);

@@ -10,28 +10,13 @@
 
 namespace sunder::solver {
 
-/// A symmetric positive matrix L·Lᵀ whose row i begins at column first[i]: an envelope, which
-/// factoring does not leave.
-struct Envelope {
-  std::vector<std::uint32_t> first;  ///< Column of each row's first entry.
-  std::vector<std::uint32_t> start;  ///< Where a row's entries begin; one more than there are rows.
-  std::vector<double> entries;
-
-  std::uint32_t rows() const { return static_cast<std::uint32_t>(first.size()); }
-  double& at(std::uint32_t row, std::uint32_t column) {
-    return entries[start[row] + column - first[row]];
-  }
-  /// Cholesky, in place. Pivots must be positive.
-  void factor();
-  /// Solves for the right side, in place.
-  void solve(std::span<double> right) const;
-};
-
 struct JointGroup {
   std::uint32_t first = 0, count = 0;  ///< Joints.
   std::uint8_t color = 0;
-  bool swings_free = false;  ///< It hangs together with nothing that touches anything.
-  Envelope matrix;
+  bool swings_free = false;              ///< It hangs together with nothing that touches anything.
+  bool bounded = false;                  ///< Some impulse in it is.
+  Envelope matrix;                       ///< Responses; factored, if nothing is bounded.
+  PinnedRows pinned;                     ///< If something is.
   std::vector<std::uint32_t> first_row;  ///< Of each joint.
   std::vector<std::uint32_t>
       first_shared;              ///< Of its joints, the first that it shares a body with.

@@ -20,11 +20,6 @@ End end_of(BodySlot body, const Vec3& anchor_R, const Vec3& axis_R, const Bodies
   return {bodies.position[body], q * (anchor_R - bodies.com_R[body]), q * axis_R, q};
 }
 
-/// How far a body has turned since the step began.
-Quat rotation_of(const Mat3f& root, const BodyRow& row) {
-  return rotation_by((root * angular(row.position)).cast<double>());
-}
-
 /// rad/s, in W; no more than a radian in a substep, beyond which nothing can be foreseen.
 Vec3 spin_of(const Mat3f& root, const BodyRow& row, double h_s) {
   const Vec3 spin = (root * angular(row.velocity)).cast<double>();
@@ -74,13 +69,18 @@ double tension_stiffness(const JointWork& w, double h_s, double pull_Ns, const V
   return most;
 }
 
+/// Whether b does not turn against a.
+bool is_held(JointDesc::Kind kind) {
+  return kind == JointDesc::Kind::kFixed || kind == JointDesc::Kind::kPlastic;
+}
+
 /// Rows that resist what still turns: a torque and its counterpart, as much as keeps the substep
 /// stable.
 void damp(JointWork& w, double h_s, double pull_Ns, const Vec3& arm_a, const Vec3& arm_b,
           const Vec3& axis) {
   double arm_m = 0;
   const double stiffness = tension_stiffness(w, h_s, pull_Ns, arm_a, arm_b, arm_m);
-  if (stiffness <= 1 || w.kind == JointDesc::Kind::kFixed) return;
+  if (stiffness <= 1 || is_held(w.kind)) return;
   const double damping =
       0.5 * h_s * pull_Ns * arm_m * (1 - 1 / stiffness) * std::max(1.0, stiffness / kStiffest);
   if (w.kind == JointDesc::Kind::kHinge) {
@@ -96,6 +96,10 @@ Vec3 across(const Vec3& axis) {
 }
 
 }  // namespace
+
+Quat rotation_of(const Mat3f& root, const BodyRow& row) {
+  return rotation_by((root * angular(row.position)).cast<double>());
+}
 
 double JointWork::speed(int i, const BodyRow* body_rows) const {
   const JointRow& r = row[static_cast<std::size_t>(i)];
@@ -144,11 +148,17 @@ JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bod
   w.gap = (b.position - a.position) + b.arm - a.arm;
   w.axis_a = a.axis, w.axis_b = b.axis;
   w.side_a = a.rotation * across(desc.axis_a_R);
-  if (w.kind == JointDesc::Kind::kFixed)
-    w.twist = b.rotation * (a.rotation * desc.rotation_RaRb).conjugate();
+  if (is_held(w.kind)) w.twist = b.rotation * (a.rotation * desc.rotation_RaRb).conjugate();
   w.length_m = desc.length_m;
   w.breaking_N = desc.breaking_N, w.breaking_Nm = desc.breaking_Nm;
   w.impulse = joint.impulse;
+  if (w.kind == JointDesc::Kind::kRope) w.bounds[0].most = 0;  // it pulls and never pushes
+  if (w.kind == JointDesc::Kind::kPlastic) {
+    const SectionStrength& strength = desc.strength;
+    w.axes = a.rotation * strength.axes_R;
+    w.plastic.strength << strength.axial_N, strength.shear_N, strength.shear_N, strength.moment_Nm;
+    w.plastic.state = joint.plastic;
+  }
   return w;
 }
 
@@ -177,7 +187,9 @@ void refresh_rows(JointWork& w, double h_s, const BodyRow* rows) {
   // Both ends push at one point, midway between the anchors: across a gap an impulse and its
   // counterpart would be a couple, which spins the pair up or down.
   const Vec3 to_a = arm_a + 0.5 * gap, to_b = arm_b - 0.5 * gap;
-  for (int i = 0; i < 3; ++i) place_row(w, to_a, to_b, Vec3::Unit(i), gap[i], bend[i]);
+  const Mat3 axes = w.kind == JointDesc::Kind::kPlastic ? Mat3(rotation_a * w.axes) : w.axes;
+  const auto along = [&](int i, const Vec3& v) { return axes.col(i).dot(v); };
+  for (int i = 0; i < 3; ++i) place_row(w, to_a, to_b, axes.col(i), along(i, gap), along(i, bend));
   const Vec3 axis = rotation_a * w.axis_a;
   if (w.kind == JointDesc::Kind::kHinge) {
     const Vec3 axis_b = rotation_b * w.axis_b, lean = axis.cross(axis_b);
@@ -187,10 +199,10 @@ void refresh_rows(JointWork& w, double h_s, const BodyRow* rows) {
                            2 * turn_a.cross(turn_b);
     angular_row(w, side, side.dot(lean), side.dot(lean_bend));
     angular_row(w, other, other.dot(lean), other.dot(lean_bend));
-  } else if (w.kind == JointDesc::Kind::kFixed) {
+  } else if (is_held(w.kind)) {
     const Quat twist = rotation_b * w.twist * rotation_a.conjugate();
     const Vec3 angle = (twist.w() < 0 ? -2.0 : 2.0) * twist.vec();
-    for (int i = 0; i < 3; ++i) angular_row(w, Vec3::Unit(i), angle[i], 0);
+    for (int i = 0; i < 3; ++i) angular_row(w, axes.col(i), along(i, angle), 0);
   }
   w.held_rows = w.rows;
   damp(w, h_s, pull_Ns, to_a, to_b, axis);

@@ -10,6 +10,7 @@
 
 #include "solver/rigid/body/body_row.h"
 #include "solver/rigid/joint/joint.h"
+#include "solver/rigid/joint/pinned_rows.h"
 
 namespace sunder::solver {
 
@@ -31,12 +32,25 @@ struct JointPush {
   }
 };
 
+using Vec6 = Eigen::Matrix<double, kMostJointRows, 1>;
+
+/// What a plastic joint is besides: see plastic.h.
+struct PlasticWork {
+  Vec6 strength = Vec6::Ones();  ///< Of its section, by row: N and N·m.
+  Vec6 mirror = Vec6::Zero();    ///< That turns the rows: of length √2, or none.
+  PlasticState state;
+  double softness = 0;           ///< What its flow makes of the rows beside.
+  Quat turn = Quat::Identity();  ///< That flowed in the step, in the axes of the section,
+  Vec3 drawn = Vec3::Zero();     ///< likewise,
+  double work_J = 0;             ///< and what it took.
+  Vec3 shift_b = Vec3::Zero();   ///< Of the anchor on b, as b lay in these axes as the step began.
+};
+
 /// A joint within a step.
 struct JointWork {
   std::uint32_t joint = 0;
   JointDesc::Kind kind = JointDesc::Kind::kBall;
   bool broken = false;
-  bool slack = false;  ///< kRope: it would have to push, and does nothing.
   int rows = 0;
   int place_rows = 0;                  ///< The first of them; the others are angular.
   int held_rows = 0;                   ///< Those that hold; what comes after them damps.
@@ -47,10 +61,13 @@ struct JointWork {
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();    ///< From the centres of mass, likewise.
   Vec3 axis_a = Vec3::Zero(), axis_b = Vec3::Zero();  ///< kHinge, likewise.
   Vec3 side_a = Vec3::Zero();                         ///< kHinge: across its axis, fixed to a.
-  Quat twist = Quat::Identity();  ///< kFixed: how far b is turned from where a wants it.
+  Mat3 axes = Mat3::Identity();   ///< Of its rows; kPlastic: those of its section, fixed to a.
+  Quat twist = Quat::Identity();  ///< kFixed, kPlastic: how far b is turned from where a wants it.
   double reach_m = 0;             ///< Of the smaller body that moves.
   double length_m = 0, breaking_N = 0, breaking_Nm = 0;
   std::array<JointRow, kMostJointRows> row;
+  std::array<RowBounds, kMostJointRows> bounds;  ///< Of impulses; kPlastic: along turned rows.
+  PlasticWork plastic;
   std::array<double, kMostJointRows> impulse = {};       ///< Of this substep.
   std::array<double, kMostJointRows> kept_impulse = {};  ///< While the end of the step is settled.
   JointImpulse total;                                    ///< Over the step.
@@ -66,6 +83,8 @@ struct JointWork {
   void apply(const JointPush& push, BodyRow* body_rows) const;
 };
 
+/// How far a body has turned since the step began.
+Quat rotation_of(const Mat3f& root, const BodyRow& row);
 /// A joint as the step begins.
 JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bodies,
                       SpanByBody<const Mat3f> root_W);

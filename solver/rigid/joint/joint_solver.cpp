@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
+#include "solver/rigid/joint/plastic.h"
 
 namespace sunder::solver {
 namespace {
@@ -159,13 +160,16 @@ void JointSolver::begin(std::uint32_t i, const StepContext& step, const Bodies& 
 }
 
 void JointSolver::settle(std::uint32_t i, const StepContext& step, const Bodies& bodies,
-                         const Joints& joints, SpanByBody<const Mat3f> root_W, BodyRow* rows) {
+                         Joints& joints, SpanByBody<const Mat3f> root_W, BodyRow* rows) {
   for (JointWork& work : works(groups_[i])) {
     if (work.broken) continue;
+    if (work.kind == JointKind::kPlastic) keep_flow(work, joints[work.joint]);
     const JointWork solved =
         std::exchange(work, begin_joint(joints[work.joint], work.joint, bodies, root_W));
     work.impulse = solved.impulse;
     work.total = solved.total;
+    work.bounds = solved.bounds;
+    work.plastic = solved.plastic;
   }
   settle_group(groups_[i], works(groups_[i]), step, rows);
 }

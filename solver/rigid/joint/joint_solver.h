@@ -50,8 +50,8 @@ class JointSolver {
   /// Whether a body hangs in joints, and so does all that it hangs together with, which touches
   /// nothing.
   bool swings_free(BodySlot body) const { return !groups_.empty() && swings_free_[body]; }
-  /// As the bodies lie and move when the step is over.
-  void settle(std::uint32_t i, const StepContext& step, const Bodies& bodies, const Joints& joints,
+  /// As the bodies lie and move when the step is over; what flowed goes into the joints.
+  void settle(std::uint32_t i, const StepContext& step, const Bodies& bodies, Joints& joints,
               SpanByBody<const Mat3f> root_W, BodyRow* rows);
   /// What hangs together and may move, a joint at a time: a joint to the world twice the same body.
   const std::vector<std::pair<BodySlot, BodySlot>>& joined() const { return joined_; }

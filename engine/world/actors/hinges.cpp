@@ -1,0 +1,106 @@
+#include "engine/world/actors/hinges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "engine/model/breaker.h"
+#include "engine/world/actors/world.h"
+
+namespace sunder {
+namespace {
+
+// A joint is told that it has hardened once its strain has grown by this part of what tears it.
+constexpr double kNews = 0.01;
+
+/// By how much the outermost of a section has been drawn out, or sheared to the same effect (von
+/// Mises), in parts of its gauge length.
+double strain_of(const PlasticSection& section, const JointFlow& flow) {
+  const Mat3& axes = section.strength.axes_R;
+  const Vec3 drawn = axes.transpose() * flow.drawn_R;
+  const Vec3 turned = (axes.transpose() * flow.turn_R).cwiseProduct(section.reach_m);
+  const double along = std::abs(drawn.x()) + std::hypot(turned.y(), turned.z());
+  const double across = std::hypot(drawn.y(), drawn.z()) + std::abs(turned.x());
+  return std::hypot(along, across / std::numbers::sqrt3) / section.gauge_m;
+}
+
+HingeSide side_of(const BreakEdit& edit, const Structure& structure, const PlasticHinge& hinge,
+                  bool is_a) {
+  const std::uint32_t piece = is_a ? hinge.piece_a : hinge.piece_b;
+  HingeSide side;
+  for (const Bond& bond : hinge.bonds) {
+    const std::uint32_t convex = is_a ? bond.a : bond.b;
+    side.convexes.push_back(piece > 0 ? edit.loose.pieces[piece - 1].convexes[convex]
+                                      : structure.convex(ConvexSlot(convex)));
+    side.faces.push_back(is_a ? bond.face_a : bond.face_b);
+  }
+  return side;
+}
+
+/// The faces of a section that has torn lie bare on one side.
+void expose(World& world, std::uint32_t key, const HingeSide& side,
+            const std::vector<double>& areas_m2) {
+  const Actor& actor = *world.actors.find(key);
+  BreakEdit bare;
+  for (std::size_t i = 0; i < side.slots.size(); ++i) {
+    bare.loose.exposed.push_back(
+        {0, side.slots[i], side.faces[i], areas_m2[i], side.convexes[i]->material});
+  }
+  note_exposed(world, actor.structure, bare, motion_of(actor, world.physics->state(actor.body)),
+               std::span(&key, 1));
+}
+
+void tear(World& world, const Joints::Live& joint) {
+  const Hinge& hinge = *joint.hinge;
+  expose(world, joint.a.key, hinge.a, hinge.areas_m2);
+  expose(world, joint.b.key, hinge.b, hinge.areas_m2);
+  const Actor& actor = *world.actors.find(joint.a.key);
+  BreakEvent event;
+  event.time_s = world.clock.time_s();
+  event.body_key = actor.key;
+  event.point_W = rest_pose(actor, world.physics->state(actor.body).X_WB) * joint.a.anchor_R;
+  for (const double area_m2 : hinge.areas_m2) event.new_area_m2 += area_m2;
+  event.pieces = 2;
+  world.ledger.breaks.push_back(event);
+  world.joints.cut(*world.physics, joint.id);
+}
+
+}  // namespace
+
+void join_hinges(World& world, const Actor& parent, const BreakEdit& edit,
+                 std::span<const Actor> pieces, std::span<const std::uint32_t> piece_keys) {
+  const auto actor = [&](std::uint32_t piece) -> const Actor& {
+    const auto it = std::ranges::find(pieces, piece_keys[piece], &Actor::key);
+    return it != pieces.end() ? *it : parent;
+  };
+  for (const PlasticHinge& plastic : edit.hinges) {
+    Hinge hinge;
+    hinge.section = plastic.section;
+    hinge.flowed_step = world.clock.step;
+    hinge.a = side_of(edit, parent.structure, plastic, true);
+    hinge.b = side_of(edit, parent.structure, plastic, false);
+    for (const Bond& bond : plastic.bonds) hinge.areas_m2.push_back(bond.area_m2);
+    world.joints.add(*world.physics, actor(plastic.piece_a), actor(plastic.piece_b),
+                     std::move(hinge));
+  }
+}
+
+void flow(World& world) {
+  for (const JointFlow& flowed : world.physics->joint_flows()) {
+    Joints::Live& joint = world.joints.at(flowed.joint);
+    Hinge& hinge = *joint.hinge;
+    world.ledger.plastic_J += flowed.work_J;
+    hinge.flowed_step = world.clock.step;
+    hinge.stays = false;
+    hinge.strain += strain_of(hinge.section, flowed);
+    if (hinge.strain > hinge.section.elongation) {
+      tear(world, joint);
+    } else if (hinge.strain - hinge.known_strain > kNews * hinge.section.elongation) {
+      world.physics->strengthen(joint.id, hinge.strength());
+      hinge.known_strain = hinge.strain;
+    }
+  }
+}
+
+}  // namespace sunder

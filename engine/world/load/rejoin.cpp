@@ -1,0 +1,185 @@
+#include "engine/world/load/rejoin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "engine/world/actors/merge.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kStill_s = 0.25;         // without flowing, the first time
+constexpr std::uint32_t kMostTimes = 12;  // that the wait is doubled
+constexpr std::uint64_t kWork = 3000;     // visits of each bond to find out what both bear
+
+using Live = Joints::Live;
+
+/// Since which step a hinge is ready to be no more; none: it has flowed too lately.
+std::optional<std::uint64_t> still_since(const World& world, const Live& joint) {
+  const Actor &a = *world.actors.find(joint.a.key), &b = *world.actors.find(joint.b.key);
+  const std::uint32_t times = std::min(kMostTimes, std::max(a.rejoined, b.rejoined));
+  const auto wait = static_cast<std::uint64_t>(std::ceil(kStill_s / world.clock.dt_s) *
+                                               std::ldexp(1.0, static_cast<int>(times)));
+  const std::uint64_t ready = joint.hinge->flowed_step + wait;
+  if (joint.hinge->stays || ready > world.clock.step) return std::nullopt;
+  return ready;
+}
+
+/// The one that takes in the other comes first: what stands, what is heavier, what is older.
+std::pair<const Actor*, const Actor*> in_order(const Actor& x, const Actor& y) {
+  const auto rank = [](const Actor& actor) {
+    return std::tuple(actor.is_static, actor.weight.mass_kg, -static_cast<double>(actor.key));
+  };
+  return rank(x) > rank(y) ? std::pair(&x, &y) : std::pair(&y, &x);
+}
+
+BentSection section_of(const Hinge& hinge, bool a_first) {
+  const PlasticSection& section = hinge.section;
+  const Pose X_BA = hinge.X_AB.inverse();
+  const Vec3 normal = section.strength.axes_R.col(0);
+  BentSection bent;
+  bent.centroid_A = section.centroid_R, bent.normal_A = normal;
+  bent.centroid_B = X_BA * section.centroid_R, bent.normal_B = X_BA.rotation * -normal;
+  bent.reach_m = section.reach_m.maxCoeff();
+  bent.areas_m2 = hinge.areas_m2;
+  bent.slots_a = hinge.a.slots, bent.faces_a = hinge.a.faces;
+  bent.slots_b = hinge.b.slots, bent.faces_b = hinge.b.faces;
+  if (a_first) return bent;
+  std::swap(bent.centroid_A, bent.centroid_B), std::swap(bent.normal_A, bent.normal_B);
+  std::swap(bent.slots_a, bent.slots_b), std::swap(bent.faces_a, bent.faces_b);
+  return bent;
+}
+
+/// Whether a hinge that stays finds all that it is of in what would become of its sides.
+bool goes_on(const Live& joint, std::uint32_t key_a, std::uint32_t key_b,
+             const Rejoined& rejoined) {
+  const auto finds = [&](const Joints::End& end, const HingeSide& side) {
+    return std::ranges::all_of(side.slots, [&](std::uint32_t slot) {
+      if (end.key == key_b) return !rejoined.slot_of_b[slot].none();
+      return end.key != key_a ||
+             !std::ranges::binary_search(rejoined.edit.removed, ConvexSlot(slot));
+    });
+  };
+  return !joint.hinge || (finds(joint.a, joint.hinge->a) && finds(joint.b, joint.hinge->b));
+}
+
+/// What both bear, as one that has bent would. Between them press their hinges alone, on what these
+/// are of: that is left out.
+class Both {
+ public:
+  Both(const World& world, const Actor& a, const Actor& b, const Rejoined& rejoined,
+       const Pose& X_AB)
+      : rejoined_(rejoined), a_(a), b_(b), structure_(a.structure) {
+    structure_.apply(rejoined.edit);
+    add(world, a, Pose());
+    add(world, b, X_AB);
+    load_.materials = *world.materials;
+    load_.loads = loads_;
+    const Quat& rotation_WA = world.physics->state(a.body).X_WB.rotation;
+    load_.gravity_R = rotation_WA.conjugate() * world.scene.gravity_W;
+    load_.spin_R = a.stress.spin_R;
+    load_.most_work = kWork * (structure_.bond_count() + 1);
+    std::ranges::sort(load_.hinged);
+  }
+
+  /// Whether they can.
+  bool bears(const Breaker& breaker, std::uint64_t& work) const {
+    const StressAnswer answer = breaker.stress(structure_, load_);
+    work += answer.work;
+    return answer.settled && !answer.edit.changed && answer.edit.cut.empty();
+  }
+
+ private:
+  /// none() if it ends otherwise.
+  ConvexSlot now(const Actor& of, ConvexSlot slot) const {
+    if (&of == &b_) return rejoined_.slot_of_b[slot.value];
+    return structure_.has(slot) ? slot : ConvexSlot();
+  }
+
+  void add(const World& world, const Actor& actor, const Pose& X_AR) {
+    std::vector<ConvexSlot> between;
+    for (const Live& joint : world.joints.live()) {
+      if (!joint.hinge) continue;
+      const bool is_a = joint.a.key == actor.key;
+      if (!is_a && joint.b.key != actor.key) continue;
+      const bool inner = joint.is_between(a_.key, b_.key);
+      for (const std::uint32_t slot : (is_a ? joint.hinge->a : joint.hinge->b).slots) {
+        if (inner) {
+          between.emplace_back(slot);
+        } else {
+          load_.hinged.push_back(now(actor, ConvexSlot(slot)));
+        }
+      }
+    }
+    for (const Press& press : actor.stress.pressing) {
+      if (std::ranges::find(between, press.convex) != between.end()) continue;
+      const Vec3 at = X_AR * actor.structure.convex(press.convex)->solid.centroid;
+      ConvexSlot slot = now(actor, press.convex);
+      if (slot.none()) slot = nearest(structure_, at);
+      loads_.push_back({slot, X_AR.rotation * press.force_R, at, X_AR.rotation * press.torque_R});
+    }
+  }
+
+  const Rejoined& rejoined_;
+  const Actor &a_, &b_;
+  Structure structure_;
+  std::vector<Load> loads_;
+  LoadCase load_;
+};
+
+bool rejoin(World& world, const Breaker& breaker, const Actor& a, const Actor& b,
+            std::uint64_t& work) {
+  const auto rest = [&](const Actor& actor) {
+    return rest_pose(actor, world.physics->state(actor.body).X_WB);
+  };
+  BentPair bent{a.structure, b.structure, rest(a).inverse() * rest(b), {}, world.next_event++};
+  std::vector<JointId> hinges;
+  for (const Live& joint : world.joints.live()) {
+    if (!joint.hinge || !joint.is_between(a.key, b.key)) continue;
+    bent.sections.push_back(section_of(*joint.hinge, joint.a.key == a.key));
+    hinges.push_back(joint.id);
+  }
+  const Rejoined rejoined = breaker.rejoin(bent);
+  if (!rejoined.edit.changed) return false;
+  for (const Live& joint : world.joints.live()) {
+    if (joint.is_between(a.key, b.key) && joint.hinge) continue;
+    if (!goes_on(joint, a.key, b.key, rejoined)) return false;
+  }
+  if (!Both(world, a, b, rejoined, bent.X_AB).bears(breaker, work)) return false;
+  for (const JointId id : hinges) world.joints.cut(*world.physics, id);
+  merge(world, a.key, b.key, rejoined, bent.X_AB);
+  return true;
+}
+
+}  // namespace
+
+std::uint64_t rejoin(World& world, const Breaker& breaker) {
+  const Live* oldest = nullptr;
+  std::uint64_t since = 0;
+  for (const Live& joint : world.joints.live()) {
+    if (!joint.hinge) continue;
+    const auto still = still_since(world, joint);
+    if (!still || (oldest && *still >= since)) continue;
+    const bool all = std::ranges::all_of(world.joints.live(), [&](const Live& other) {
+      return !other.hinge || !other.is_between(joint.a.key, joint.b.key) ||
+             still_since(world, other);
+    });
+    if (!all) continue;
+    oldest = &joint;
+    since = *still;
+  }
+  if (!oldest) return 0;
+  const JointId id = oldest->id;
+  const auto [a, b] =
+      in_order(*world.actors.find(oldest->a.key), *world.actors.find(oldest->b.key));
+  std::uint64_t work = 0;
+  const bool can = !b->is_static && rejoin(world, breaker, *a, *b, work);
+  if (!can) world.joints.at(id).hinge->stays = true;
+  return work;
+}
+
+}  // namespace sunder

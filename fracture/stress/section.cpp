@@ -1,0 +1,326 @@
+#include "fracture/stress/section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+namespace sunder::fracture {
+namespace {
+
+constexpr std::size_t kMostCrossings = 4096;
+// Bonds are in one plane if their areas add up as vectors to this share of what they are.
+constexpr double kInOnePlane = 0.999;
+constexpr double kPrism = 0.999;  // likewise of the directions of a prism's side edges
+constexpr double kWithin60 = 0.5, kWithin30 = 0.866, kWithinNothing = 1 - 1e-9;  // cosines
+constexpr double kLeastArea = 1e-6;  // of all areas: what folds back has none
+constexpr int kHalvings = 80;
+
+/// A part of a section as it lies along one direction in it: evenly about its middle.
+struct Strip {
+  double force_N, at_m, half_m;
+
+  /// The part of it that is below.
+  double below(double m) const {
+    if (!(half_m > 0)) return at_m < m ? 1 : 0;
+    return std::clamp((m - at_m + half_m) / (2 * half_m), 0.0, 1.0);
+  }
+  /// The mean distance of its points.
+  double distance(double m) const {
+    const double middle = std::abs(at_m - m);
+    return middle >= half_m ? middle : (middle * middle + half_m * half_m) / (2 * half_m);
+  }
+};
+
+/// What strips bear that pull on one side of a neutral axis and press on the other, which is where
+/// both are as strong.
+double bending_Nm(std::span<const Strip> strips) {
+  double low = 1e300, high = -1e300, force = 0;
+  for (const Strip& strip : strips) {
+    low = std::min(low, strip.at_m - strip.half_m);
+    high = std::max(high, strip.at_m + strip.half_m);
+    force += strip.force_N;
+  }
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    double below = 0;
+    for (const Strip& strip : strips) below += strip.force_N * strip.below(middle);
+    (below < 0.5 * force ? low : high) = middle;
+  }
+  double moment = 0;
+  for (const Strip& strip : strips) moment += strip.force_N * strip.distance(0.5 * (low + high));
+  return moment;
+}
+
+/// The direction in which a convex runs as a prism from one of its faces; none if it is no prism.
+std::optional<Vec3> prism_axis(const ConvexPolyhedron& convex, std::uint32_t face) {
+  const auto end = convex.face_corners(face);
+  const auto in_face = [&](std::uint32_t v) { return std::ranges::find(end, v) != end.end(); };
+  Vec3 sum = Vec3::Zero();
+  double edges = 0;
+  for (std::size_t f = 0; f < convex.faces.size(); ++f) {
+    const auto corners = convex.face_corners(f);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t from = corners[i], to = corners[i + 1 < corners.size() ? i + 1 : 0];
+      if (!in_face(from) || in_face(to)) continue;
+      sum += (convex.vertices[to] - convex.vertices[from]).normalized();
+      ++edges;
+    }
+  }
+  if (!(sum.norm() > kPrism * edges)) return std::nullopt;
+  return sum.normalized();
+}
+
+Vec3 any_across(const Vec3& axis) {
+  return axis.cross(std::abs(axis.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ()).normalized();
+}
+
+}  // namespace
+
+Sections::Sections(const Compound& compound, const StressSystem& system,
+                   std::span<const Displacement> displacements, std::span<const Material> materials)
+    : compound_(compound), system_(system), displacements_(displacements), materials_(materials) {}
+
+double Sections::yield_Pa(std::uint32_t bond) const {
+  const auto of = [&](std::uint32_t convex) -> const Material& {
+    return materials_[compound_.convexes[convex]->material.value];
+  };
+  return sunder::yield_Pa(of(compound_.bonds[bond].a), of(compound_.bonds[bond].b));
+}
+
+/// Before the first search: most structures never have one.
+void Sections::index_bonds() {
+  first_.assign(compound_.convexes.size() + 1, 0);
+  for (const Bond& bond : compound_.bonds) ++first_[bond.a], ++first_[bond.b];
+  std::uint32_t sum = 0;
+  for (std::uint32_t& first : first_) sum += first, first = sum;
+  bonds_.resize(sum);
+  for (auto i = static_cast<std::uint32_t>(compound_.bonds.size()); i-- > 0;) {
+    bonds_[--first_[compound_.bonds[i].a]] = i;
+    bonds_[--first_[compound_.bonds[i].b]] = i;
+  }
+  for (const Ghost& ghost : compound_.ghosts) {
+    for (const std::uint32_t c : ghost.of) {
+      for (const std::uint32_t other : ghost.of)
+        if (other != c) overlaps_.emplace_back(c, other);
+    }
+  }
+  std::ranges::sort(overlaps_);
+  seen_bond_.assign(compound_.bonds.size(), 0);
+  seen_convex_.assign(compound_.convexes.size(), 0);
+}
+
+std::span<const std::uint32_t> Sections::bonds_of(std::uint32_t convex) const {
+  return std::span(bonds_).subspan(first_[convex], first_[convex + 1] - first_[convex]);
+}
+
+const Vec3& Sections::centroid(std::uint32_t convex) const {
+  return compound_.convexes[convex]->solid.centroid;
+}
+
+std::uint32_t Sections::across(std::uint32_t bond, std::uint32_t convex) const {
+  return compound_.bonds[bond].a ^ compound_.bonds[bond].b ^ convex;
+}
+
+/// What presses goes on doing so when nothing holds it any longer.
+bool Sections::is_pressed(std::uint32_t bond) const {
+  return system_.geometry()[bond].normal_R.dot(system_.wrench(bond, displacements_).force_N) < 0;
+}
+
+/// From the bond on to those that cross the plane too and are of the same convexes, or of convexes
+/// on the same side that are bonded to these or overlap them. Other members that the plane cuts are
+/// not reached.
+std::vector<Crossing> Sections::flood(std::uint32_t bond, const Vec3& normal_R) {
+  const Vec3& point_R = system_.geometry()[bond].centroid_R;
+  const auto ahead = [&](std::uint32_t c) { return normal_R.dot(centroid(c) - point_R) > 0; };
+  if (ahead(compound_.bonds[bond].a) == ahead(compound_.bonds[bond].b)) return {};
+  std::vector<Crossing> crossings;
+  bool gives_way = true;
+  const auto add = [&](std::uint32_t i) {
+    if (seen_bond_[i] == search_) return;
+    seen_bond_[i] = search_;
+    gives_way &= yield_Pa(i) > 0 || is_pressed(i);
+    crossings.push_back({i, ahead(compound_.bonds[i].b)});
+  };
+  const auto add_those_of = [&](std::uint32_t convex) {
+    if (seen_convex_[convex] == search_) return;
+    seen_convex_[convex] = search_;
+    work_ += bonds_of(convex).size();
+    for (const std::uint32_t i : bonds_of(convex))
+      if (ahead(across(i, convex)) != ahead(convex)) add(i);
+  };
+  ++search_;
+  add(bond);
+  for (std::size_t k = 0; k < crossings.size(); ++k) {
+    if (!gives_way || crossings.size() > kMostCrossings) return {};
+    const Bond& crossing = compound_.bonds[crossings[k].bond];
+    for (const std::uint32_t convex : {crossing.a, crossing.b}) {
+      add_those_of(convex);
+      for (const std::uint32_t i : bonds_of(convex)) {
+        const std::uint32_t beside = across(i, convex);
+        if (ahead(beside) == ahead(convex)) add_those_of(beside);
+      }
+      for (auto at = std::ranges::lower_bound(overlaps_, std::pair(convex, 0u));
+           at != overlaps_.end() && at->first == convex; ++at)
+        if (ahead(at->second) == ahead(convex)) add_those_of(at->second);
+    }
+  }
+  std::ranges::sort(crossings, {}, &Crossing::bond);
+  return crossings;
+}
+
+/// Their areas as vectors, summed: for all that ends in a closed line in a plane, that plane's
+/// normal and the area in it. Also the sum of the areas as such.
+Vec3 Sections::facing(std::span<const Crossing> crossings, double& area_m2) const {
+  Vec3 sum = Vec3::Zero();
+  area_m2 = 0;
+  for (const Crossing& crossing : crossings) {
+    const BondGeometry& g = system_.geometry()[crossing.bond];
+    sum += (crossing.forward ? g.area_m2 : -g.area_m2) * g.normal_R;
+    area_m2 += g.area_m2;
+  }
+  return sum;
+}
+
+/// The principal axes of the centroids of what hangs together within four, three and two cells of
+/// a bond.
+std::vector<Vec3> Sections::axes_around(std::uint32_t bond) {
+  const Bond& own = compound_.bonds[bond];
+  const Vec3& point_R = system_.geometry()[bond].centroid_R;
+  double cell_m = 0;
+  for (const std::uint32_t c : {own.a, own.b})
+    cell_m = std::max(cell_m, std::cbrt(compound_.convexes[c]->solid.volume_m3));
+  std::vector<std::uint32_t> near = {own.a, own.b};
+  ++search_;
+  for (const std::uint32_t c : near) seen_convex_[c] = search_;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    work_ += bonds_of(near[k]).size();
+    for (const std::uint32_t i : bonds_of(near[k])) {
+      const std::uint32_t c = across(i, near[k]);
+      if (seen_convex_[c] == search_ || (centroid(c) - point_R).norm() > 4 * cell_m) continue;
+      seen_convex_[c] = search_;
+      near.push_back(c);
+    }
+  }
+  std::vector<Vec3> axes;
+  for (const double cells : {4.0, 3.0, 2.0}) {
+    Vec3 sum = Vec3::Zero();
+    Mat3 squares = Mat3::Zero();
+    double count = 0;
+    for (const std::uint32_t c : near) {
+      const Vec3 arm = centroid(c) - point_R;
+      if (arm.norm() > cells * cell_m) continue;
+      sum += arm;
+      squares += arm * arm.transpose();
+      ++count;
+    }
+    if (count < 5) continue;
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(squares - sum * sum.transpose() / count);
+    for (int k = 0; k < 3; ++k) axes.emplace_back(solver.eigenvectors().col(k));
+  }
+  return axes;
+}
+
+/// What crossings bear whose areas, seen along `normal_R`, are these, bent about `bending_R` and
+/// across it.
+SectionStrength Sections::strength(std::span<const Crossing> crossings,
+                                   std::span<const double> areas_m2, const Vec3& normal_R,
+                                   const Vec3& bending_R) const {
+  SectionStrength strength;
+  strength.axes_R << normal_R, bending_R, normal_R.cross(bending_R);
+  std::vector<Strip> strips(crossings.size());
+  for (int axis = 1; axis <= 2; ++axis) {
+    const Vec3 along = strength.axes_R.col(3 - axis);
+    strength.axial_N = 0;
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+      const BondGeometry& g = system_.geometry()[crossings[i].bond];
+      const double square_m4 = std::max(0.0, along.dot(g.second_moment * along));
+      strips[i] = {areas_m2[i] * yield_Pa(crossings[i].bond), along.dot(g.centroid_R),
+                   g.area_m2 > 0 ? std::sqrt(3 * square_m4 / g.area_m2) : 0};
+      strength.axial_N += strips[i].force_N;
+    }
+    strength.moment_Nm[axis] = bending_Nm(strips);
+  }
+  strength.shear_N = strength.axial_N * std::numbers::inv_sqrt3;  // von Mises
+  // A rectangle's by the heap of sand (Nadai 1923), told by what it bears bent either way.
+  const double weak = std::min(strength.moment_Nm[1], strength.moment_Nm[2]);
+  const double strong = std::max(strength.moment_Nm[1], strength.moment_Nm[2]);
+  strength.moment_Nm[0] = std::numbers::inv_sqrt3 * weak * (2 - 2.0 / 3 * weak / strong);
+  return strength;
+}
+
+Section Sections::of(std::vector<Crossing> crossings, const Vec3& normal_R) const {
+  Section section;
+  std::erase_if(crossings, [&](const Crossing& crossing) {
+    const bool yields = yield_Pa(crossing.bond) > 0;
+    if (!yields) section.pressed.push_back(crossing.bond);
+    return !yields;
+  });
+  double all_m2 = 0;
+  std::vector<double> areas_m2;
+  for (const Crossing& crossing : crossings) {
+    const BondGeometry& g = system_.geometry()[crossing.bond];
+    areas_m2.push_back((crossing.forward ? g.area_m2 : -g.area_m2) * normal_R.dot(g.normal_R));
+    section.area_m2 += areas_m2.back();
+    section.centroid_R += areas_m2.back() * g.centroid_R;
+    all_m2 += g.area_m2;
+  }
+  if (!(section.area_m2 > kLeastArea * all_m2)) return {};
+  section.centroid_R /= section.area_m2;
+  Wrench& wrench = section.wrench_R;
+  for (const Crossing& crossing : crossings) {
+    const Wrench part = system_.wrench(crossing.bond, displacements_);
+    const Vec3 arm = system_.geometry()[crossing.bond].centroid_R - section.centroid_R;
+    const double sign = crossing.forward ? 1 : -1;
+    wrench.force_N += sign * part.force_N;
+    wrench.moment_Nm += sign * (part.moment_Nm + arm.cross(part.force_N));
+  }
+  const Vec3 bending = wrench.moment_Nm - normal_R * normal_R.dot(wrench.moment_Nm);
+  section.strength =
+      strength(crossings, areas_m2, normal_R,
+               bending.norm() > 0 ? Vec3(bending.normalized()) : any_across(normal_R));
+  if (!(section.strength.moment_Nm.minCoeff() > 0)) return {};
+  section.utilisation = utilisation(section.strength, wrench);
+  section.crossings = std::move(crossings);
+  return section;
+}
+
+Section Sections::at(std::uint32_t bond) {
+  if (first_.empty()) index_bonds();
+  const BondGeometry& g = system_.geometry()[bond];
+  if (!(g.area_m2 > 0)) return {};
+  std::vector<Crossing> crossings = flood(bond, g.normal_R);
+  Section best = of(crossings, g.normal_R);
+  if (best.crossings.empty()) return best;
+  double area_m2 = 0;
+  if (facing(crossings, area_m2).norm() > kInOnePlane * area_m2) {
+    const Bond& own = compound_.bonds[bond];
+    for (const auto& [convex, face] : {std::pair(own.a, own.face_a), {own.b, own.face_b}}) {
+      const auto axis = prism_axis(compound_.convexes[convex]->polyhedron, face);
+      const double cosine = axis ? std::abs(axis->dot(g.normal_R)) : 0;
+      if (cosine < kWithin60 || cosine > kWithinNothing) continue;
+      Section section = of(crossings, convex == own.a ? Vec3(-*axis) : *axis);
+      if (!section.crossings.empty() && section.area_m2 < best.area_m2) best = std::move(section);
+    }
+    return best;
+  }
+  double least_m2 = std::numeric_limits<double>::infinity();
+  for (const Vec3& axis : axes_around(bond)) {
+    const Vec3 ahead = axis.dot(g.normal_R) < 0 ? Vec3(-axis) : axis;
+    if (ahead.dot(g.normal_R) < kWithin60) continue;
+    crossings = flood(bond, ahead);
+    const Vec3 sum = facing(crossings, area_m2);
+    if (!(ahead.dot(sum) > kWithin30 * sum.norm()) || sum.norm() >= least_m2) continue;
+    Section section = of(std::move(crossings), ahead);
+    if (section.crossings.empty()) continue;
+    least_m2 = sum.norm();
+    best = std::move(section);
+  }
+  return best;
+}
+
+}  // namespace sunder::fracture
