@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
@@ -178,7 +179,9 @@ void Loader::add_materials(const Value& document, const std::filesystem::path& f
 }
 
 /// A block under every part that reaches the structure's lowest level; the world holds the blocks.
-void add_foundation(std::vector<Piece>& pieces, MaterialIndex material) {
+/// What yields goes on into the ground, as a bar does.
+void add_foundation(std::vector<Piece>& pieces, MaterialIndex foundation,
+                    std::span<const Material> materials) {
   double bottom = std::numeric_limits<double>::max();
   for (const Piece& piece : pieces) {
     for (const fracture::Part& part : piece.parts) {
@@ -192,7 +195,9 @@ void add_foundation(std::vector<Piece>& pieces, MaterialIndex material) {
       if (piece.at.y() + box.min.y() > bottom + 1e-6) continue;
       const Vec3 max(box.max.x(), box.min.y(), box.max.z());
       const Vec3 min = box.min - Vec3(0, kFoundationDepth, 0);
-      piece.parts.push_back({make_box(min, max), material, true});
+      const MaterialIndex own = piece.parts[i].material;
+      piece.parts.push_back(
+          {make_box(min, max), materials[own.value].yields() ? own : foundation, true});
     }
   }
 }
@@ -216,7 +221,8 @@ void Loader::add_solid(const Value& table) {
     throw InputError(table.where + ": " + error.what());
   }
   if (head.anchored == Anchored::kBottom) {
-    add_foundation(pieces, find_material("foundation", table.where, scene_.materials));
+    add_foundation(pieces, find_material("foundation", table.where, scene_.materials),
+                   scene_.materials);
   }
   const Pose X_WS{head.position, rotation(head.rotation_rad)};
   std::vector<Solid> solids;

@@ -196,9 +196,9 @@ StructureType wheel_structure() {
 
 std::span<const StructureType> structures() {
   static const std::vector<StructureType> all = {
-      box_structure(),    brick_wall_structure(), bridge_structure(),
-      column_structure(), house_structure(),      pane_structure(),
-      stack_structure(),  temple_structure(),     wheel_structure()};
+      box_structure(),   brick_wall_structure(), bridge_structure(), column_structure(),
+      hall_structure(),  house_structure(),      pane_structure(),   reinforced_structure(),
+      stack_structure(), temple_structure(),     wheel_structure()};
   return all;
 }
 

@@ -32,7 +32,7 @@ double height_m(const Frame& frame) {
   std::vector<double> heights;
   for (const Instance& instance : frame.instances) {
     const FrameBody& body = frame.bodies[instance.body];
-    const Vec3 place = body.X_WB * ((*frame.meshes)[instance.mesh.value]->origin_R - body.com_R);
+    const Vec3 place = body.X_WB * ((*frame.meshes)[instance.mesh.value]->origin_T - body.com_R);
     const bool ball = body.com_R.isZero();
     if (!ball && std::abs(place.x()) < 2) heights.push_back(place.y());
   }

@@ -1,4 +1,5 @@
 // Structures: sound, without overlap, bonded where they touch.
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -104,6 +105,19 @@ TEST(Structures, GlassHangsInAFrameThatIsHeld) {
   EXPECT_TRUE(is_connected(compound));
   EXPECT_EQ(compound.anchored, (std::vector<std::uint8_t>{0, 1, 0, 0, 0})) << "by its foot";
   EXPECT_FALSE(solids("structure = \"pane\"\nframe_m = 0")[0].compound.is_anchored());
+}
+
+TEST(Structures, AHallIsOneFrameOfSteelOnFeetThatAreHeldUnderLooseSlabs) {
+  const std::vector<Solid> hall = solids("structure = \"hall\"");
+  ASSERT_EQ(hall.size(), 1u + 3 * 4 * 5) << "slabs: in three bays four by five";
+  const Compound& steel = hall[0].compound;
+  EXPECT_TRUE(is_connected(steel));
+  EXPECT_EQ(std::ranges::count(steel.anchored, 0), std::ssize(steel.convexes) - 8) << "feet";
+  EXPECT_FALSE(hall[1].compound.is_anchored());
+  for (std::size_t i = 0; i < steel.convexes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_LT(overlap(steel.convexes[i]->box, steel.convexes[j]->box), 1e-9) << i << " and " << j;
+  EXPECT_EQ(solids("structure = \"hall\"\nroof_m = 0").size(), 1u);
 }
 
 TEST(Structures, NothingOfAPaneStaysInTheAirOnceItsFootIsLetGo) {

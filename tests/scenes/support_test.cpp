@@ -42,8 +42,9 @@ class KnownPhysics final : public bench::ForwardingPhysics {
     joints[id.slot] = {joint.a, joint.b};
     return id;
   }
-  void attach(JointId joint, bool end_a, BodyId body) override {
-    physics_->attach(joint, end_a, body);
+  void attach(JointId joint, bool end_a, BodyId body,
+              std::span<const std::uint32_t> quiet_tags) override {
+    physics_->attach(joint, end_a, body, quiet_tags);
     (end_a ? joints[joint.slot].a : joints[joint.slot].b) = body;
   }
   void cut(JointId joint) override {

@@ -1,0 +1,109 @@
+// A hall of steel stands; struck, its girders bend before anything of it falls to the ground.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "scenes/load.h"
+#include "scenes/make_simulation.h"
+
+namespace sunder::tests {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kEaves = 5, kRidge = 5.2;  // m, of the girders' lower and upper side
+constexpr double kFallen = 0.1;             // m, above the ground
+constexpr double kInner = 4.8;              // m, from the middle: corners turn with the columns
+constexpr double kApart = 1.2;              // of their distance, between neighbours that have torn
+
+std::unique_ptr<FrameSource> steel_hall(std::vector<std::string> set) {
+  return scenes::make_simulation(scenes::load_scene("steel_hall", {"realtime", std::move(set)}));
+}
+
+/// What a frame shows of girders and slabs.
+struct Seen {
+  double bent_rad = 0;      ///< The most that two neighbours of a girder's webs are bent.
+  double lowest_m = 1e300;  ///< Of all of both.
+};
+
+/// A part of a girder's web.
+struct Web {
+  long frame = 0;  ///< Of the hall, by its place in mm.
+  Vec3 at_T;
+  Pose X_WT;
+};
+
+double most_bent_rad(std::vector<Web> webs) {
+  std::ranges::sort(webs, {}, [](const Web& web) { return std::pair(web.frame, web.at_T.x()); });
+  double most = 0;
+  for (std::size_t i = 1; i < webs.size(); ++i) {
+    const Web &a = webs[i - 1], &b = webs[i];
+    const double apart_m = (a.X_WT * a.at_T - b.X_WT * b.at_T).norm();
+    if (a.frame != b.frame || apart_m > kApart * (a.at_T - b.at_T).norm()) continue;
+    const double sine = (a.X_WT.rotation.conjugate() * b.X_WT.rotation).vec().norm();
+    most = std::max(most, 2 * std::asin(std::min(1.0, sine)));
+  }
+  return most;
+}
+
+Seen look_at(const Frame& frame) {
+  Seen seen;
+  std::vector<Web> webs;
+  for (const Instance& instance : frame.instances) {
+    const FrameBody& body = frame.bodies[instance.body];
+    const Mesh& mesh = *(*frame.meshes)[instance.mesh.value];
+    const std::string& material = (*frame.materials)[mesh.material.value].name;
+    const Vec3& at_T = mesh.origin_T;
+    const bool of_girder = material == "steel" && at_T.y() > kEaves && at_T.y() < kRidge;
+    if (!of_girder && material != "concrete") continue;
+    const Pose X_WT = body.X_WB * Pose{-body.com_R, Quat::Identity()} * mesh.X_RT;
+    if (of_girder && std::abs(at_T.x()) < kInner &&
+        std::abs(at_T.y() - 0.5 * (kEaves + kRidge)) < 0.05)
+      webs.push_back({std::lround(1e3 * at_T.z()), at_T, X_WT});
+    for (const Mesh::Vertex& vertex : mesh.vertices) {
+      const Vec3 point_T = at_T + vertex.position.cast<double>();
+      seen.lowest_m = std::min(seen.lowest_m, (X_WT * point_T).y());
+    }
+  }
+  seen.bent_rad = most_bent_rad(std::move(webs));
+  return seen;
+}
+
+TEST(SteelHall, StandsUnhurtWhileNothingStrikesIt) {
+  const auto simulation = steel_hall({"script.enabled=false", "scene.duration_s=5"});
+  FramePtr last;
+  while (FramePtr frame = simulation->next()) last = std::move(frame);
+  EXPECT_EQ(last->report.plastic_J, 0);
+  const Seen seen = look_at(*last);
+  EXPECT_LT(seen.bent_rad, 1e-9);
+  EXPECT_GT(seen.lowest_m, kEaves);
+  EXPECT_EQ(last->report.counts.awake, 0u);
+}
+
+TEST(SteelHall, BendsBeforeItFalls) {
+  const auto simulation = steel_hall({"script.blast=[]"});
+  FramePtr frame = simulation->next();
+  const double mass_kg = frame->report.mass_kg;
+  Seen seen = look_at(*frame);
+  ASSERT_GT(seen.lowest_m, kEaves);
+  double bent_rad = 0;
+  while (frame && seen.lowest_m > kFallen) {
+    bent_rad = std::max(bent_rad, seen.bent_rad);
+    frame = simulation->next();
+    if (!frame) break;
+    seen = look_at(*frame);
+    EXPECT_NEAR(frame->report.mass_kg, mass_kg, 1e-9 * mass_kg);
+  }
+  ASSERT_TRUE(frame) << "nothing has fallen";
+  std::printf("bent by %.1f degrees at %.2f s\n", bent_rad / kDegree, frame->time_s);
+  EXPECT_GT(bent_rad, 5 * kDegree);
+  EXPECT_GT(frame->report.plastic_J, 1e5);
+}
+
+}  // namespace
+}  // namespace sunder::tests
