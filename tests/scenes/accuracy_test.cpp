@@ -194,6 +194,7 @@ Scene wrecking_ball(const std::string& links, const std::string& preset,
   const std::string text =
       "[scene]\ndescription = \"x\"\nduration_s = 4\n[accuracy]\n"
       "[[material]]\nname = \"steel\"\ntensile_Pa = 0\nshear_Pa = 0\ncompressive_Pa = 0\n"
+      "yield_Pa = 0\n"
       "[script]\n[[script.wrecking_ball]]\nname = \"ball\"\nfrom = [-6.4, 7.8, 0]\n"
       "hangs_from = [0, 10, 0]\nradius_m = 0.6\nlinks = " +
       links + "\n";
