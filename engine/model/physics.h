@@ -171,7 +171,8 @@ class Physics {
   /// Changes a body's momentum by an impulse at a point and wakes it; static bodies ignore it.
   virtual void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) = 0;
   /// Bodies that stand still in the next solve and go on as they were after it: nothing pushes
-  /// them, and others meet them as they meet what is asleep. A physics that cannot lets them move.
+  /// them, and others meet them as they meet what is asleep. What they are joined to stands as
+  /// well, or it would hang on what cannot move. A physics that cannot lets them move.
   virtual void pause(std::span<const BodyId> /*bodies*/) {}
   /// Joins two bodies and wakes them. When a body is removed, its ends of joints hold nothing until
   /// attach() or cut().

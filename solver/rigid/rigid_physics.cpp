@@ -127,7 +127,18 @@ void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
 }
 
 void RigidPhysics::remove_shapes(std::span<const ShapeSlot> shapes) {
-  const std::vector<PairSlot> pairs = broad_phase_.pairs_with(shapes, shapes_, contacts_);
+  std::vector<PairSlot> pairs = broad_phase_.pairs_with(shapes, shapes_, contacts_);
+  if (!joints_.empty()) {  // what a joint keeps from touching may have drifted apart unseen
+    std::vector<ShapeSlot> gone(shapes.begin(), shapes.end());
+    std::ranges::sort(gone);
+    const auto goes = [&](ShapeSlot shape) { return std::ranges::binary_search(gone, shape); };
+    for (PairSlot i(std::size_t{0}); i.value < contacts_.pairs.size(); ++i.value) {
+      const Pair& pair = contacts_.pairs[i];
+      if (pair.present() && (goes(pair.shape_a) || goes(pair.shape_b))) pairs.push_back(i);
+    }
+    std::ranges::sort(pairs);
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  }
   std::vector<ManifoldSlot> manifolds;
   for (const PairSlot pair : pairs)
     if (contacts_.pairs[pair].touching()) manifolds.push_back(contacts_.pairs[pair].manifold);
@@ -297,8 +308,21 @@ void RigidPhysics::attach(JointId id, bool end_a, BodyId body,
 void RigidPhysics::cut(JointId id) { joints_.cut(id, bodies_); }
 
 void RigidPhysics::pause(std::span<const BodyId> bodies) {
-  for (const BodyId id : bodies)
-    if (const BodySlot body = bodies_.slot(id); bodies_.awake(body)) paused_.add(body);
+  std::vector<BodySlot> all;
+  const auto add = [&](BodySlot body) {
+    if (body.none() || !bodies_.awake(body) || std::ranges::find(all, body) != all.end()) return;
+    all.push_back(body);
+    paused_.add(body);
+  };
+  for (const BodyId id : bodies) add(bodies_.slot(id));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const BodySlot body = all[i];
+    for (const Joint& joint : joints_.all()) {
+      if (!joint.holds()) continue;
+      if (joint.body_a == body) add(joint.body_b);
+      if (joint.body_b == body) add(joint.body_a);
+    }
+  }
 }
 
 SolveReport RigidPhysics::solve(double dt_s, int substeps) {

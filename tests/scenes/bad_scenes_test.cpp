@@ -148,7 +148,7 @@ constexpr Fault kFaults[] = {
     {"[[solid]]\nstructure = \"hose\"",
      "bad.toml:4: unknown structure 'hose'; did you mean "
      "'house'?; allowed: box | brick_wall | bridge | column | "
-     "hall | house | pane | stack | temple"},
+     "hall | house | pane | reinforced | stack | temple"},
     {"[[solid]]\nstructure = \"box\"\nmaterial = \"stel\"",
      "bad.toml:5: unknown material 'stel'; "
      "did you mean 'steel'?; there are: "

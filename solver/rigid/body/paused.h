@@ -1,6 +1,7 @@
 // Bodies that sit a solve out: asleep for its length, and then they go on as they were.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,9 @@ class Paused {
   /// Those that are awake fall asleep.
   void stop(Bodies& bodies) {
     std::erase_if(items_, [&](const Item& item) { return !bodies.awake(item.body); });
+    std::ranges::sort(items_, {}, &Item::body);
+    const auto twice = std::ranges::unique(items_, {}, &Item::body);
+    items_.erase(twice.begin(), twice.end());
     for (Item& item : items_) {
       item.velocity = std::exchange(bodies.velocity[item.body], Vec3::Zero());
       item.angular_velocity = std::exchange(bodies.angular_velocity[item.body], Vec3::Zero());
