@@ -14,9 +14,6 @@
 namespace sunder {
 namespace {
 
-/// cos 75°, of half the largest bend.
-constexpr double kLeastCosine = 0.25881904510252074;
-
 /// How far the farthest point of a convex lies beyond a plane.
 double reach_beyond(const ConvexPolyhedron& convex, const Plane& plane) {
   double farthest = std::numeric_limits<double>::lowest();

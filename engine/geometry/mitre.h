@@ -15,6 +15,9 @@
 
 namespace sunder {
 
+/// cos 75°: of half the largest bend that a mitre is made of.
+inline constexpr double kLeastCosine = 0.25881904510252074;
+
 /// Where one side of a section ends, in that side's rest frame.
 struct SectionEnd {
   Vec3 centroid;

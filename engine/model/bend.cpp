@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "engine/base/check.h"
@@ -16,17 +17,16 @@ constexpr double kFarthest = 4;
 constexpr double kSame = 1e-6;  // areas of faces that cover each other
 // Of the faces that a section is of, how much it is of at least, for these to end with it.
 constexpr double kWhole = 0.9;
-constexpr double kLeastCosine = 0.25881904510252074;  // 75°, as midplane() has it
 
 /// Whether a section is all of the faces that it is of.
 bool is_whole(const BentSide& side) {
   SUNDER_CHECK(side.slots.size() == side.areas_m2.size());
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> left_m2;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> counted;
   double all_m2 = 0, bonds_m2 = 0;
   for (std::size_t i = 0; i < side.slots.size(); ++i) {
     const ConvexPolyhedron& convex = side.structure.convex(ConvexSlot(side.slots[i]))->polyhedron;
     bonds_m2 += side.areas_m2[i];
-    if (left_m2.emplace(std::pair(side.slots[i], side.faces[i]), 0.0).second)
+    if (counted.emplace(side.slots[i], side.faces[i]).second)
       all_m2 += face_area(convex, side.faces[i]);
   }
   return bonds_m2 > kWhole * all_m2;

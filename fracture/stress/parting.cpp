@@ -8,6 +8,7 @@
 namespace sunder::fracture {
 namespace {
 
+/// The island that stays: the largest of those that are anchored, or of all.
 std::uint32_t staying(const Compound& compound, const std::vector<std::uint32_t>& island,
                       std::uint32_t islands) {
   std::vector<std::pair<bool, std::uint32_t>> rank(islands);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,7 +14,7 @@ namespace sunder {
 namespace {
 
 // What has bent or slid by less since it was drawn is not drawn anew.
-constexpr double kBend_rad = 0.5 * 3.14159265358979323846 / 180;
+constexpr double kBend_rad = 0.5 * std::numbers::pi / 180;
 constexpr double kSlide = 2e-3;  // of the section's reach
 
 bool has_moved(const Pose& from, const Pose& to, const Vec3& at, double reach_m) {
@@ -60,21 +61,12 @@ void draw(World& world, Actor& actor, HingeSide& side, const BentSide& bent, con
 void draw(World& world, Joints::Live& joint) {
   Hinge& hinge = *joint.hinge;
   Actor &a = *world.actors.find(joint.a.key), &b = *world.actors.find(joint.b.key);
-  const auto rest = [&](const Actor& actor) {
-    return rest_pose(actor, world.physics->state(actor.body).X_WB);
-  };
-  const Pose X_AB = rest(a).inverse() * rest(b);
-  const PlasticSection& section = hinge.section;
-  const double reach_m = section.reach_m.maxCoeff();
-  const Pose X_BA = hinge.X_AB.inverse();
-  const Vec3 at_b = X_BA * section.centroid_R, normal = section.strength.axes_R.col(0);
-  if (!has_moved(hinge.drawn_X_AB, X_AB, at_b, reach_m)) return;
-  const BentSide side_a{
-      a.structure, hinge.a.slots, hinge.a.faces, hinge.areas_m2, {section.centroid_R, normal},
-      reach_m};
-  const BentSide side_b{
-      b.structure, hinge.b.slots, hinge.b.faces, hinge.areas_m2, {at_b, X_BA.rotation * -normal},
-      reach_m};
+  const Pose X_AB = relative_rest(*world.physics, a, b);
+  const SectionEnd end_a = hinge.end_a(), end_b = hinge.end_b();
+  const double reach_m = hinge.reach_m();
+  if (!has_moved(hinge.drawn_X_AB, X_AB, end_b.centroid, reach_m)) return;
+  const BentSide side_a{a.structure, hinge.a.slots, hinge.a.faces, hinge.areas_m2, end_a, reach_m};
+  const BentSide side_b{b.structure, hinge.b.slots, hinge.b.faces, hinge.areas_m2, end_b, reach_m};
   const std::optional<MeetingPlane> meeting = meeting_plane(side_a, side_b, X_AB);
   if (!meeting) return;
   hinge.drawn_X_AB = X_AB;

@@ -56,6 +56,11 @@ bool HingeSide::is_of(const Actor& actor) {
   return true;
 }
 
+Pose relative_rest(const Physics& physics, const Actor& a, const Actor& b) {
+  const Pose X_WA = rest_pose(a, physics.state(a.body).X_WB);
+  return X_WA.inverse() * rest_pose(b, physics.state(b.body).X_WB);
+}
+
 SectionStrength Hinge::strength() const {
   const double grown = 1 + section.hardening_Pa * strain / section.yield_Pa;
   SectionStrength all = section.strength;
@@ -96,8 +101,7 @@ void Joints::add(Physics& physics, const Actors& actors, const Joint& joint) {
 }
 
 Joints::Live Joints::hold(Physics& physics, const Actor& a, const Actor& b, Hinge hinge) {
-  const Pose X_WA = rest_pose(a, physics.state(a.body).X_WB);
-  const Pose X_AB = X_WA.inverse() * rest_pose(b, physics.state(b.body).X_WB);
+  const Pose X_AB = relative_rest(physics, a, b);
   Live live;
   JointDesc& desc = live.desc;
   desc.kind = JointKind::kPlastic;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/geometry/mitre.h"
 #include "engine/model/joint.h"
 #include "engine/model/physics.h"
 #include "engine/model/scene.h"
@@ -41,7 +42,18 @@ struct Hinge {
 
   /// As it has hardened.
   SectionStrength strength() const;
+  /// Where either side ends, in its own rest frame.
+  SectionEnd end_a() const { return {section.centroid_R, section.strength.axes_R.col(0)}; }
+  SectionEnd end_b() const {
+    const Pose X_BA = X_AB.inverse();
+    return {X_BA * section.centroid_R, X_BA.rotation * -section.strength.axes_R.col(0)};
+  }
+  /// From its centroid to what is farthest in it.
+  double reach_m() const { return section.reach_m.maxCoeff(); }
 };
+
+/// Where b's rest frame lies in a's.
+Pose relative_rest(const Physics& physics, const Actor& a, const Actor& b);
 
 class Joints {
  public:

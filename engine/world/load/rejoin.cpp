@@ -38,13 +38,11 @@ std::pair<const Actor*, const Actor*> in_order(const Actor& x, const Actor& y) {
 }
 
 BentSection section_of(const Hinge& hinge, bool a_first) {
-  const PlasticSection& section = hinge.section;
-  const Pose X_BA = hinge.X_AB.inverse();
-  const Vec3 normal = section.strength.axes_R.col(0);
+  const SectionEnd end_a = hinge.end_a(), end_b = hinge.end_b();
   BentSection bent;
-  bent.centroid_A = section.centroid_R, bent.normal_A = normal;
-  bent.centroid_B = X_BA * section.centroid_R, bent.normal_B = X_BA.rotation * -normal;
-  bent.reach_m = section.reach_m.maxCoeff();
+  bent.centroid_A = end_a.centroid, bent.normal_A = end_a.along;
+  bent.centroid_B = end_b.centroid, bent.normal_B = end_b.along;
+  bent.reach_m = hinge.reach_m();
   bent.areas_m2 = hinge.areas_m2;
   bent.slots_a = hinge.a.slots, bent.faces_a = hinge.a.faces;
   bent.slots_b = hinge.b.slots, bent.faces_b = hinge.b.faces;
@@ -133,10 +131,8 @@ class Both {
 
 bool rejoin(World& world, const Breaker& breaker, const Actor& a, const Actor& b,
             std::uint64_t& work) {
-  const auto rest = [&](const Actor& actor) {
-    return rest_pose(actor, world.physics->state(actor.body).X_WB);
-  };
-  BentPair bent{a.structure, b.structure, rest(a).inverse() * rest(b), {}, world.next_event++};
+  BentPair bent{
+      a.structure, b.structure, relative_rest(*world.physics, a, b), {}, world.next_event++};
   std::vector<JointId> hinges;
   for (const Live& joint : world.joints.live()) {
     if (!joint.hinge || !joint.is_between(a.key, b.key)) continue;
