@@ -127,18 +127,7 @@ void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
 }
 
 void RigidPhysics::remove_shapes(std::span<const ShapeSlot> shapes) {
-  std::vector<PairSlot> pairs = broad_phase_.pairs_with(shapes, shapes_, contacts_);
-  if (!joints_.empty()) {  // what a joint keeps from touching may have drifted apart unseen
-    std::vector<ShapeSlot> gone(shapes.begin(), shapes.end());
-    std::ranges::sort(gone);
-    const auto goes = [&](ShapeSlot shape) { return std::ranges::binary_search(gone, shape); };
-    for (PairSlot i(std::size_t{0}); i.value < contacts_.pairs.size(); ++i.value) {
-      const Pair& pair = contacts_.pairs[i];
-      if (pair.present() && (goes(pair.shape_a) || goes(pair.shape_b))) pairs.push_back(i);
-    }
-    std::ranges::sort(pairs);
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  }
+  const std::vector<PairSlot> pairs = broad_phase_.pairs_with(shapes, shapes_, contacts_);
   std::vector<ManifoldSlot> manifolds;
   for (const PairSlot pair : pairs)
     if (contacts_.pairs[pair].touching()) manifolds.push_back(contacts_.pairs[pair].manifold);
@@ -202,7 +191,10 @@ void RigidPhysics::update_contacts() {
       if (!pair.fresh && !bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b]) continue;
       const bool touched = pair.touching();
       Manifold& m = touched ? contacts_.manifolds[pair.manifold] : fresh;
-      if (same_as_before(bodies_, reach_, pair, touched ? &m : nullptr)) continue;
+      if (same_as_before(bodies_, reach_, pair, touched ? &m : nullptr)) {
+        if (!touched && broad_phase_.strayed(pair)) changes[c].gone.push_back(i);
+        continue;
+      }
       const bool apart = joints_.apart(pair, shapes_, bodies_);
       pair.fresh = apart;  // looked at again when they cease to ignore each other
       const bool near = !apart && broad_phase_.near(pair);

@@ -37,8 +37,12 @@ class BroadPhase {
               Contacts& contacts);
   /// Whether the pair's shapes may touch within the step.
   bool near(const Pair& pair) const;
-  /// Whether the pair is worth keeping.
+  /// Whether the pair is worth keeping: one that is not cannot be found by its shapes any more.
   bool keep(const Pair& pair) const;
+  /// Whether it ceased to be so in this update.
+  bool strayed(const Pair& pair) const {
+    return (moved_[pair.shape_a] || moved_[pair.shape_b]) && !keep(pair);
+  }
 
  private:
   enum class Role : std::uint8_t { kAbsent, kMover, kStatic, kHalfSpace };
