@@ -61,6 +61,49 @@ TEST(Blow, ACantileverStruckAtItsTipSnapsAtItsRootWhateverStrikesIt) {
   }
 }
 
+TEST(Blow, OnASlabCrushesTheColumnThatBearsMost) {
+  constexpr double kApart = 2, kHigh = 1, kThick = 0.2;
+  std::vector<Part> parts;
+  for (const double x : {0.0, kApart, 2 * kApart}) {
+    add_grid(Vec3(x, -0.1, 0), Vec3(x + kWide, 0, kWide), 4, 1, 4, true, parts);
+    add_grid(Vec3(x, 0, 0), Vec3(x + kWide, kHigh, kWide), 4, 10, 4, false, parts);
+  }
+  const std::size_t columns = parts.size();
+  add_grid(Vec3(0, kHigh, 0), Vec3(2 * kApart + kWide, kHigh + kThick, kWide), 44, 2, 4, false,
+           parts);
+  for (std::size_t c = columns; c < parts.size(); ++c) parts[c].material = MaterialIndex(2);
+  const Compound compound = make_compound(std::move(parts));
+  std::vector<Material> materials = stone();
+  materials[0].youngs_Pa = kYoungs;
+  materials.push_back(materials[0]);  // of the slab, which holds
+  materials[0].compressive_Pa = 2e6;
+  const auto top = [&](double x) {
+    std::uint32_t nearest = 0;
+    const Vec3 at(x, kHigh + kThick, kWide / 2);
+    for (std::uint32_t c = 1; c < compound.convexes.size(); ++c)
+      if ((compound.convexes[c]->solid.centroid - at).norm() <
+          (compound.convexes[nearest]->solid.centroid - at).norm())
+        nearest = c;
+    return Load{ConvexSlot(nearest), Vec3(0, -1, 0), at};
+  };
+  // A blow between two columns, and a steady load over a third of what crushes one of them.
+  for (const double loaded : {0.0, kApart, 2 * kApart}) {
+    Load steady = top(loaded + kWide / 2);
+    steady.force_N *= 0.4 * 2e6 * kWide * kWide;
+    Load impulse = top(loaded < 2 * kApart ? kApart / 2 + kWide / 2 : 1.5 * kApart + kWide / 2);
+    const double kg = 3e4, m_s = 0.01;
+    impulse.force_N *= kg * m_s;
+    LoadCase load;
+    load.materials = materials;
+    load.loads = std::span(&steady, 1);
+    load.most_work = std::uint64_t{1} << 40;
+    load.blow = {std::span(&impulse, 1), 0.5 * kg * m_s * m_s, impulse.point_R, 0};
+    const BlowStress blow = break_by_stress(Structure(compound), load).blow;
+    EXPECT_NEAR(blow.worst_R.x(), loaded + kWide / 2, kWide / 2) << blow.worst;
+    EXPECT_LE(blow.worst_R.y(), kHigh + 1e-9);
+  }
+}
+
 TEST(Blow, StaysWhereItLandsTheMoreTheLighterWhatStrikes) {
   const Compound compound = bar(kLong, kWide, 40, 4);
   for (const double kg : {1.0, 100.0, 1e4}) {
