@@ -4,6 +4,9 @@
 //
 // The mark: 8,000 convexes to a residual of 1e-3 in 10 ms on two cores when the load has changed.
 // What did not change costs nothing: the world does not ask (tests/engine/load_test.cpp).
+#include <cmath>
+#include <vector>
+
 #include <benchmark/benchmark.h>
 
 #include "engine/base/parallel.h"
@@ -71,6 +74,39 @@ void Stress_when_the_load_has_changed(benchmark::State& state) {
   show(state, result);
 }
 BENCHMARK(Stress_when_the_load_has_changed)->Apply(arguments);
+
+/// So many blows in one step, at places all over it.
+void Ten_blows(benchmark::State& state) {
+  constexpr std::uint32_t kBlows = 10;
+  const Structure structure(block_of(state));
+  const Compound compound = structure.compound();
+  std::vector<Material> materials(1);
+  materials[0].tensile_Pa = materials[0].shear_Pa = materials[0].compressive_Pa = 1e9;
+  LoadCase load;
+  load.materials = materials;
+  load.gravity_R = kDown;
+  load.most_work = std::uint64_t{1} << 40;
+  load.memory = break_by_stress(structure, load).memory;
+  std::vector<Load> impulses;
+  for (std::uint32_t i = 1; i <= kBlows; ++i) {
+    const auto at = static_cast<std::uint32_t>(compound.convexes.size() * i / kBlows - 1);
+    impulses.push_back(
+        {ConvexSlot(at), Vec3(std::cos(i), 0, std::sin(i)), compound.convexes[at]->solid.centroid});
+  }
+  std::vector<Blow> blows;
+  for (const Load& impulse : impulses)
+    blows.push_back({std::span(&impulse, 1), 1, impulse.point_R, 0});
+  double worst = 0;
+  for (auto _ : state) {
+    LoadCase one = load;
+    for (const Blow& blow : blows) {
+      one.blow = blow;
+      worst = break_by_stress(structure, one).blow.worst;
+    }
+  }
+  state.counters["worst"] = worst;
+}
+BENCHMARK(Ten_blows)->Apply(arguments);
 
 /// All that follows a break: the bonds' shapes and the levels made anew.
 void Set_up_after_a_break(benchmark::State& state) {
