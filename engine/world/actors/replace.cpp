@@ -162,8 +162,8 @@ std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit) {
   return static_cast<std::uint32_t>(edit.loose.pieces.size()) + (stays ? 1 : 0);
 }
 
-bool has_room(const World& world, const BreakEdit& edit) {
-  return world.actors.size() + edit.loose.pieces.size() <= world.scene.limits.bodies;
+bool has_room(const World& world, const BreakEdit& edit, std::size_t to_come) {
+  return world.actors.size() + to_come + edit.loose.pieces.size() <= world.scene.limits.bodies;
 }
 
 void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {

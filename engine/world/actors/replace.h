@@ -1,6 +1,7 @@
 // What a break does to an actor: pieces come off it. Internal to engine/world.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "engine/world/actors/world.h"
@@ -10,8 +11,8 @@ namespace sunder {
 /// Pieces that an edit makes of a structure, what stays of it included.
 std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit);
 
-/// Whether the limit of bodies allows for the pieces that come off.
-bool has_room(const World& world, const BreakEdit& edit);
+/// Whether the limit of bodies allows for the pieces that come off, with so many others to come.
+bool has_room(const World& world, const BreakEdit& edit, std::size_t to_come = 0);
 
 /// Breaks the actor `key`. One that is still anchored stays and loses what came off;
 /// another gives way to its pieces, what stays of its structure first. Pieces move as it did (each

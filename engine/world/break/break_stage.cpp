@@ -74,12 +74,15 @@ bool is_stale(const World& world, const Trial& trial, std::span<const std::uint3
 bool settle(World& world, Trial& trial, std::vector<std::uint32_t>& all_broken) {
   std::vector<ProbeBreak> wanted;
   std::vector<std::uint32_t> of_load(trial.loads.size());
+  std::size_t pieces = 0;  // of all that break
   for (std::uint32_t i = 0; i < trial.planned.size(); ++i) {
     const PlannedBreak& planned = trial.planned[i];
     of_load[planned.load] = i;
-    const Verdict verdict = verdict_on(world, planned);
+    const Verdict verdict = verdict_on(world, planned, pieces);
     note_verdict(world, planned, verdict);
-    if (verdict == Verdict::kBreaks) wanted.push_back({planned.load, planned.needed_J});
+    if (verdict != Verdict::kBreaks) continue;
+    wanted.push_back({planned.load, planned.needed_J});
+    pieces += planned.edit.loose.pieces.size();
   }
   const std::vector<std::uint32_t> broken = trial.probe.release(wanted);
   if (broken.empty()) return false;

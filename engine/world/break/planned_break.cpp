@@ -138,9 +138,9 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
   });
 }
 
-Verdict verdict_on(const World& world, const PlannedBreak& planned) {
+Verdict verdict_on(const World& world, const PlannedBreak& planned, std::size_t to_come) {
   if (!planned.breaks) return Verdict::kHolds;
-  return has_room(world, planned.edit) ? Verdict::kBreaks : Verdict::kNoRoom;
+  return has_room(world, planned.edit, to_come) ? Verdict::kBreaks : Verdict::kNoRoom;
 }
 
 void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {

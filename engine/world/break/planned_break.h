@@ -45,7 +45,8 @@ enum class Verdict {
   kNoRoom,  ///< The limit of bodies forbids it.
   kBreaks,
 };
-Verdict verdict_on(const World& world, const PlannedBreak& planned);
+/// With so many pieces of others to come.
+Verdict verdict_on(const World& world, const PlannedBreak& planned, std::size_t to_come = 0);
 /// Remembers what an impact lacked, if it did.
 void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict);
 
