@@ -1,8 +1,9 @@
-// The page that golden_report() fills in, compiled in as a string (sunder_embed).
+// What is special in the page of golden_report(), compiled in as strings (sunder_embed).
 #pragma once
 
 namespace sunder::render::golden_page {
 
-extern const char* const golden_report_html;
+extern const char* const golden_report_css;
+extern const char* const golden_report_js;
 
 }  // namespace sunder::render::golden_page

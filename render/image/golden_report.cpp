@@ -1,58 +1,22 @@
-// Fills golden_report.html, which holds all there is of style and script.
+// Sections of pictures; golden_report.css and .js hold what is special in their style, and the
+// script.
 #include "render/image/golden_report.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
 #include <vector>
 
-#include "engine/base/check.h"
+#include "engine/io/page.h"
 #include "render/image/golden_page.h"
 
 namespace sunder::render {
 namespace {
 
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t j = 0; j < 3; ++j) word = word << 8 | (j < count ? bytes[i + j] : 0u);
-    for (std::size_t j = 0; j < 4; ++j) {
-      text += j <= count ? kDigits[word >> (18 - 6 * j) & 63] : '=';
-    }
-  }
-  return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        safe += "&lt;";
-        break;
-      case '&':
-        safe += "&amp;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
-
 std::string figure(const char* kind, const char* caption, const Image& image) {
   if (image.rgb.empty()) return {};
-  return std::string("<figure class=\"") + kind + "\"><img alt=\"\" src=\"data:image/png;base64," +
-         base64(encode_png(image)) + "\"><figcaption>" + caption + "</figcaption></figure>\n";
-}
-
-std::string row(const char* what, const std::string& value, const std::string& limit, bool over) {
-  return std::string("<tr><td>") + what + "<td" + (over ? " class=\"over\">" : ">") + value +
-         "<td>" + limit + "</tr>\n";
+  return std::string("<figure class=\"") + kind + "\">" +
+         embedded_image("image/png", encode_png(image)) + "<figcaption>" + caption +
+         "</figcaption></figure>\n";
 }
 
 std::string figures_table(const GoldenPicture& picture) {
@@ -63,14 +27,16 @@ std::string figures_table(const GoldenPicture& picture) {
     std::snprintf(text, sizeof text, "%.5f", value);
     return std::string(text);
   };
-  return "<table><tr><th>figure<th>measured<th>at most</tr>\n" +
-         row("FLIP, mean", number(d.flip_mean), number(limits.flip_mean),
-             d.flip_mean > limits.flip_mean) +
-         row("pixels off in the worst 32x32 window",
-             std::to_string(d.worst_window_pixels) + " at " + std::to_string(d.worst_window_x) +
-                 ", " + std::to_string(d.worst_window_y),
-             std::to_string(limits.window_pixels), d.worst_window_pixels > limits.window_pixels) +
-         "</table>\n";
+  const std::vector<Cell> rows[] = {
+      {{"FLIP, mean"},
+       {number(d.flip_mean), d.flip_mean > limits.flip_mean},
+       {number(limits.flip_mean)}},
+      {{"pixels off in the worst 32x32 window"},
+       {std::to_string(d.worst_window_pixels) + " at " + std::to_string(d.worst_window_x) + ", " +
+            std::to_string(d.worst_window_y),
+        d.worst_window_pixels > limits.window_pixels},
+       {std::to_string(limits.window_pixels)}}};
+  return html_table({"figure", "measured", "at most"}, rows);
 }
 
 std::string mode_switch(std::size_t number) {
@@ -114,11 +80,11 @@ std::string golden_report(std::span<const GoldenPicture> pictures) {
   std::string sections;
   for (std::size_t i = 0; i < order.size(); ++i) sections += section(*order[i], i);
 
-  std::string page = golden_page::golden_report_html;
-  const std::string place = "<!-- pictures -->";
-  const std::size_t at = page.find(place);
-  SUNDER_CHECK(at != std::string::npos);
-  return page.replace(at, place.size(), sections);
+  return html_page({"Sunder: golden images",
+                    "<h1>Golden images</h1>\n<p>Point at a picture for the magnifier. Heat: black "
+                    "no error, red, yellow, white the most.</p>\n" +
+                        sections + "<div id=\"lens\"></div>\n",
+                    golden_page::golden_report_css, golden_page::golden_report_js});
 }
 
 }  // namespace sunder::render

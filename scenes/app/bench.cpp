@@ -6,6 +6,7 @@
 #include "engine/base/check.h"
 #include "engine/io/figures.h"
 #include "engine/io/statistics.h"
+#include "scenes/app/bench_report.h"
 #include "scenes/app/run.h"
 #include "scenes/file/text_file.h"
 
@@ -14,8 +15,8 @@ namespace {
 
 constexpr const char* kQuantiles[] = {"p50_ms", "p95_ms", "p99_ms", "max_ms"};
 
-/// The figures of one scene's run, without the leading place.
-Figures measure(const std::string& name, const BenchOptions& options) {
+/// The figures of one scene's run, without the leading place, and its times frame by frame.
+Figures measure(const std::string& name, const BenchOptions& options, TimedScene& timed) {
   Scene scene = scenes::load_scene(name, options.load);
   // Scenes are timed beside each other: a shorter one to its end.
   const int end = last_frame(scene, -1);
@@ -23,10 +24,13 @@ Figures measure(const std::string& name, const BenchOptions& options) {
   Statistics statistics(scenes::run_info(scene, options.load.preset));
   Progress progress("bench " + scene.name, last, options.quiet);
   StateHash hash;
+  StageTimes times;
+  timed.name = scene.name;
   const auto simulation = make_simulation(std::move(scene));
   FramesUntil frames(*simulation, last);
-  FrameSink* const sinks[] = {&statistics, &hash, &progress};
+  FrameSink* const sinks[] = {&statistics, &hash, &times, &progress};
   pump(frames, sinks);
+  timed.frames = times.frames();
   return parse_figures(statistics.json(hash.hex(), false), name);
 }
 
@@ -110,9 +114,12 @@ int bench(const BenchOptions& options) {
   std::string table = "scene                  ms a frame:   p50       p95       p99       max\n";
   std::string comparison;
   bool same = true;
+  std::vector<TimedScene> timed(options.scenes.size());
   for (std::size_t i = 0; i < options.scenes.size(); ++i) {
     const std::string at = "/scenes/" + std::to_string(i);
-    for (const auto& [place, value] : measure(options.scenes[i], options)) all[at + place] = value;
+    for (const auto& [place, value] : measure(options.scenes[i], options, timed[i])) {
+      all[at + place] = value;
+    }
     table += row(all, at);
     if (!options.compare.empty()) {
       const Comparison compared = compare(all, at, old);
@@ -122,6 +129,7 @@ int bench(const BenchOptions& options) {
   }
   options.say(table + comparison);
   options.write_json(format_figures(all));
+  if (!options.page.empty()) write_text(options.page, bench_page(timed));
   if (!same) std::fprintf(stderr, "failed: the state differs from %s\n", options.compare.c_str());
   return same ? 0 : 1;
 }
