@@ -14,6 +14,7 @@ set(public_headers
   engine/model/joint.h
   engine/model/material.h
   engine/model/scene.h
+  engine/model/work.h
   render/sinks.h
   scenes/file/make_compound.h
   scenes/load.h

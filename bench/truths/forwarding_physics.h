@@ -44,9 +44,7 @@ class ForwardingPhysics : public Physics {
   std::vector<ContactLoad> contact_loads() const override { return physics_->contact_loads(); }
   std::vector<JointLoad> joint_loads() const override { return physics_->joint_loads(); }
   std::vector<float> penetrations() const override { return physics_->penetrations(); }
-  std::vector<std::pair<const char*, double>> take_timings_ms() override {
-    return physics_->take_timings_ms();
-  }
+  std::vector<WorkItem> take_work() override { return physics_->take_work(); }
 
  protected:
   std::unique_ptr<Physics> physics_;

@@ -8,6 +8,8 @@
 #include <exception>
 #include <mutex>
 
+#include "engine/base/trace.h"
+
 namespace sunder {
 
 /// Threads used by every parallel loop from now on; 0 means one per processor.
@@ -26,7 +28,14 @@ void work_together(void (*call)(const void*), const void* work);
 /// a thread that has not begun: on a busy machine this one does all of it.
 template <class Work>
 void work_together(const Work& work) {
-  detail::work_together([](const void* all) { (*static_cast<const Work*>(all))(); }, &work);
+  // What others do of it is a span of theirs, by the name of ours.
+  const char* const name = traced_span();
+  const auto traced = [&work, name] {
+    const TraceSpan span(name);
+    work();
+  };
+  using Traced = decltype(traced);
+  detail::work_together([](const void* all) { (*static_cast<Traced*>(all))(); }, &traced);
 }
 
 /// Calls `work(begin, end, chunk)` for the chunks [0, n) is cut into; chunks run in any order on

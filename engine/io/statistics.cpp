@@ -6,9 +6,12 @@
 #include <cstdio>
 #include <fstream>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include <nlohmann/json.hpp>
+
+#include "engine/model/work_log.h"
 
 namespace sunder {
 
@@ -86,6 +89,19 @@ Counts peak_of(const std::vector<FrameReport>& reports) {
   return peak;
 }
 
+/// By stage and name: how much of what is counted, in how long, and how long each took.
+Json work_json(std::span<const WorkItem> items) {
+  Json json = Json::object();
+  for (const WorkItem& item : items) {
+    Json& entry = json[kStageNames[static_cast<int>(item.stage)]][item.name];
+    entry["count"] = item.count;
+    if (item.ms <= 0) continue;
+    entry["ms"] = item.ms;
+    if (item.count > 0) entry["ns_each"] = 1e6 * item.ms / static_cast<double>(item.count);
+  }
+  return json;
+}
+
 Json frame_json(const FrameReport& report, double ms) {
   Json stages;
   for (int s = 0; s < kStages; ++s) stages[kStageNames[s]] = report.stage_ms[s];
@@ -96,7 +112,8 @@ Json frame_json(const FrameReport& report, double ms) {
           {"kinetic_J", report.kinetic_J},
           {"momentum_residual", report.momentum_residual},
           {"plastic_J", report.plastic_J},
-          {"potential_J", report.potential_J}};
+          {"potential_J", report.potential_J},
+          {"work", work_json(report.work)}};
 }
 
 [[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
@@ -164,6 +181,11 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
     json["stages"][kStageNames[i]] = {
         {"p50_ms", quantile(ms, 0.5)}, {"p95_ms", quantile(ms, 0.95)}, {"max_ms", quantile(ms, 1)}};
   }
+  WorkLog work;
+  for (const FrameReport& report : s.reports) {
+    for (const WorkItem& item : report.work) work.add(item);
+  }
+  json["work"] = work_json(work.items());
   json["frame"] = {{"p50_ms", quantile(frame_ms, 0.5)},
                    {"p95_ms", quantile(frame_ms, 0.95)},
                    {"p99_ms", quantile(frame_ms, 0.99)},

@@ -9,6 +9,7 @@
 
 #include "engine/base/types.h"
 #include "engine/model/material.h"
+#include "engine/model/work.h"
 
 namespace sunder {
 
@@ -89,12 +90,6 @@ struct BreakEvent {
   std::uint32_t pieces = 0;  ///< That it is in now; 1: it is cracked.
 };
 
-/// The stages of a step, in order.
-enum class Stage { kAct, kCollide, kBreak, kSolve, kLoad, kParticles, kSnapshot };
-inline constexpr int kStages = 7;
-inline constexpr const char* kStageNames[kStages] = {"act",  "collide",   "break",   "solve",
-                                                     "load", "particles", "snapshot"};
-
 /// Counted, not timed: the same on every machine.
 struct Counts {
   std::uint32_t bodies = 0;  ///< Dynamic.
@@ -109,6 +104,7 @@ struct Counts {
 /// The ledger of a frame.
 struct FrameReport {
   double stage_ms[kStages] = {};  ///< Summed over the frame's steps.
+  std::vector<WorkItem> work;     ///< Parts of stages; summed as well.
   Counts counts;
   double mass_kg = 0;  ///< Everything: debris, what the script took and shots yet to come included.
   double kinetic_J = 0;

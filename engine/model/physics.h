@@ -28,6 +28,7 @@
 #include "engine/model/body_states.h"
 #include "engine/model/joint.h"
 #include "engine/model/section.h"
+#include "engine/model/work.h"
 
 namespace sunder {
 
@@ -205,8 +206,8 @@ class Physics {
   virtual std::vector<JointFlow> joint_flows() const { return {}; }
   /// Depths (m, >= 0) of all contact points that carry load, unordered; for statistics.
   virtual std::vector<float> penetrations() const = 0;
-  /// Time spent since the last call, by name; for the timing table.
-  virtual std::vector<std::pair<const char*, double>> take_timings_ms() = 0;
+  /// What it did since the last call.
+  virtual std::vector<WorkItem> take_work() { return {}; }
 };
 
 }  // namespace sunder

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/base/trace.h"
+#include "engine/model/work_log.h"
 #include "engine/world/act/act_stage.h"
 #include "engine/world/actors/hinges.h"
 #include "engine/world/actors/make_actor.h"
@@ -87,9 +88,12 @@ FramePtr Simulation::next() {
     for (int i = 0; i < world.clock.steps_per_frame; ++i) advance();
   }
   started = true;
+  const TraceSpan span(kStageNames[static_cast<int>(Stage::kSnapshot)]);
   const Stopwatch watch;
+  for (const WorkItem& item : world.physics->take_work()) world.ledger.work.add(item);
   auto frame = snapshot(world, particles, act.shots_to_come(world.scene),
                         breaks.waiting() + loads.waiting());
+  frame->report.work = world.ledger.work.take();
   frame->report.stage_ms[static_cast<int>(Stage::kSnapshot)] = watch.ms();
   return frame;
 }
@@ -99,6 +103,7 @@ void Simulation::advance() {
   World& world = parts.world;
   const Breaker& breaker = *parts.breaker;
   const auto timed = [&](Stage stage, const auto& work) {
+    const TraceSpan span(kStageNames[static_cast<int>(stage)]);
     const Stopwatch watch;
     work();
     world.ledger.report.stage_ms[static_cast<int>(stage)] += watch.ms();
@@ -114,7 +119,9 @@ void Simulation::advance() {
     if (!parts.particles.any() || !world.clock.ends_frame()) return;
     // What a blast laid bare crumbles, and flies, by the speed with which that drives it apart.
     const bool waits = parts.act.blasts();
+    WorkSpan span(world.ledger.work, Stage::kParticles, "particles");
     parts.particles.run(world, waits ? Exposed{} : std::exchange(*world.exposed, {}));
+    span.count(parts.particles.alive());
     if (waits) world.exposed->wait(world.clock.frame_s());
   });
   ++world.clock.step;

@@ -5,6 +5,7 @@
 #include "engine/io/statistics.h"
 #include "engine/io/take/take.h"
 #include "engine/io/take/take_verifier.h"
+#include "engine/io/trace_file.h"
 #include "scenes/app/run.h"
 
 namespace sunder::app {
@@ -36,7 +37,12 @@ int simulate(const SimulateOptions& options) {
   }
   std::optional<TakeWriter> writer;
   if (!options.take.empty()) sinks.push_back(&writer.emplace(options.take));
+  if (!options.trace.empty()) start_trace();
   pump(frames, sinks);
+  if (!options.trace.empty()) {
+    write_text(options.trace, format_trace(take_trace()));
+    options.say("wrote " + options.trace + ": open it at ui.perfetto.dev\n");
+  }
   options.say(statistics.table() + "state hash " + hash.hex() + "\n");
   options.write_json(statistics.json(hash.hex(), true));
   if (writer) options.say("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");

@@ -10,6 +10,7 @@
 #include "engine/base/froude.h"
 #include "engine/base/trace.h"
 #include "engine/base/trigonometry.h"
+#include "engine/model/work_log.h"
 #include "solver/base/check_bodies.h"
 #include "solver/planar/contact_listener.h"
 #include "solver/planar/planar_touches.h"
@@ -40,7 +41,7 @@ class PlanarPhysics final : public Physics {
   BodyStates states() const override { return table_.states(); }
   std::vector<ContactLoad> contact_loads() const override;
   std::vector<float> penetrations() const override;
-  std::vector<std::pair<const char*, double>> take_timings_ms() override;
+  std::vector<WorkItem> take_work() override { return work_.take(); }
 
  private:
   /// After a change to one body, or to any: what states() shows, and what is near.
@@ -70,7 +71,7 @@ class PlanarPhysics final : public Physics {
   std::vector<Nearby> nearby_;
   bool nearby_known_ = false;
   double dt_s_ = 0;  ///< Of the last collide.
-  double solve_ms_ = 0;
+  WorkLog work_;
 };
 
 PlanarPhysics::PlanarPhysics(const PlanarOptions& options)
@@ -232,7 +233,7 @@ void PlanarPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& 
 
 SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   SUNDER_CHECK(dt_s > 0 && substeps > 0);
-  const Stopwatch watch;
+  WorkSpan span(work_, Stage::kSolve, "contacts in Box2D");
   SolveReport report;
   report.momentum_before_Ns = momentum_Ns();
   freeze_broken(report);
@@ -253,7 +254,7 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   }
   report.momentum_after_Ns = momentum_Ns();
   note_all();
-  solve_ms_ += watch.ms();
+  span.count(report.contacts);
   return report;
 }
 
@@ -374,10 +375,6 @@ std::vector<float> PlanarPhysics::penetrations() const {
     }
   }
   return depths;
-}
-
-std::vector<std::pair<const char*, double>> PlanarPhysics::take_timings_ms() {
-  return {{"Box2D", std::exchange(solve_ms_, 0)}};
 }
 
 }  // namespace

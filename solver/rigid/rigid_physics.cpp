@@ -7,6 +7,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
+#include "engine/model/work_log.h"
 #include "solver/base/check_bodies.h"
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/body/paused.h"
@@ -62,13 +63,15 @@ class RigidPhysics final : public Physics {
   std::vector<JointLoad> joint_loads() const override { return joints_.loads(bodies_); }
   std::vector<JointFlow> joint_flows() const override { return joints_.flows(); }
   std::vector<float> penetrations() const override { return find_penetrations(contacts_); }
-  std::vector<std::pair<const char*, double>> take_timings_ms() override;
+  std::vector<WorkItem> take_work() override { return work_.take(); }
 
  private:
   void remove_bodies(std::span<const BodyId> ids);
   void remove_shapes(std::span<const ShapeSlot> shapes);
+  void find_near();
   void update_contacts();
   void find_reaches();
+  ContactSolveReport solve_contacts(const StepContext& step);
   Vec3 freeze_broken();
   void look_again(JointId joint);
 
@@ -89,8 +92,7 @@ class RigidPhysics final : public Physics {
   double last_h_s_ = 0;       ///< Of the impulses that contacts and joints keep; 0: none.
   std::uint32_t frozen_ = 0;  ///< Since the last solve began.
   ByBody<StepReach> reach_;
-  std::vector<std::pair<const char*, double>> timings_ms_ = {
-      {"broad phase", 0}, {"narrow phase", 0}, {"contacts", 0}, {"sleep", 0}};
+  WorkLog work_;
 };
 
 std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
@@ -151,15 +153,18 @@ void RigidPhysics::edit(const BodyEdit& edit) {
 }
 
 void RigidPhysics::collide(double dt_s) {
-  Stopwatch watch;
   freeze_broken();
   step_ = StepContext(options_.gravity_W, dt_s);
-  broad_phase_.update(step_, shapes_, bodies_, contacts_);
-  timings_ms_[0].second += watch.lap_ms();
+  find_near();
   update_contacts();
   sleep_.wake_hit(step_, contacts_, bodies_);
   contacts_of_bodies_.clear();
-  timings_ms_[1].second += watch.lap_ms();
+}
+
+void RigidPhysics::find_near() {
+  WorkSpan span(work_, Stage::kCollide, "boxes that moved");
+  broad_phase_.update(step_, shapes_, bodies_, contacts_);
+  span.count(broad_phase_.moved());
 }
 
 void RigidPhysics::find_reaches() {
@@ -176,6 +181,7 @@ void RigidPhysics::find_reaches() {
 /// gets a manifold and what drifted apart goes.
 void RigidPhysics::update_contacts() {
   constexpr std::size_t kChunk = 1024;
+  WorkSpan span(work_, Stage::kCollide, "pairs looked at");
   auto& pairs = contacts_.pairs;
   const std::size_t chunks = (pairs.size() + kChunk - 1) / kChunk;
   changes_.resize(std::max(changes_.size(), chunks));
@@ -189,12 +195,14 @@ void RigidPhysics::update_contacts() {
       Pair& pair = pairs[i];
       if (!pair.present()) continue;
       if (!pair.fresh && !bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b]) continue;
+      ++changes[c].moved;
       const bool touched = pair.touching();
       Manifold& m = touched ? contacts_.manifolds[pair.manifold] : fresh;
       if (same_as_before(bodies_, reach_, pair, touched ? &m : nullptr)) {
         if (!touched && broad_phase_.strayed(pair)) changes[c].gone.push_back(i);
         continue;
       }
+      ++changes[c].looks;
       const bool apart = joints_.apart(pair, shapes_, bodies_);
       pair.fresh = apart;  // looked at again when they cease to ignore each other
       const bool near = !apart && broad_phase_.near(pair);
@@ -216,6 +224,14 @@ void RigidPhysics::update_contacts() {
   std::size_t touched = 0;
   for (const ContactChanges& chunk : changes) touched += chunk.touched.size();
   contacts_.expect_manifolds(touched);
+  WorkItem moved{Stage::kCollide, "pairs that moved"},
+      touches{Stage::kCollide, "pairs that came to touch", touched};
+  for (const ContactChanges& chunk : changes) {
+    moved.count += chunk.moved;
+    span.count(chunk.looks);
+  }
+  work_.add(moved);
+  work_.add(touches);
   for (const ContactChanges& chunk : changes)
     for (const auto& [pair, manifold] : chunk.touched) contacts_.touch(pair, manifold, bodies_);
   for (const ContactChanges& chunk : changes)
@@ -319,7 +335,6 @@ void RigidPhysics::pause(std::span<const BodyId> bodies) {
 
 SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   SUNDER_CHECK(dt_s > 0 && substeps > 0);
-  Stopwatch watch;
   const StepContext step(options_.gravity_W, dt_s, substeps, last_h_s_);
   SolveReport report;
   report.momentum_before_Ns = bodies_.momentum().momentum_Ns;
@@ -335,17 +350,16 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   }
   static_warm_start_.apply(step, options_.static_warm_start, bodies_, contacts_);
   std::fill(bodies_.is_new.begin(), bodies_.is_new.end(), std::uint8_t{0});
-  const ContactSolveReport solved = contact_solver_.solve(step, bodies_, contacts_, joints_);
+  const ContactSolveReport solved = solve_contacts(step);
   last_h_s_ = step.h_s;
   report.external_impulse_Ns += solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
-  timings_ms_[2].second += watch.lap_ms();
   if (options_.sleeping) {
+    const WorkSpan span(work_, Stage::kSolve, "sleep");
     sleep_.wake_changed(step, contacts_, bodies_);
     report.external_impulse_Ns += sleep_.put_to_sleep(step, joints_, bodies_, contacts_);
   }
   paused_.release(bodies_);
-  timings_ms_[3].second += watch.lap_ms();
   contacts_of_bodies_.clear();
   report.contacts = solved.manifolds;
   report.contact_points = solved.points;
@@ -358,10 +372,12 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   return report;
 }
 
-std::vector<std::pair<const char*, double>> RigidPhysics::take_timings_ms() {
-  auto taken = timings_ms_;
-  for (auto& timing : timings_ms_) timing.second = 0;
-  return taken;
+ContactSolveReport RigidPhysics::solve_contacts(const StepContext& step) {
+  WorkSpan span(work_, Stage::kSolve, "points in substeps");
+  const ContactSolveReport solved = contact_solver_.solve(step, bodies_, contacts_, joints_);
+  span.count(std::uint64_t{solved.points} * static_cast<std::uint64_t>(step.substeps));
+  work_.add({Stage::kSolve, "manifolds", solved.manifolds});
+  return solved;
 }
 
 }  // namespace

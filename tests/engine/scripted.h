@@ -108,7 +108,6 @@ class ScriptedPhysics : public Physics {
   std::vector<ContactLoad> contact_loads() const override { return loads; }
   std::vector<JointLoad> joint_loads() const override { return pulls; }
   std::vector<float> penetrations() const override { return {}; }
-  std::vector<std::pair<const char*, double>> take_timings_ms() override { return {}; }
 
   /// An approach of the living bodies with these tags at a point, along a normal from a to b.
   std::vector<Approach> approach(std::uint32_t tag_a, std::uint32_t tag_b, const Vec3& point_W,

@@ -1,4 +1,7 @@
 // A building stays the body it was while pieces come off it, whatever hits it, and however many.
+#include <map>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
@@ -49,19 +52,27 @@ TEST(Building, StaysTheBodyItWasAndLosesOnlyWhatCameOff) {
 
 TEST(Building, BreaksAlikeForAnyNumberOfThreads) {
   std::vector<std::string> hashes;
+  std::vector<std::map<std::string, std::uint64_t>> counts;  // of work
   for (const int count : {1, 2, 4, 7}) {
     set_threads(count);
     Trial run(wall_under_fire(7));
     StateHash hash;
+    std::map<std::string, std::uint64_t> counted;
     while (run.frame->time_s < 0.25) {
       run.step();
       hash.take(run.frame);
+      for (const WorkItem& item : run.frame->report.work) counted[item.name] += item.count;
     }
     EXPECT_FALSE(run.breaks.empty());
+    counts.push_back(counted);
     hashes.push_back(hash.hex());
   }
   set_threads(0);
   for (const std::string& hash : hashes) EXPECT_EQ(hash, hashes[0]);
+  for (const auto& counted : counts) EXPECT_EQ(counted, counts[0]);
+  for (const char* name : {"boxes that moved", "pairs looked at", "points in substeps",
+                           "clusters asked", "breaks planned", "parts cut", "bonds visited"})
+    EXPECT_GT(counts[0][name], 0u) << name;
 }
 
 }  // namespace

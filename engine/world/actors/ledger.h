@@ -5,12 +5,14 @@
 
 #include "engine/model/frame.h"
 #include "engine/model/physics.h"
+#include "engine/model/work_log.h"
 
 namespace sunder {
 
 struct Ledger {
   FrameReport report;              ///< Of the frame under way.
   std::vector<BreakEvent> breaks;  ///< Of the frame under way.
+  WorkLog work;                    ///< Of the frame under way.
   double debris_mass_kg = 0;       ///< Of all that became too small for a body.
   double removed_mass_kg = 0;      ///< By the script.
   double plastic_J = 0;            ///< That bending took, of the whole run.

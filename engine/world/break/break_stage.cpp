@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/model/work_log.h"
 #include "engine/world/break/clusters.h"
 
 namespace sunder {
@@ -86,6 +87,8 @@ bool settle(World& world, Trial& trial, std::vector<std::uint32_t>& all_broken) 
   }
   const std::vector<std::uint32_t> broken = trial.probe.release(wanted);
   if (broken.empty()) return false;
+  WorkSpan span(world.ledger.work, Stage::kBreak, "breaks carried out");
+  span.count(broken.size());
   const auto bends = [&](auto load) { return trial.planned[of_load[load]].only_bends(); };
   // What only bends is still in the way, and is met as what it has become.
   if (!std::ranges::all_of(broken, bends)) take_over(world, trial.probe);
@@ -115,8 +118,18 @@ std::vector<Trial> leave_for_later(const World& world, std::vector<Trial>& trial
   return later;
 }
 
+std::vector<Trial> find_trials(World& world, const WaitingRoom& waiting) {
+  WorkSpan span(world.ledger.work, Stage::kBreak, "clusters found");
+  std::vector<Trial> trials;
+  for (BreakProbe& probe : find_clusters(world, waiting)) trials.push_back({std::move(probe)});
+  span.count(trials.size());
+  return trials;
+}
+
 /// The next loads of the probes that have not been asked; those without any are done.
-void ask_all(std::vector<Trial>& trials) {
+void ask_all(World& world, std::vector<Trial>& trials) {
+  WorkSpan span(world.ledger.work, Stage::kBreak, "clusters asked");
+  span.count(trials.size());
   for_chunks(trials.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!std::exchange(trials[i].asked, true)) trials[i].loads = trials[i].probe.next();
@@ -125,12 +138,26 @@ void ask_all(std::vector<Trial>& trials) {
   std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
 }
 
-void plan_trials(const World& world, const Breaker& breaker, std::vector<Trial>& trials) {
+void plan(World& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
+  WorkSpan span(world.ledger.work, Stage::kBreak, "breaks planned");
+  span.count(all.size());
+  plan_all(world, breaker, all);
+  WorkItem parts{Stage::kBreak, "parts cut"}, visits{Stage::kBreak, "bonds visited"};
+  for (const PlannedBreak* planned : all) {
+    parts.count += planned->edit.added.size();
+    for (const Compound& piece : planned->edit.loose.pieces) parts.count += piece.convexes.size();
+    visits.count += planned->stressed.work;
+  }
+  world.ledger.work.add(parts);
+  world.ledger.work.add(visits);
+}
+
+std::vector<PlannedBreak*> planned_in(std::vector<Trial>& trials) {
   std::vector<PlannedBreak*> all;
   for (Trial& trial : trials) {
     for (PlannedBreak& planned : trial.planned) all.push_back(&planned);
   }
-  plan_all(world, breaker, all);
+  return all;
 }
 
 }  // namespace
@@ -175,7 +202,7 @@ bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
   }
   std::vector<PlannedBreak*> pointers;
   for (PlannedBreak& planned : all) pointers.push_back(&planned);
-  plan_all(world, breaker, pointers);
+  plan(world, breaker, pointers);
   bool broke = false;
   for (PlannedBreak& planned : all) {
     const Verdict verdict = verdict_on(world, planned);
@@ -192,7 +219,7 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
   bool again = false;
   std::vector<std::uint32_t> broken;  // since the stale ones were sorted out
   while (!trials.empty()) {
-    ask_all(trials);
+    ask_all(world, trials);
     const auto stale = [&](const Trial& trial) { return is_stale(world, trial, broken); };
     again |= std::erase_if(trials, stale) > 0;
     broken.clear();
@@ -208,11 +235,9 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
         waiting_room_.add(world, trial.probe);
       }
     }
-    plan_trials(world, breaker, taken_on);
-    for (const Trial& trial : taken_on) {
-      for (const PlannedBreak& planned : trial.planned)
-        budget_.charge(planned.stressed.work / kVisitsAPart);
-    }
+    plan(world, breaker, planned_in(taken_on));
+    for (const PlannedBreak* planned : planned_in(taken_on))
+      budget_.charge(planned->stressed.work / kVisitsAPart);
     for (Trial& trial : taken_on) {
       if (stale(trial) || settle(world, trial, broken)) {
         again = true;
@@ -228,17 +253,17 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
 }
 
 void BreakStage::run(World& world, const Breaker& breaker, std::span<const Impact> impacts) {
-  const auto collide = [&] { world.physics->collide(world.clock.horizon_s()); };
+  const auto collide = [&] {
+    const WorkSpan span(world.ledger.work, Stage::kBreak, "contacts found anew");
+    world.physics->collide(world.clock.horizon_s());
+  };
   if (break_by_blasts(world, breaker, impacts)) collide();
   waiting_room_.begin_step(world.actors);
   for (int round = 0; round <= kRounds; ++round) {
     const bool in_time = round < kRounds;
     const bool affordable = in_time && !budget_.spent();
     if (affordable) waiting_room_.admit();
-    std::vector<Trial> trials;
-    for (BreakProbe& probe : find_clusters(world, waiting_room_)) {
-      trials.push_back({std::move(probe)});
-    }
+    std::vector<Trial> trials = find_trials(world, waiting_room_);
     if (decide(world, breaker, std::move(trials), in_time)) {
       collide();
     } else if (!affordable || waiting_room_.queue_empty()) {

@@ -6,6 +6,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
+#include "engine/model/work_log.h"
 #include "engine/world/actors/bearing.h"
 #include "engine/world/actors/replace.h"
 #include "engine/world/load/rejoin.h"
@@ -155,6 +156,13 @@ std::vector<std::uint32_t> due(World& world) {
   return keys;
 }
 
+std::vector<std::uint32_t> find_due(World& world) {
+  WorkSpan span(world.ledger.work, Stage::kLoad, "solids due");
+  std::vector<std::uint32_t> keys = due(world);
+  span.count(keys.size());
+  return keys;
+}
+
 StressAnswer judge(const World& world, const Breaker& breaker, const Actor& actor,
                    const Quat& rotation_WB, std::uint64_t most_work) {
   std::vector<Load> loads;
@@ -232,7 +240,7 @@ void LoadStage::run(World& world, const Breaker& breaker) {
                                [](const Actor& actor) { return actor.stress.breakable; });
   waiting_ = 0;
   if (!any) return;
-  const std::vector<std::uint32_t> keys = due(world);
+  const std::vector<std::uint32_t> keys = find_due(world);
   std::size_t next = 0;
   while (next < keys.size() && work_left_ > 0) {
     std::vector<Judged> batch;
@@ -243,9 +251,12 @@ void LoadStage::run(World& world, const Breaker& breaker) {
       batch.push_back({keys[next], reserved, {}, 0});
       left -= reserved;
     }
+    WorkSpan span(world.ledger.work, Stage::kLoad, "solids judged");
+    span.count(batch.size());
     judge_all(world, breaker, batch);
     for (Judged& judged : batch) {
       work_left_ -= static_cast<std::int64_t>(judged.answer.work);
+      world.ledger.work.add({Stage::kLoad, "bonds visited", judged.answer.work});
       apply(world, judged);
     }
   }

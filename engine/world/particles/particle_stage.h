@@ -21,6 +21,11 @@ class ParticleStage {
   explicit ParticleStage(std::unique_ptr<Particles> particles) : particles_(std::move(particles)) {}
 
   bool any() const { return particles_ != nullptr; }
+  /// Debris and dust in the air and at rest.
+  std::uint64_t alive() const {
+    const ParticleReport report = particles_->report();
+    return std::uint64_t{report.debris.alive} + report.dust.alive;
+  }
   /// At the end of a frame's last step: what the frame's breaks laid bare comes off, and moves.
   void run(const World& world, const Exposed& exposed);
   /// Debris and dust as they are, and what there was no room for since the last frame.

@@ -35,6 +35,8 @@ class BroadPhase {
   /// any number of threads.
   void update(const StepContext& step, const Shapes& shapes, const Bodies& bodies,
               Contacts& contacts);
+  /// Shapes that the last update() looked for neighbours of.
+  std::size_t moved() const { return moved_list_.size(); }
   /// Whether the pair's shapes may touch within the step.
   bool near(const Pair& pair) const;
   /// Whether the pair is worth keeping: one that is not cannot be found by its shapes any more.

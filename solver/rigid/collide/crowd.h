@@ -16,9 +16,13 @@ namespace sunder::solver {
 struct ContactChanges {
   std::vector<std::pair<PairSlot, Manifold>> touched;
   std::vector<PairSlot> parted, gone;
-  std::vector<PairSlot> deep;  ///< Of those that touch.
+  std::vector<PairSlot> deep;          ///< Of those that touch.
+  std::uint64_t moved = 0, looks = 0;  ///< Pairs of which a body moved; those looked at.
 
-  void clear() { touched.clear(), parted.clear(), gone.clear(), deep.clear(); }
+  void clear() {
+    touched.clear(), parted.clear(), gone.clear(), deep.clear();
+    moved = looks = 0;
+  }
 };
 
 class Crowd {

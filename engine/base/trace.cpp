@@ -1,0 +1,73 @@
+#include "engine/base/trace.h"
+
+#include <memory>
+#include <mutex>
+#include <utility>
+
+namespace sunder {
+namespace {
+
+/// What one thread has traced; only it writes there, and it outlives it.
+struct ThreadTrace {
+  int thread = 0;
+  const char* innermost = nullptr;
+  std::vector<TracedSpan> spans;
+};
+
+std::mutex trace_mutex;  // of the list, not of what is in it
+std::vector<std::unique_ptr<ThreadTrace>>& traces() {
+  static auto* const all =
+      new std::vector<std::unique_ptr<ThreadTrace>>;  // as long as threads live
+  return *all;
+}
+
+ThreadTrace& my_trace() {
+  thread_local ThreadTrace* mine = nullptr;
+  if (!mine) {
+    const std::lock_guard lock(trace_mutex);
+    traces().push_back(std::make_unique<ThreadTrace>());
+    mine = traces().back().get();
+    mine->thread = static_cast<int>(traces().size()) - 1;
+  }
+  return *mine;
+}
+
+Stopwatch trace_clock;
+
+}  // namespace
+
+std::atomic<bool> detail::tracing = false;
+
+void start_trace() {
+  take_trace();
+  trace_clock = {};
+  detail::tracing = true;
+}
+
+std::vector<TracedSpan> take_trace() {
+  detail::tracing = false;
+  const std::lock_guard lock(trace_mutex);
+  std::vector<TracedSpan> all;
+  for (const std::unique_ptr<ThreadTrace>& trace : traces()) {
+    all.insert(all.end(), trace->spans.begin(), trace->spans.end());
+    trace->spans.clear();
+  }
+  return all;
+}
+
+const char* traced_span() {
+  return detail::tracing.load(std::memory_order_relaxed) ? my_trace().innermost : nullptr;
+}
+
+double detail::trace_begin(const char* name, const char*& outer) {
+  outer = std::exchange(my_trace().innermost, name);
+  return 1e3 * trace_clock.ms();
+}
+
+void detail::trace_end(const char* name, const char* outer, double begin_us) {
+  ThreadTrace& mine = my_trace();
+  mine.innermost = outer;
+  mine.spans.push_back({name, mine.thread, begin_us, 1e3 * trace_clock.ms() - begin_us});
+}
+
+}  // namespace sunder

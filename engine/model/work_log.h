@@ -1,0 +1,55 @@
+// How the parts of stages are counted and timed. Internal to the rooms that do the work.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/base/trace.h"
+#include "engine/model/work.h"
+
+namespace sunder {
+
+/// Parts of stages, each once, in the order in which they first came.
+class WorkLog {
+ public:
+  void add(const WorkItem& item) {
+    const auto same = [&](const WorkItem& known) {
+      return known.stage == item.stage && std::string_view(known.name) == item.name;
+    };
+    const auto found = std::ranges::find_if(items_, same);
+    if (found == items_.end()) return items_.push_back(item);
+    found->count += item.count;
+    found->ms += item.ms;
+  }
+  const std::vector<WorkItem>& items() const { return items_; }
+  /// Hands over what there is, and starts anew.
+  std::vector<WorkItem> take() { return std::exchange(items_, {}); }
+
+ private:
+  std::vector<WorkItem> items_;
+};
+
+/// A part of a stage, from here to the end of the block.
+class WorkSpan {
+ public:
+  WorkSpan(WorkLog& log, Stage stage, const char* name)
+      : span_(name), log_(log), item_{stage, name, 0, 0} {}
+  ~WorkSpan() {
+    item_.ms = watch_.ms();
+    log_.add(item_);
+  }
+  WorkSpan(const WorkSpan&) = delete;
+  WorkSpan& operator=(const WorkSpan&) = delete;
+  void count(std::uint64_t more) { item_.count += more; }
+
+ private:
+  TraceSpan span_;
+  Stopwatch watch_;
+  WorkLog& log_;
+  WorkItem item_;
+};
+
+}  // namespace sunder
