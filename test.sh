@@ -8,6 +8,7 @@ source cmake/setup.sh
 set_up
 install_optional clang-format-14
 install_optional libbullet-dev libode-dev
+install_optional parallel
 
 say "Building everything"
 cmake --build --preset release

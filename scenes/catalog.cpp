@@ -25,22 +25,6 @@ std::vector<fs::path> catalog_files(const fs::path& folder) {
   return files;
 }
 
-fs::path resolve(const std::string& file_or_name, const fs::path& folder) {
-  if (fs::is_regular_file(file_or_name) || file_or_name.ends_with(".toml")) return file_or_name;
-  std::vector<std::string> names;
-  try {
-    for (const fs::path& file : catalog_files(folder)) {
-      if (file.stem() == file_or_name) return file;
-      names.push_back(file.stem().string());
-    }
-  } catch (const InputError& error) {
-    throw InputError(file_or_name + ": no such file, and " + error.what());
-  }
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  throw InputError(file_or_name + ": no such file, and no scene of that name" +
-                   did_you_mean(file_or_name, views) + "; scenes: " + join(views));
-}
-
 /// Without building the scene.
 std::string description(const fs::path& file) {
   const Value document = parse_toml(read_text(file), file.string());
@@ -63,6 +47,22 @@ fs::path scenes_folder(const fs::path& folder) {
                    " is a folder; name a scene by its file");
 }
 
+fs::path scene_file(const std::string& file_or_name, const fs::path& folder) {
+  if (fs::is_regular_file(file_or_name) || file_or_name.ends_with(".toml")) return file_or_name;
+  std::vector<std::string> names;
+  try {
+    for (const fs::path& file : catalog_files(folder)) {
+      if (file.stem() == file_or_name) return file;
+      names.push_back(file.stem().string());
+    }
+  } catch (const InputError& error) {
+    throw InputError(file_or_name + ": no such file, and " + error.what());
+  }
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  throw InputError(file_or_name + ": no such file, and no scene of that name" +
+                   did_you_mean(file_or_name, views) + "; scenes: " + join(views));
+}
+
 std::vector<CatalogEntry> catalog(const fs::path& folder) {
   std::vector<CatalogEntry> entries;
   for (const fs::path& file : catalog_files(folder)) {
@@ -73,7 +73,7 @@ std::vector<CatalogEntry> catalog(const fs::path& folder) {
 
 Scene load_scene(const std::string& file_or_name, const LoadOptions& options,
                  const fs::path& folder) {
-  const fs::path file = resolve(file_or_name, folder);
+  const fs::path file = scene_file(file_or_name, folder);
   return parse_scene(read_text(file), file.string(), options);
 }
 

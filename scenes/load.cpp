@@ -58,6 +58,7 @@ class Loader {
   void add_solids(Made made, std::vector<Solid> solids);
   void give_names(const Value& parent, std::initializer_list<std::string_view> keys);
   void name_solids();
+  void check_bodies(std::size_t bodies) const;
   void check_references() const;
 
   const Value& document_;
@@ -99,11 +100,14 @@ Scene Loader::load(const LoadOptions& options) {
   if (scene_.planar) check_planar(scene_, find(*scene, "planar")->where);
   std::size_t bodies = scene_.solids.size() + scene_.balls.size() + scene_.shots.size();
   for (const Shot& shot : scene_.shots) bodies += shot.links.size();
-  if (bodies > scene_.limits.bodies) {
-    throw InputError(document_.where + ": " + std::to_string(bodies) + " bodies exceed bodies = " +
-                     std::to_string(scene_.limits.bodies) + " in [limits]");
-  }
+  check_bodies(bodies);
   return std::move(scene_);
+}
+
+void Loader::check_bodies(std::size_t bodies) const {
+  if (bodies <= scene_.limits.bodies) return;
+  throw InputError(document_.where + ": " + std::to_string(bodies) + " bodies exceed bodies = " +
+                   std::to_string(scene_.limits.bodies) + " in [limits]");
 }
 
 void Loader::read_accuracy() {
@@ -220,6 +224,7 @@ void Loader::add_solid(const Value& table) {
   } catch (const InputError& error) {
     throw InputError(table.where + ": " + error.what());
   }
+  check_bodies(scene_.solids.size() + pieces.size());  // before work that takes long
   if (head.anchored == Anchored::kBottom) {
     add_foundation(pieces, find_material("foundation", table.where, scene_.materials),
                    scene_.materials);

@@ -22,8 +22,11 @@ struct LoadOptions {
   std::vector<std::string> set;     ///< key=value, a dotted key of the file.
 };
 
-/// Loads a file, or the scene of that name from the catalogue in `folder` (scenes_folder()). Throws
-/// InputError naming file, line, key, and what is allowed.
+/// The file itself, or that of the scene of this name in the catalogue in `folder`
+/// (scenes_folder()). Throws InputError naming those there are.
+std::filesystem::path scene_file(const std::string& file_or_name,
+                                 const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
+/// Loads scene_file(). Throws InputError naming file, line, key, and what is allowed.
 Scene load_scene(const std::string& file_or_name, const LoadOptions& options = {},
                  const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
 /// The scene that a text describes; `file` is what errors call it, its stem the scene's name.

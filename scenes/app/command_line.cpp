@@ -34,6 +34,9 @@ struct Subcommand {
     app->add_option("--preset", options->load.preset,
                     "Speed against accuracy: draft | realtime | accurate | reference")
         ->capture_default_str();
+    add_set();
+  }
+  void add_set() {
     app->add_option("--set", options->load.set,
                     "Change a key of the scene: key=value, as often as wanted")
         ->type_name("KEY=VALUE")
@@ -65,6 +68,8 @@ void add_simulate(CLI::App& program, Command& chosen) {
   command.app->add_option("--take", command.options->take, "Record the run to this file");
   command.app->add_option("--verify", command.options->verify,
                           "A take of the same run: fails where the state differs first");
+  command.app->add_option("--trace", command.options->trace,
+                          "Write what every thread did when, for ui.perfetto.dev");
   command.add_frames();
   command.add_changes();
 }
@@ -99,8 +104,40 @@ void add_bench(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   command.app->add_option("--compare", command.options->compare,
                           "An earlier --json file: prints ratios, fails if the state differs");
+  command.app->add_option("--page", command.options->page,
+                          "Write an HTML page with every stage plotted over time");
   command.add_frames();
   command.add_changes();
+}
+
+void add_trade(CLI::App& program, Command& chosen) {
+  Subcommand<TradeOptions> command(
+      program, "trade", "What accuracy costs: runs scenes from coarse to fine", trade, chosen);
+  TradeOptions& options = *command.options;
+  command.app->add_option("SCENE", options.scenes, "Files or names of scenes")->required();
+  command.app->add_option("-o,--output", options.output, "Folder of results and reports")
+      ->type_name("DIR");
+  command.app
+      ->add_option("--points", options.points,
+                   "File of points, NAME PRESET KEY=VALUE... a line; a grid of 12 by default")
+      ->type_name("FILE");
+  command.app
+      ->add_option("--switch", options.switches,
+                   "Every preset also with this key of the scene, as often as wanted")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.app->add_option("--seeds", options.seeds, "Runs of each scene at each point")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command.app->add_flag("--list", options.list, "Print the runs, one a line, and do none");
+  auto* shard =
+      command.app
+          ->add_option("--shard", options.shard, "Do share I of N of the runs, and make no reports")
+          ->type_name("I/N");
+  command.app->add_flag("--merge", options.merge, "Make the reports of the runs that are there")
+      ->excludes(shard);
+  command.add_frames();
+  command.add_set();
 }
 
 constexpr const char* kMeshHelp =
@@ -227,6 +264,7 @@ Command parse_command_line(int argc, char** argv) {
   add_simulate(program, chosen);
   add_render(program, chosen);
   add_bench(program, chosen);
+  add_trade(program, chosen);
   add_fracture(program, chosen);
   add_vacd(program, chosen);
   add_hull(program, chosen);

@@ -41,6 +41,7 @@ struct SimulateOptions : CommonOptions {
   int frames = -1;     ///< All.
   std::string take;    ///< File to record to; empty: none.
   std::string verify;  ///< Take to compare with; empty: none.
+  std::string trace;   ///< File for spans of all threads; empty: none.
 };
 
 struct RenderOptions : CommonOptions {
@@ -57,6 +58,21 @@ struct BenchOptions : CommonOptions {
   scenes::LoadOptions load;
   int frames = -1;  ///< All.
   std::string compare;
+  std::string page;  ///< File to write; empty: none.
+};
+
+struct TradeOptions : CommonOptions {
+  TradeOptions() { threads = 1; }  ///< Waiting costs time too; shards use the other processors.
+  std::vector<std::string> scenes;
+  scenes::LoadOptions load;  ///< Of it, `set` alone: points have presets.
+  std::string output;
+  std::string points;  ///< File; empty: the grid of the program.
+  std::vector<std::string> switches;
+  int seeds = 8;
+  int frames = -1;    ///< All.
+  std::string shard;  ///< "I/N"; empty: all runs.
+  bool list = false;
+  bool merge = false;
 };
 
 struct FractureOptions : CommonOptions {
@@ -99,6 +115,7 @@ int check(const CheckOptions& options);
 int simulate(const SimulateOptions& options);
 int render_scene(const RenderOptions& options);
 int bench(const BenchOptions& options);
+int trade(const TradeOptions& options);
 int fracture_mesh(const FractureOptions& options);
 int vacd(const VacdOptions& options);
 int hull(const HullOptions& options);

@@ -20,8 +20,8 @@
 #include "fracture/pattern_breaker.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
-#include "scenes/app/mesh_progress.h"
 #include "scenes/app/mesh_report.h"
+#include "scenes/app/work_progress.h"
 #include "scenes/file/text_file.h"
 
 namespace sunder::app {
@@ -136,7 +136,7 @@ constexpr double kMeshShare = 0.7, kBrokenShare = 0.9;
 
 /// Carries the break out a few times and takes the fastest: the first finds memory and caches cold,
 /// and other programs get in the way of any.
-Broken carry_out(const Compound& compound, const BreakCommand& command, MeshProgress& progress) {
+Broken carry_out(const Compound& compound, const BreakCommand& command, WorkProgress& progress) {
   progress("breaking", kMeshShare);
   Broken broken;
   Stopwatch watch;
@@ -215,7 +215,7 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
 }
 
 fracture::BreakCase case_of(const FractureOptions& options, scenes::MeshSolid& solid,
-                            MeshProgress& progress) {
+                            WorkProgress& progress) {
   if (!options.mesh.ends_with(".case")) {
     if (options.pattern.empty()) {
       throw InputError("--pattern is missing: " + std::string(kPatternHelp));
@@ -243,7 +243,7 @@ int fracture_mesh(const FractureOptions& options) {
   options.apply();
   check_output(options.output);
   scenes::MeshSolid solid;
-  std::optional<MeshProgress> progress(std::in_place, options.mesh, options.quiet);
+  std::optional<WorkProgress> progress(std::in_place, options.mesh, options.quiet);
   const fracture::BreakCase example = case_of(options, solid, *progress);
   const Broken broken = carry_out(example.compound, example.command, *progress);
   progress.reset();

@@ -1,7 +1,9 @@
 #include "scenes/app/golden_file.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
@@ -14,12 +16,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMostPixels = 8192;  // of a side, as --size
+
 template <class T>
 T value(const Figures& figures, const std::string& place, const fs::path& file) {
   const auto found = figures.find(place);
   const T* exact = found == figures.end() ? nullptr : std::get_if<T>(&found->second);
   if (!exact) throw InputError(file.string() + ": " + place + " is missing or of the wrong type");
   return *exact;
+}
+
+int whole(const Figures& figures, const std::string& place, const fs::path& file, int low,
+          int high) {
+  const auto number = value<std::int64_t>(figures, place, file);
+  if (number < low || number > high) {
+    throw InputError(file.string() + ": " + place + " is " + std::to_string(number) +
+                     "; allowed: a whole number from " + std::to_string(low) + " to " +
+                     std::to_string(high));
+  }
+  return static_cast<int>(number);
 }
 
 }  // namespace
@@ -47,11 +62,11 @@ Golden read_golden(const fs::path& folder, const std::string& name) {
     throw InputError(name + ": no such golden; there are:" + known);
   }
   const Figures figures = parse_figures(scenes::read_text(file), file.string());
-  golden.width = static_cast<int>(value<std::int64_t>(figures, "/width", file));
-  golden.height = static_cast<int>(value<std::int64_t>(figures, "/height", file));
+  golden.width = whole(figures, "/width", file, 1, kMostPixels);
+  golden.height = whole(figures, "/height", file, 1, kMostPixels);
   golden.thresholds.flip_mean = value<double>(figures, "/thresholds/flip_mean", file);
   golden.thresholds.window_pixels =
-      static_cast<int>(value<std::int64_t>(figures, "/thresholds/window_pixels", file));
+      whole(figures, "/thresholds/window_pixels", file, 0, std::numeric_limits<int>::max());
   golden.command = value<std::string>(figures, "/command", file);
   golden.hash = value<std::string>(figures, "/hash", file);
   golden.renderer = value<std::string>(figures, "/renderer", file);

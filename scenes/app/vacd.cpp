@@ -6,8 +6,8 @@
 
 #include "engine/base/check.h"
 #include "scenes/app/commands.h"
-#include "scenes/app/mesh_progress.h"
 #include "scenes/app/mesh_report.h"
+#include "scenes/app/work_progress.h"
 
 namespace sunder::app {
 namespace {
@@ -56,7 +56,7 @@ std::vector<Compound> one_by_one(const Compound& compound, std::size_t colors) {
 
 void decompose_once(const VacdOptions& options) {
   scenes::MeshOptions mesh = options.solid;
-  std::optional<MeshProgress> progress(std::in_place, options.mesh, options.quiet);
+  std::optional<WorkProgress> progress(std::in_place, options.mesh, options.quiet);
   mesh.progress = [&](const char* step, double share) { (*progress)(step, share); };
   const scenes::MeshSolid solid = scenes::make_mesh_solid(options.mesh, mesh);
   progress.reset();

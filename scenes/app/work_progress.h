@@ -1,4 +1,4 @@
-// How far a command on a mesh is, said on stderr while it works.
+// How far a command is, said on stderr while it works.
 #pragma once
 
 #include <chrono>
@@ -8,12 +8,12 @@ namespace sunder::app {
 
 /// A bar with the time left on a terminal; elsewhere a line now and then, once it has taken a
 /// while. Quick work says nothing.
-class MeshProgress {
+class WorkProgress {
  public:
-  MeshProgress(std::string title, bool quiet);
-  ~MeshProgress();
-  MeshProgress(const MeshProgress&) = delete;
-  MeshProgress& operator=(const MeshProgress&) = delete;
+  WorkProgress(std::string title, bool quiet);
+  ~WorkProgress();
+  WorkProgress(const WorkProgress&) = delete;
+  WorkProgress& operator=(const WorkProgress&) = delete;
 
   /// What is done now, and the share of all work that is done.
   void operator()(const char* step, double share);

@@ -1,4 +1,4 @@
-#include "scenes/app/mesh_progress.h"
+#include "scenes/app/work_progress.h"
 
 #include <unistd.h>
 
@@ -14,18 +14,18 @@ constexpr double kBetweenLines_s = 2, kBetweenBars_s = 0.1;
 
 }  // namespace
 
-MeshProgress::MeshProgress(std::string title, bool quiet)
+WorkProgress::WorkProgress(std::string title, bool quiet)
     : title_(std::move(title)), quiet_(quiet), terminal_(isatty(2) == 1), next_s_(kLong_s) {}
 
-MeshProgress::~MeshProgress() {
+WorkProgress::~WorkProgress() {
   if (drawn_) std::fputs("\r\033[K", stderr);
 }
 
-double MeshProgress::elapsed_s() const {
+double WorkProgress::elapsed_s() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-void MeshProgress::operator()(const char* step, double share) {
+void WorkProgress::operator()(const char* step, double share) {
   const double now_s = elapsed_s();
   if (quiet_ || now_s < next_s_) return;
   next_s_ = now_s + (terminal_ ? kBetweenBars_s : kBetweenLines_s);

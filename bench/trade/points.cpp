@@ -1,0 +1,99 @@
+#include "bench/trade/points.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <sstream>
+
+#include "bench/trade/grid.h"
+#include "engine/base/check.h"
+#include "scenes/file/schema.h"
+
+namespace sunder::bench {
+namespace {
+
+bool may_be_in_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || std::string("._+=-").find(c) < 5;
+}
+
+void check_name(const std::string& name, const std::string& where) {
+  if (!std::all_of(name.begin(), name.end(), may_be_in_name) || name.front() == '.') {
+    throw InputError(where + ": '" + name +
+                     "' cannot name a point; allowed: letters, digits and . _ + = -");
+  }
+}
+
+void check_preset(const std::string& preset, const std::string& where) {
+  std::string names;
+  for (const scenes::Preset& known : scenes::presets()) {
+    if (known.name == preset) return;
+    names += (names.empty() ? "" : ", ") + std::string(known.name);
+  }
+  throw InputError(where + ": unknown preset '" + preset + "'; allowed: " + names);
+}
+
+/// The point that a line describes; no name if it describes none.
+StudyPoint parse_line(const std::string& line, const std::string& where) {
+  std::istringstream words(line.substr(0, line.find('#')));
+  StudyPoint point;
+  if (!(words >> point.name)) return {};
+  check_name(point.name, where);
+  if (!(words >> point.preset)) {
+    throw InputError(where + ": expected NAME PRESET KEY=VALUE...");
+  }
+  check_preset(point.preset, where);
+  for (std::string word; words >> word;) {
+    if (word.find('=') == std::string::npos) {
+      throw InputError(where + ": expected KEY=VALUE, got '" + word + "'");
+    }
+    point.set.push_back(word);
+  }
+  return point;
+}
+
+/// Points in order, but the limit at the end.
+std::vector<StudyPoint> parse_lines(const std::string& text, const std::string& file) {
+  std::vector<StudyPoint> points;
+  std::set<std::string> seen;
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string where = file + ":" + std::to_string(++number);
+    StudyPoint point = parse_line(line, where);
+    if (point.name.empty()) continue;
+    if (!seen.insert(point.name).second) {
+      throw InputError(where + ": a second point named '" + point.name + "'");
+    }
+    points.push_back(std::move(point));
+  }
+  std::stable_partition(points.begin(), points.end(),
+                        [](const StudyPoint& point) { return !point.is_limit(); });
+  return points;
+}
+
+}  // namespace
+
+std::vector<StudyPoint> parse_points(const std::string& text, const std::string& file) {
+  std::vector<StudyPoint> points = parse_lines(text, file);
+  if (points.empty() || points.front().is_limit()) {
+    throw InputError(file + ": names no point to hold against the limit");
+  }
+  if (!points.back().is_limit()) points.push_back(default_points().back());
+  return points;
+}
+
+std::vector<StudyPoint> default_points() { return parse_lines(grid::grid_txt, "grid.txt"); }
+
+void add_switch(std::vector<StudyPoint>& points, const std::string& assignment) {
+  const std::string where = "--switch " + assignment;
+  if (assignment.find('=') == std::string::npos) throw InputError(where + ": expected KEY=VALUE");
+  check_name(assignment, where);
+  std::vector<StudyPoint> switched;
+  for (const StudyPoint& point : points) {
+    if (!point.is_preset()) continue;
+    switched.push_back({point.name + "+" + assignment, point.preset, {assignment}});
+  }
+  points.insert(points.end() - 1, switched.begin(), switched.end());
+}
+
+}  // namespace sunder::bench

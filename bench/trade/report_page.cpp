@@ -1,0 +1,137 @@
+// The pictures of a report, and the page that they are on.
+#include <algorithm>
+
+#include "bench/trade/report.h"
+#include "engine/io/page.h"
+#include "engine/io/plot.h"
+
+namespace sunder::bench {
+namespace {
+
+constexpr double kFar = 1.1;  // of a preset from the front, in cost: too far
+
+std::string shown(const std::optional<double>& value) { return value ? rounded(*value) : ""; }
+
+std::string recipe_of(const StudyPoint& point) {
+  std::string text = "--preset " + point.preset;
+  for (const std::string& assignment : point.set) text += " --set " + assignment;
+  return text;
+}
+
+bool is_too_far(const PointTrade& point) {
+  return point.point.is_preset() && point.over_front && *point.over_front > kFar;
+}
+
+PlotPoint plotted(const PointTrade& point) {
+  return {point.cost_ms, *point.error, point.point.name,
+          point.point.name + ": " + shown(point.cost_ms) + " ms, error " + shown(point.error)};
+}
+
+/// What each preset costs over the front, scene by scene.
+std::string presets_table(const Trade& trade) {
+  std::vector<std::string> head = {"cost over the front"};
+  std::vector<std::vector<Cell>> rows;
+  for (const SceneTrade& scene : trade.scenes) {
+    std::vector<Cell>& row = rows.emplace_back(std::vector<Cell>{{scene.scene}});
+    for (const PointTrade& point : scene.points) {
+      if (!point.point.is_preset()) continue;
+      auto column = static_cast<std::size_t>(
+          std::find(head.begin() + 1, head.end(), point.point.name) - head.begin());
+      if (column == head.size()) head.push_back(point.point.name);
+      if (row.size() <= column) row.resize(column + 1);
+      row[column] = {point.failed.empty() ? shown(point.over_front) : "failed",
+                     is_too_far(point) || !point.failed.empty(), point.failed};
+    }
+  }
+  return html_table(head, rows);
+}
+
+std::string points_table(const SceneTrade& scene) {
+  std::vector<std::vector<Cell>> rows;
+  for (const PointTrade& point : scene.points) {
+    rows.push_back({{point.point.name, false, recipe_of(point.point)},
+                    {shown(point.cost_ms)},
+                    {shown(point.wall_ms)},
+                    {shown(point.error), !point.failed.empty(), point.failed},
+                    {point.on_front ? "on it" : shown(point.over_front), is_too_far(point)},
+                    {std::to_string(point.runs)}});
+  }
+  return html_table({"point", "processor ms a frame", "wall ms", "error", "over the front", "runs"},
+                    rows);
+}
+
+/// A column an error, over its noise; the largest of a point is marked.
+std::string errors_table(const SceneTrade& scene) {
+  std::vector<std::string> head = {"over its noise"};
+  for (const PointTrade& point : scene.points) {
+    for (const TradeError& error : point.errors) {
+      if (std::find(head.begin() + 1, head.end(), error.name) == head.end()) {
+        head.push_back(error.name);
+      }
+    }
+  }
+  std::vector<std::vector<Cell>> rows;
+  for (const PointTrade& point : scene.points) {
+    if (point.errors.empty()) continue;
+    std::vector<Cell>& row = rows.emplace_back(std::vector<Cell>(head.size()));
+    row[0] = {point.point.name};
+    for (const TradeError& error : point.errors) {
+      const auto column = std::find(head.begin() + 1, head.end(), error.name) - head.begin();
+      row[static_cast<std::size_t>(column)] = {
+          shown(error.over_noise), error.over_noise == worst(point.errors),
+          shown(error.distance) + " over " + shown(error.noise)};
+    }
+  }
+  return rows.empty() ? "" : html_table(head, rows);
+}
+
+std::string list(const std::string& what, const std::vector<std::string>& entries) {
+  if (entries.empty()) return {};
+  std::string html = "<p>" + escaped(what) + "</p>\n<ul>\n";
+  for (const std::string& entry : entries) html += "<li>" + escaped(entry) + "</li>\n";
+  return html + "</ul>\n";
+}
+
+std::string section(const SceneTrade& scene) {
+  std::vector<std::string> failed;
+  for (const PointTrade& point : scene.points) {
+    if (!point.failed.empty()) failed.push_back(point.point.name + ", " + point.failed);
+  }
+  return "<section>\n<h2>" + escaped(scene.scene) + "</h2>\n" + trade_svg(scene) +
+         points_table(scene) + errors_table(scene) + list("Runs that failed:", failed) +
+         "</section>\n";
+}
+
+constexpr const char* kIntroduction =
+    "<h1>What accuracy costs</h1>\n"
+    "<p>Every scene is run at every point with several seeds. A point's <b>error</b> is the "
+    "largest of its distances from the limit, a run far beyond the finest point, each over its "
+    "noise: at 1 it is not to be told from another seed of the limit. Its <b>cost</b> is what a "
+    "frame takes of the processor, the median over seeds. On the <b>front</b> are the points that "
+    "none beats in both. Point at a cell for what is behind it.</p>\n";
+
+}  // namespace
+
+std::string trade_svg(const SceneTrade& scene) {
+  Curve front{"front", {}, true, false}, presets{"presets", {}, false, true},
+      others{"other points", {}, false, true};
+  for (const PointTrade& point : scene.points) {
+    if (!point.error) continue;
+    (point.point.is_preset() ? presets : others).points.push_back(plotted(point));
+    if (point.on_front) front.points.push_back({point.cost_ms, *point.error});
+  }
+  std::sort(front.points.begin(), front.points.end(),
+            [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+  const Curve curves[] = {front, presets, others};
+  return svg_curves({scene.scene, {"processor ms a frame", true}, {"error over noise", true}},
+                    curves);
+}
+
+std::string trade_html(const Trade& trade) {
+  std::string body = kIntroduction + presets_table(trade);
+  for (const SceneTrade& scene : trade.scenes) body += section(scene);
+  body += list("Runs that are missing:", trade.missing);
+  return html_page({"Sunder: what accuracy costs", body});
+}
+
+}  // namespace sunder::bench

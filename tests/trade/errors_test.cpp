@@ -1,0 +1,112 @@
+// What two sets of runs differ by, of distributions that are known.
+#include "bench/trade/errors.h"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/random.h"
+
+namespace sunder::bench {
+namespace {
+
+constexpr int kSeeds = 8, kTrials = 400;
+
+/// Nearly normal, of mean 0 and deviation 1.
+double draw(Random& random) {
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) sum += random.uniform();
+  return sum;
+}
+
+/// Runs of so many samples each, which share an offset of their own: seeds differ, as pieces of a
+/// run do.
+std::vector<Facts> runs(Random& random, std::size_t samples, double mean, int seeds = kSeeds) {
+  std::vector<Facts> all(static_cast<std::size_t>(seeds));
+  for (Facts& facts : all) {
+    const double offset = mean + draw(random);
+    for (std::size_t i = 0; i < samples; ++i)
+      facts.samples["run-out m"].push_back(samples == 1 ? offset : offset + draw(random));
+  }
+  return all;
+}
+
+/// Over noise, on average and how often above 1.
+struct Trials {
+  double mean = 0, above = 0;
+};
+Trials tried(std::size_t samples, double shift, int seeds = kSeeds) {
+  Random random(7);
+  Trials trials;
+  for (int i = 0; i < kTrials; ++i) {
+    const std::vector<Facts> reference = runs(random, samples, 0, seeds);
+    const std::vector<TradeError> errors =
+        trade_errors(runs(random, samples, shift, seeds), reference);
+    const double over = worst(errors);
+    trials.mean += over / kTrials;
+    trials.above += (over > 1 ? 1.0 : 0.0) / kTrials;
+  }
+  return trials;
+}
+
+TEST(Errors, DistanceIsHowFarSamplesMove) {
+  EXPECT_DOUBLE_EQ(distance_between({1}, {4}), 3);
+  EXPECT_DOUBLE_EQ(distance_between({0, 1, 2}, {2, 1, 0}), 0);
+  EXPECT_DOUBLE_EQ(distance_between({0, 1, 2}, {3, 5, 4}), 3);
+  EXPECT_DOUBLE_EQ(distance_between({0, 10}, {0, 0, 0, 10}), 2.5);
+  EXPECT_DOUBLE_EQ(distance_between({0, 0, 0, 10}, {0, 10}), 2.5);
+  EXPECT_DOUBLE_EQ(distance_between({-1, 1}, {0}), 1);
+  EXPECT_EQ(distance_between({0, std::nan("")}, {0}), std::numeric_limits<double>::infinity());
+}
+
+TEST(Errors, ThoseOfOneDistributionAreAboutOne) {
+  for (const std::size_t samples : {std::size_t{1}, std::size_t{30}}) {
+    const Trials same = tried(samples, 0);
+    std::printf("%zu samples a run: %.2f, above 1 in %.2f\n", samples, same.mean, same.above);
+    EXPECT_GT(same.mean, 0.5);
+    EXPECT_LT(same.mean, 1.5);
+  }
+}
+
+TEST(Errors, GrowWithWhatIsShifted) {
+  const double at_8 = tried(1, 8).mean, at_16 = tried(1, 16).mean, at_32 = tried(1, 32).mean;
+  EXPECT_GT(at_8, 5);
+  EXPECT_NEAR(at_16 / at_8, 2, 0.01);
+  EXPECT_NEAR(at_32 / at_16, 2, 0.01);
+}
+
+TEST(Errors, AreSeenBetterWithMoreSeeds) {
+  const double ratio = tried(1, 8, 32).mean / tried(1, 8, 8).mean;
+  EXPECT_NEAR(ratio, 2, 0.4);  // the root of four times as many
+}
+
+Facts one(const std::string& name, std::vector<double> samples) {
+  return {{{name, std::move(samples)}}, ""};
+}
+
+TEST(Errors, OfWhatDoesNotVaryAreOverTheFloor) {
+  const std::vector<Facts> reference(kSeeds, one("penetration p99 m", {1e-6}));
+  const std::vector<Facts> point(kSeeds, one("penetration p99 m", {3.001e-3}));
+  const std::vector<TradeError> errors = trade_errors(point, reference);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_NEAR(errors[0].distance, 3e-3, 1e-12);
+  EXPECT_DOUBLE_EQ(errors[0].noise, 1e-3);
+  EXPECT_NEAR(worst(errors), 3, 1e-9);
+  const std::vector<double> far = {4, 6};
+  EXPECT_DOUBLE_EQ(noise_floor("run-out m", far), 0.05);
+  EXPECT_DOUBLE_EQ(noise_floor("pieces", far), 1);
+}
+
+TEST(Errors, LeaveOutWhatOneSideHasNoneOf) {
+  const std::vector<Facts> reference = {one("exit speed m/s", {10}), one("drift m", {})};
+  const std::vector<Facts> point = {one("drift m", {1e-3}), one("pieces", {3})};
+  EXPECT_TRUE(trade_errors(point, reference).empty());
+  EXPECT_EQ(worst(trade_errors(point, reference)), 0);
+  const std::vector<Facts> fewer = {one("exit speed m/s", {12})};
+  EXPECT_NEAR(worst(trade_errors(fewer, reference)), 20, 1e-9);  // 2 m/s over 1 % of 10
+}
+
+}  // namespace
+}  // namespace sunder::bench

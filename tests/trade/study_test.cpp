@@ -1,0 +1,274 @@
+// A study is the same list of runs to everyone, and a run's file says what was run.
+#include "bench/trade/study.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "bench/trade/run_file.h"
+#include "engine/base/check.h"
+#include "scenes/file/schema.h"
+#include "scenes/file/text_file.h"
+#include "tests/scenes/program.h"
+
+namespace sunder::bench {
+namespace {
+
+using tests::Folder;
+
+std::string refusal(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+Study study(int seeds) {
+  Study given;
+  given.scenes = {"stack", "glass"};
+  given.points = default_points();
+  given.seeds = seeds;
+  return given;
+}
+
+std::vector<std::string> names_of(const std::vector<StudyRun>& runs) {
+  std::vector<std::string> names;
+  for (const StudyRun& run : runs) names.push_back(run.name());
+  return names;
+}
+
+TEST(Points, TheGridIsOfTwelveWithEveryPresetAndTheLimitBeyondThem) {
+  const std::vector<StudyPoint> points = default_points();
+  ASSERT_EQ(points.size(), 13u);
+  EXPECT_TRUE(points.back().is_limit());
+  for (const scenes::Preset& preset : scenes::presets()) {
+    EXPECT_EQ(std::count_if(points.begin(), points.end(),
+                            [&](const StudyPoint& point) {
+                              return point.is_preset() && point.name == preset.name;
+                            }),
+              1)
+        << preset.name;
+  }
+  // The limit takes shorter substeps than any point, and sweeps them as often.
+  Study given = study(1);
+  given.scenes = {"stack"};
+  double finest = 1, limit = 1;
+  for (const StudyRun& run : study_runs(given)) {
+    const Scene scene = load_scene(run);
+    const double substep_s = scene.accuracy.dt_s / scene.accuracy.substeps;
+    (run.point.is_limit() ? limit : finest) =
+        std::min(run.point.is_limit() ? limit : finest, substep_s);
+  }
+  EXPECT_LE(limit, finest / 4);
+}
+
+TEST(Points, AFileNamesThemOneALine) {
+  const auto points = parse_points(
+      "# comment\n\nlimit reference\ncoarse draft  accuracy.substeps=2 ground.friction=0 # more\n",
+      "x.txt");
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].name, "coarse");
+  EXPECT_EQ(points[0].preset, "draft");
+  EXPECT_EQ(points[0].set, (std::vector<std::string>{"accuracy.substeps=2", "ground.friction=0"}));
+  EXPECT_EQ(points[1].name, "limit");
+  EXPECT_TRUE(points[1].set.empty());
+  EXPECT_EQ(parse_points("draft draft\n", "x.txt").back().set, default_points().back().set);
+}
+
+TEST(Points, MistakesAreNamedWithTheirLine) {
+  const auto said = [](const std::string& text) {
+    return refusal([&] { parse_points(text, "x.txt"); });
+  };
+  EXPECT_EQ(said("a draft\na realtime\n"), "x.txt:2: a second point named 'a'");
+  EXPECT_EQ(said("a/b draft\n"),
+            "x.txt:1: 'a/b' cannot name a point; allowed: letters, digits and . _ + = -");
+  EXPECT_EQ(said("a\n"), "x.txt:1: expected NAME PRESET KEY=VALUE...");
+  EXPECT_EQ(said("a draft substeps\n"), "x.txt:1: expected KEY=VALUE, got 'substeps'");
+  EXPECT_EQ(said("a fast\n"),
+            "x.txt:1: unknown preset 'fast'; allowed: draft, realtime, accurate, reference");
+  EXPECT_EQ(said("limit draft\n"), "x.txt: names no point to hold against the limit");
+}
+
+TEST(Points, ASwitchIsTriedAtEveryPreset) {
+  std::vector<StudyPoint> points = default_points();
+  add_switch(points, "limits.dust=0");
+  ASSERT_EQ(points.size(), 17u);
+  EXPECT_TRUE(points.back().is_limit());
+  EXPECT_EQ(points[12].name, "draft+limits.dust=0");
+  EXPECT_EQ(points[12].set, std::vector<std::string>{"limits.dust=0"});
+  EXPECT_EQ(refusal([&] { add_switch(points, "dust"); }), "--switch dust: expected KEY=VALUE");
+}
+
+TEST(Runs, PointsAlternateWithinASeedAndEveryRunHasItsName) {
+  const std::vector<StudyRun> runs = study_runs(study(3));
+  ASSERT_EQ(runs.size(), 2u * 13u * 3u);
+  EXPECT_EQ(runs[0].name(), "stack/draft-1");
+  EXPECT_EQ(runs[12].name(), "stack/limit-1");
+  EXPECT_EQ(runs[13].name(), "stack/draft-2");
+  EXPECT_EQ(runs[39].name(), "glass/draft-1");
+  const auto names = names_of(runs);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), runs.size());
+  EXPECT_EQ(load_scene(runs[13]).seed, 2u);
+}
+
+TEST(Runs, SharesPartitionThem) {
+  const std::vector<StudyRun> runs = study_runs(study(3));
+  const auto all = names_of(runs);
+  for (const int count : {1, 2, 5, 8, 78, 100}) {
+    std::multiset<std::string> shared;
+    for (int i = 1; i <= count; ++i) {
+      const auto share = names_of(share_of(runs, {i, count}));
+      EXPECT_LE(share.size(), runs.size() / static_cast<std::size_t>(count) + 1);
+      shared.insert(share.begin(), share.end());
+    }
+    EXPECT_EQ(shared, std::multiset<std::string>(all.begin(), all.end())) << count;
+  }
+}
+
+TEST(Runs, SharesAreCountedFromOne) {
+  EXPECT_EQ(parse_shard("3/8").index, 3);
+  EXPECT_EQ(parse_shard("3/8").count, 8);
+  for (const char* wrong : {"0/8", "9/8", "3", "3/", "3/8x", "/8", "a/b", "-1/2", "1/0"}) {
+    EXPECT_NE(refusal([&] { parse_shard(wrong); }), "accepted") << wrong;
+  }
+}
+
+TEST(Runs, TwoScenesOfOneNameAreRefused) {
+  Study given = study(1);
+  given.scenes = {"stack", std::string(SUNDER_ROOT) + "/scenes/stacks/stack.toml"};
+  EXPECT_NE(refusal([&] { study_runs(given); }), "accepted");
+}
+
+StudyRun short_run() {
+  Study given = study(1);
+  given.frames = 3;
+  return study_runs(given).front();
+}
+
+Ran some_facts() {
+  Ran ran;
+  ran.result.facts.samples = {
+      {"speed m/s", {0.1, 1.0 / 3, -2e-300}}, {"a~b/c~1 m", {5}}, {"nothing m", {}}};
+  ran.result.facts.state_hash = "0123456789abcdef";
+  ran.time = {1.5, 2.5, 3};
+  return ran;
+}
+
+TEST(RunFile, GivesBackWhatWasWritten) {
+  const Folder folder;
+  const Ran ran = some_facts();
+  EXPECT_EQ(read_run(folder.path(), short_run()).missing, "not done");
+  write_run(folder.path(), short_run(), ran);
+  const StoredRun stored = read_run(folder.path(), short_run());
+  EXPECT_EQ(stored.missing, "");
+  EXPECT_EQ(stored.ran.result.facts.samples, ran.result.facts.samples);
+  EXPECT_EQ(stored.ran.result.facts.state_hash, ran.result.facts.state_hash);
+  EXPECT_EQ(stored.ran.result.failed, "");
+  EXPECT_EQ(stored.ran.time.cpu_ms, 1.5);
+  EXPECT_EQ(stored.ran.time.wall_ms, 2.5);
+  EXPECT_EQ(stored.ran.time.frames, 3);
+}
+
+TEST(RunFile, HoldsNothingOfTimeThatCounts) {
+  const Folder folder;
+  const std::string file = folder / "runs/stack/draft-1.json";
+  Ran ran = some_facts();
+  write_run(folder.path(), short_run(), ran);
+  const std::string text = scenes::read_text(file);
+  ran.time = {99, 98, 97};
+  write_run(folder.path(), short_run(), ran);
+  EXPECT_EQ(scenes::read_text(file), text);
+}
+
+TEST(RunFile, OfAnotherStudyIsToBeDoneAgain) {
+  const Folder folder;
+  write_run(folder.path(), short_run(), some_facts());
+  const auto changed = [&](const std::function<void(StudyRun&)>& change) {
+    StudyRun run = short_run();
+    change(run);
+    const StoredRun stored = read_run(folder.path(), run);
+    return stored.damaged ? stored.missing : "the same";
+  };
+  const std::string other = "of another study";
+  EXPECT_EQ(changed([](StudyRun&) {}), "the same");
+  EXPECT_EQ(changed([](StudyRun& run) { run.frames = 4; }), other);
+  EXPECT_EQ(changed([](StudyRun& run) { run.frames = -1; }), other);
+  EXPECT_EQ(changed([](StudyRun& run) { run.scene_hash = "0"; }), other);
+  EXPECT_EQ(changed([](StudyRun& run) { run.point.preset = "accurate"; }), other);
+  EXPECT_EQ(changed([](StudyRun& run) { run.set.push_back("ground.friction=0"); }), other);
+  EXPECT_EQ(changed([](StudyRun& run) { run.set.pop_back(); }), other);
+}
+
+TEST(RunFile, ThatIsCutShortOrWithoutItsTimesIsToBeDoneAgain) {
+  const Folder folder;
+  write_run(folder.path(), short_run(), some_facts());
+  std::filesystem::remove(folder / "times/stack/draft-1.json");
+  EXPECT_TRUE(read_run(folder.path(), short_run()).damaged);
+  write_run(folder.path(), short_run(), some_facts());
+  std::filesystem::resize_file(folder / "runs/stack/draft-1.json", 100);
+  EXPECT_TRUE(read_run(folder.path(), short_run()).damaged);
+}
+
+TEST(RunFile, KeepsWhyARunFailed) {
+  const Folder folder;
+  Ran ran;
+  ran.result.failed = "body 3 is not finite in frame 2";
+  write_run(folder.path(), short_run(), ran);
+  EXPECT_EQ(read_run(folder.path(), short_run()).ran.result.failed, ran.result.failed);
+}
+
+TEST(CarryOut, GivesTheSameFactsEveryTime) {
+  const Ran once = carry_out(short_run()), again = carry_out(short_run());
+  EXPECT_EQ(once.result.failed, "");
+  EXPECT_EQ(once.time.frames, 3);
+  EXPECT_FALSE(once.result.facts.samples.empty());
+  EXPECT_EQ(once.result.facts.state_hash.size(), 16u);
+  EXPECT_EQ(once.result.facts.samples, again.result.facts.samples);
+  EXPECT_EQ(once.result.facts.state_hash, again.result.facts.state_hash);
+}
+
+/// Frames of a body, the fifth of which goes wrong.
+class Fails final : public FrameSource {
+ public:
+  explicit Fails(bool throws) : throws_(throws) {}
+  FramePtr next() override {
+    if (index_ == 4 && throws_) throw std::runtime_error("out of hand");
+    auto frame = std::make_shared<Frame>();
+    frame->index = index_;
+    frame->time_s = static_cast<double>(index_) / 60;
+    frame->materials = std::make_shared<std::vector<Material>>();
+    frame->meshes = std::make_shared<MeshStore>();
+    frame->bodies.resize(1);
+    frame->bodies[0].key = 7;
+    frame->report.counts.bodies = 1;
+    frame->report.mass_kg = 1;
+    if (index_ == 4) frame->bodies[0].velocity_W.y() = std::numeric_limits<double>::quiet_NaN();
+    ++index_;
+    return frame;
+  }
+
+ private:
+  bool throws_;
+  std::uint64_t index_ = 0;
+};
+
+TEST(CarryOut, ARunThatGoesWrongIsAResult) {
+  const Ran thrown = measure([] { return std::make_unique<Fails>(true); }, 10);
+  EXPECT_EQ(thrown.result.failed, "out of hand");
+  EXPECT_TRUE(thrown.result.facts.samples.empty());
+  const Ran infinite = measure([] { return std::make_unique<Fails>(false); }, 10);
+  EXPECT_EQ(infinite.result.failed, "body 7 is not finite in frame 4");
+  EXPECT_TRUE(infinite.result.facts.samples.empty());
+  EXPECT_EQ(measure([] { return std::make_unique<Fails>(false); }, 3).result.failed, "");
+  const Ran none = measure([]() -> std::unique_ptr<FrameSource> { throw InputError("no"); }, 3);
+  EXPECT_EQ(none.result.failed, "no");
+}
+
+}  // namespace
+}  // namespace sunder::bench
