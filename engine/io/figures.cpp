@@ -7,11 +7,21 @@
 #include "engine/base/check.h"
 
 namespace sunder {
+namespace {
+
+constexpr int kDeepest = 100;
+
+}  // namespace
 
 Figures parse_figures(const std::string& text, const std::string& file) {
-  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
+  using Json = nlohmann::json;
+  const auto is_shallow = [&](int depth, Json::parse_event_t, const Json&) {
+    if (depth > kDeepest) throw InputError(file + ": lists in lists, deeper than any of ours");
+    return true;
+  };
+  const Json document = Json::parse(text, is_shallow, false);
   if (document.is_discarded()) throw InputError(file + ": not a JSON document");
-  const nlohmann::json flat = document.flatten();
+  const Json flat = document.flatten();  // calls itself for what is nested
   Figures figures;
   for (const auto& [place, value] : flat.items()) {
     if (value.is_boolean()) figures[place] = value.get<bool>();

@@ -1,5 +1,6 @@
 #include "fracture/check/case_file.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <iomanip>
 #include <istream>
@@ -50,7 +51,7 @@ class Reader {
     const std::string text = word();
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);  // streams do not read hexadecimals
-    if (*end != 0) fail("'" + text + "' is no number");
+    if (*end != 0 || std::isnan(value)) fail("'" + text + "' is no number");
     return value;
   }
   std::uint64_t integer(std::uint64_t most) {
@@ -250,7 +251,6 @@ void write_command(Writer& out, const BreakCommand& command) {
 }
 
 BreakCommand read_command(Reader& in, std::istream& stream) {
-  constexpr std::uint64_t kMostCells = 1000000;
   BreakCommand command;
   in.expect("command");
   command.event = in.integer(~std::uint64_t{0});
@@ -259,6 +259,12 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   command.X_RP.position = in.matrix<Vec3>();
   command.X_RP.rotation.coeffs() = in.matrix<Eigen::Vector4d>();
   command.stretch_P = in.matrix<Mat3>();
+  // A radius without end breaks all.
+  if (!(command.radius_m > 0) || !command.X_RP.position.allFinite() ||
+      !(std::abs(command.X_RP.rotation.norm() - 1) < 1e-6) || !command.stretch_P.allFinite() ||
+      !(command.stretch_P.determinant() > 0)) {
+    in.fail("a pattern is placed nowhere");
+  }
   const std::optional<Fit> fit = parse_fit(in.word());
   if (!fit) in.fail("a fit is one of " + std::string(kFitNames));
   command.fit = *fit;
@@ -266,9 +272,16 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   PatternSpec& pattern = command.pattern;
   pattern.kind = static_cast<PatternSpec::Kind>(
       in.integer(static_cast<std::uint64_t>(PatternSpec::Kind::kFile)));
-  for (int* count : {&pattern.cells, &pattern.rings, &pattern.spokes, &pattern.colors}) {
-    *count = static_cast<int>(in.integer(kMostCells));
-  }
+  const bool grid = pattern.kind == PatternSpec::Kind::kGrid;
+  const auto count = [&](int least, std::uint64_t most) {
+    const auto number = static_cast<int>(in.integer(most));
+    if (number < least) in.fail("a pattern of no cells");
+    return number;
+  };
+  pattern.cells = count(1, grid ? 30 : 5000);  // as scenes may ask for
+  pattern.rings = count(1, 100);
+  pattern.spokes = count(1, 200);
+  pattern.colors = count(0, 5000);
   pattern.falloff = in.number();
   pattern.jitter = in.number();
   pattern.brick_m = in.matrix<Vec3>();
@@ -335,6 +348,7 @@ BreakCase read_case(std::istream& stream, const std::string& name) {
     Bond bond;
     bond.a = in.index(convexes);
     bond.b = in.index(convexes);
+    if (bond.a == bond.b) in.fail("a bond of a convex with itself");
     bond.face_a = in.index(compound.convexes[bond.a]->polyhedron.faces.size());
     bond.face_b = in.index(compound.convexes[bond.b]->polyhedron.faces.size());
     bond.area_m2 = in.number();

@@ -17,6 +17,7 @@ struct BrickWall {
 /// A course is full bricks and one half, at the left end and at the right end by turns: so all
 /// courses are equally long and no joint lies over another.
 std::vector<Piece> build_brick_wall(const BrickWall& wall) {
+  check_parts(double(wall.bricks) * wall.courses);
   const Vec3& brick = wall.brick_m;
   const double length = (wall.bricks - 0.5) * brick.x();
   std::vector<Piece> pieces;

@@ -26,6 +26,7 @@ struct Reinforced {
 /// bit for all boxes that reach as far.
 void add_lengths(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max, int axis,
                  int count, MaterialIndex material) {
+  check_parts(static_cast<double>(parts.size()) + count);
   for (int i = 0; i < count; ++i) {
     const auto level = [&](int k) {
       return k == count ? max[axis] : min[axis] + (max[axis] - min[axis]) * k / count;

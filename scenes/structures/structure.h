@@ -52,7 +52,11 @@ StructureType stack_structure();
 StructureType temple_structure();
 StructureType wheel_structure();
 
-/// The box [min, max] cut into equal blocks no longer than `longest_m`, appended to `parts`.
+/// Throws InputError for more parts than any scene may hold.
+void check_parts(double parts);
+
+/// The box [min, max] cut into equal blocks no longer than `longest_m`, appended to `parts`. Throws
+/// InputError for too many.
 void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max,
                 double longest_m, MaterialIndex material);
 

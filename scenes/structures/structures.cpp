@@ -1,7 +1,9 @@
 // The list of structures, and the small ones.
 #include <array>
 #include <cmath>
+#include <cstdio>
 
+#include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/hull.h"
 #include "scenes/structures/structure.h"
@@ -121,6 +123,15 @@ std::vector<Piece> build_pane(const Pane& pane) {
 
 }  // namespace
 
+void check_parts(double parts) {
+  constexpr double kMost = 200000;  // as limits.bodies
+  if (parts <= kMost) return;
+  char text[100];
+  std::snprintf(text, sizeof text, "%.3g parts, more than %.0f; make them larger, or fewer", parts,
+                kMost);
+  throw InputError(text);
+}
+
 void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max,
                 double longest_m, MaterialIndex material) {
   const Vec3 extent = max - min;
@@ -129,6 +140,7 @@ void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3&
     count[static_cast<std::size_t>(a)] =
         std::max(1, static_cast<int>(std::ceil(extent[a] / longest_m - 1e-9)));
   }
+  check_parts(static_cast<double>(parts.size()) + double(count[0]) * count[1] * count[2]);
   // The outermost levels are taken as given, so that neighbours share them to the last bit.
   const auto level = [&](int axis, int i) {
     const int n = count[static_cast<std::size_t>(axis)];

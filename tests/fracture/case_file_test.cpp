@@ -108,6 +108,23 @@ TEST(CaseFile, keeps_visual_meshes_and_the_fit) {
   EXPECT_EQ(hash_of(again), hash_of(break_compound(written.compound, written.command)));
 }
 
+TEST(CaseFile, whose_pattern_is_nowhere_or_whose_bonds_bond_nothing_is_an_error) {
+  const auto refused = [](const auto& spoil) {
+    BreakCase spoilt = example();
+    spoil(spoilt);
+    std::stringstream file;
+    write_case(file, spoilt);
+    EXPECT_THROW(read_case(file, "spoilt.case"), InputError);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double radius : {0., -1., nan})
+    refused([&](BreakCase& spoilt) { spoilt.command.radius_m = radius; });
+  refused([](BreakCase& spoilt) { spoilt.command.stretch_P.setZero(); });
+  refused([](BreakCase& spoilt) { spoilt.command.X_RP.rotation.coeffs().setZero(); });
+  refused([&](BreakCase& spoilt) { spoilt.command.X_RP.position.x() = nan; });
+  refused([](BreakCase& spoilt) { spoilt.compound.bonds[0].b = spoilt.compound.bonds[0].a; });
+}
+
 TEST(CaseFile, cut_short_anywhere_is_an_error) {
   std::stringstream file;
   write_case(file, example("hall:2"));

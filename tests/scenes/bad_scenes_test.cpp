@@ -34,6 +34,10 @@ constexpr Fault kFaults[] = {
     {"[grund]\nheight_m = 1",
      "bad.toml:3: unknown key 'grund' in the scene file; did you mean "
      "'ground'?"},
+    {"[[solid]]\nstructure = \"box\"\nsize_m = [1000, 1000, 1000]\nblock_m = 0.05",
+     "bad.toml:3: 8e+12 parts, more than 200000; make them larger, or fewer"},
+    {"[[solid]]\nstructure = \"brick_wall\"\nbricks = 1000\ncourses = 1000",
+     "bad.toml:3: 1e+06 parts, more than 200000"},
     {"[ground]\nbounciness = 1",
      "bad.toml:4: unknown key 'bounciness' in [ground]; allowed: "
      "height_m, friction, restitution"},

@@ -1,4 +1,7 @@
 // Golden images: what the stored frames give today, and whether the comparison can tell at all.
+#include <fstream>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "render/image/compare.h"
@@ -58,6 +61,19 @@ TEST(Golden, AWrongPictureFails) {
       sunder("golden test --folder " + folder.path().string() + " --out " + folder / "out");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(outcome.out.find("different"), std::string::npos) << outcome.out;
+}
+
+TEST(Golden, AFileThatAsksForAPictureOfNoSizeOrHasNoEndIsRefused) {
+  const Folder folder;
+  const fs::path goldens = fs::path(SUNDER_ROOT) / "tests/golden";
+  fs::copy(goldens / "glass.frame", folder.path());
+  const std::string lists(1 << 20, '[');
+  for (const std::string& text : {std::string(R"({"width": -5, "height": 360})"),
+                                  std::string(R"({"width": 2000000000, "height": 360})"), lists}) {
+    std::ofstream(folder / "glass.json") << text;
+    EXPECT_EQ(sunder("golden test --folder " + folder.path().string()).exit_code, 2)
+        << text.substr(0, 40);
+  }
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ JointGraph::JointGraph(const World& world) : world_(world), states_(world.physic
 }
 
 std::span<const JointGraph::End> JointGraph::of(std::uint32_t key) const {
-  return std::ranges::equal_range(ends_, key, {}, &End::key);
+  const auto first = std::ranges::lower_bound(ends_, key, {}, &End::key);
+  return {first, std::ranges::upper_bound(first, ends_.end(), key, {}, &End::key)};
 }
 
 JointGraph::Whole JointGraph::alone(std::uint32_t key) const {
