@@ -1,0 +1,253 @@
+// Read first: random_scene(), at the end.
+#include "tests/fuzz/random_scene.h"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "engine/base/random.h"
+#include "engine/base/types.h"
+#include "scenes/file/text_file.h"
+#include "scenes/load.h"
+
+namespace sunder::fuzz {
+namespace {
+
+constexpr std::array kMaterials = {"brick", "clay", "concrete", "glass", "steel", "stone", "wood"};
+constexpr std::array kMeshes = {"torus:0.8,0.25", "voronoi:12",   "hall:4",
+                                "grid:2,2,2",     "column:0.3,2", "box:1,0.7,1.3"};
+constexpr std::array kJoints = {"ball", "hinge", "fixed", "rope", "distance"};
+constexpr std::array kPresets = {"draft", "realtime", "accurate", "reference"};
+
+/// The text of a scene under way.
+class Writer {
+ public:
+  explicit Writer(std::uint64_t seed) : random_(seed, 7) {}
+
+  template <class List>
+  const char* one_of(const List& list) {
+    return list[random_.below(static_cast<std::uint32_t>(list.size()))];
+  }
+  double between(double low, double high) { return random_.uniform(low, high); }
+  int whole(int low, int high) {
+    return low + static_cast<int>(random_.below(static_cast<std::uint32_t>(high - low + 1)));
+  }
+  bool chance(double share) { return random_.uniform() < share; }
+  std::string name() { return "thing " + std::to_string(++things_); }
+  /// The last name that was given; or that of any before it.
+  std::string some_name() { return "thing " + std::to_string(whole(1, things_)); }
+  int things() const { return things_; }
+
+  void line(const std::string& text) { text_ += text + "\n"; }
+  void number(const char* key, double value) {
+    char text[80];
+    std::snprintf(text, sizeof text, "%s = %.6g", key, value);
+    line(text);
+  }
+  void count(const char* key, int value) { line(std::string(key) + " = " + std::to_string(value)); }
+  void word(const char* key, const std::string& value) { line(key + (" = \"" + value + "\"")); }
+  void vector(const char* key, const Vec3& value) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%s = [%.6g, %.6g, %.6g]", key, value.x(), value.y(),
+                  value.z());
+    line(text);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  Random random_;
+  int things_ = 0;
+  std::string text_;
+};
+
+Vec3 place(Writer& w, double spread_m, double low_m, double high_m) {
+  return {w.between(-spread_m, spread_m), w.between(low_m, high_m), w.between(-spread_m, spread_m)};
+}
+
+void put_head(Writer& w, bool planar) {
+  w.line("[scene]");
+  w.word("description", "Made by chance.");
+  w.number("duration_s", w.between(1, 3));
+  w.count("seed", w.whole(0, 1000));
+  if (planar) w.line("planar = true");
+  if (w.chance(0.1)) w.vector("gravity", Vec3(w.between(-3, 3), w.between(-20, 0), 0));
+  w.line("[limits]");
+  if (w.chance(0.2)) w.count("bodies", w.whole(300, 600));
+  if (w.chance(0.2)) w.count("ageing", w.whole(50, 200));
+  if (w.chance(0.2)) w.count("parts_a_frame", w.whole(1, 200));
+  if (w.chance(0.2)) w.count("debris", w.whole(0, 50));
+  if (w.chance(0.2)) w.count("dust", w.whole(0, 20));
+  w.line("[ground]");
+  w.number("friction", w.between(0, 1.5));
+  if (w.chance(0.2)) w.number("restitution", w.between(0, 1));
+}
+
+/// The keys of a structure that is not too large; it says what it is made of itself.
+void put_structure(Writer& w) {
+  switch (w.whole(0, 8)) {
+    case 0:
+      w.word("structure", "box");
+      w.word("material", w.one_of(kMaterials));
+      w.vector("size_m", Vec3(w.between(0.2, 3), w.between(0.2, 3), w.between(0.1, 1)));
+      w.number("block_m", w.between(0.4, 2));
+      break;
+    case 1:
+      w.word("structure", "brick_wall");
+      w.word("material", w.one_of(kMaterials));
+      w.count("bricks", w.whole(2, 8));
+      w.count("courses", w.whole(1, 8));
+      break;
+    case 2:
+      w.word("structure", "column");
+      w.word("material", w.one_of(kMaterials));
+      w.count("sides", w.whole(3, 20));
+      break;
+    case 3:
+      w.word("structure", "pane");
+      w.number("thickness_m", w.between(0.004, 0.05));
+      break;
+    case 4:
+      w.word("structure", "reinforced");
+      break;
+    case 5:
+      w.word("structure", "stack");
+      w.word("material", w.one_of(kMaterials));
+      w.count("count", w.whole(1, 8));
+      w.vector("size_m", Vec3(w.between(0.2, 1), w.between(0.1, 1), w.between(0.2, 1)));
+      break;
+    case 6:
+      w.word("structure", "bridge");
+      w.count("spans", 1);
+      w.number("span_m", w.between(2, 5));
+      break;
+    case 7:
+      w.word("structure", "wheel");
+      w.count("rings", w.whole(1, 3));
+      w.count("sectors", w.whole(6, 24));
+      break;
+    default:
+      w.word("structure", "house");
+      w.number("width_m", w.between(4, 6));
+      w.number("depth_m", w.between(4, 5));
+      w.count("storeys", 1);
+      w.count("windows", w.whole(0, 1));
+  }
+}
+
+void put_solid(Writer& w) {
+  const bool mesh = w.chance(0.2);
+  w.line(mesh ? "[[body]]" : "[[solid]]");
+  if (mesh) {
+    w.word("mesh", w.one_of(kMeshes));
+    w.word("material", w.one_of(kMaterials));
+  } else {
+    put_structure(w);
+  }
+  w.word("name", w.name());
+  w.vector("position", place(w, 4, 0, w.chance(0.3) ? 3 : 0));
+  const double turned = w.between(0, 1);
+  if (turned < 0.1) w.vector("rotation_deg", 90 * place(w, 1, -1, 1));
+  if (turned > 0.5) w.vector("rotation_deg", Vec3(0, w.between(-180, 180), 0));
+  if (w.chance(0.1)) w.vector("velocity", place(w, 10, -5, 5));
+  if (w.chance(0.1)) w.vector("angular_velocity", place(w, 10, -10, 10));
+  if (w.chance(0.5)) w.word("anchored", "bottom");
+}
+
+/// A ball that hangs beside what stands, or from nothing.
+void put_hanging(Writer& w) {
+  const Vec3 at = place(w, 4, 2, 5);
+  w.line("[[ball]]");
+  const std::string ball = w.name();
+  w.word("name", ball);
+  w.vector("position", at);
+  w.number("radius_m", w.between(0.05, 0.4));
+  w.line("[[joint]]");
+  const std::string kind = w.one_of(kJoints);
+  w.word("kind", kind);
+  w.word("a", ball);
+  w.vector("at", at);
+  if (kind == "rope" || kind == "distance") w.vector("to", at + place(w, 1, 0.5, 2));
+  if (w.chance(0.5)) w.number("breaking_N", w.between(10, 1e5));
+}
+
+void put_shot(Writer& w) {
+  w.line("[[script.shot]]");
+  w.number("time_s", w.between(0, 1.5));
+  w.vector("from", place(w, 8, 1, 6));
+  w.vector("at", place(w, 3, 0.3, 2));
+  w.number("speed_m_s", w.chance(0.1) ? w.between(100, 1000) : w.between(5, 60));
+  w.number("radius_m", w.between(0.05, 0.5));
+  w.word("name", w.name());
+}
+
+void put_blast(Writer& w) {
+  w.line("[[script.blast]]");
+  w.number("time_s", w.between(0, 1.5));
+  w.vector("at", place(w, 4, 0, 3));
+  w.number("radius_m", w.between(0.5, 6));
+  w.number("impulse_Ns_m2", w.between(10, 8000));
+}
+
+void put_wrecking_ball(Writer& w) {
+  const Vec3 hook = place(w, 3, 5, 8);
+  w.line("[[script.wrecking_ball]]");
+  w.vector("hangs_from", hook);
+  w.vector("from", hook + 4 * Vec3(w.chance(0.5) ? 1 : -1, w.between(-1, 0.2), w.between(-1, 1)));
+  w.count("links", w.whole(0, 12));
+  w.number("radius_m", w.between(0.2, 0.7));
+  w.word("name", w.name());
+}
+
+void put_script(Writer& w) {
+  for (int i = w.whole(1, 5); i > 0; --i) put_shot(w);
+  if (w.chance(0.4)) put_blast(w);
+  if (w.chance(0.2)) put_wrecking_ball(w);
+}
+
+/// Boxes and bricks of steel along z, and balls, in the plane.
+void put_planar(Writer& w) {
+  for (int i = w.whole(1, 4); i > 0; --i) {
+    w.line("[[solid]]");
+    const bool wall = w.chance(0.5);
+    w.word("structure", wall ? "brick_wall" : "stack");
+    if (wall) w.count("bricks", w.whole(2, 10));
+    w.count(wall ? "courses" : "count", w.whole(1, 10));
+    w.word("material", "steel");
+    w.word("name", w.name());
+    w.vector("position", Vec3(w.between(-6, 6), w.between(0, 2), 0));
+  }
+  for (int i = w.whole(1, 4); i > 0; --i) {
+    w.line("[[ball]]");
+    w.word("name", w.name());
+    w.number("radius_m", w.between(0.1, 0.8));
+    w.vector("position", Vec3(w.between(-9, 9), w.between(1, 6), 0));
+    w.vector("velocity", Vec3(w.between(-30, 30), w.between(-10, 10), 0));
+  }
+}
+
+}  // namespace
+
+RandomScene random_scene(std::uint64_t seed) {
+  Writer w(seed);
+  RandomScene scene{"made", "", "made.toml", w.one_of(kPresets)};
+  if (w.chance(0.25)) {
+    const std::vector<scenes::CatalogEntry> shipped = scenes::catalog();
+    const auto& entry = shipped[static_cast<std::size_t>(w.whole(0, int(shipped.size()) - 1))];
+    scene.name = entry.name, scene.file = entry.file.string();
+    scene.text = scenes::read_text(entry.file) + "\n";
+    if (entry.name != "planar_wall") put_script(w);
+  } else if (w.chance(0.1)) {
+    put_head(w, true);
+    put_planar(w);
+  } else {
+    put_head(w, false);
+    for (int i = w.whole(1, 4); i > 0; --i) put_solid(w);
+    if (w.chance(0.4)) put_hanging(w);
+    put_script(w);
+  }
+  scene.text += w.text();
+  return scene;
+}
+
+}  // namespace sunder::fuzz
