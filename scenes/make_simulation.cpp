@@ -67,8 +67,12 @@ std::unique_ptr<Particles> make_particles(const Scene& scene) {
 
 std::vector<std::string> warnings_of(const Scene& scene) {
   std::vector<std::string> warnings = chain_warnings(scene, kMostSubsteps);
-  const std::string warning = accuracy_warning(scene, kMostSubsteps);
-  if (!warning.empty()) warnings.push_back(warning);
+  const std::string standing = accuracy_warning(scene, kMostSubsteps);
+  for (const std::string& warning :
+       {standing.empty() ? crush_warning(scene, kMostSubsteps) : standing, long_step_warning(scene),
+        far_warning(scene)}) {
+    if (!warning.empty()) warnings.push_back(warning);
+  }
   return warnings;
 }
 

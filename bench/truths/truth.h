@@ -6,6 +6,7 @@
 
 #include <array>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,12 +35,14 @@ struct Truth {
   Bounds bounds;       ///< What it does not exceed, by preset: what is reached and half as much.
   /// So many presets, from the first: the others take too long for a test, or tell it nothing.
   std::size_t tested;
+  /// What a user is told who asks for this; none: no user can.
+  std::function<std::string(const Preset&)> told = {};
 };
 using Truths = std::vector<Truth>;
 
 inline Truth truth(int row, const char* what, const char* unit, const char* source, double mark,
                    Measure measure, const Bounds& bounds, std::size_t tested = kPresets.size()) {
-  return {row, what, unit, source, mark, std::move(measure), bounds, tested};
+  return {row, what, unit, source, mark, std::move(measure), bounds, tested, {}};
 }
 
 Truths friction_truths();

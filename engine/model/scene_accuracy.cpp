@@ -20,9 +20,14 @@ constexpr double kAbove = 0.25;  // of the smaller height: centres so far apart 
 // it takes a minute to.
 constexpr double kBuckleSelf = 1.96, kBuckleLoaded = 0.62;
 constexpr double kDeepest = 0.02;  // of a body's size
+constexpr double kCrushed = 0.5;   // of it: what is deeper in may be let through
+constexpr double kFrame_s = 1.0 / 60;
+constexpr double kFloat = std::numeric_limits<float>::epsilon();
+constexpr double kFarthest_m = 32768;  // engine/io/particle_codes.cpp: 2^22 steps of 1/128 m
 
 /// A body that can move, as far as it matters here.
 struct Block {
+  std::string name;
   Box box;
   double height = 0;  ///< Of its centre, against gravity.
   double mass_kg = 0;
@@ -37,6 +42,7 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
   for (const Solid& solid : scene.solids) {
     if (solid.compound.is_anchored()) continue;
     Block block;
+    block.name = solid.name;
     for (const ConvexPtr& convex : solid.compound.convexes)
       for (const Vec3& corner : convex->polyhedron.vertices) block.box.extend(solid.X_WR * corner);
     block.mass_kg = weigh(solid.compound, scene.materials).mass_kg;
@@ -44,7 +50,7 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
   }
   for (const Ball& ball : scene.balls) {
     const Vec3 reach = Vec3::Constant(ball.radius_m);
-    Block block{{ball.center_W - reach, ball.center_W + reach}};
+    Block block{ball.name, {ball.center_W - reach, ball.center_W + reach}};
     block.mass_kg = scene.materials[ball.material.value].density_kg_m3 * 4 / 3 * std::numbers::pi *
                     ball.radius_m * ball.radius_m * ball.radius_m;
     blocks.push_back(block);
@@ -144,6 +150,63 @@ Accuracy cut_in_substeps(Accuracy accuracy, int all, int most_substeps) {
   accuracy.dt_s /= steps;
   accuracy.substeps = (all + steps - 1) / steps;
   return accuracy;
+}
+
+std::string long_step_warning(const Scene& scene) {
+  const double dt_s = scene.accuracy.dt_s;
+  if (dt_s < 1.001 * kFrame_s) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "a step of %.4g s is longer than a frame of 1/60 s and than that of any preset: "
+                "stacks may fall, and rubble overlap; set accuracy.dt_s to 1/60 or less",
+                dt_s);
+  return text;
+}
+
+std::string far_warning(const Scene& scene) {
+  const std::string* name = nullptr;
+  double farthest_m = kFarthest_m;
+  const auto see = [&](const std::string& what, const Vec3& position_W) {
+    const double away_m = position_W.cwiseAbs().maxCoeff();
+    if (away_m > farthest_m) farthest_m = away_m, name = &what;
+  };
+  for (const Solid& solid : scene.solids) see(solid.name, solid.X_WR.position);
+  for (const Ball& ball : scene.balls) see(ball.name, ball.center_W);
+  for (const Shot& shot : scene.shots) see(shot.ball.name, shot.ball.center_W);
+  if (!name) return {};
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "'%s' is %.4g m from the origin: bodies move as anywhere, but debris and dust are "
+                "placed to no better than %.1g m, and takes hold debris up to %.4g m only; set "
+                "every position nearer to the origin",
+                name->c_str(), farthest_m, farthest_m * kFloat, kFarthest_m);
+  return text;
+}
+
+std::string crush_warning(const Scene& scene, int most_substeps) {
+  if (scene.gravity_W.isZero()) return {};
+  const Accuracy& accuracy = scene.accuracy;
+  const std::vector<Block> blocks = blocks_of(scene, -scene.gravity_W.normalized());
+  if (blocks.size() < 2) return {};
+  const Block& heavy = *std::ranges::max_element(blocks, {}, &Block::mass_kg);
+  // What sinks in by the largest part of its size is the lightest for it.
+  const Block& light = *std::ranges::min_element(
+      blocks, {}, [](const Block& block) { return block.mass_kg * block.size_m; });
+  const double ratio = heavy.mass_kg / light.mass_kg, g = scene.gravity_W.norm();
+  const Stack pair{2, 1 + ratio, light.size_m};
+  if (expected_sink_m(pair, g, accuracy.dt_s / accuracy.substeps) < kCrushed * pair.size_m)
+    return {};
+  const Accuracy bear = cut_in_substeps(
+      accuracy, substeps_for_sink(pair, g, accuracy.dt_s, kDeepest * pair.size_m), most_substeps);
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "'%s' weighs %.4g times what '%s' does, which would give way if it came to lie "
+                "under it: %d substeps of dt 1/%.4g s would bear it, there are %d of 1/%.4g s; set "
+                "accuracy.substeps%s, or make the lighter one heavier",
+                heavy.name.c_str(), ratio, light.name.c_str(), bear.substeps, 1 / bear.dt_s,
+                accuracy.substeps, 1 / accuracy.dt_s,
+                bear.dt_s < accuracy.dt_s ? " and accuracy.dt_s" : "");
+  return text;
 }
 
 std::string accuracy_warning(const Scene& scene, int most_substeps) {

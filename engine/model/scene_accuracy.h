@@ -35,6 +35,14 @@ Accuracy accuracy_to_stand(const Scene& scene, int most_substeps);
 /// With a step cut into `all` substeps; a shorter one where that is more than `most_substeps`.
 Accuracy cut_in_substeps(Accuracy accuracy, int all, int most_substeps);
 
+/// What a user who made a scene in code should know of a step longer than any a file may ask for;
+/// empty if nothing.
+std::string long_step_warning(const Scene& scene);
+/// Of what is farther from the origin than floats and takes have debris exactly; empty if nothing.
+std::string far_warning(const Scene& scene);
+/// What a user should know of the body that would sink in by half its size, or more, under the
+/// heaviest that can move, wherever both are; empty if there is none.
+std::string crush_warning(const Scene& scene, int most_substeps);
 /// What a user, who may ask for so many substeps, should know about a scene's accuracy; empty if
 /// nothing.
 std::string accuracy_warning(const Scene& scene, int most_substeps);

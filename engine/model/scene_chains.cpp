@@ -42,15 +42,16 @@ Body body_of(const Ball& ball, const Scene& scene) {
   return {ball.name, mass, 0.4 * mass * ball.radius_m * ball.radius_m, ball.center_W};
 }
 
-/// h²·K/I at h = 1 s, over what holds: of what hangs by a joint and bears a pull.
-double need(const Joint& joint, const Body& link, double pull_N) {
+/// h²·K/I at h = 1 s, over what holds: of what hangs by a joint, at its end there, and bears a
+/// pull.
+double need(const Joint& joint, const Vec3& end_W, const Body& link, double pull_N) {
   if (joint.kind == JointKind::kFixed) return 0;
+  const double turns = 2 * pull_N * (end_W - link.center_W).norm() / link.inertia_kg_m2;
   if (joint.kind == JointKind::kDistance || joint.kind == JointKind::kRope) {
     const double length_m = (joint.to_W - joint.at_W).norm();
-    return 4 * pull_N / (link.mass_kg * length_m) / kMostRods;
+    return std::max(turns, 4 * pull_N / (link.mass_kg * length_m)) / kMostRods;
   }
-  const double arm_m = (joint.at_W - link.center_W).norm();
-  return 2 * pull_N * arm_m / link.inertia_kg_m2 / kMostTurning;
+  return turns / kMostTurning;
 }
 
 /// Bodies and joints, and what hangs from what.
@@ -105,7 +106,10 @@ class Hanging {
       if (at > 0) load_kg[above[at]] += load_kg[at];
       // What nothing hangs from swings, and has nothing to be thrown about by.
       if (load_kg[at] == link.mass_kg) continue;
-      const double need_1_s2 = need(*order[at].second, link, kSwing * g_ * load_kg[at]);
+      const Joint& by = *order[at].second;
+      const bool rod = by.kind == JointKind::kDistance || by.kind == JointKind::kRope;
+      const Vec3& end_W = rod && by.a != order[at].first ? by.to_W : by.at_W;
+      const double need_1_s2 = need(by, end_W, link, kSwing * g_ * load_kg[at]);
       if (need_1_s2 <= worst_need_) continue;
       worst_need_ = need_1_s2;
       worst_ = {link.name, load_kg[at] / link.mass_kg, 1};

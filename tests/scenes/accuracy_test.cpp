@@ -244,5 +244,54 @@ TEST(Accuracy, AChainThatWouldTearIsWarnedOfOnceWithTheSubstepsThatHoldIt) {
   EXPECT_LT(std::abs(then), 1e-2);
 }
 
+/// A thousand tonnes on ropes, with a box of 1 kg between; how far they sink, of 10 m.
+double hung_by_a_box(std::vector<std::string> set, std::vector<std::string>* named = nullptr) {
+  const Scene scene = scenes::parse_scene(R"(
+[scene]
+description = "x"
+duration_s = 2
+[accuracy]
+[[solid]]
+structure = "box"
+name = "link"
+material = "steel"
+size_m = [0.05, 0.05, 0.05]
+position = [0, 15, 0]
+[[ball]]
+name = "ball"
+position = [0, 7, 0]
+radius_m = 3.1
+[[joint]]
+kind = "rope"
+a = "link"
+at = [0, 15.05, 0]
+to = [0, 20, 0]
+[[joint]]
+kind = "rope"
+a = "ball"
+b = "link"
+at = [0, 10.1, 0]
+to = [0, 15, 0]
+)",
+                                          "ropes.toml", {"accurate", std::move(set)});
+  if (named) {
+    const Accuracy hold =
+        cut_in_substeps(scene.accuracy, chains_in(scene).front().substeps, scenes::kMostSubsteps);
+    char text[80];
+    std::snprintf(text, sizeof text, "accuracy.dt_s=%.17g", hold.dt_s);
+    *named = {"accuracy.substeps=" + std::to_string(hold.substeps), text};
+  }
+  return wandered(scene, 10);
+}
+
+TEST(Accuracy, RopesThatTurnALightBoxBetweenThemHoldWithTheSubstepsThatTheWarningNames) {
+  std::vector<std::string> named;
+  const double before = hung_by_a_box({}, &named), then = hung_by_a_box(named);
+  std::printf("1e6 kg on ropes with 1 kg between: sinks by %.2g, by %.2g with %s\n", before, then,
+              named[0].c_str());
+  EXPECT_GT(before, 0.3);
+  EXPECT_LT(then, 0.002);
+}
+
 }  // namespace
 }  // namespace sunder::tests

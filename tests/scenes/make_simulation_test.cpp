@@ -1,6 +1,11 @@
 // A scene and its simulation are wired together as the scene says.
 #include "scenes/make_simulation.h"
 
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
@@ -49,6 +54,56 @@ TEST(MakeSimulation, TellsWhatAPresetIsTooCoarseFor) {
   make_simulation(scene, options);
   ASSERT_EQ(told.size(), run_info(scene, "draft").warnings.size());
   for (const std::string& warning : told) EXPECT_TRUE(warning.starts_with("tower: ")) << warning;
+}
+
+/// Whether the user is told something with all of these words in it.
+bool told(const Scene& scene, std::initializer_list<const char*> words) {
+  for (const std::string& warning : run_info(scene).warnings)
+    if (std::all_of(words.begin(), words.end(),
+                    [&](const char* word) { return warning.find(word) != std::string::npos; }))
+      return true;
+  return false;
+}
+
+TEST(MakeSimulation, TellsOfAStepThatIsLongerThanAFrame) {
+  Scene scene = parse_scene(std::string(kHead) + "[[ball]]\n", "x.toml", {"draft", {}});
+  EXPECT_FALSE(told(scene, {"longer than a frame"}));
+  scene.accuracy.dt_s = 0.1;
+  EXPECT_TRUE(told(scene, {"0.1 s", "longer than a frame", "accuracy.dt_s"}));
+}
+
+TEST(MakeSimulation, TellsOfWhatIsTooFarFromTheOriginForDebris) {
+  const auto ball_at = [](const char* x) {
+    return parse_scene(
+        std::string(kHead) + "[[ball]]\nname = \"far\"\nposition = [" + x + ", 1, 0]\n", "x.toml");
+  };
+  EXPECT_TRUE(run_info(ball_at("-30000")).warnings.empty());
+  EXPECT_TRUE(told(ball_at("-1e5"), {"'far' is 1e+05 m from the origin", "position"}));
+}
+
+TEST(MakeSimulation, TellsOfWhatWouldGiveWayUnderTheHeaviestWhereverItIs) {
+  const auto under = [](const char* size_m, std::vector<std::string> set = {}) {
+    return parse_scene(std::string(kHead) +
+                           "[accuracy]\n[[ball]]\nname = \"marble\"\nradius_m = 0.01\n"
+                           "[[solid]]\nstructure = \"box\"\nname = \"block\"\nposition = [9, 1, "
+                           "0]\nsize_m = " +
+                           size_m,
+                       "x.toml", {"draft", std::move(set)});
+  };
+  EXPECT_TRUE(run_info(under("[0.03, 0.03, 0.03]")).warnings.empty());
+  const Scene heavy = under("[2, 2, 2]");
+  EXPECT_TRUE(told(heavy, {"'block' weighs", "'marble'", "64 substeps of dt 1/2340 s"}));
+  const Scene bears =
+      under("[2, 2, 2]", {"accuracy.substeps=64", "accuracy.dt_s=0.000427350427350"});
+  EXPECT_FALSE(told(bears, {"weighs"}));
+}
+
+TEST(MakeSimulation, NoSceneThatComesWithTheProgramAsksForTooMuch) {
+  for (const CatalogEntry& entry : catalog()) {
+    const Scene scene = load_scene(entry.name, {"draft", {}});
+    for (const char* word : {"longer than a frame", "weighs", "from the origin"})
+      EXPECT_FALSE(told(scene, {word})) << entry.name;
+  }
 }
 
 }  // namespace

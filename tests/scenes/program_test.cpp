@@ -10,13 +10,16 @@
 
 #include "engine/io/figures.h"
 #include "engine/io/take/take.h"
+#include "engine/model/frame.h"
 #include "scenes/file/text_file.h"
 #include "scenes/load.h"
+#include "tests/engine/markup.h"
 
 namespace sunder::tests {
 namespace {
 
-constexpr const char* kCommands[] = {"list", "check", "simulate", "render", "bench", "golden test"};
+constexpr const char* kCommands[] = {"list",  "check", "simulate",   "render",
+                                     "bench", "trade", "golden test"};
 
 Figures figures(const std::string& arguments) {
   const Outcome outcome = sunder(arguments + " --quiet --json -");
@@ -177,6 +180,14 @@ TEST(Program, QuietPrintsNothingAndJsonGoesToAFile) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
   EXPECT_TRUE(parse_figures(scenes::read_text(folder / "x.json"), "x").contains("/state_hash"));
+}
+
+TEST(Program, BenchPlotsEveryStage) {
+  const Folder folder;
+  ASSERT_EQ(sunder("bench stack --frames 5 --quiet --page " + folder / "x.html").exit_code, 0);
+  const std::string page = scenes::read_text(folder / "x.html");
+  EXPECT_EQ(markup_mistake(page), "");
+  for (const char* stage : kStageNames) EXPECT_NE(page.find(stage), std::string::npos) << stage;
 }
 
 TEST(Program, BenchComparesOnlyRunsOfTheSameState) {

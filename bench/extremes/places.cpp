@@ -1,0 +1,146 @@
+// Far from the origin, slivers, and a hundred thousand bodies.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bench/cpu_time.h"
+#include "bench/extremes/extreme.h"
+#include "engine/base/parallel.h"
+#include "engine/io/state_hash.h"
+
+namespace sunder::truths {
+namespace {
+
+constexpr double kFar_m = 1e5;
+
+std::string place(double x_m, double y_m, double z_m) {
+  return "position = [" + std::to_string(x_m) + ", " + std::to_string(y_m) + ", " +
+         std::to_string(z_m) + "]\n";
+}
+std::string stack(double x_m) {
+  return "[[solid]]\nstructure = \"stack\"\nmaterial = \"steel\"\n" + place(x_m, 0, 0);
+}
+std::string wall_and_ball(double x_m) {
+  return "[[solid]]\nstructure = \"box\"\nmaterial = \"brick\"\nsize_m = [3, 2, 0.1]\nblock_m = "
+         "0.5\nanchored = \"bottom\"\n" +
+         place(x_m, 0, 0) + "[[ball]]\nvelocity = [0, 0, -20]\nradius_m = 0.3\n" +
+         place(x_m, 1.2, 2);
+}
+
+SceneAt far_off(std::string (*text)(double), double duration_s) {
+  return [=](const Preset& preset) { return scene_at(preset, text(kFar_m), duration_s); };
+}
+
+/// What a figure is far off, over what it is at the origin, less one.
+Measure off_the_origin(std::string (*text)(double), double duration_s,
+                       double (*figure)(const Run&)) {
+  return [=](const Preset& preset) {
+    const double here = figure(run(scene_at(preset, text(0), duration_s)));
+    return figure(run(scene_at(preset, text(kFar_m), duration_s))) / here - 1;
+  };
+}
+
+double exit_speed(const Run& run) { return run.speed_m_s(1); }
+double bodies(const Run& run) { return static_cast<double>(run.last->bodies.size()); }
+
+Scene slivers(const Preset& preset) {
+  std::string text = "[[material]]\nname = \"given\"\nlike = \"steel\"\n";
+  for (int i = 0; i < 40; ++i)
+    text += std::string("[[solid]]\nstructure = \"box\"\nmaterial = \"given\"\nsize_m = ") +
+            (i % 2 == 0 ? "[1, 0.001, 0.001]" : "[1, 0.001, 0.5]") + "\nrotation_deg = [" +
+            std::to_string(17 * i % 90) + ", " + std::to_string(29 * i % 90) + ", " +
+            std::to_string(41 * i % 90) + "]\n" +
+            place(0.1 * (i % 4), 1.2 + 0.1 * i, 0.1 * (i % 3));
+  return scene_at(preset, text, 10);
+}
+
+/// A pane of a millimetre by a metre by a metre that breaks.
+Scene thin_pane(const Preset& preset) {
+  return scene_at(preset,
+                  "[[solid]]\nstructure = \"pane\"\nwidth_m = 1\nheight_m = 1\nthickness_m = "
+                  "0.001\n[[ball]]\nradius_m = 0.02\nposition = [0, 0.6, 1]\nvelocity = [0, 0, "
+                  "-20]\n",
+                  2, {"scene.gravity=[0, 0, 0]"});
+}
+
+double fastest(const Run& run) {
+  double most = 0;
+  for (const FrameBody& body : run.last->bodies) {
+    const bool fell_through = !(body.X_WB.position.y() > -0.01);
+    most = std::max(most, fell_through ? 1e3 : body.velocity_W.norm());
+  }
+  return most;
+}
+
+/// Walls of a thousand bricks each, side by side.
+SceneAt walls(int count) {
+  return [count](const Preset& preset) {
+    std::string text;
+    for (int i = 0; i < count; ++i)
+      text +=
+          "[[solid]]\nstructure = \"brick_wall\"\nmaterial = \"steel\"\nsecond = \"steel\"\n"
+          "bricks = 50\ncourses = 20\nname = \"wall " +
+          std::to_string(i) + "\"\n" + place(20.5 * (i % 10), 0, 2.0 * (i / 10));
+    return scene_at(preset, text, 0.1, {"limits.bodies=200000"});
+  };
+}
+constexpr int kMany = 100, kFewer = 10;
+
+/// Processor time of the same for each body, over that of a tenth of them, less one.
+double dearer(const Preset& preset) {
+  const auto cpu_ms_a_body = [&](int count) {
+    Scene scene = walls(count)(preset);
+    const std::size_t bodies = scene.solids.size();
+    const double start_ms = bench::cpu_ms();
+    run(std::move(scene));
+    return (bench::cpu_ms() - start_ms) / static_cast<double>(bodies);
+  };
+  const double of_fewer_ms = cpu_ms_a_body(kFewer);
+  return cpu_ms_a_body(kMany) / of_fewer_ms - 1;
+}
+
+/// How many of two runs end otherwise than that of one thread does.
+double thread_differences(const Preset& preset) {
+  const auto hash = [&](int threads) {
+    set_threads(threads);
+    return hash_state(*run(walls(kMany)(preset)).last);
+  };
+  const std::uint64_t one = hash(1);
+  const double differ = double(hash(2) != one) + double(hash(4) != one);
+  set_threads(0);
+  return differ;
+}
+
+}  // namespace
+
+Truths place_extremes() {
+  return {
+      extreme(9, "stack of 10, 1e5 m off, 5 s: moves", "mm", "rest", 2, far_off(stack, 5),
+              [](const Run& r) { return 1e3 * r.moved_m(); }, {0.2, 0.2, 0.2, 0.2}),
+      extreme(9, "ball through a wall, 1e5 m off: exit speed", "", "that at the origin", 0.1,
+              far_off(wall_and_ball, 0.5), off_the_origin(wall_and_ball, 0.5, exit_speed),
+              {0.071, 0.01, 0.065, 0.01}),
+      extreme(9, "ball through a wall, 1e5 m off: bodies", "", "those at the origin", 0.25,
+              far_off(wall_and_ball, 0.5), off_the_origin(wall_and_ball, 0.5, bodies),
+              {0.025, 0.025, 0.29, 0.032}),
+      extreme(9, "ball through a wall, 1e5 m off: mass", "", "constant", 1e-9,
+              far_off(wall_and_ball, 1), &Run::mass_off, {1e-10, 1e-10, 1e-10, 1e-10}),
+      extreme(10, "slivers of 1 : 1,000 after 10 s: fastest", "m/s", "rest", 0.1, slivers, fastest,
+              {0.048, 0.086, 0.1, 0.032}, 3),
+      extreme(10, "slivers of 1 : 1,000: energy gained", "", "none", 1e-3, slivers,
+              &Run::energy_gained, {0.0001, 0.00014, 0.00012, 0.0001}, 3),
+      extreme(10, "pane of 1 mm by 1 m, shot: mass", "", "constant", 1e-9, thin_pane,
+              &Run::mass_off, {1e-10, 1e-10, 1e-10, 1e-10}),
+      extreme(10, "pane of 1 mm by 1 m, shot: energy gained", "", "none", 1e-3, thin_pane,
+              &Run::energy_gained, {0.0001, 0.0001, 0.0001, 0.0001}),
+      extreme(
+          11, "100,000 bricks in 100 walls, 0.1 s: moves", "mm", "rest", 2, walls(kMany),
+          [](const Run& r) { return 1e3 * r.moved_m(); }, {0.2, 0.2, 0.2, 0.2}, 0),
+      extreme(11, "100,000 bricks: processor time of each, over that of 10,000, less one", "",
+              "linear", 0.2, walls(kMany), Measure(dearer), {0.6, 0.3, 0.36, 0.27}, 0),
+      extreme(11, "100,000 bricks, 2 and 4 threads: ends other than 1 thread's", "", "none", 0,
+              walls(kMany), Measure(thread_differences), {0, 0, 0, 0}, 0),
+  };
+}
+
+}  // namespace sunder::truths

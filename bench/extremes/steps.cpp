@@ -1,0 +1,147 @@
+// Steps far shorter than a preset's, by scene file, and far longer, by a scene made in code.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/extremes/extreme.h"
+
+namespace sunder::truths {
+namespace {
+
+constexpr std::array kShort_1_s = {60, 240, 960, 10020};
+constexpr std::array kLong_1_s = {30, 10};
+
+constexpr const char* kStack = "[[solid]]\nstructure = \"stack\"\nmaterial = \"steel\"\n";
+constexpr const char* kBounces = R"(
+[[material]]
+name = "elastic"
+like = "steel"
+restitution = 0.8
+[[solid]]
+structure = "stack"
+material = "elastic"
+count = 5
+size_m = [0.3, 0.3, 0.3]
+position = [0, 1, 0]
+rotation_deg = [10, 0, 20]
+[[ball]]
+position = [1, 2, 0]
+material = "elastic"
+)";
+/// 25 m/s at a plate of 50 mm that the world holds, and at one that flies.
+constexpr const char* kPlates = R"(
+[[solid]]
+structure = "box"
+name = "held"
+material = "steel"
+size_m = [2, 2, 0.05]
+anchored = "bottom"
+[[solid]]
+structure = "box"
+name = "free"
+material = "steel"
+size_m = [2, 2, 0.05]
+position = [5, 0, 0]
+[[ball]]
+position = [0, 1, 4]
+velocity = [0, 0, -25]
+radius_m = 0.1
+[[ball]]
+position = [5, 1, 4]
+velocity = [0, 0, -25]
+radius_m = 0.1
+)";
+constexpr const char* kWall = R"(
+[[solid]]
+structure = "box"
+material = "brick"
+size_m = [3, 2, 0.1]
+block_m = 0.5
+anchored = "bottom"
+[[ball]]
+position = [0, 1.2, 2]
+velocity = [0, 0, -20]
+radius_m = 0.3
+)";
+
+/// The step that is the hardest on what is told: the first.
+template <std::size_t kCount>
+SceneAt first_of(const char* text, double duration_s, const std::array<int, kCount>& steps_1_s) {
+  return [=](const Preset& preset) {
+    Scene scene = scene_at(preset, text, duration_s);
+    scene.accuracy.dt_s = 1.0 / *std::min_element(steps_1_s.begin(), steps_1_s.end());
+    return scene;
+  };
+}
+
+/// The worst of several steps; scenes made in code take any.
+template <std::size_t kCount>
+Measure worst_of(const char* text, double duration_s, const std::array<int, kCount>& steps_1_s,
+                 const std::function<double(const Run&)>& figure,
+                 const std::vector<std::string>& set = {}) {
+  return [=](const Preset& preset) {
+    double worst = 0;
+    for (const int step_1_s : steps_1_s) {
+      Scene scene = scene_at(preset, text, duration_s, set);
+      scene.accuracy.dt_s = 1.0 / step_1_s;
+      const double value = figure(run(std::move(scene)));
+      if (!(value <= worst)) worst = value;
+    }
+    return worst;
+  };
+}
+
+double behind_plates(const Run& run) {
+  const auto& bodies = run.last->bodies;
+  const double free_m = bodies[1].X_WB.position.z();
+  return double(bodies[2].X_WB.position.z() < 0) + double(bodies[3].X_WB.position.z() < free_m);
+}
+
+/// A ball through a wall in steps of 1/10,020 s: how much faster than in the preset's.
+double exit_speed_off(const Preset& preset) {
+  const auto speed = [&](double dt_s) {
+    Scene scene = scene_at(preset, kWall, 0.5);
+    scene.accuracy.dt_s = dt_s;
+    return run(std::move(scene)).speed_m_s(1);
+  };
+  return speed(1.0 / 10020) / speed(preset.dt_s) - 1;
+}
+
+}  // namespace
+
+Truths step_extremes() {
+  const auto moves = [](const Run& r) { return 1e3 * r.moved_m(); };
+  const std::vector<std::string> weightless = {"scene.gravity=[0, 0, 0]"};
+  const auto fastest_short = first_of(kWall, 0.5, std::array{10020});
+  return {
+      extreme(3, "stack of 10, dt 1/60 to 1/10,020, 2 s: moves", "mm", "rest", 2,
+              first_of(kStack, 2, kShort_1_s), worst_of(kStack, 2, kShort_1_s, moves),
+              {0.2, 0.2, 0.2, 0.2}),
+      extreme(3, "boxes that bounce, dt 1/60 to 1/10,020, 2 s: energy gained", "", "none", 1e-3,
+              first_of(kBounces, 2, kShort_1_s),
+              worst_of(kBounces, 2, kShort_1_s, &Run::energy_gained),
+              {0.0001, 0.0001, 0.0001, 0.0001}),
+      extreme(3, "ball through a wall, dt 1/10,020: exit speed off that of the preset's dt", "",
+              "the same", 0.1, fastest_short, Measure(exit_speed_off), {0.077, 0.069, 0.08, 0.044}),
+      extreme(4, "stack of 10, dt 1/30 and 1/10, 5 s: moves", "mm", "rest", 2,
+              first_of(kStack, 5, kLong_1_s), worst_of(kStack, 5, kLong_1_s, moves),
+              {1.2e+04, 1.2e+04, 0.2, 2.1e+03}),
+      extreme(4, "boxes that bounce, dt 1/30 and 1/10, 5 s: energy gained", "", "none", 1e-3,
+              first_of(kBounces, 5, kLong_1_s),
+              worst_of(kBounces, 5, kLong_1_s, &Run::energy_gained),
+              {0.0001, 0.0001, 0.0001, 0.0001}),
+      extreme(4, "25 m/s at plates of 50 mm, dt 1/30 and 1/10: pass", "", "none passes", 0,
+              first_of(kPlates, 1, kLong_1_s), worst_of(kPlates, 1, kLong_1_s, behind_plates),
+              {0, 0, 0, 0}),
+      extreme(4, "ball through a wall, dt 1/30 and 1/10, weightless: energy gained", "", "none",
+              1e-3, first_of(kWall, 2, kLong_1_s),
+              worst_of(kWall, 2, kLong_1_s, &Run::energy_gained, weightless),
+              {0.0001, 0.0001, 0.0001, 0.0001}),
+      extreme(4, "ball through a wall, dt 1/30 and 1/10: overlap left", "mm", "rigid", 10,
+              first_of(kWall, 2, kLong_1_s),
+              worst_of(kWall, 2, kLong_1_s, [](const Run& r) { return 1e3 * r.overlap_left_m(); }),
+              {2.5e+02, 2.5e+02, 2.7e+02, 1.5e+02}),
+  };
+}
+
+}  // namespace sunder::truths

@@ -1,0 +1,43 @@
+// What asks for too much: within the bound that docs/extremes.md has it at, and told of where it
+// goes wrong.
+#include <string>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "bench/extremes/extreme.h"
+#include "tests/truths/bounds.h"
+
+namespace sunder::truths {
+namespace {
+
+const Truths& extremes() {
+  static const Truths kAll = all_extremes();
+  return kAll;
+}
+
+class ExtremeAtPreset : public testing::TestWithParam<Case> {};
+
+TEST_P(ExtremeAtPreset, IsWithinItsBound) {
+  const auto [index, preset] = GetParam();
+  expect_within_bound(extremes()[index], preset);
+}
+
+std::string name_of_case(const testing::TestParamInfo<Case>& one) {
+  return name_of(extremes()[std::get<0>(one.param)], std::get<1>(one.param));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ExtremeAtPreset, all_of(extremes().size()), name_of_case);
+
+TEST(Extremes, AreToldOfWhereTheirBoundIsAboveTheMark) {
+  for (const Truth& extreme : extremes()) {
+    for (std::size_t preset = 0; preset < kPresets.size(); ++preset) {
+      if (preset >= extreme.tested || extreme.bounds[preset] <= 1.5 * extreme.mark) continue;
+      EXPECT_NE(extreme.told(kPresets[preset]), "")
+          << extreme.what << ", " << kPresets[preset].name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunder::truths
