@@ -81,22 +81,6 @@ Figures figures_of(const StudyRun& run, const RunResult& result) {
   return figures;
 }
 
-std::string text_at(const Figures& figures, const std::string& place) {
-  const auto found = figures.find(place);
-  const auto* text = found == figures.end() ? nullptr : std::get_if<std::string>(&found->second);
-  return text ? *text : std::string();
-}
-
-double number_at(const Figures& figures, const std::string& place) {
-  const auto found = figures.find(place);
-  if (found == figures.end()) return 0;
-  if (const auto* whole = std::get_if<std::int64_t>(&found->second)) {
-    return static_cast<double>(*whole);
-  }
-  const auto* real = std::get_if<double>(&found->second);
-  return real ? *real : 0;
-}
-
 RunResult result_of(const Figures& figures) {
   RunResult result;
   result.failed = text_at(figures, "/failed");

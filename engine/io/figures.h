@@ -17,6 +17,10 @@ using Figures =
 
 /// Throws InputError naming `file` if the text is not JSON. Nulls and empty lists are left out.
 Figures parse_figures(const std::string& text, const std::string& file);
+/// The number at a place, whole or not; 0 if none is there.
+double number_at(const Figures& figures, const std::string& place);
+/// The text at a place; empty if none is there.
+std::string text_at(const Figures& figures, const std::string& place);
 /// The nested document, indented; ends with a newline.
 std::string format_figures(const Figures& figures);
 

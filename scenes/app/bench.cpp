@@ -34,38 +34,22 @@ Figures measure(const std::string& name, const BenchOptions& options, TimedScene
   return parse_figures(statistics.json(hash.hex(), false), name);
 }
 
-double number(const Figures& figures, const std::string& place) {
-  const auto found = figures.find(place);
-  if (found == figures.end()) return 0;
-  if (const auto* whole = std::get_if<std::int64_t>(&found->second)) {
-    return static_cast<double>(*whole);
-  }
-  const auto* real = std::get_if<double>(&found->second);
-  return real ? *real : 0;
-}
-
-std::string text(const Figures& figures, const std::string& place) {
-  const auto found = figures.find(place);
-  const auto* words = found == figures.end() ? nullptr : std::get_if<std::string>(&found->second);
-  return words ? *words : std::string();
-}
-
 /// Where a document of scenes holds the one of this name; empty if it does not.
 std::string place_of(const Figures& figures, const std::string& scene) {
   for (int i = 0;; ++i) {
     const std::string at = "/scenes/" + std::to_string(i);
     if (!figures.contains(at + "/scene")) return {};
-    if (text(figures, at + "/scene") == scene) return at;
+    if (text_at(figures, at + "/scene") == scene) return at;
   }
 }
 
 std::string row(const Figures& figures, const std::string& at) {
   char line[200];
   std::snprintf(line, sizeof line, "%-14s %6.0f frames %9.2f %9.2f %9.2f %9.2f  %s\n",
-                text(figures, at + "/scene").c_str(), number(figures, at + "/frames"),
-                number(figures, at + "/frame/p50_ms"), number(figures, at + "/frame/p95_ms"),
-                number(figures, at + "/frame/p99_ms"), number(figures, at + "/frame/max_ms"),
-                text(figures, at + "/state_hash").c_str());
+                text_at(figures, at + "/scene").c_str(), number_at(figures, at + "/frames"),
+                number_at(figures, at + "/frame/p50_ms"), number_at(figures, at + "/frame/p95_ms"),
+                number_at(figures, at + "/frame/p99_ms"), number_at(figures, at + "/frame/max_ms"),
+                text_at(figures, at + "/state_hash").c_str());
   return line;
 }
 
@@ -76,26 +60,26 @@ struct Comparison {
 };
 
 Comparison compare(const Figures& now, const std::string& at, const Figures& old) {
-  const std::string scene = text(now, at + "/scene");
+  const std::string scene = text_at(now, at + "/scene");
   const std::string was = place_of(old, scene);
   if (was.empty()) return {scene + ": not in the older file\n"};
   for (const char* key :
        {"/preset", "/frames", "/dt_s", "/substeps", "/solver/max_colors", "/solver/sweeps"}) {
     if (!old.contains(was + key)) continue;  // older than the figure
-    if (text(now, at + key) != text(old, was + key) ||
-        number(now, at + key) != number(old, was + key)) {
+    if (text_at(now, at + key) != text_at(old, was + key) ||
+        number_at(now, at + key) != number_at(old, was + key)) {
       return {scene + ": not comparable, its " + (key + 1) + " differs\n", false};
     }
   }
   std::string line = scene + ": new / old";
   for (const char* quantile : kQuantiles) {
-    const double before = number(old, was + "/frame/" + quantile);
-    const double after = number(now, at + "/frame/" + quantile);
+    const double before = number_at(old, was + "/frame/" + quantile);
+    const double after = number_at(now, at + "/frame/" + quantile);
     char part[64];
     std::snprintf(part, sizeof part, "  %.3s %.2f", quantile, before > 0 ? after / before : 0);
     line += part;
   }
-  const bool same = text(now, at + "/state_hash") == text(old, was + "/state_hash");
+  const bool same = text_at(now, at + "/state_hash") == text_at(old, was + "/state_hash");
   return {line + (same ? "  same state\n" : "  OTHER STATE: it simulated something else\n"), same};
 }
 

@@ -235,9 +235,9 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
         waiting_room_.add(world, trial.probe);
       }
     }
-    plan(world, breaker, planned_in(taken_on));
-    for (const PlannedBreak* planned : planned_in(taken_on))
-      budget_.charge(planned->stressed.work / kVisitsAPart);
+    const std::vector<PlannedBreak*> all = planned_in(taken_on);
+    plan(world, breaker, all);
+    for (const PlannedBreak* planned : all) budget_.charge(planned->stressed.work / kVisitsAPart);
     for (Trial& trial : taken_on) {
       if (stale(trial) || settle(world, trial, broken)) {
         again = true;
