@@ -72,6 +72,7 @@ Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
   for (const Joint& joint : world.scene.joints) {  // keys are indices still
     world.joints.add(*world.physics, world.actors, joint);
   }
+  parts_->loads.prepare(world, *parts_->breaker);
 }
 
 Simulation::~Simulation() = default;

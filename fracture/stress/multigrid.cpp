@@ -1,9 +1,11 @@
 #include "fracture/stress/multigrid.h"
 
 #include <cmath>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "fracture/stress/spring_math.h"
 
 namespace sunder::fracture {
 namespace {
@@ -77,6 +79,17 @@ void to_double(const Nodal<float>& x, double unit, Nodal<double>& y) {
   });
 }
 
+/// What a spring adds to the stiffness matrix between nodes at these places, or with two nodes
+/// takes from it: of (force, torque) by (shift, rotation).
+Eigen::Matrix<double, 6, 6> stiffness(const Spring& spring, const Vec3& at, const Vec3& by) {
+  Eigen::Matrix<double, 6, 6> block;
+  const Mat3 arm = cross_matrix(spring.place - at), other = cross_matrix(spring.place - by);
+  block << Mat3::Identity(), -other, arm, -arm * other;
+  block *= spring.stretch_N_m;
+  block.bottomRightCorner<3, 3>() += spring.rotation_Nm;
+  return block;
+}
+
 }  // namespace
 
 Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
@@ -113,26 +126,19 @@ void Multigrid::to_units(std::vector<Spring>& springs) const {
 
 /// The coarsest level, made ready to be solved.
 void Multigrid::factorize() {
-  std::vector<Spring> springs;
-  levels_.back().for_each_spring([&](const Spring& spring) { springs.push_back(spring); });
   // In double precision: how softly all of it hangs on the world is lost beside its stiffness.
-  const SpringLevel<double> last(levels_.back().size(), std::move(springs));
+  const SpringLevel<float>& last = levels_.back();
   const auto rows = static_cast<Eigen::Index>(6 * last.size());
-  Eigen::MatrixXd matrix(rows, rows);
-  Nodal<double> unit = last.zero(), column = unit;
-  for (std::size_t j = 0; j < last.size(); ++j) {
-    for (int k = 0; k < 6; ++k) {
-      Simd4<double>& part = k < 3 ? unit[j].linear : unit[j].angular;
-      part[k % 3] = 1;
-      last.multiply(unit, column);
-      part[k % 3] = 0;
-      for (std::size_t i = 0; i < last.size(); ++i) {
-        const auto at = static_cast<Eigen::Index>(6 * i), across = static_cast<Eigen::Index>(6 * j);
-        matrix.block<3, 1>(at, across + k) = vec3(column[i].linear);
-        matrix.block<3, 1>(at + 3, across + k) = vec3(column[i].angular);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, rows);
+  last.for_each_spring([&](const Spring& spring) {
+    for (const std::uint32_t i : {spring.a, spring.b}) {
+      for (const std::uint32_t j : {spring.a, spring.b}) {
+        if (i == Spring::kWorld || j == Spring::kWorld) continue;
+        matrix.block<6, 6>(6 * Eigen::Index{i}, 6 * Eigen::Index{j}) +=
+            (i == j ? 1 : -1) * stiffness(spring, last.place(i), last.place(j));
       }
     }
-  }
+  });
   double most = matrix.diagonal().maxCoeff();
   if (!(most > 0)) most = 1;                 // nothing is left that could move
   for (Eigen::Index i = 0; i < rows; ++i) {  // groups that an edit has emptied
@@ -191,9 +197,12 @@ std::vector<Multigrid::Scratch> Multigrid::scratch() const {
 }
 
 SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double nothing_N,
-                             int most_iterations, Nodal<double>& x) const {
+                             int most_iterations, Nodal<double>& x, Nodal<double>& way) const {
   std::vector<Scratch> memory = scratch();
-  Nodal<double> r = springs_.zero(), z = r, p = r, product = r;
+  Nodal<double> r = springs_.zero(), z = r, p = std::exchange(way, {}), product = r;
+  const bool goes_on = !p.empty();
+  p.resize(r.size());
+  if (goes_on) springs_.multiply(p, product);
   Nodal<float> r_f = levels_.front().zero(), z_f = r_f;
   springs_.residual(f, x, r);
   SolveResult result;
@@ -213,7 +222,9 @@ SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double no
     result.error = energy > 0 ? std::sqrt(std::max(0.0, rz_new) / energy) : 1;
     result.converged = result.residual <= tolerance && result.error <= tolerance;
     if (result.converged || result.iterations >= most_iterations) break;
-    const double beta = result.iterations > 0 ? rz_new / rz : 0;
+    // A new direction is conjugate to the last one.
+    double beta = result.iterations > 0 ? rz_new / rz : 0;
+    if (result.iterations == 0 && goes_on) beta = -dot(z, product) / dot(p, product);
     lengthen(beta, z, p);
     rz = rz_new;
     springs_.multiply(p, product);
@@ -223,6 +234,7 @@ SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double no
     add(alpha, p, x);
     add(-alpha, product, r);
   }
+  if (!result.converged && result.iterations == most_iterations) way = std::move(p);
   return result;
 }
 

@@ -35,9 +35,10 @@ class Multigrid {
   /// The finest level, in SI units.
   const SpringLevel<double>& springs() const { return springs_; }
   /// Improves x until residual and error are at most `tolerance`, what is left is rounding
-  /// (`nothing_N`), or so many iterations are done.
+  /// (`nothing_N`), or so many iterations are done. `way`: the direction in which an unfinished
+  /// solve went last, from which this one goes on; empty if there was none.
   SolveResult solve(const Nodal<double>& f, double tolerance, double nothing_N, int most_iterations,
-                    Nodal<double>& x) const;
+                    Nodal<double>& x, Nodal<double>& way) const;
 
  private:
   /// Memory of one level of a cycle.

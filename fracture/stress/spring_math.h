@@ -29,4 +29,11 @@ inline Mat3 parallel_axis(const Vec3& arm) {
   return arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
 }
 
+/// m with m v = arm × v.
+inline Mat3 cross_matrix(const Vec3& arm) {
+  Mat3 m;
+  m << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+  return m;
+}
+
 }  // namespace sunder::fracture

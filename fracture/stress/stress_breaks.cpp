@@ -26,6 +26,9 @@ constexpr int kRounds = 64;            // of cutting and solving again in one an
 constexpr int kMostIterations = 2000;  // a solve that needs more is given up, and cuts nothing
 // However much making the system took: or breaks in every frame would keep it from being solved.
 constexpr std::uint64_t kLeastIterations = 2;
+// Iterations that an answer costs besides: the compound and what is known of it are copied, each
+// bond and the islands looked at; and so many springs more, however small it is.
+constexpr std::uint64_t kAnswerWork = 2, kAnswerSprings = 50;
 // Stress at a bond's own corners is at most so many times that of its section: those well below
 // the limit need no closer look.
 constexpr double kWorthALook = 0.6;
@@ -74,6 +77,7 @@ class StressBreaks {
 
   StressAnswer run() {
     StressAnswer answer;
+    answer.work = kAnswerWork * (compound_.bonds.size() + kAnswerSprings);
     memory_ = recall(load_.memory.get(), compound_, slots_, load_.materials, answer.work);
     most_work_ =
         std::max(load_.most_work, answer.work + kLeastIterations * memory_->system->work());
@@ -121,14 +125,14 @@ class StressBreaks {
 
   /// False if there is no work left, or it is given up.
   bool improve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, const Vec3& spin_R,
-               double tolerance, std::vector<Displacement>& displacements, int& iterations,
-               StressAnswer& answer) {
+               double tolerance, std::vector<Displacement>& displacements, Nodal<double>& way,
+               int& iterations, StressAnswer& answer) {
     const std::uint64_t each = std::max<std::uint64_t>(1, memory_->system->work());
     if (answer.work >= most_work_) return false;
     const auto left = static_cast<int>(
         std::min<std::uint64_t>(kMostIterations, 1 + (most_work_ - answer.work) / each));
     const SolveResult result =
-        memory_->system->solve(loads, gravity_R, tolerance, left, displacements, spin_R);
+        memory_->system->solve(loads, gravity_R, tolerance, left, displacements, spin_R, &way);
     answer.work += each * static_cast<std::uint64_t>(1 + result.iterations);
     iterations = result.converged ? 0 : iterations + result.iterations;
     return result.converged;
@@ -137,7 +141,7 @@ class StressBreaks {
   /// False if the stress of the steady load is not known by now.
   bool solve(StressAnswer& answer) {
     const bool known = improve(loads_, load_.gravity_R, load_.spin_R, kTolerance,
-                               memory_->displacements, memory_->iterations, answer);
+                               memory_->displacements, memory_->way, memory_->iterations, answer);
     answer.settled = memory_->iterations >= kMostIterations;
     return known;
   }
@@ -152,8 +156,10 @@ class StressBreaks {
   /// stays where the blow lands, and so does what is bent there.
   bool strike(StressAnswer& answer) {
     if (impulses_.empty()) return true;
+    Nodal<double> way;
     int iterations = 0;
-    if (!improve(impulses_, Vec3::Zero(), Vec3::Zero(), kBlowTolerance, swing_, iterations, answer))
+    if (!improve(impulses_, Vec3::Zero(), Vec3::Zero(), kBlowTolerance, swing_, way, iterations,
+                 answer))
       return false;
     const auto [work, mass] = memory_->system->response(impulses_, swing_);
     const double striker = work * work / (2 * blow_J_);
@@ -287,6 +293,7 @@ class StressBreaks {
     compound_.bonds = std::move(bonds);
     memory_->system = std::make_shared<const StressSystem>(
         *memory_->system, compound_, std::move(geometry), load_.materials, origin);
+    memory_->way.clear();
   }
 
   Compound compound_;              ///< Less the bonds that are cut.

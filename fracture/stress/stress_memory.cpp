@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 
 #include "engine/base/parallel.h"
 
@@ -10,7 +10,7 @@ namespace sunder::fracture {
 namespace {
 
 // Iterations that making a system costs, about.
-constexpr std::uint64_t kSetUpWork = 10;
+constexpr std::uint64_t kSetUpWork = 20;
 // A system is edited if so much of it stays; else it is made anew.
 constexpr double kStays = 0.5;
 
@@ -87,15 +87,9 @@ class Recollection {
     std::vector<BondGeometry> geometry(compound_.bonds.size());
     std::vector<std::uint32_t> old_of_new(compound_.convexes.size(), kNew);
     if (old) {
-      std::unordered_map<const Convex*, std::uint32_t> numbers;
-      for (std::uint32_t c = 0; c < old->convexes.size(); ++c) {
-        numbers.emplace(old->convexes[c].get(), c);
-      }
+      old_of_new = numbers_in(*old);
       for (std::uint32_t c = 0; c < old_of_new.size(); ++c) {
-        const auto found = numbers.find(compound_.convexes[c].get());
-        if (found == numbers.end()) continue;
-        old_of_new[c] = found->second;
-        known_->displacements[c] = old->displacements[found->second];
+        if (old_of_new[c] != kNew) known_->displacements[c] = old->displacements[old_of_new[c]];
       }
     }
     for_chunks(geometry.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -106,6 +100,23 @@ class Recollection {
     });
     known_->system = std::make_shared<const StressSystem>(
         compound_, std::move(geometry), materials_, StressSystem::spare_nodes(compound_));
+  }
+
+  /// Per convex, kNew if it is not there. What came off is small beside what that is of: its own
+  /// convexes are sorted, not the old ones.
+  std::vector<std::uint32_t> numbers_in(const KnownStress& old) const {
+    std::vector<std::pair<const Convex*, std::uint32_t>> sought;
+    for (std::uint32_t c = 0; c < compound_.convexes.size(); ++c)
+      sought.emplace_back(compound_.convexes[c].get(), c);
+    std::ranges::sort(sought);
+    std::vector<std::uint32_t> numbers(sought.size(), kNew);
+    for (std::uint32_t was = 0; was < old.convexes.size(); ++was) {
+      const Convex* convex = old.convexes[was].get();
+      const auto at =
+          std::ranges::lower_bound(sought, convex, {}, &decltype(sought)::value_type::first);
+      if (at != sought.end() && at->first == convex) numbers[at->second] = was;
+    }
+    return numbers;
   }
 
   const BondGeometry* known_geometry(const KnownStress& old,

@@ -19,7 +19,8 @@ struct KnownStress final : StressMemory {
   std::vector<Bond> bonds;
   std::shared_ptr<const StressSystem> system;
   std::vector<Displacement> displacements;  ///< Under the steady load.
-  int iterations = 0;                       ///< Without coming to an end.
+  int iterations = 0;                       ///< Without coming to an end,
+  Nodal<double> way;                        ///< and the last direction of these.
 
   bool is_of(const Compound& compound) const {
     // Bonds are only ever lost, so their number tells.

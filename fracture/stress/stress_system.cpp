@@ -217,8 +217,8 @@ void StressSystem::mark_changes(const Edited& edited, SpringEdit& edit) const {
 
 SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
                                 double tolerance, int most_iterations,
-                                std::vector<Displacement>& displacements,
-                                const Vec3& spin_R) const {
+                                std::vector<Displacement>& displacements, const Vec3& spin_R,
+                                Nodal<double>* way) const {
   displacements.resize(masses_.size());
   if (!multigrid_) return {0, 0, 0, true};
   std::vector<Vec3> forces_N, torques_Nm;
@@ -236,7 +236,9 @@ SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& g
   }
   // What falls freely has forces that cancel but for rounding.
   const double nothing_N = kUnbalanced * masses_.applied_N(loads, gravity_R, spin_R);
-  const SolveResult result = multigrid_->solve(f, tolerance, nothing_N, most_iterations, x);
+  Nodal<double> none;
+  const SolveResult result =
+      multigrid_->solve(f, tolerance, nothing_N, most_iterations, x, way ? *way : none);
   for (std::size_t c = 0; c < masses_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];
     displacements[c] = {};

@@ -55,10 +55,11 @@ class StressSystem {
   const std::vector<BondGeometry>& geometry() const { return geometry_; }
   /// What an iteration costs, in visits of springs.
   std::uint64_t work() const { return springs_; }
-  /// Improves the displacements, one per convex, under loads, weight and spin (rad/s).
+  /// Improves the displacements, one per convex, under loads, weight and spin (rad/s). `way`, of
+  /// this system: where an unfinished solve left off, for the next to go on from.
   SolveResult solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, double tolerance,
                     int most_iterations, std::vector<Displacement>& displacements,
-                    const Vec3& spin_R = Vec3::Zero()) const;
+                    const Vec3& spin_R = Vec3::Zero(), Nodal<double>* way = nullptr) const;
 
   /// Of displacements that the loads alone have led to.
   SwingResponse response(std::span<const ConvexLoad> loads,

@@ -164,11 +164,15 @@ void ObstacleGrid::build(const Obstacles& obstacles, double dt_s, const Box& reg
   boxes_.resize(obstacles.shapes.size());
   for_chunks(boxes_.size(), kObstacles,
              [&](std::size_t begin, std::size_t end, std::size_t) { place(begin, end, which); });
+  reached_.clear();
   for (std::uint32_t s = 0; s < boxes_.size(); ++s) {
-    if (!boxes_[s].overlaps(region)) continue;
-    placed_.shapes.push_back(placed(s));
+    if (boxes_[s].overlaps(region)) reached_.push_back(s);
   }
-  if (placed_.shapes.empty()) return;
+  if (reached_.empty()) return;
+  placed_.shapes.resize(reached_.size());
+  for_chunks(reached_.size(), kObstacles, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) placed_.shapes[i] = placed(reached_[i]);
+  });
   sort_into_cells();
 }
 

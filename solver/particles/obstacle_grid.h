@@ -58,10 +58,11 @@ class ObstacleGrid {
 
   PlacedObstacles placed_;
   double dt_s_ = 0;
-  std::vector<Box> boxes_;            ///< Per shape of the obstacles.
-  std::uint32_t levels_ = 0;          ///< A bit for each that holds something.
-  std::uint32_t mask_ = 0;            ///< Buckets of the hash, less one.
-  std::vector<std::uint32_t> first_;  ///< Per bucket, of entries_; one more at the end.
+  std::vector<Box> boxes_;              ///< Per shape of the obstacles.
+  std::vector<std::uint32_t> reached_;  ///< Shapes that touch the region.
+  std::uint32_t levels_ = 0;            ///< A bit for each that holds something.
+  std::uint32_t mask_ = 0;              ///< Buckets of the hash, less one.
+  std::vector<std::uint32_t> first_;    ///< Per bucket, of entries_; one more at the end.
   std::vector<Entry> entries_;
 };
 

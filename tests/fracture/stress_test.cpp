@@ -205,6 +205,22 @@ TEST(Stress, AWarmStartHasNothingLeftToDo) {
   EXPECT_EQ(system.solve({}, kDown, 1e-3, 500, displacements).iterations, 0);
 }
 
+TEST(Stress, SpreadOverManySolvesTakesNoMoreIterations) {
+  const Compound compound = bar(4, 0.4, 126, 8);
+  const StressSystem system = system_of(compound, stone());
+  std::vector<Displacement> at_once, spread;
+  const int needed = system.solve({}, kDown, 1e-3, 500, at_once).iterations;
+  Nodal<double> way;
+  int taken = 0;
+  for (bool converged = false; !converged && taken <= needed;) {
+    const SolveResult part = system.solve({}, kDown, 1e-3, 2, spread, Vec3::Zero(), &way);
+    converged = part.converged;
+    taken += part.iterations;
+  }
+  EXPECT_GT(needed, 6);
+  EXPECT_EQ(taken, needed);
+}
+
 TEST(Stress, TakesFewIterationsHoweverManyConvexesAndHoweverFlat) {
   const auto iterations = [](int along, int across) {
     const Compound compound = bar(4, 0.4, along, across);

@@ -28,6 +28,8 @@ constexpr std::uint64_t kReserve = 300;
 constexpr std::size_t kLarge = 1000;  // convexes of an actor that takes all threads for itself
 constexpr ConvexSlot kAfterAll;       // none() is greater than any slot
 
+bool is_large(const Actor& actor) { return actor.structure.size() >= kLarge; }
+
 double weight_N(const World& world, double mass_kg) {
   return mass_kg * world.scene.gravity_W.norm();
 }
@@ -188,9 +190,7 @@ void judge_all(const World& world, const Breaker& breaker, std::vector<Judged>& 
         judge(world, breaker, actor, states[actor.body].X_WB.rotation, judged.most_work);
     judged.ms = watch.ms();
   };
-  const auto large = [&](const Judged& judged) {
-    return world.actors.find(judged.key)->structure.size() >= kLarge;
-  };
+  const auto large = [&](const Judged& judged) { return is_large(*world.actors.find(judged.key)); };
   for_chunks(batch.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
     if (!large(batch[i])) one(batch[i]);
   });
@@ -232,6 +232,17 @@ void apply(World& world, Judged& judged) {
 }
 
 }  // namespace
+
+void LoadStage::prepare(World& world, const Breaker& breaker) const {
+  std::vector<Judged> batch;
+  for (const Actor& actor : world.actors) {
+    if (actor.stress.breakable && is_large(actor)) batch.push_back({actor.key, 0, {}, 0});
+  }
+  judge_all(world, breaker, batch);
+  for (Judged& judged : batch) {
+    world.actors.find(judged.key)->stress.memory = std::move(judged.answer.memory);
+  }
+}
 
 void LoadStage::begin_frame() { work_left_ = std::min(work_a_frame_, work_left_ + work_a_frame_); }
 

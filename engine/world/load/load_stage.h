@@ -18,6 +18,9 @@ class LoadStage {
  public:
   explicit LoadStage(const Limits& limits) : work_a_frame_(limits.load_work_a_frame) {}
 
+  /// Before the first frame: what the breaker makes of a large solid to begin with is made, as that
+  /// takes longer than a frame has.
+  void prepare(World& world, const Breaker& breaker) const;
   void begin_frame();
   /// After the solve.
   void run(World& world, const Breaker& breaker);
