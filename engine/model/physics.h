@@ -116,6 +116,13 @@ struct Touch {
   double separation_m = 0;
 };
 
+/// Two bodies that do so.
+struct TouchingBodies {
+  std::uint32_t tag_a = 0, tag_b = 0;
+
+  bool operator==(const TouchingBodies&) const = default;
+};
+
 /// What a contact did to a body that bears load, over one solve.
 struct ContactLoad {
   std::uint32_t body_tag = 0, shape_tag = 0;
@@ -167,6 +174,15 @@ class Physics {
   /// Contact points of any of `bodies`, each once, as the last collide() found them and in order of
   /// keys; valid until the next call that changes anything.
   virtual std::vector<Touch> touches(std::span<const BodyId> bodies) = 0;
+  /// Whose they are, in the same order; who comes several times in a row, once.
+  virtual std::vector<TouchingBodies> touching(std::span<const BodyId> bodies) {
+    std::vector<TouchingBodies> all;
+    for (const Touch& touch : touches(bodies)) {
+      const TouchingBodies both{touch.body_tag_a, touch.body_tag_b};
+      if (all.empty() || all.back() != both) all.push_back(both);
+    }
+    return all;
+  }
   /// Puts a body into a state of motion and wakes it; static bodies ignore it.
   virtual void set_state(BodyId body, const BodyState& state) = 0;
   /// Changes a body's momentum by an impulse at a point and wakes it; static bodies ignore it.

@@ -42,8 +42,11 @@ class RigidPhysics final : public Physics {
                               std::span<const BodyDesc> add) override;
   void edit(const BodyEdit& edit) override;
   void collide(double dt_s) override;
-  std::vector<Approach> approaches() override;
+  std::vector<Approach> approaches() override {
+    return find_approaches(contacts_, bodies_, shapes_, step_);
+  }
   std::vector<Touch> touches(std::span<const BodyId> bodies) override;
+  std::vector<TouchingBodies> touching(std::span<const BodyId> bodies) override;
   void set_state(BodyId body, const BodyState& state) override;
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
   JointId join(const JointDesc& joint) override;
@@ -73,6 +76,7 @@ class RigidPhysics final : public Physics {
   void find_reaches();
   ContactSolveReport solve_contacts(const StepContext& step);
   Vec3 freeze_broken();
+  const ContactsOfBodies& contacts_of_bodies();
   void look_again(JointId joint);
 
   RigidOptions options_;
@@ -170,11 +174,13 @@ void RigidPhysics::find_near() {
 void RigidPhysics::find_reaches() {
   const double dt_s = step_.dt_s;
   reach_.resize(bodies_.size());
-  for (const BodySlot body : bodies_.slots()) {
-    const double angle = std::min(1.0, dt_s * bodies_.angular_velocity[body].norm());
-    reach_[body] = {(dt_s * bodies_.velocity[body]).cast<float>(),
-                    static_cast<float>(angle * bodies_.reach_m[body]) * 1.00001f};
-  }
+  for_chunks(bodies_.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (BodySlot body(begin); body.value < end; ++body.value) {
+      const double angle = std::min(1.0, dt_s * bodies_.angular_velocity[body].norm());
+      reach_[body] = {(dt_s * bodies_.velocity[body]).cast<float>(),
+                      static_cast<float>(angle * bodies_.reach_m[body]) * 1.00001f};
+    }
+  });
 }
 
 /// Narrow phase over pairs of which a body changed; then, in order of slots, what came to touch
@@ -193,6 +199,7 @@ void RigidPhysics::update_contacts() {
     Manifold fresh;
     for (PairSlot i(begin); i.value < end; ++i.value) {
       Pair& pair = pairs[i];
+      prefetch_pairs(i, PairSlot(end), contacts_, shapes_, bodies_);
       if (!pair.present()) continue;
       if (!pair.fresh && !bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b]) continue;
       ++changes[c].moved;
@@ -251,15 +258,17 @@ Vec3 RigidPhysics::freeze_broken() {
   return taken;
 }
 
-std::vector<Approach> RigidPhysics::approaches() {
-  return find_approaches(contacts_, bodies_, shapes_, step_);
+const ContactsOfBodies& RigidPhysics::contacts_of_bodies() {
+  if (contacts_of_bodies_.empty()) contacts_of_bodies_ = ContactsOfBodies(contacts_, bodies_);
+  return contacts_of_bodies_;
 }
 
 std::vector<Touch> RigidPhysics::touches(std::span<const BodyId> bodies) {
-  if (contacts_of_bodies_.empty()) contacts_of_bodies_ = ContactsOfBodies(contacts_, bodies_);
-  std::vector<BodySlot> slots;
-  for (const BodyId id : bodies) slots.push_back(bodies_.slot(id));
-  return find_touches(contacts_, bodies_, shapes_, contacts_of_bodies_, slots);
+  return find_touches(contacts_, bodies_, shapes_, contacts_of_bodies(), bodies);
+}
+
+std::vector<TouchingBodies> RigidPhysics::touching(std::span<const BodyId> bodies) {
+  return find_touching(contacts_, bodies_, contacts_of_bodies(), bodies);
 }
 
 void RigidPhysics::set_state(BodyId id, const BodyState& state) {

@@ -1,4 +1,7 @@
 // The break stage and the ledger, with scripted physics and fracture: energy, momentum, order.
+#include <algorithm>
+#include <string_view>
+
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
@@ -207,6 +210,28 @@ TEST(BreakStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   EXPECT_EQ(second->breaks.size(), 1u);
   EXPECT_EQ(second->report.carried_over, 0u);
   EXPECT_NEAR(before - sum_of(*run.physics).kinetic, 400, 1e-6);
+}
+
+TEST(BreakStage, AsksNothingTwiceInAStepThatBreaksElsewhere) {
+  const Solid breaks{"breaks", two_boxes(Vec3::Zero(), false), {}};
+  const Solid holds{"holds", two_boxes(Vec3(0, 0, -2), false), {}};
+  const Scene scene = scene_of({breaks, holds}, {ball_at(Vec3(-0.25, 0.5, 0.5), Vec3(30, 0, 0)),
+                                                 ball_at(Vec3(-0.25, 0.5, -1.5), Vec3(0.9, 0, 0))});
+  ScriptedRun run(scene, [](const ScriptedPhysics& physics, int) {
+    std::vector<Approach> both = physics.approach(2, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0));
+    const auto second = physics.approach(3, 1, Vec3(0, 0.5, -1.5), Vec3(1, 0, 0));
+    both.insert(both.end(), second.begin(), second.end());
+    return both;
+  });
+  run.simulation.next();
+  const FramePtr frame = run.simulation.next();
+  ASSERT_EQ(frame->breaks.size(), 1u);
+  const auto counted = [&](std::string_view name) {
+    const auto is_it = [&](const WorkItem& item) { return item.name == name; };
+    return std::ranges::find_if(frame->report.work, is_it)->count;
+  };
+  EXPECT_EQ(counted("clusters found"), 3u) << "what holds is there again after the break";
+  EXPECT_EQ(counted("breaks planned"), 2u) << "and is not planned again";
 }
 
 TEST(BreakStage, TakesWhatHasWaitedBeforeHarderImpactsThatAreNew) {

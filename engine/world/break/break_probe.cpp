@@ -42,15 +42,18 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     velocities_[i] = {bodies_[i].velocity_W, bodies_[i].angular_velocity_W};
   }
-  const Linkage linkage(joint_rows(bodies_, way_, joints_));
+  const Linkage linkage(joint_rows(bodies_, places_after(bodies_, way_), joints_));
   for (const ProbeBody& body : bodies_) {
     if (body.breakable) least_J_ = std::min(least_J_, body.least_J);
   }
+  rows_.reserve(contacts_.size());
   for (const ProbeContact& c : contacts_) {
     rows_.push_back(make_row(bodies_, c, c.arm_a_W, c.arm_b_W));
     linkage.join(rows_.back(), bodies_.size());
+    gaps_m_.push_back(c.separation_m);
   }
-  first_rows_ = rows_;
+  first_rows_.assign(rows_.begin(), rows_.end());
+  speeds_m_s_.resize(rows_.size());
   double least = std::numeric_limits<double>::infinity();
   for (const ProbeBody& body : bodies_) {
     if (body.inverse_mass > 0) least = std::min(least, body.inverse_mass);
@@ -84,7 +87,7 @@ void BreakProbe::find_falling() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) stands[b] = bodies_[b].leans;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ContactRow& row = rows_[i];
-    if (row.inverse_mass <= 0 || !touches(i) || row.speed(velocities_) < -still_m_s_) continue;
+    if (row.inverse_mass <= 0 || !touches(i) || speeds_m_s_[i] < -still_m_s_) continue;
     if (row.moves_a && row.moves_b) {
       groups.join(row.a, row.b);
     } else if (!row.rope) {
@@ -113,9 +116,9 @@ double BreakProbe::wait_s() const {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ContactRow& row = rows_[i];
     if (row.inverse_mass <= 0) continue;
-    const double speed = row.speed(velocities_), gap = gap_m(i);
-    const double square =  // when it closes
-        speed * speed + 2 * row.speed(fall) * std::max(0.0, gap);
+    const double speed = speeds_m_s_[i], gap = gaps_m_[i];
+    double square = speed * speed;  // when it closes
+    if (falls_[row.a] || falls_[row.b]) square += 2 * row.speed(fall) * std::max(0.0, gap);
     if (square < still_m_s_ * still_m_s_ || square < 2 * kLeastEvent * least_J_ * row.inverse_mass)
       continue;
     const double closing = speed + std::sqrt(square);  // twice the mean
@@ -145,38 +148,35 @@ void BreakProbe::fall(double time_s) {
     velocities_[i].linear += time_s * weight_[i].linear;
     velocities_[i].angular += time_s * weight_[i].angular;
   }
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    gaps_m_[i] = contacts_[i].separation_m - first_rows_[i].speed(way_);
+  }
 }
 
 /// Moves on to when the next contact closes; false if none does within the step.
 bool BreakProbe::advance_to_event() {
   if (++events_ > kMostEvents) return false;
+  for (std::size_t i = 0; i < rows_.size(); ++i) speeds_m_s_[i] = rows_[i].speed(velocities_);
   find_falling();
   const double wait = wait_s();
   if (time_s_ + wait > dt_s_) return false;
   fall(wait);
-  const Linkage linkage(joint_rows(bodies_, way_, joints_));
+  const std::vector<ProbePlace> places = places_after(bodies_, way_);
+  const Linkage linkage(joint_rows(bodies_, places, joints_));
   linkage.project(velocities_);
   closed_.clear();
-  fastest_m_s_ = 0;
+  fastest_m_s_ = closing_J_ = 0;
   for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
     if (rows_[i].inverse_mass <= 0 || !touches(i)) continue;
-    rows_[i] = meet(bodies_, way_, contacts_[i]);
+    rows_[i] = meet(bodies_, places, contacts_[i]);
     linkage.join(rows_[i], bodies_.size());
     if (rows_[i].inverse_mass <= 0) continue;
     closed_.push_back(i);
-    fastest_m_s_ = std::max(fastest_m_s_, rows_[i].speed(velocities_));
+    const double speed = std::max(0.0, rows_[i].speed(velocities_));
+    fastest_m_s_ = std::max(fastest_m_s_, speed);
+    closing_J_ += 0.5 * speed * speed / rows_[i].inverse_mass;
   }
   return true;
-}
-
-/// No less than what goes into the closed contacts.
-double BreakProbe::closing_energy_J() const {
-  double energy = 0;
-  for (const std::uint32_t i : closed_) {
-    const double speed = std::max(0.0, rows_[i].speed(velocities_));
-    energy += 0.5 * speed * speed / rows_[i].inverse_mass;
-  }
-  return energy;
 }
 
 /// The closed contacts solved, those of `removed` bodies left out.
@@ -206,7 +206,7 @@ std::vector<ProbeLoad> BreakProbe::next() {
   for (;;) {
     if (!with_) {  // the last event is over
       if (!advance_to_event()) return {};
-      if (closing_energy_J() < least_J_) continue;
+      if (closing_J_ < least_J_) continue;
       for (std::size_t b = 0; b < bodies_.size(); ++b) undecided_[b] = bodies_[b].breakable;
       with_ = solve(std::vector<std::uint8_t>(bodies_.size(), 0));
     }

@@ -90,16 +90,12 @@ class BreakProbe {
     double share(double energy_J) const;
   };
 
-  double gap_m(std::size_t contact) const {
-    return contacts_[contact].separation_m - first_rows_[contact].speed(way_);
-  }
-  bool touches(std::size_t contact) const { return gap_m(contact) <= still_m_s_ * dt_s_; }
+  bool touches(std::size_t contact) const { return gaps_m_[contact] <= still_m_s_ * dt_s_; }
   void weigh(const Linkage& linkage, const Vec3& gravity_W);
   void find_falling();
   double wait_s() const;
   void fall(double time_s);
   bool advance_to_event();
-  double closing_energy_J() const;
   bool may_load() const;
   ClusterMotion solve(const std::vector<std::uint8_t>& removed) const;
   std::uint32_t charged(const ProbeContact& c) const;
@@ -126,9 +122,12 @@ class BreakProbe {
   std::vector<double> fallen_s_;         ///< Per body: for how long it fell.
   std::vector<std::uint8_t> pushed_;     ///< Per body, by an event.
   std::vector<std::uint32_t> closed_;    ///< Contacts, ascending.
-  std::vector<ContactRow> first_rows_;   ///< Per contact, as the step began,
+  std::vector<RowJacobian> first_rows_;  ///< Per contact, as the step began,
   std::vector<ContactRow> rows_;         ///< and, if it has closed, as it last did.
+  std::vector<double> gaps_m_;           ///< Per contact, now,
+  std::vector<double> speeds_m_s_;       ///< and how fast it closed after the last event.
   double fastest_m_s_ = 0;               ///< Of the contacts that closed at this event.
+  double closing_J_ = 0;                 ///< No less than what goes into those.
   std::vector<std::uint8_t> undecided_;  ///< Per body, of this event.
   std::vector<ProbeLoad> loads_;         ///< Of this event.
   std::optional<ClusterMotion> with_;    ///< Nothing removed; empty between events.

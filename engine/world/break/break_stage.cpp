@@ -6,6 +6,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/model/work_log.h"
+#include "engine/world/break/cluster_probe.h"
 #include "engine/world/break/clusters.h"
 
 namespace sunder {
@@ -126,15 +127,25 @@ std::vector<Trial> find_trials(World& world, const WaitingRoom& waiting) {
   return trials;
 }
 
-/// The next loads of the probes that have not been asked; those without any are done.
-void ask_all(World& world, std::vector<Trial>& trials) {
+/// The next loads of the probes that have not been asked. Those without any are done, and so are
+/// those that come again as they were when they `held`: what has broken since is no part of them.
+void ask_all(World& world, std::vector<Trial>& trials, std::set<std::uint64_t>& held) {
   WorkSpan span(world.ledger.work, Stage::kBreak, "clusters asked");
-  span.count(trials.size());
-  for_chunks(trials.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+  std::vector<Trial*> due;
+  for (Trial& trial : trials) {
+    if (!std::exchange(trial.asked, true)) due.push_back(&trial);
+  }
+  for_chunks(due.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (!std::exchange(trials[i].asked, true)) trials[i].loads = trials[i].probe.next();
+      Trial& trial = *due[i];
+      if (trial.fingerprint == 0) trial.fingerprint = fingerprint(trial.probe);
+      if (!held.contains(trial.fingerprint)) trial.loads = trial.probe.next();
     }
   });
+  for (const Trial& trial : trials) {
+    if (trial.loads.empty() && !held.insert(trial.fingerprint).second) due.pop_back();
+  }
+  span.count(due.size());
   std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
 }
 
@@ -219,7 +230,7 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
   bool again = false;
   std::vector<std::uint32_t> broken;  // since the stale ones were sorted out
   while (!trials.empty()) {
-    ask_all(world, trials);
+    ask_all(world, trials, held_);
     const auto stale = [&](const Trial& trial) { return is_stale(world, trial, broken); };
     again |= std::erase_if(trials, stale) > 0;
     broken.clear();
@@ -259,6 +270,7 @@ void BreakStage::run(World& world, const Breaker& breaker, std::span<const Impac
   };
   if (break_by_blasts(world, breaker, impacts)) collide();
   waiting_room_.begin_step(world.actors);
+  held_.clear();
   for (int round = 0; round <= kRounds; ++round) {
     const bool in_time = round < kRounds;
     const bool affordable = in_time && !budget_.spent();

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -46,7 +47,8 @@ class BreakBudget {
 /// A probe under way.
 struct Trial {
   BreakProbe probe;
-  bool asked = false;  ///< What it has to bear is known, but not decided.
+  std::uint64_t fingerprint = 0;  ///< Of the probe as it began; 0: not known yet.
+  bool asked = false;             ///< What it has to bear is known, but not decided.
   std::vector<ProbeLoad> loads = {};
   std::vector<PlannedBreak> planned = {};
 };
@@ -73,6 +75,7 @@ class BreakStage {
   bool decide(World& world, const Breaker& breaker, std::vector<Trial> trials, bool in_time);
 
   BreakBudget budget_;
+  std::set<std::uint64_t> held_;         ///< Fingerprints of probes of this step in which all held.
   std::vector<Impact> impacts_waiting_;  ///< Over the frame's budget: decided first in the next.
   WaitingRoom waiting_room_;
 };

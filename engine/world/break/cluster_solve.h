@@ -14,12 +14,22 @@ struct BodyVelocity {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
 
-/// A point of contact between two bodies, as a solve sees it; or what a joint does not let them do.
-struct ContactRow {
-  std::uint32_t a = 0, b = 0;             ///< Bodies, by index.
-  bool moves_a = false, moves_b = false;  ///< Or it is fixed.
-  Vec3 normal = Vec3::Zero();             ///< Jacobian: linear, and angular.
+/// How the motion of two bodies becomes a speed.
+struct RowJacobian {
+  std::uint32_t a = 0, b = 0;  ///< Bodies, by index.
+  Vec3 normal = Vec3::Zero();
   Vec3 angular_a = Vec3::Zero(), angular_b = Vec3::Zero();
+
+  /// At which it closes.
+  double speed(const std::vector<BodyVelocity>& v) const {
+    return normal.dot(v[a].linear - v[b].linear) + angular_a.dot(v[a].angular) -
+           angular_b.dot(v[b].angular);
+  }
+};
+
+/// A point of contact between two bodies, as a solve sees it; or what a joint does not let them do.
+struct ContactRow : RowJacobian {
+  bool moves_a = false, moves_b = false;              ///< Or it is fixed.
   Vec3 push_a = Vec3::Zero(), push_b = Vec3::Zero();  ///< Change of velocity per impulse,
   Vec3 spin_a = Vec3::Zero(), spin_b = Vec3::Zero();  ///< and of angular velocity.
   double inverse_mass = 0;                            ///< Of the pair along the normal.
@@ -32,11 +42,6 @@ struct ContactRow {
   };
   std::vector<PassedOn> passed_on;
 
-  /// At which it closes.
-  double speed(const std::vector<BodyVelocity>& v) const {
-    return normal.dot(v[a].linear - v[b].linear) + angular_a.dot(v[a].angular) -
-           angular_b.dot(v[b].angular);
-  }
   void push(std::vector<BodyVelocity>& v, double impulse_Ns) const {
     v[a].linear -= impulse_Ns * push_a;
     v[a].angular -= impulse_Ns * spin_a;

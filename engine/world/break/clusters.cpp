@@ -1,11 +1,14 @@
 #include "engine/world/break/clusters.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 
-#include "engine/base/froude.h"
+#include "engine/base/parallel.h"
 #include "engine/base/rotation.h"
+#include "engine/world/break/cluster_probe.h"
 #include "engine/world/break/joint_graph.h"
 
 namespace sunder {
@@ -21,12 +24,6 @@ struct Seed {
   double energy_J = 0;
   std::uint64_t since_step = 0;  ///< It waits since then.
 };
-
-/// Pieces that came off in this step do not break again in it; what stands may be hit by others.
-bool may_break(const World& world, const Actor* actor, double energy_J) {
-  if (!actor || energy_J <= actor->least_of_all_J()) return false;
-  return actor->is_static || actor->born_step != world.clock.step + 1;
-}
 
 /// Approaches with energy enough to break something in the world, in the order of find_clusters().
 std::vector<Seed> find_seeds(const World& world, const WaitingRoom& waiting,
@@ -82,18 +79,13 @@ class Members {
   bool add(std::uint32_t place) {
     return std::exchange(all_[place].cluster, clusters_) != clusters_;
   }
-  bool holds(std::uint32_t place) const { return all_[place].cluster == clusters_; }
   /// Moving bodies are in one cluster at most.
   void take(std::uint32_t place) { all_[place].taken = true; }
   bool taken(std::uint32_t place) const { return all_[place].taken; }
-  /// In the cluster under way.
-  void number(std::uint32_t place, std::uint32_t index) { all_[place].index = index; }
-  std::uint32_t index(std::uint32_t place) const { return all_[place].index; }
 
  private:
   struct Member {
     std::uint32_t cluster = 0;  ///< The last that saw it.
-    std::uint32_t index = 0;    ///< In that.
     bool taken = false;
   };
 
@@ -109,7 +101,7 @@ class Members {
 class Reach {
  public:
   Reach(const World& world, const JointGraph& joints, Members& members)
-      : world_(world), states_(world.physics->states()), joints_(joints), members_(members) {
+      : world_(world), joints_(joints), members_(members) {
     members_.begin_cluster();
   }
 
@@ -140,50 +132,18 @@ class Reach {
           add(members_.place(joint.b.key));
         }
       }
-      std::pair last(kNobodyKey, kNobodyKey);
-      for (const Touch& touch : world_.physics->touches(layer)) {
-        const std::pair pair(touch.body_tag_a, touch.body_tag_b);
-        if (std::exchange(last, pair) == pair) continue;  // another point of the same contact
-        add(members_.place(pair.first));
-        add(members_.place(pair.second));
+      for (const TouchingBodies& touch : world_.physics->touching(layer)) {
+        add(members_.place(touch.tag_a));
+        add(members_.place(touch.tag_b));
       }
     }
   }
 
-  /// Bodies by key, and the contacts among them.
-  BreakProbe probe() {
+  Cluster cluster() {
     std::ranges::sort(places_);
-    std::vector<ProbeBody> bodies;
-    bodies.reserve(places_.size());
-    for (const std::uint32_t place : places_) {
-      members_.number(place, static_cast<std::uint32_t>(bodies.size()));
-      bodies.push_back(describe(place));
-    }
-    const double horizon_s = world_.clock.horizon_s();
-    const double still_m_s = FroudeScale(world_.scene.gravity_W).still_m_s(world_.clock.dt_s);
-    std::vector<BodyId> moving;
-    for (const std::uint32_t place : moving_) moving.push_back(members_.actor(place)->body);
-    const std::vector<Touch> touches = world_.physics->touches(moving);
-    std::vector<ProbeContact> contacts;
-    contacts.reserve(touches.size());
-    for (const Touch& touch : touches) {
-      const std::uint32_t a = members_.place(touch.body_tag_a),
-                          b = members_.place(touch.body_tag_b);
-      if (!members_.holds(a) || !members_.holds(b)) {
-        ProbeBody& inside = bodies[members_.index(members_.holds(a) ? a : b)];
-        inside.leans |= touch.separation_m <= still_m_s * horizon_s;
-        continue;
-      }
-      contacts.push_back({members_.index(a), members_.index(b), touch.shape_tag_a,
-                          touch.shape_tag_b, touch.arm_a_W, touch.arm_b_W, touch.normal_W,
-                          touch.separation_m});
-    }
-    std::vector<ProbeJoint> joints;
-    for (const std::uint32_t joint : joints_of_cluster()) {
-      link(world_.joints.live()[joint], bodies, contacts, joints);
-    }
-    return BreakProbe(std::move(bodies), std::move(contacts), horizon_s, still_m_s,
-                      world_.scene.gravity_W, std::move(joints));
+    Cluster cluster;
+    for (const std::uint32_t place : places_) cluster.push_back(members_.actor(place));
+    return cluster;
   }
 
   bool could_break(double energy_J) const {
@@ -204,78 +164,7 @@ class Reach {
     members_.take(place);
   }
 
-  ProbeBody describe(std::uint32_t place) const {
-    ProbeBody body;
-    const Actor* actor = members_.actor(place);
-    body.key = actor ? actor->key : kGroundKey;
-    if (!actor) return body;
-    body.least_J = actor->least_of_all_J();
-    body.least_Ns = std::isfinite(actor->stress.least_J) ? 0 : actor->least_Ns;
-    body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
-    const BodyState state = states_[actor->body];
-    body.position_W = state.X_WB.position;
-    if (actor->is_static) return body;
-    const Mat3 rotation = state.X_WB.rotation.toRotationMatrix();
-    body.inverse_mass = 1 / actor->weight.mass_kg;
-    body.inverse_inertia_W = rotation * actor->weight.inertia_R.inverse() * rotation.transpose();
-    body.velocity_W = state.velocity_W;
-    body.angular_velocity_W = state.angular_velocity_W;
-    return body;
-  }
-
-  /// By place in Joints::live(), ascending.
-  std::vector<std::uint32_t> joints_of_cluster() const {
-    std::vector<std::uint32_t> all;
-    for (const std::uint32_t place : moving_) {
-      for (const JointGraph::End& end : joints_.of(members_.actor(place)->key)) {
-        all.push_back(end.joint);
-      }
-    }
-    std::ranges::sort(all);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
-  }
-
-  /// Where a joint holds a body; anchors in W at the world's end.
-  Vec3 anchor_W(const Joints::End& end) const {
-    const Actor* actor = world_.actors.find(end.key);
-    return actor ? rest_pose(*actor, states_[actor->body].X_WB) * end.anchor_R : end.anchor_R;
-  }
-
-  /// Adds a joint to what it is to a probe; or, if it leads out of the cluster, leans on that. A
-  /// hinge of this very step is none: what made it has it flow before it bears anything.
-  void link(const Joints::Live& joint, std::vector<ProbeBody>& bodies,
-            std::vector<ProbeContact>& contacts, std::vector<ProbeJoint>& joints) const {
-    if (joint.hinge && joint.hinge->flowed_step == world_.clock.step) return;
-    const std::uint32_t a = members_.place(joint.a.key), b = members_.place(joint.b.key);
-    if (!members_.holds(a) || !members_.holds(b)) {
-      bodies[members_.index(members_.holds(a) ? a : b)].leans = true;
-      return;
-    }
-    const Vec3 at_a_W = anchor_W(joint.a), at_b_W = anchor_W(joint.b);
-    ProbeJoint link{joint.desc.kind, members_.index(a), members_.index(b)};
-    link.arm_a_W = at_a_W - bodies[link.a].position_W;
-    link.arm_b_W = at_b_W - bodies[link.b].position_W;
-    if (joint.desc.kind == JointKind::kRope) {
-      const double length_m = (at_a_W - at_b_W).norm();
-      ProbeContact rope{link.a, link.b};
-      rope.arm_a_W = link.arm_a_W, rope.arm_b_W = link.arm_b_W;
-      if (length_m > 0) rope.normal_W = (at_a_W - at_b_W) / length_m;
-      rope.separation_m = joint.desc.length_m - length_m;
-      rope.rope = true;
-      contacts.push_back(rope);
-      return;
-    }
-    if (const Actor* actor = members_.actor(a)) {
-      link.axis_W = states_[actor->body].X_WB.rotation * joint.desc.axis_a_R;
-    } else {
-      link.axis_W = joint.desc.axis_a_R;
-    }
-    joints.push_back(link);
-  }
-
   const World& world_;
-  const BodyStates states_;
   const JointGraph& joints_;
   Members& members_;
   std::vector<std::uint32_t> places_;  ///< Of this cluster's bodies, fixed ones too.
@@ -288,17 +177,23 @@ class Reach {
 std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting) {
   const JointGraph joints(world);
   const std::vector<Seed> seeds = find_seeds(world, waiting, joints);
-  std::vector<BreakProbe> clusters;
-  if (seeds.empty()) return clusters;
+  if (seeds.empty()) return {};
+  std::vector<Cluster> clusters;
   Members members(world);
   waiting.for_each([&](const Waiter& waiter) { members.take(members.place(waiter.key)); });
   for (const Seed& seed : seeds) {
     Reach reach(world, joints, members);
     if (!reach.start(seed)) continue;
     reach.grow();
-    if (reach.could_break(seed.energy_J)) clusters.push_back(reach.probe());
+    if (reach.could_break(seed.energy_J)) clusters.push_back(reach.cluster());
   }
-  return clusters;
+  std::vector<std::optional<BreakProbe>> made(clusters.size());
+  for_chunks(made.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) made[i] = make_probe(world, joints, clusters[i]);
+  });
+  std::vector<BreakProbe> probes;
+  for (std::optional<BreakProbe>& probe : made) probes.push_back(std::move(*probe));
+  return probes;
 }
 
 void take_over(World& world, const BreakProbe& probe) {

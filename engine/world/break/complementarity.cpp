@@ -36,12 +36,12 @@ double energy(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::V
 Eigen::VectorXd pivot(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool& solved) {
   const auto n = static_cast<std::size_t>(b.size());
   const double enough = kTolerance * b.maxCoeff();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), best = x;
-  double best_energy = 0;
+  std::vector<Eigen::VectorXd> tried{Eigen::VectorXd::Zero(b.size())};
   std::vector<std::uint8_t> free(n, 0);
   std::size_t fewest = n + 1;
   int patience = kPatience;
   for (int pivots = 0; pivots < kMostPivots; ++pivots) {
+    const Eigen::VectorXd& x = tried.back();
     const Eigen::VectorXd missing = b - A * x;
     std::vector<std::size_t> wrong;
     for (std::size_t i = 0; i < n; ++i) {
@@ -59,13 +59,13 @@ Eigen::VectorXd pivot(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool& 
       wrong.erase(wrong.begin(), wrong.end() - 1);
     }
     for (const std::size_t i : wrong) free[i] ^= 1;
-    x = solve_free(A, b, free);
-    const Eigen::VectorXd allowed = x.cwiseMax(0);
-    const double now = energy(A, b, allowed);
-    if (now < best_energy) best = allowed, best_energy = now;
+    tried.push_back(solve_free(A, b, free));
   }
-  solved = solved && energy(A, b, x) <= 0;
-  return solved ? x : best;
+  solved = solved && energy(A, b, tried.back()) <= 0;
+  if (solved) return tried.back();
+  for (Eigen::VectorXd& x : tried) x = x.cwiseMax(0).eval();
+  return *std::ranges::min_element(tried, {},
+                                   [&](const Eigen::VectorXd& x) { return energy(A, b, x); });
 }
 
 /// Projected Gauss-Seidel: every change of x takes energy.

@@ -21,6 +21,9 @@ constexpr double kWorthAsking = 0.1;
 // In visits of each bond: what is not known by then is not asked about again until it is harder.
 // Where no pattern is, stress alone can answer, and slender frames take it long.
 constexpr std::uint64_t kMostBlowWork = 100, kMostWorkOfFrames = 1200;
+// And in all, where a pattern is: what 8,000 convexes take (docs/decisions/012). More of them come
+// to no answer within a frame.
+constexpr std::uint64_t kMostVisits = 500000;
 // What cracks at its bonds takes this much of a blow at most: it is stress that decides.
 constexpr double kMostTaken = 0.9;
 
@@ -128,8 +131,9 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
                      planned.by_pattern ? planned.command.radius_m : 0};
         const Convex& convex = *actor.structure.convex(planned.impact.convex);
         const bool has_pattern = world.material(convex.material).breakable();
+        const std::uint64_t bonds = actor.structure.bond_count() + 1;
         load.most_work =
-            (has_pattern ? kMostBlowWork : kMostWorkOfFrames) * (actor.structure.bond_count() + 1);
+            has_pattern ? std::min(kMostVisits, kMostBlowWork * bonds) : kMostWorkOfFrames * bonds;
         planned.stressed = breaker.stress(actor.structure, load);
       }
       choose(world, actor.structure, planned);

@@ -27,11 +27,11 @@ struct Ends {
   Vec3 center_a, center_b, arm_a, arm_b;
 
   template <typename Pair>
-  Ends(const std::vector<ProbeBody>& bodies, const std::vector<BodyVelocity>& way, const Pair& pair)
-      : center_a(bodies[pair.a].position_W + way[pair.a].linear),
-        center_b(bodies[pair.b].position_W + way[pair.b].linear),
-        arm_a(rotation_by(way[pair.a].angular) * pair.arm_a_W),
-        arm_b(rotation_by(way[pair.b].angular) * pair.arm_b_W) {}
+  Ends(const std::vector<ProbePlace>& places, const Pair& pair)
+      : center_a(places[pair.a].center_W),
+        center_b(places[pair.b].center_W),
+        arm_a(places[pair.a].turn_W * pair.arm_a_W),
+        arm_b(places[pair.b].turn_W * pair.arm_b_W) {}
 
   /// The direction from b's to a's.
   Vec3 apart(const Vec3& otherwise) const {
@@ -49,6 +49,15 @@ struct Ends {
 
 }  // namespace
 
+std::vector<ProbePlace> places_after(const std::vector<ProbeBody>& bodies,
+                                     const std::vector<BodyVelocity>& way) {
+  std::vector<ProbePlace> places(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    places[b] = {bodies[b].position_W + way[b].linear, rotation_by(way[b].angular)};
+  }
+  return places;
+}
+
 ContactRow make_row(const std::vector<ProbeBody>& bodies, const ProbeContact& contact,
                     const Vec3& arm_a_W, const Vec3& arm_b_W) {
   const Vec3& n = contact.normal_W;
@@ -59,9 +68,9 @@ ContactRow make_row(const std::vector<ProbeBody>& bodies, const ProbeContact& co
   return row;
 }
 
-ContactRow meet(const std::vector<ProbeBody>& bodies, const std::vector<BodyVelocity>& way,
+ContactRow meet(const std::vector<ProbeBody>& bodies, const std::vector<ProbePlace>& places,
                 const ProbeContact& contact) {
-  Ends ends(bodies, way, contact);
+  Ends ends(places, contact);
   if (!contact.rope) {
     ends.unite();
     return make_row(bodies, contact, ends.arm_a, ends.arm_b);
@@ -72,12 +81,12 @@ ContactRow meet(const std::vector<ProbeBody>& bodies, const std::vector<BodyVelo
 }
 
 std::vector<ContactRow> joint_rows(const std::vector<ProbeBody>& bodies,
-                                   const std::vector<BodyVelocity>& way,
+                                   const std::vector<ProbePlace>& places,
                                    const std::vector<ProbeJoint>& joints) {
   std::vector<ContactRow> rows;
   for (const ProbeJoint& joint : joints) {
     if (bodies[joint.a].inverse_mass <= 0 && bodies[joint.b].inverse_mass <= 0) continue;
-    Ends ends(bodies, way, joint);
+    Ends ends(places, joint);
     const auto hold = [&](const Vec3& n) {
       rows.push_back(
           make_row(bodies, joint.a, joint.b, n, ends.arm_a.cross(n), ends.arm_b.cross(n)));
@@ -92,7 +101,7 @@ std::vector<ContactRow> joint_rows(const std::vector<ProbeBody>& bodies,
     ends.unite();
     for (int i = 0; i < 3; ++i) hold(Vec3::Unit(i));
     if (joint.kind == JointKind::kHinge) {
-      const Vec3 axis = rotation_by(way[joint.a].angular) * joint.axis_W;
+      const Vec3 axis = places[joint.a].turn_W * joint.axis_W;
       const Vec3 across = axis.unitOrthogonal();
       hold_turn(across);
       hold_turn(axis.cross(across));

@@ -45,15 +45,24 @@ struct ProbeJoint {
   Vec3 axis_W = Vec3::UnitZ();                          ///< kHinge, fixed to a.
 };
 
+/// Where a body is by now.
+struct ProbePlace {
+  Vec3 center_W = Vec3::Zero();
+  Quat turn_W = Quat::Identity();  ///< Since the step began.
+};
+/// Of all bodies, once they have moved and turned by `way`.
+std::vector<ProbePlace> places_after(const std::vector<ProbeBody>& bodies,
+                                     const std::vector<BodyVelocity>& way);
+
 /// The row of a contact, at the ends of those arms.
 ContactRow make_row(const std::vector<ProbeBody>& bodies, const ProbeContact& contact,
                     const Vec3& arm_a_W, const Vec3& arm_b_W);
-/// The same where the bodies are once they have moved and turned by `way`.
-ContactRow meet(const std::vector<ProbeBody>& bodies, const std::vector<BodyVelocity>& way,
+/// The same where the bodies are by now.
+ContactRow meet(const std::vector<ProbeBody>& bodies, const std::vector<ProbePlace>& places,
                 const ProbeContact& contact);
 /// The rows of joints likewise: what must be 0 of each. None of those between what cannot move.
 std::vector<ContactRow> joint_rows(const std::vector<ProbeBody>& bodies,
-                                   const std::vector<BodyVelocity>& way,
+                                   const std::vector<ProbePlace>& places,
                                    const std::vector<ProbeJoint>& joints);
 
 }  // namespace sunder

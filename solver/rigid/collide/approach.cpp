@@ -17,6 +17,12 @@ double inverse_effective_mass(const Bodies& bodies, BodySlot body, const Vec3f& 
                              (bodies.root_B[body].transpose() * angular_B).squaredNorm());
 }
 
+/// Whether no point of it can close fast enough to count. Points are on the bodies, or no farther
+/// from them than what closes so slowly and falls comes in a step: twice as fast is more than any.
+bool rests(const Manifold& m, const Bodies& bodies, const StepContext& step) {
+  return 2 * (bodies.fastest_m_s(m.body_a) + bodies.fastest_m_s(m.body_b)) < step.still_m_s;
+}
+
 /// Middle of the points that may close within the step; false if none does.
 bool closing_middle(const Manifold& m, const Bodies& bodies, const StepContext& step, Vec3f& arm_A,
                     Vec3f& arm_B, float& separation_m) {
@@ -80,7 +86,7 @@ std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bo
              [&](std::size_t begin, std::size_t end, std::size_t c) {
                for (std::size_t i = begin; i < end; ++i) {
                  const Manifold& m = contacts.manifolds[ManifoldSlot(i)];
-                 if (!touches_awake(m, bodies)) continue;
+                 if (!touches_awake(m, bodies) || rests(m, bodies, step)) continue;
                  const Pair& pair = contacts.pairs[m.pair];
                  Approach approach;
                  if (make_approach(pair, m, bodies, shapes, step, approach))
@@ -114,15 +120,39 @@ ContactsOfBodies::ContactsOfBodies(const Contacts& contacts, const Bodies& bodie
   visit([&](BodySlot body, ManifoldSlot m) { manifolds_[next[body.value]++] = m; });
 }
 
-std::vector<Touch> find_touches(const Contacts& contacts, const Bodies& bodies,
-                                const Shapes& shapes, const ContactsOfBodies& contacts_of_bodies,
-                                std::span<const BodySlot> of) {
-  std::vector<std::pair<std::uint64_t, ManifoldSlot>> found;  // by key
-  for (const BodySlot body : of)
-    for (const ManifoldSlot i : contacts_of_bodies.of(body))
+namespace {
+
+/// Manifolds of any of these bodies, by pair key.
+std::vector<std::pair<std::uint64_t, ManifoldSlot>> manifolds_of(
+    const Contacts& contacts, const Bodies& bodies, const ContactsOfBodies& contacts_of_bodies,
+    std::span<const BodyId> of) {
+  std::vector<std::pair<std::uint64_t, ManifoldSlot>> found;
+  for (const BodyId id : of)
+    for (const ManifoldSlot i : contacts_of_bodies.of(bodies.slot(id)))
       found.emplace_back(contacts.pairs[contacts.manifolds[i].pair].key(), i);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace
+
+std::vector<TouchingBodies> find_touching(const Contacts& contacts, const Bodies& bodies,
+                                          const ContactsOfBodies& contacts_of_bodies,
+                                          std::span<const BodyId> of) {
+  std::vector<TouchingBodies> touching;
+  for (const auto& [key, i] : manifolds_of(contacts, bodies, contacts_of_bodies, of)) {
+    const Manifold& m = contacts.manifolds[i];
+    const TouchingBodies both{bodies.tag[m.body_a], bodies.tag[m.body_b]};
+    if (touching.empty() || touching.back() != both) touching.push_back(both);
+  }
+  return touching;
+}
+
+std::vector<Touch> find_touches(const Contacts& contacts, const Bodies& bodies,
+                                const Shapes& shapes, const ContactsOfBodies& contacts_of_bodies,
+                                std::span<const BodyId> of) {
+  const auto found = manifolds_of(contacts, bodies, contacts_of_bodies, of);
   std::vector<Touch> touches;
   touches.reserve(3 * found.size());
   for (const auto& [key, i] : found) {

@@ -33,10 +33,14 @@ class ContactsOfBodies {
   std::vector<ManifoldSlot> manifolds_;
 };
 
+/// The bodies of the contacts of any of `bodies`; in order of pair keys.
+std::vector<TouchingBodies> find_touching(const Contacts& contacts, const Bodies& bodies,
+                                          const ContactsOfBodies& contacts_of_bodies,
+                                          std::span<const BodyId> of);
 /// The contact points of any of `bodies`, each once; in order of pair keys.
 std::vector<Touch> find_touches(const Contacts& contacts, const Bodies& bodies,
                                 const Shapes& shapes, const ContactsOfBodies& contacts_of_bodies,
-                                std::span<const BodySlot> of);
+                                std::span<const BodyId> of);
 
 /// Approach speed at an arm, along the manifold's normal; > 0 when closing.
 double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A,

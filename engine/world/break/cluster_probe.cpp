@@ -1,0 +1,175 @@
+#include "engine/world/break/cluster_probe.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "engine/base/froude.h"
+#include "engine/base/hash.h"
+
+namespace sunder {
+namespace {
+
+constexpr std::uint32_t kOutside = 0xffffffff;
+
+/// A cluster on its way to a probe.
+class Described {
+ public:
+  Described(const World& world, const JointGraph& joints, const Cluster& cluster)
+      : world_(world), states_(world.physics->states()), joints_(joints), cluster_(cluster) {
+    bodies_.reserve(cluster.size());
+    for (const Actor* actor : cluster) {
+      keys_.push_back(actor ? actor->key : kGroundKey);
+      bodies_.push_back(describe(actor));
+    }
+  }
+
+  BreakProbe probe() {
+    const double horizon_s = world_.clock.horizon_s();
+    const double still_m_s = FroudeScale(world_.scene.gravity_W).still_m_s(world_.clock.dt_s);
+    add_touches(still_m_s * horizon_s);
+    for (const std::uint32_t joint : joints_of_cluster()) link(world_.joints.live()[joint]);
+    return BreakProbe(std::move(bodies_), std::move(contacts_), horizon_s, still_m_s,
+                      world_.scene.gravity_W, std::move(links_));
+  }
+
+ private:
+  std::uint32_t index_of(std::uint32_t key) const {
+    const auto it = std::ranges::lower_bound(keys_, key);
+    return it != keys_.end() && *it == key ? static_cast<std::uint32_t>(it - keys_.begin())
+                                           : kOutside;
+  }
+  /// The one of two that is not outside.
+  ProbeBody& inside(std::uint32_t a, std::uint32_t b) { return bodies_[a == kOutside ? b : a]; }
+
+  ProbeBody describe(const Actor* actor) const {
+    ProbeBody body;
+    body.key = actor ? actor->key : kGroundKey;
+    if (!actor) return body;
+    body.least_J = actor->least_of_all_J();
+    body.least_Ns = std::isfinite(actor->stress.least_J) ? 0 : actor->least_Ns;
+    body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
+    const BodyState state = states_[actor->body];
+    body.position_W = state.X_WB.position;
+    if (actor->is_static) return body;
+    const Mat3 rotation = state.X_WB.rotation.toRotationMatrix();
+    body.inverse_mass = 1 / actor->weight.mass_kg;
+    body.inverse_inertia_W = rotation * actor->weight.inertia_R.inverse() * rotation.transpose();
+    body.velocity_W = state.velocity_W;
+    body.angular_velocity_W = state.angular_velocity_W;
+    return body;
+  }
+
+  /// What touches something outside, no farther than `touching_m`, leans on that.
+  void add_touches(double touching_m) {
+    std::vector<BodyId> moving;
+    for (const Actor* actor : cluster_) {
+      if (actor && !actor->is_static) moving.push_back(actor->body);
+    }
+    const std::vector<Touch> touches = world_.physics->touches(moving);
+    contacts_.reserve(touches.size());
+    for (const Touch& touch : touches) {
+      const std::uint32_t a = index_of(touch.body_tag_a), b = index_of(touch.body_tag_b);
+      if (a == kOutside || b == kOutside) {
+        inside(a, b).leans |= touch.separation_m <= touching_m;
+        continue;
+      }
+      contacts_.push_back({a, b, touch.shape_tag_a, touch.shape_tag_b, touch.arm_a_W, touch.arm_b_W,
+                           touch.normal_W, touch.separation_m});
+    }
+  }
+
+  /// By place in Joints::live(), ascending.
+  std::vector<std::uint32_t> joints_of_cluster() const {
+    std::vector<std::uint32_t> all;
+    for (const Actor* actor : cluster_) {
+      if (!actor || actor->is_static) continue;
+      for (const JointGraph::End& end : joints_.of(actor->key)) all.push_back(end.joint);
+    }
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
+
+  /// Where a joint holds a body; anchors in W at the world's end.
+  Vec3 anchor_W(const Joints::End& end, const Actor* actor) const {
+    return actor ? rest_pose(*actor, states_[actor->body].X_WB) * end.anchor_R : end.anchor_R;
+  }
+
+  /// Adds a joint as what it is to a probe; or, if it leads out of the cluster, leans on that. A
+  /// hinge of this very step is none: what made it has it flow before it bears anything.
+  void link(const Joints::Live& joint) {
+    if (joint.hinge && joint.hinge->flowed_step == world_.clock.step) return;
+    const std::uint32_t a = index_of(joint.a.key), b = index_of(joint.b.key);
+    if (a == kOutside || b == kOutside) {
+      inside(a, b).leans = true;
+      return;
+    }
+    const Vec3 at_a_W = anchor_W(joint.a, cluster_[a]), at_b_W = anchor_W(joint.b, cluster_[b]);
+    ProbeJoint link{joint.desc.kind, a, b};
+    link.arm_a_W = at_a_W - bodies_[a].position_W;
+    link.arm_b_W = at_b_W - bodies_[b].position_W;
+    if (joint.desc.kind == JointKind::kRope) {
+      const double length_m = (at_a_W - at_b_W).norm();
+      ProbeContact rope{a, b};
+      rope.arm_a_W = link.arm_a_W, rope.arm_b_W = link.arm_b_W;
+      if (length_m > 0) rope.normal_W = (at_a_W - at_b_W) / length_m;
+      rope.separation_m = joint.desc.length_m - length_m;
+      rope.rope = true;
+      contacts_.push_back(rope);
+      return;
+    }
+    const Actor* actor = cluster_[a];
+    link.axis_W = actor ? Vec3(states_[actor->body].X_WB.rotation * joint.desc.axis_a_R)
+                        : joint.desc.axis_a_R;
+    links_.push_back(link);
+  }
+
+  const World& world_;
+  const BodyStates states_;
+  const JointGraph& joints_;
+  const Cluster& cluster_;
+  std::vector<std::uint32_t> keys_;
+  std::vector<ProbeBody> bodies_;
+  std::vector<ProbeContact> contacts_;
+  std::vector<ProbeJoint> links_;
+};
+
+}  // namespace
+
+bool may_break(const World& world, const Actor* actor, double energy_J) {
+  if (!actor || energy_J <= actor->least_of_all_J()) return false;
+  return actor->is_static || actor->born_step != world.clock.step + 1;
+}
+
+BreakProbe make_probe(const World& world, const JointGraph& joints, const Cluster& cluster) {
+  return Described(world, joints, cluster).probe();
+}
+
+std::uint64_t fingerprint(const BreakProbe& probe) {
+  std::uint64_t print = probe.bodies().size();
+  const auto add = [&](std::uint64_t bits) { print = combine(print, bits); };
+  const auto add_pair = [&](std::uint64_t a, std::uint64_t b) { add(a << 32 | b); };
+  const auto add_vector = [&](const Vec3& v) {
+    for (const double part : v) add(std::bit_cast<std::uint64_t>(part));
+  };
+  for (const ProbeBody& body : probe.bodies()) {
+    add_pair(body.key, body.breakable);
+    add_vector(body.position_W);
+    add_vector(body.velocity_W);
+    add_vector(body.angular_velocity_W);
+  }
+  for (const ProbeContact& contact : probe.contacts()) {
+    add_pair(contact.a, contact.b);
+    add_pair(contact.shape_a, contact.shape_b);
+    add(std::bit_cast<std::uint64_t>(contact.separation_m));
+  }
+  for (const ProbeJoint& joint : probe.joints()) add_pair(joint.a, joint.b);
+  return print;
+}
+
+}  // namespace sunder
