@@ -77,6 +77,14 @@ template <class V>
 SUNDER_INLINE V max(V a, V b) {
   return a > b ? a : b;
 }
+/// The least of eight.
+SUNDER_INLINE float least_of(Wide v) {
+  v = min(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
+  v = min(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
+  v = min(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
+  return v[0];
+}
+SUNDER_INLINE float most_of(Wide v) { return -least_of(-v); }
 template <class V>
 SUNDER_INLINE V sqrt(V x) {
   for (std::uint32_t i = 0; i < kLanesOf<V>; ++i) x[i] = __builtin_sqrtf(x[i]);

@@ -75,32 +75,14 @@ std::vector<Hull::HalfEdge> Hull::half_edges() const {
 
 void Hull::add_edges() {
   const std::vector<HalfEdge> halves = half_edges();
-  edge_vertices_.reserve(halves.size() / 2);
-  edges_.resize(wide_count(static_cast<std::uint32_t>(halves.size() / 2)));
-  std::uint32_t count = 0;
-  auto put = [&](std::uint32_t slot, const HalfEdge& left, const HalfEdge& right) {
-    const Vec3f from = vertex(left.least), to = vertex(left.most);
-    EdgeChunk& chunk = edges_[slot / kLanes];
-    set_lane(chunk.point, slot % kLanes, from);
-    set_lane(chunk.direction, slot % kLanes, to - from);
-    set_lane(chunk.normal_left, slot % kLanes, normal(left.face));
-    set_lane(chunk.normal_right, slot % kLanes, normal(right.face));
-    const float cosine = normal(left.face).dot(normal(right.face));
-    chunk.bulge[slot % kLanes] = 1 / std::sqrt(std::max(1e-6f, 0.5f * (1 + cosine)));
-  };
+  edges_.reserve(halves.size() / 2);
   for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {
     const HalfEdge &one = halves[i], &other = halves[i + 1];
     SUNDER_CHECK(one.least == other.least && one.most == other.most);
-    put(count++, one.forward ? one : other, one.forward ? other : one);
-    edge_vertices_.emplace_back(one.least, one.most);
-  }
-  const std::uint32_t last = (count - 1) % kLanes;  // what is over repeats the last edge
-  EdgeChunk& chunk = edges_.back();
-  for (std::uint32_t k = last + 1; k < kLanes; ++k) {
-    for (auto part : {&EdgeChunk::point, &EdgeChunk::direction, &EdgeChunk::normal_left,
-                      &EdgeChunk::normal_right})
-      set_lane(chunk.*part, k, lane(chunk.*part, last));
-    chunk.bulge[k] = chunk.bulge[last];
+    const HalfEdge &left = one.forward ? one : other, &right = one.forward ? other : one;
+    const float cosine = normal(left.face).dot(normal(right.face));
+    edges_.push_back({one.least, one.most, left.face, right.face,
+                      1 / std::sqrt(std::max(1e-6f, 0.5f * (1 + cosine)))});
   }
 }
 

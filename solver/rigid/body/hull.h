@@ -8,6 +8,7 @@
 
 #include "engine/base/types.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "solver/base/prefetch.h"
 #include "solver/base/wide.h"
 
 namespace sunder::solver {
@@ -24,19 +25,19 @@ class Hull {
     Wide3 normal;
     Wide d;
   };
-  /// Directions run counter-clockwise in the face of `normal_left`. `bulge` bounds how much further
-  /// a unit normal between the two faces' may reach than the better of them.
-  struct EdgeChunk {
-    Wide3 point, direction, normal_left, normal_right;
-    Wide bulge;
+  /// From vertex to vertex, counter-clockwise in the left of its faces. `bulge` bounds how much
+  /// further a unit normal between the two faces' may reach than the better of them.
+  struct Edge {
+    std::uint16_t from, to, left, right;
+    float bulge;
   };
 
   std::uint32_t vertex_count() const { return vertex_count_; }
   std::uint32_t face_count() const { return static_cast<std::uint32_t>(face_first_.size() - 1); }
-  std::uint32_t edge_count() const { return static_cast<std::uint32_t>(edge_vertices_.size()); }
+  std::uint32_t edge_count() const { return static_cast<std::uint32_t>(edges_.size()); }
   std::span<const Wide3> vertices() const { return vertices_; }
   std::span<const PlaneChunk> planes() const { return planes_; }
-  std::span<const EdgeChunk> edges() const { return edges_; }
+  std::span<const Edge> edges() const { return edges_; }
 
   Vec3f vertex(std::uint32_t i) const { return lane(vertices_[i / kLanes], i % kLanes); }
   Vec3f normal(std::uint32_t f) const { return lane(planes_[f / kLanes].normal, f % kLanes); }
@@ -45,7 +46,16 @@ class Hull {
     return std::span(corners_).subspan(face_first_[f], face_first_[f + 1] - face_first_[f]);
   }
   std::pair<std::uint16_t, std::uint16_t> edge_vertices(std::uint32_t e) const {
-    return edge_vertices_[e];
+    return {edges_[e].from, edges_[e].to};
+  }
+
+  /// Asks for what a look at it reads.
+  void prefetch() const {
+    solver::prefetch(vertices(), 4);
+    solver::prefetch(planes(), 4);
+    solver::prefetch(edges(), 4);
+    solver::prefetch(std::span(face_first_), 1);
+    solver::prefetch(std::span(corners_), 2);
   }
 
   const Vec3f& center() const { return center_; }
@@ -70,10 +80,9 @@ class Hull {
 
   std::vector<Wide3> vertices_;
   std::vector<PlaneChunk> planes_;
-  std::vector<EdgeChunk> edges_;
+  std::vector<Edge> edges_;
   std::vector<std::uint16_t> face_first_;
   std::vector<std::uint16_t> corners_;
-  std::vector<std::pair<std::uint16_t, std::uint16_t>> edge_vertices_;
   std::uint32_t vertex_count_ = 0;
   Vec3f center_ = Vec3f::Zero();
   float reach_ = 0;

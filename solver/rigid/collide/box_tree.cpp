@@ -8,17 +8,6 @@
 #include "solver/base/place_order.h"
 
 namespace sunder::solver {
-namespace {
-
-float reduce_min(Wide v) {
-  float least = v[0];
-  for (std::uint32_t i = 1; i < kLanes; ++i) least = v[i] < least ? v[i] : least;
-  return least;
-}
-float reduce_max(Wide v) { return -reduce_min(-v); }
-
-}  // namespace
-
 void BoxTree::build(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> items) {
   FloatBox all;
   for (const ShapeSlot item : items) {
@@ -84,8 +73,8 @@ void BoxTree::Chunk::set(std::size_t lane, const FloatBox& box) {
 }
 
 FloatBox BoxTree::Chunk::bounds() const {
-  return {{reduce_min(min.x), reduce_min(min.y), reduce_min(min.z)},
-          {reduce_max(max.x), reduce_max(max.y), reduce_max(max.z)}};
+  return {{least_of(min.x), least_of(min.y), least_of(min.z)},
+          {most_of(max.x), most_of(max.y), most_of(max.z)}};
 }
 
 }  // namespace sunder::solver

@@ -12,6 +12,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr std::size_t kChunk = 512;
+constexpr std::size_t kAhead = 4;  // of hulls, memory is asked for
 constexpr int kRefitsPerBuild = 12;
 
 /// Bounds of a hull turned by R, about the body's centre.
@@ -25,11 +26,7 @@ FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
       least = min(least, along);
       most = max(most, along);
     }
-    low[axis] = least[0], high[axis] = most[0];
-    for (std::uint32_t i = 1; i < kLanes; ++i) {
-      low[axis] = std::min(low[axis], least[i]);
-      high[axis] = std::max(high[axis], most[i]);
-    }
+    low[axis] = least_of(least), high[axis] = most_of(most);
   }
   return {low, high};
 }
@@ -145,6 +142,7 @@ void BroadPhase::update_boxes(const StepContext& step, const Shapes& shapes, con
     for (std::size_t i = begin; i < end; ++i) {
       const ShapeSlot s = movers_[i];
       const Shape& shape = shapes.items[s];
+      if (i + kAhead < end) prefetch(shapes[movers_[i + kAhead]].hull.vertices(), 4);
       moved_[s] = look_again_ || crowded_[s];
       if (!bodies.changed[shape.body]) continue;
       swept_[s] = swept_box(step, shape, bodies);

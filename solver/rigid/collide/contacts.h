@@ -53,6 +53,7 @@ struct Manifold {
   std::uint8_t color = kNoColor;
   bool normal_on_b = false;  ///< The normal is fixed to B instead of A.
   bool reusable = false;     ///< Points may be carried along while the pair barely moves.
+  bool round = false;        ///< Of two balls.
   bool deep = false;         ///< They overlap so far that the normal says little.
   bool sticking = false;     ///< The friction anchors hold since the last rebuild.
   bool cold = false;         ///< Came with a new body: gets its load before the next solve.

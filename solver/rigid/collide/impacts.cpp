@@ -1,7 +1,10 @@
 #include "solver/rigid/collide/impacts.h"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
+#include "engine/base/parallel.h"
 #include "solver/rigid/collide/approach.h"
 #include "solver/rigid/tolerances.h"
 
@@ -11,28 +14,51 @@ namespace {
 /// No impact is slower.
 double slow_m_s(const StepContext& step) { return 2 * kSlowFalls * step.fall_m_s; }
 
-/// Of two that meet in an impact, one is at least half as fast: what lies still has none.
-bool any_fast(const StepContext& step, const Bodies& bodies) {
-  for (const BodySlot body : bodies.slots())
-    if (bodies.awake(body) && 2 * bodies.fastest_m_s(body) > slow_m_s(step)) return true;
-  return false;
+constexpr std::size_t kBodies = 1024, kManifolds = 512;  // in a chunk
+
+/// No contact point of a body moves faster: it lies within twice the body's reach.
+ByBody<double> find_fastest(const Bodies& bodies) {
+  ByBody<double> fastest_m_s(bodies.size());
+  for_chunks(bodies.size(), kBodies, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (BodySlot body(begin); body.value < end; ++body.value) {
+      const double spin_m_s = bodies.angular_velocity[body].norm() * bodies.reach_m[body];
+      fastest_m_s[body] = bodies.velocity[body].norm() + 2 * spin_m_s;
+    }
+  });
+  return fastest_m_s;
 }
 
-bool meet_fast(const StepContext& step, const Manifold& m, const Bodies& bodies) {
+bool meet_fast(const StepContext& step, const Manifold& m, const Bodies& bodies,
+               const ByBody<double>& fastest_m_s) {
   if (!bodies.dynamic(m.body_a) || !bodies.dynamic(m.body_b)) return false;
   const double least_m_s = least_impact_m_s(step, m);
+  if (fastest_m_s[m.body_a] + fastest_m_s[m.body_b] < least_m_s) return false;
   return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ManifoldPoint& p) {
     const double speed_m_s = closing_speed(m, bodies, p.arm_A, p.arm_B);
     return speed_m_s > least_m_s && step.dt_s * speed_m_s > double{p.separation_m};
   });
 }
 
-template <class Visit>
-void for_touching(const Bodies& bodies, const Contacts& contacts, const Visit& visit) {
-  for (const ManifoldSlot i : contacts.manifolds.slots()) {
-    const Manifold& m = contacts.manifolds[i];
-    if (touches_awake(m, bodies)) visit(m);
-  }
+/// Of a chunk of manifolds: the bodies of those that touch, and which of those meet in an impact.
+struct Met {
+  std::vector<std::array<BodySlot, 2>> touching;
+  std::vector<std::uint32_t> struck;  ///< Of the touching.
+};
+
+std::vector<Met> find_met(const StepContext& step, const Bodies& bodies, const Contacts& contacts,
+                          const ByBody<double>& fastest_m_s) {
+  const std::size_t all = contacts.manifolds.size();
+  std::vector<Met> met((all + kManifolds - 1) / kManifolds);
+  for_chunks(all, kManifolds, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    for (ManifoldSlot i(begin); i.value < end; ++i.value) {
+      const Manifold& m = contacts.manifolds[i];
+      if (!touches_awake(m, bodies)) continue;
+      if (meet_fast(step, m, bodies, fastest_m_s))
+        met[c].struck.push_back(static_cast<std::uint32_t>(met[c].touching.size()));
+      met[c].touching.push_back({m.body_a, m.body_b});
+    }
+  });
+  return met;
 }
 
 }  // namespace
@@ -43,24 +69,24 @@ double least_impact_m_s(const StepContext& step, const Manifold& m) {
 
 void Impacts::find(const StepContext& step, const Bodies& bodies, const Contacts& contacts) {
   clear();
-  if (!any_fast(step, bodies)) return;
-  for_touching(bodies, contacts, [&](const Manifold& m) {
-    if (!meet_fast(step, m, bodies)) return;
-    if (steps_.empty()) steps_.assign(bodies.size(), kUnreached);
-    steps_[m.body_a] = steps_[m.body_b] = 0;
-  });
-  if (!steps_.empty()) spread(bodies, contacts);
-}
-
-void Impacts::spread(const Bodies& bodies, const Contacts& contacts) {
+  const ByBody<double> fastest_m_s = find_fastest(bodies);
+  // Of two that meet in an impact, one is at least half as fast: what lies still has none.
+  const auto fast = [&](double speed_m_s) { return 2 * speed_m_s > slow_m_s(step); };
+  if (std::none_of(fastest_m_s.begin(), fastest_m_s.end(), fast)) return;
+  const std::vector<Met> met = find_met(step, bodies, contacts, fastest_m_s);
+  for (const Met& chunk : met) {
+    if (!chunk.struck.empty() && steps_.empty()) steps_.assign(bodies.size(), kUnreached);
+    for (const std::uint32_t i : chunk.struck)
+      for (const BodySlot body : chunk.touching[i]) steps_[body] = 0;
+  }
+  if (steps_.empty()) return;
   for (std::uint8_t steps = 0; steps < kReach; ++steps) {
     const auto pass_on = [&](BodySlot from, BodySlot to) {
       if (steps_[from] == steps && steps_[to] > steps + 1 && bodies.awake(to))
         steps_[to] = static_cast<std::uint8_t>(steps + 1);
     };
-    for_touching(bodies, contacts, [&](const Manifold& m) {
-      pass_on(m.body_a, m.body_b), pass_on(m.body_b, m.body_a);
-    });
+    for (const Met& chunk : met)
+      for (const auto& [a, b] : chunk.touching) pass_on(a, b), pass_on(b, a);
   }
 }
 

@@ -32,7 +32,6 @@ class Impacts {
   static constexpr std::uint8_t kUnreached = 255;
 
   bool is_near(BodySlot body) const { return steps_[body] < kReach; }
-  void spread(const Bodies& bodies, const Contacts& contacts);
 
   ByBody<std::uint8_t> steps_;  ///< From a body that is struck. Empty: none is.
 };

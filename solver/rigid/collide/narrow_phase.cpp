@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/prefetch.h"
 #include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
@@ -129,7 +130,9 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   SeparatingAxis axis = probe.axis(pose, axis_reach);
   float time = 0;
   const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
-  if (kLooksAhead && meet && reach.way_m > kFar * m.size_m) {
+  // The normal of balls is another wherever they meet.
+  const float far = b.kind == Kind::kSphere ? kReuse : kFar;
+  if (kLooksAhead && meet && reach.way_m > far * m.size_m) {
     axis_reach.way_A.setZero();
     time = time_of_impact(probe, pose, velocity_A, axis_reach.margin_m, dt, axis);
     pose.p += std::max(0.f, time) * velocity_A;
@@ -148,6 +151,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   pair.axis_A = pair.clearance_m > 0 ? axis.normal_A : Vec3f(Vec3f::Zero());
   m.normal_on_b = axis.kind == SeparatingAxis::Kind::kFaceB;
   m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && time == 0;
+  m.round = a.kind == Kind::kSphere && b.kind == Kind::kSphere;
   build_manifold(pair, bodies, motion, axis.normal_A, scratch.points,
                  std::max(0.f, time) * motion.velocity_W,
                  reach.spin_m + reach.way_m < 0.5f * kFar * m.size_m ? limit : kNoPoint, m);
@@ -155,10 +159,9 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
 
 /// Whether the axis that parted the pair last still does, and by how much.
 bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, const AxisReach& reach,
-                  Pair& pair, NarrowScratch& scratch) {
+                  Pair& pair) {
   if (pair.axis_A.isZero(0) || b.kind != Kind::kHull || a.kind != Kind::kHull) return false;
-  place_in_A(b.hull, motion.pose, scratch.hulls);
-  const float separation_m = separation_along(pair.axis_A, a.hull, scratch.hulls);
+  const float separation_m = separation_along(pair.axis_A, a.hull, b.hull, motion.pose);
   if (separation_m <= reach.along(pair.axis_A)) return false;
   pair.clearance_m = separation_m;
   return true;
@@ -198,23 +201,41 @@ bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, con
          pair.margin_m + closing_m + reach[a].spin_m + reach[b].spin_m;
 }
 
+void prefetch_pairs(PairSlot at, PairSlot end, const Contacts& contacts, const Shapes& shapes,
+                    const Bodies& bodies) {
+  constexpr std::uint32_t kFirst = 8, kThen = 3;  // pairs ahead
+  const auto ahead = [&](std::uint32_t by) -> const Pair* {
+    if (at.value + by >= end.value) return nullptr;
+    const Pair& pair = contacts.pairs[PairSlot(at.value + by)];
+    if (!pair.present()) return nullptr;
+    return bodies.changed[pair.body_a] || bodies.changed[pair.body_b] ? &pair : nullptr;
+  };
+  if (const Pair* const pair = ahead(kFirst)) {
+    if (pair->touching()) prefetch(contacts.manifolds[pair->manifold]);
+    prefetch(shapes[pair->shape_a]), prefetch(shapes[pair->shape_b]);
+  }
+  const Pair* const pair = ahead(kThen);
+  if (!pair || !pair->touching()) return;
+  shapes[pair->shape_a].hull.prefetch(), shapes[pair->shape_b].hull.prefetch();
+}
+
 void update_contact(const StepContext& step, const Shapes& shapes, const Bodies& bodies, Pair& pair,
                     Manifold& m, NarrowScratch& scratch) {
   const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
   const PairMotion motion = pair_motion(pair, bodies);
   const float size_m = std::min(a.inner_radius_m, b.inner_radius_m);
-  const Reach reach = reach_of(a, b, pair, bodies, motion, step, size_m);
   pair.turned_m = bodies.turned_m[pair.body_a] + bodies.turned_m[pair.body_b];
   pair.offset_W = motion.offset_W;
-  pair.margin_m = reach.margin_m;
   if (m.count > 0 && m.reusable && barely_moved(m, bodies, motion)) {
     refresh_manifold(bodies, motion, m);
     return;
   }
+  const Reach reach = reach_of(a, b, pair, bodies, motion, step, size_m);
+  pair.margin_m = reach.margin_m;
   const Vec3f way_A = static_cast<float>(step.dt_s) *
                       (bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W);
   const AxisReach axis_reach{reach.margin_m + reach.spin_m, way_A};
-  if (m.count == 0 && still_parted(a, b, motion, axis_reach, pair, scratch)) return;
+  if (m.count == 0 && still_parted(a, b, motion, axis_reach, pair)) return;
   if (m.count == 0 && edges_at_rest(a, b, motion, reach, size_m, pair, scratch)) return;
   m.size_m = size_m;
   m.friction = std::sqrt(a.friction * b.friction);

@@ -28,6 +28,11 @@ struct StepReach {
 bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, const Pair& pair,
                     const Manifold* m);
 
+/// Asks for the memory of pairs that are looked at soon after `at`: of what a look reads first and,
+/// nearer by, of hulls.
+void prefetch_pairs(PairSlot at, PairSlot end, const Contacts& contacts, const Shapes& shapes,
+                    const Bodies& bodies);
+
 /// Brings the manifold of a pair up to date: carried along while the pair barely moves, otherwise
 /// made anew. Pairs that close fast are moved to the time of impact first, so that the normal is
 /// that of the feature that will be hit.

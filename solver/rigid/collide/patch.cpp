@@ -12,9 +12,11 @@ namespace {
 std::uint32_t incident_face(const Hull& hull, const Vec3f& direction) {
   std::uint32_t best = 0;
   float least = 1e30f;
-  for (std::uint32_t f = 0; f < hull.face_count(); ++f) {
-    const float along = hull.normal(f).dot(direction);
-    if (along < least) least = along, best = f;
+  for (std::uint32_t f = 0; f < hull.face_count();) {
+    const Wide3& n = hull.planes()[f / kLanes].normal;
+    const Wide along = n.x * direction.x() + (n.y * direction.y() + n.z * direction.z());
+    for (std::uint32_t k = 0; k < kLanes && f < hull.face_count(); ++k, ++f)
+      if (along[k] < least) least = along[k], best = f;
   }
   return best;
 }
@@ -24,11 +26,16 @@ void clip_side(const Vec3f& origin, const Vec3f& side, std::uint32_t side_index,
                PatchScratch& scratch) {
   auto& in = scratch.polygon;
   auto& out = scratch.clipped;
+  auto& ahead = scratch.ahead;
+  ahead.clear();
+  for (const auto& corner : in) ahead.push_back(side.dot(corner.position - origin));
+  if (std::none_of(ahead.begin(), ahead.end(), [](float d) { return d > 0; })) return;
   out.clear();
   for (std::size_t i = 0; i < in.size(); ++i) {
     const auto& from = in[i];
-    const auto& to = in[i + 1 < in.size() ? i + 1 : 0];
-    const float d0 = side.dot(from.position - origin), d1 = side.dot(to.position - origin);
+    const std::size_t next = i + 1 < in.size() ? i + 1 : 0;
+    const auto& to = in[next];
+    const float d0 = ahead[i], d1 = ahead[next];
     if (d0 <= 0) out.push_back(from);
     if ((d0 < 0 && d1 > 0) || (d0 > 0 && d1 < 0)) {
       const Vec3f cut = from.position + (d0 / (d0 - d1)) * (to.position - from.position);

@@ -23,6 +23,7 @@ struct PatchScratch {
   };
   std::vector<Corner> polygon, clipped;
   std::vector<Vec3f> reference;
+  std::vector<float> ahead;  ///< How far the polygon's corners are beyond a side.
 };
 
 /// Appends the points of the patch that are no further apart than `reach_m`.

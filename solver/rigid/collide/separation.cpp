@@ -3,10 +3,13 @@
 
 #include <cmath>
 
+#include "solver/base/lanes.h"
 #include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 namespace {
+
+constexpr float kTried = -2e30f;  // less than any separation
 
 Wide3 splat3(const Vec3f& v) { return {splat(v.x()), splat(v.y()), splat(v.z())}; }
 
@@ -16,10 +19,72 @@ Wide3 turned(const Mat3f& R, const Wide3& v) {
           v.x * R(2, 0) + v.y * R(2, 1) + v.z * R(2, 2)};
 }
 
+/// The vertex that is least far along a direction, and how far that is.
+struct Deepest {
+  Vec3f vertex;
+  float along_m = 1e30f;
+};
+
+Deepest deepest(const Vec3f& direction, const std::vector<Wide3>& vertices) {
+  const Wide3 down = splat3(direction);
+  Wide3 at = vertices[0];
+  Wide least = dot(down, at);
+  for (std::size_t c = 1; c < vertices.size(); ++c) {
+    const Wide3& v = vertices[c];
+    const Wide along = dot(down, v);
+    const auto deeper = along < least;
+    at = {deeper ? v.x : at.x, deeper ? v.y : at.y, deeper ? v.z : at.z};
+    least = min(least, along);
+  }
+  const float along_m = least_of(least);
+  const std::uint32_t set = bits(least == splat(along_m));  // none, of what is not a number
+  const auto lane = static_cast<std::uint32_t>(set != 0 ? __builtin_ctz(set) : 0);
+  return {Hull::lane(at, lane), along_m};
+}
+
 struct FaceAnswer {
   std::uint32_t face = 0;
   float separation_m = -1e30f;
+  Vec3f witness = Vec3f::Zero();  ///< The other hull's vertex that comes nearest to it.
 };
+
+/// How far a point is in front of each of eight faces.
+Wide ahead_of(const Hull::PlaneChunk& planes, const Wide3& point) {
+  return dot(planes.normal, point) + planes.d;
+}
+
+/// The face of `hull` that the vertices are furthest in front of. None can have all of them
+/// further in front of it than one point among them, as `within`: the most promising face is tried
+/// first, and its deepest vertex rules out most others.
+FaceAnswer best_face(const Hull& hull, const Vec3f& within, const std::vector<Wide3>& vertices,
+                     std::vector<Wide>& at_most) {
+  const auto planes = hull.planes();
+  FaceAnswer best;
+  const auto try_face = [&](std::uint32_t face) {
+    const Deepest nearest = deepest(hull.normal(face), vertices);
+    const float separation_m = nearest.along_m + hull.plane_d(face);
+    if (separation_m > best.separation_m || (separation_m == best.separation_m && face < best.face))
+      best = {face, separation_m, nearest.vertex};
+    const Wide3 vertex = splat3(nearest.vertex);
+    for (std::size_t c = 0; c < planes.size(); ++c)
+      at_most[c] = min(at_most[c], ahead_of(planes[c], vertex));
+    at_most[face / kLanes][face % kLanes] = kTried;
+  };
+  at_most.resize(planes.size());
+  for (std::size_t c = 0; c < planes.size(); ++c) at_most[c] = ahead_of(planes[c], splat3(within));
+  std::uint32_t first = 0;
+  float most = kTried;
+  for (std::uint32_t f = 0; f < planes.size() * kLanes; ++f) {
+    float& bound = at_most[f / kLanes][f % kLanes];
+    if (f >= hull.face_count()) bound = kTried;
+    if (bound > most) most = bound, first = f;
+  }
+  try_face(first);
+  for (std::uint32_t c = 0; c < planes.size(); ++c)
+    while (const std::uint32_t open = bits(at_most[c] >= splat(best.separation_m)))
+      try_face(c * kLanes + static_cast<std::uint32_t>(__builtin_ctz(open)));
+  return best;
+}
 
 /// How far the vertices are in front of each of eight faces, at least.
 Wide in_front(const Hull::PlaneChunk& plane, std::uint32_t vertex_count,
@@ -33,67 +98,73 @@ Wide in_front(const Hull::PlaneChunk& plane, std::uint32_t vertex_count,
   return least + plane.d;
 }
 
-/// The face of `hull` that the vertices are furthest in front of.
-FaceAnswer best_face(const Hull& hull, std::uint32_t vertex_count,
-                     const std::vector<Wide3>& vertices) {
-  FaceAnswer best;
+/// What lies on the other side of a pair of edges: `toward` its centre, and a point of it.
+struct Opposite {
+  Vec3f toward;
+  Vec3f witness;
+};
+
+/// Lists the edges of a hull with a normal n between their faces' that may part it from the other
+/// hull by more than `least_m`. No n does by more than n·toward less `cores_m`, the radii of the
+/// balls within both, nor by more than n·(witness − edge): edges that do not face the other hull,
+/// or its deepest vertex, cannot give a better axis than one known already.
+void facing_edges(const Hull& hull, const Opposite& other, float least_m, float cores_m,
+                  HullScratch& scratch, std::vector<std::uint16_t>& facing) {
   const auto planes = hull.planes();
-  for (std::uint32_t c = 0; c < planes.size(); ++c) {
-    const Wide least = in_front(planes[c], vertex_count, vertices);
-    for (std::uint32_t k = 0; k < kLanes; ++k)
-      if (least[k] > best.separation_m) best = {c * kLanes + k, least[k]};
+  const float far_m = least_m + cores_m > 0 ? least_m + cores_m : -1e30f;
+  scratch.ahead.resize(planes.size()), scratch.toward.resize(planes.size());
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    scratch.ahead[c] = ahead_of(planes[c], splat3(other.witness));
+    scratch.toward[c] = dot(planes[c].normal, splat3(other.toward));
   }
-  return best;
+  const auto more = [](const std::vector<Wide>& of, const Hull::Edge& edge) {
+    return std::max(of[edge.left / kLanes][edge.left % kLanes],
+                    of[edge.right / kLanes][edge.right % kLanes]);
+  };
+  facing.resize(hull.edge_count());
+  std::size_t count = 0;
+  for (std::uint32_t e = 0; e < hull.edge_count(); ++e) {
+    const Hull::Edge& edge = hull.edges()[e];
+    const float ahead_m = more(scratch.ahead, edge);
+    facing[count] = static_cast<std::uint16_t>(e);
+    count += (std::max(ahead_m, ahead_m * edge.bulge) > least_m) &
+             (more(scratch.toward, edge) * edge.bulge > far_m);
+  }
+  facing.resize(count);
 }
 
-/// Lists the edges of a hull with a normal between their faces' that may have n·toward above
-/// `least`. An axis n parts two hulls by no more than n·(distance of centres) less the balls
-/// within, so edges that do not face the other hull cannot give a better axis than one known
-/// already.
-void facing_edges(const Hull& hull, const Vec3f& toward, float least,
-                  std::vector<std::uint16_t>& facing) {
-  facing.clear();
-  const Wide3 direction = splat3(toward);
-  for (std::uint32_t c = 0; c < hull.edges().size(); ++c) {
-    const Hull::EdgeChunk& edges = hull.edges()[c];
-    const Wide most = max(dot(edges.normal_left, direction), dot(edges.normal_right, direction));
-    for (std::uint32_t set = bits(most * edges.bulge > splat(least)); set != 0; set &= set - 1) {
-      const std::uint32_t e = c * kLanes + static_cast<std::uint32_t>(__builtin_ctz(set));
-      if (e < hull.edge_count()) facing.push_back(static_cast<std::uint16_t>(e));
-    }
-  }
-}
+/// Up to eight edges, and the normals of their faces.
+struct WideEdges {
+  Wide3 point, direction, left, right;
+};
 
 /// Up to eight of b's listed edges, in A.
-Hull::EdgeChunk edges_in_A(const Hull& b, const RelativePose& pose, const std::uint16_t* list,
-                           std::uint32_t count) {
-  Hull::EdgeChunk own{};
-  for (std::uint32_t i = 0; i < kLanes; ++i) {
-    const std::uint32_t e = list[std::min(i, count - 1)], k = e % kLanes;
-    const Hull::EdgeChunk& from = b.edges()[e / kLanes];
-    auto copy = [&](Wide3& to, const Wide3& v) {
-      to.x[i] = v.x[k], to.y[i] = v.y[k], to.z[i] = v.z[k];
-    };
-    copy(own.point, from.point);
-    copy(own.direction, from.direction);
-    copy(own.normal_left, from.normal_left);
-    copy(own.normal_right, from.normal_right);
+WideEdges edges_in_A(const Hull& b, const RelativePose& pose, const std::uint16_t* list,
+                     std::uint32_t count) {
+  WideEdges own{};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Hull::Edge& edge = b.edges()[list[i]];
+    const Vec3f from = b.vertex(edge.from);
+    set_lane(own.point, i, from);
+    set_lane(own.direction, i, b.vertex(edge.to) - from);
+    set_lane(own.left, i, b.normal(edge.left));
+    set_lane(own.right, i, b.normal(edge.right));
   }
   return {turned(pose.R, own.point) + splat3(pose.p), turned(pose.R, own.direction),
-          turned(pose.R, own.normal_left), turned(pose.R, own.normal_right), own.bulge};
+          turned(pose.R, own.left), turned(pose.R, own.right)};
 }
 
 /// Edge e of a against `count` edges of b, already in A; keeps the better of `best` and the result.
 /// Only pairs whose arcs cross on the Gauss map are faces of the Minkowski difference.
-void try_edges(const Hull& a, std::uint16_t e, const Hull::EdgeChunk& edges_b,
+void try_edges(const Hull& a, std::uint16_t e, const WideEdges& edges_b,
                const std::uint16_t* list_b, std::uint32_t count, SeparatingAxis& best) {
-  const Hull::EdgeChunk& chunk = a.edges()[e / kLanes];
-  const std::uint32_t k = e % kLanes;
-  const Vec3f direction = Hull::lane(chunk.direction, k);
+  const Hull::Edge& edge = a.edges()[e];
+  const Vec3f point = a.vertex(edge.from), direction = a.vertex(edge.to) - point;
+  const Vec3f left = a.normal(edge.left), right = a.normal(edge.right);
   const Wide3 dir_a = splat3(direction);
-  const Wide b_left = dot(edges_b.normal_left, dir_a), b_right = dot(edges_b.normal_right, dir_a);
-  const Wide a_left = dot(edges_b.direction, splat3(Hull::lane(chunk.normal_left, k)));
-  const Wide a_right = dot(edges_b.direction, splat3(Hull::lane(chunk.normal_right, k)));
+  const Wide b_left = dot(edges_b.left, dir_a), b_right = dot(edges_b.right, dir_a);
+  const Wide a_left = dot(edges_b.direction, splat3(left));
+  const Wide a_right = dot(edges_b.direction, splat3(right));
   const Wide zero = splat(0);
   std::uint32_t crossing =
       bits((b_left * b_right < zero) & (a_left * a_right < zero) & (b_left * a_right < zero));
@@ -105,30 +176,31 @@ void try_edges(const Hull& a, std::uint16_t e, const Hull::EdgeChunk& edges_b,
     const float square = axis.squaredNorm();
     if (square < 1e-6f * direction.squaredNorm() * direction_b.squaredNorm()) continue;
     axis /= std::sqrt(square);
-    const Vec3f outward = Hull::lane(chunk.normal_left, k) + Hull::lane(chunk.normal_right, k);
-    if (axis.dot(outward) < 0) axis = -axis;
-    const float separation = axis.dot(Hull::lane(edges_b.point, lane) - Hull::lane(chunk.point, k));
+    if (axis.dot(left + right) < 0) axis = -axis;
+    const float separation = axis.dot(Hull::lane(edges_b.point, lane) - point);
     if (separation > best.separation_m)
       best = {SeparatingAxis::Kind::kEdges, axis, separation, e, list_b[lane]};
   }
 }
 
-/// The best pair of edges, if one is better than `least_m`.
+/// The best pair of edges, if one is better than `least_m`. The witnesses are points of the other
+/// hull, in the frame of each.
 SeparatingAxis best_edges(const Hull& a, const Hull& b, const RelativePose& pose,
-                          const AxisReach& reach, float least_m, HullScratch& scratch) {
+                          const AxisReach& reach, const Vec3f& witness_A, const Vec3f& witness_B,
+                          float least_m, HullScratch& scratch) {
   SeparatingAxis best;
   best.separation_m = least_m;
   const Vec3f toward = pose.R * b.center() + pose.p - a.center();
-  float least = least_m + a.core_radius_m() + b.core_radius_m();
-  if (least <= 0) least = -1e30f;
-  facing_edges(a, toward, least, scratch.edges_a);
+  const float cores_m = a.core_radius_m() + b.core_radius_m();
+  facing_edges(a, {toward, witness_A}, least_m, cores_m, scratch, scratch.edges_a);
   if (scratch.edges_a.empty()) return best;
-  facing_edges(b, -(pose.R.transpose() * toward), least, scratch.edges_b);
+  const Vec3f back = -(pose.R.transpose() * toward);
+  facing_edges(b, {back, witness_B}, least_m, cores_m, scratch, scratch.edges_b);
   for (std::size_t first = 0; first < scratch.edges_b.size(); first += kLanes) {
     const auto count =
         static_cast<std::uint32_t>(std::min<std::size_t>(kLanes, scratch.edges_b.size() - first));
     const std::uint16_t* list = scratch.edges_b.data() + first;
-    const Hull::EdgeChunk edges_b = edges_in_A(b, pose, list, count);
+    const WideEdges edges_b = edges_in_A(b, pose, list, count);
     for (const std::uint16_t e : scratch.edges_a) try_edges(a, e, edges_b, list, count, best);
     if (best.separation_m > reach.along(best.normal_A)) return best;
   }
@@ -155,21 +227,22 @@ void place_in_each_other(const Hull& a, const Hull& b, const RelativePose& pose,
 SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose& pose,
                                const AxisReach& reach, float tolerance_m, HullScratch& scratch) {
   SeparatingAxis best;
-  const FaceAnswer face_a = best_face(a, b.vertex_count(), scratch.b_in_A);
-  best.index_a = std::min(face_a.face, a.face_count() - 1);
+  const FaceAnswer face_a =
+      best_face(a, pose.R * b.center() + pose.p, scratch.b_in_A, scratch.at_most);
+  best.index_a = face_a.face;
   best.normal_A = a.normal(best.index_a);
   best.separation_m = face_a.separation_m;
   if (best.separation_m > reach.along(best.normal_A)) return best;
 
-  const FaceAnswer face_b = best_face(b, a.vertex_count(), scratch.a_in_B);
-  const std::uint32_t face = std::min(face_b.face, b.face_count() - 1);
-  const Vec3f normal = -(pose.R * b.normal(face));
+  const FaceAnswer face_b =
+      best_face(b, pose.R.transpose() * (a.center() - pose.p), scratch.a_in_B, scratch.at_most);
+  const Vec3f normal = -(pose.R * b.normal(face_b.face));
   const bool parted = face_b.separation_m > reach.along(normal);
   if (parted || face_b.separation_m > best.separation_m + tolerance_m)
-    best = {SeparatingAxis::Kind::kFaceB, normal, face_b.separation_m, 0, face};
+    best = {SeparatingAxis::Kind::kFaceB, normal, face_b.separation_m, 0, face_b.face};
   if (parted) return best;
-  const SeparatingAxis edges =
-      best_edges(a, b, pose, reach, best.separation_m + tolerance_m, scratch);
+  const SeparatingAxis edges = best_edges(a, b, pose, reach, face_a.witness, face_b.witness,
+                                          best.separation_m + tolerance_m, scratch);
   return edges.separation_m > best.separation_m + tolerance_m ? edges : best;
 }
 
@@ -193,17 +266,13 @@ bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, 
          two_part(b, a.vertex_count(), scratch.a_in_B, -pose.R);
 }
 
-float separation_along(const Vec3f& axis_A, const Hull& a, const HullScratch& scratch) {
-  const Wide3 axis = splat3(axis_A);
+float separation_along(const Vec3f& axis_A, const Hull& a, const Hull& b,
+                       const RelativePose& pose) {
+  const Wide3 axis_a = splat3(axis_A), axis_b = splat3(pose.R.transpose() * axis_A);
   Wide most = splat(-1e30f), least = splat(1e30f);
-  for (const Wide3& vertices : a.vertices()) most = max(most, dot(axis, vertices));
-  for (const Wide3& vertices : scratch.b_in_A) least = min(least, dot(axis, vertices));
-  float far_a = most[0], near_b = least[0];
-  for (std::uint32_t i = 1; i < kLanes; ++i) {
-    far_a = std::max(far_a, most[i]);
-    near_b = std::min(near_b, least[i]);
-  }
-  return near_b - far_a;
+  for (const Wide3& vertices : a.vertices()) most = max(most, dot(axis_a, vertices));
+  for (const Wide3& vertices : b.vertices()) least = min(least, dot(axis_b, vertices));
+  return least_of(least) + axis_A.dot(pose.p) - most_of(most);
 }
 
 }  // namespace sunder::solver

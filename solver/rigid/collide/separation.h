@@ -14,10 +14,12 @@ struct RelativePose {
   Vec3f p;
 };
 
-/// Vertices of each hull in the other's frame, and edges that face the other; reused memory.
+/// Vertices of each hull in the other's frame, edges that face the other, and how far faces may be
+/// from it at most; reused memory.
 struct HullScratch {
   std::vector<Wide3> b_in_A, a_in_B;
   std::vector<std::uint16_t> edges_a, edges_b;
+  std::vector<Wide> at_most, ahead, toward;
 
   Vec3f vertex_b(std::uint32_t i) const { return Hull::lane(b_in_A[i / kLanes], i % kLanes); }
 };
@@ -39,7 +41,7 @@ struct AxisReach {
   float along(const Vec3f& axis_A) const { return margin_m + std::max(0.f, -axis_A.dot(way_A)); }
 };
 
-/// Fills the vertices of b in A of the scratch; enough for separation_along().
+/// Fills the vertices of b in A of the scratch; enough for make_patch().
 void place_in_A(const Hull& b, const RelativePose& pose, HullScratch& scratch);
 /// Fills the vertices of the scratch; to be called before separating_axis().
 void place_in_each_other(const Hull& a, const Hull& b, const RelativePose& pose,
@@ -53,7 +55,7 @@ SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose&
 /// have the other hull in front of them but for `sliver_m`. The scratch must be filled.
 bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, float sliver_m,
                         const HullScratch& scratch);
-/// Distance of the supporting planes along an axis given in A; the scratch must have b in A.
-float separation_along(const Vec3f& axis_A, const Hull& a, const HullScratch& scratch);
+/// Distance of the supporting planes along an axis given in A.
+float separation_along(const Vec3f& axis_A, const Hull& a, const Hull& b, const RelativePose& pose);
 
 }  // namespace sunder::solver
