@@ -16,11 +16,14 @@ MATHEMATICS = {
     "body/motion.cpp": {"kEnergyStep", "kMostTurn", "1.1"},
     "collide/box_tree.cpp": {"1023.f"},  # ten bits a coordinate
     "collide/narrow_phase.cpp": {"kRounding", "kNoPoint"},
+    "collide/separation.cpp": {"kTried"},  # less than any
     "contact/contact_solver.cpp": {"1.1"},
     "contact/energy_guard.cpp": {"kEnergyRounding", "kShareRounding"},
     "contact/impact_pass.cpp": {"kOverRelaxed"},  # of successive over-relaxation in a row
     "contact/load_path.cpp": {"1e-3f"},
     "contact/prepare.cpp": {"0.999f"},
+    "contact/strike_kernels.h": {"kNoticed"},  # where a sweep stops: of its threshold
+    "contact/sweep.h": {"kNow"},  # as good as none
     "contact/static_warm_start.cpp": {"kWork", "kNearlyDone", "kDone", "kNoBounce"},
     "joint/joint_group.cpp": {"kSoftness"},
     "joint/joint_rows.cpp": {"0.7"},

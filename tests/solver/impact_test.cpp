@@ -1,5 +1,8 @@
 // Impacts pass in one step through all that touches (docs/decisions/036). How well they do in
 // rubble is a truth (bench/truths/through.cpp).
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "bench/truths/presets.h"
@@ -46,6 +49,45 @@ TEST(Impact, GivesTheSameBitsForAnyNumberOfThreadsAndLanes) {
   for (const int lanes : {4, 8, 16}) EXPECT_EQ(hash(lanes, 2), one) << lanes;
   EXPECT_EQ(hash(0, 5), one);
   set_threads(before);
+}
+
+/// Two smooth balls whose ways cross, started so that they meet after `meet_s`: by how much their
+/// speed after it is off the closed form, and how fast they spin, in parts of their speed.
+double crossing_error(double speed_m_s, double meet_s, double dt_s, int substeps) {
+  const double radius_m = 0.05;
+  const Vec3 along_a = speed_m_s * Vec3::UnitX(), along_b = speed_m_s * Vec3::UnitZ();
+  const Vec3 start_a = -meet_s * along_a, start_b = -meet_s * along_b + radius_m * Vec3::UnitZ();
+  RigidWorld world(awake(Vec3::Zero()));
+  const auto add = [&](const Vec3& start, const Vec3& velocity) {
+    return world.add(W::with_friction(W::moving(W::sphere(radius_m, start), velocity), 0));
+  };
+  const BodyId a = add(start_a, along_a), b = add(start_b, along_b);
+  world.run(0.1, dt_s, substeps);
+  const Vec3 start = start_b - start_a, v = along_b - along_a;
+  const double half = start.dot(v), square = v.squaredNorm();
+  const double apart = start.squaredNorm() - 4 * radius_m * radius_m;
+  const double time_s = -(half + std::sqrt(half * half - square * apart)) / square;
+  const Vec3 normal = (start + time_s * v).normalized(), change = 0.5 * v.dot(normal) * normal;
+  const BodyState end_a = world.state(a), end_b = world.state(b);
+  return std::max({(end_a.velocity_W - along_a - change).norm(),
+                   (end_b.velocity_W - along_b + change).norm(),
+                   0.1 * radius_m * end_a.angular_velocity_W.norm()}) /
+         speed_m_s;
+}
+
+TEST(Impact, OfBallsThatCrossIsWhereTheyMeetAtAnyStep) {
+  for (const double speed_m_s : {5.0, 20.0, 60.0, 500.0}) {
+    for (const int hertz : {30, 60, 90, 120, 180, 240, 480, 960}) {
+      for (const int substeps : {1, 4, 8}) {
+        for (int i = 0; i < 5; ++i) {
+          const double meet_s = 0.04 + 0.0037 * i;
+          EXPECT_LT(crossing_error(speed_m_s, meet_s, 1.0 / hertz, substeps), 0.01)
+              << speed_m_s << " m/s, met after " << meet_s << " s, " << hertz << " Hz, "
+              << substeps;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -124,10 +124,9 @@ void expect_convergence(const char* name, const std::vector<BodyDesc>& bodies) {
 }
 
 TEST(Splitting, LeavesTheSpringBetweenBodiesAsItWas) {
-  Softness soft;
-  soft.mass_scale = 0.8f, soft.impulse_scale = 0.2f;
+  const Spring<Wide> whole{splat<Wide>(0.8f), splat<Wide>(0.2f)};
   for (const float parts : {1.f, 2.f, 7.f}) {
-    const auto spring = Spring<Wide>::of<true>(soft, splat<Wide>(parts));
+    const Spring<Wide> spring = whole.split(splat<Wide>(parts));
     EXPECT_NEAR(spring.mass_scale[0] + spring.impulse_scale[0], 1, 1e-6);
     // Parts so many times lighter take so many times the share of what the spring gives.
     EXPECT_NEAR(parts * spring.mass_scale[0] / spring.impulse_scale[0], 4, 1e-5);

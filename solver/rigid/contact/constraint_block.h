@@ -23,7 +23,7 @@ template <std::uint32_t lanes>
 struct PointLanes {
   Wide3Of<lanes> angular_a, angular_b;  ///< Angular Jacobians along the normal.
   WideOf<lanes> separation;             ///< When the step began.
-  WideOf<lanes> mass;                   ///< Effective; 0 where the lane has no manifold.
+  WideOf<lanes> mass;                   ///< Effective; 0 where the lane has no such point.
   WideOf<lanes> arm;                    ///< From the friction point: the arm of twist.
   WideOf<lanes> impulse;
 };
@@ -57,7 +57,7 @@ struct RollLanes {
   WideOf<lanes> impulse_1, impulse_2;
 };
 
-/// Manifolds with the same number of points. What a sweep touches comes first. Alignment is spelled
+/// Manifolds of one colour. What a sweep touches comes first. Alignment is spelled
 /// out, or it would follow the instruction set that a file is compiled for.
 template <std::uint32_t lanes>
 struct alignas(64) ConstraintBlock {
@@ -65,7 +65,7 @@ struct alignas(64) ConstraintBlock {
   std::int32_t row_b[lanes] = {};
   std::uint32_t first = 0;   ///< Of the manifolds in lanes, in the list of those to solve.
   std::uint32_t count = 0;   ///< Lanes in use.
-  std::uint32_t points = 0;  ///< Of each manifold.
+  std::uint32_t points = 0;  ///< At most; those that a lane has not have no mass.
   bool split = false;
   bool summed = false;  ///< Some lane touches something immovable, or that bears load.
   bool bouncy = false;  ///< Some lane has restitution.
@@ -74,6 +74,7 @@ struct alignas(64) ConstraintBlock {
   WideOf<lanes> inverse_mass_b;
   Wide3Of<lanes> normal, tangent_1, tangent_2;
   WideOf<lanes> friction;
+  WideOf<lanes> face;  ///< 1: three points or more, else 0: which softness it has.
   WideOf<lanes> press_mass, press_give;  ///< Scales of mass and impulse of the spring that presses.
   WideOf<lanes> push_m_s;                ///< Fastest correction of an overlap.
   Wide3Of<lanes> slide_1_a, slide_1_b, slide_2_a, slide_2_b, twist_a, twist_b;  ///< Jacobians.

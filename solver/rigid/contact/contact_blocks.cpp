@@ -29,14 +29,13 @@ class BlocksOf final : public ContactBlocks {
     for (std::uint32_t i = begin; i < end; ++i) solver::settle(blocks_[i], arms_[i], step.rows);
   }
   void remember() override { search_.resize(used_); }
-  void add(std::uint32_t first, std::uint32_t count, std::uint32_t points, bool split) override {
+  void add(std::uint32_t first, std::uint32_t count, bool split) override {
     for (std::uint32_t i = 0; i < count; i += kWidth) {
       // Blocks of the last step are written over, not cleared.
       if (used_ == blocks_.size()) blocks_.emplace_back();
       ConstraintBlock<kWidth>& block = blocks_[used_++];
       block.first = first + i;
       block.count = std::min(kWidth, count - i);
-      block.points = points;
       block.split = split;
     }
   }
@@ -111,10 +110,18 @@ class BlocksOf final : public ContactBlocks {
   void end_impact(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::end_impact(blocks_[i], impacts_[i]);
   }
-  bool closes_fast(std::uint32_t begin, std::uint32_t end, const ContactStep& step) const override {
+  bool meet(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    bool any = false;
     for (std::uint32_t i = begin; i < end; ++i)
-      if (solver::closes_fast(blocks_[i], impacts_[i], step.rows, step.soft)) return true;
-    return false;
+      any |= solver::meet(blocks_[i], impacts_[i], step.rows, step.soft.inverse_h);
+    return any;
+  }
+  bool pass_on(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+               const ImpactSweep& sweep) override {
+    bool any = false;
+    for (std::uint32_t i = begin; i < end; ++i)
+      any |= solver::pass_on(blocks_[i], impacts_[i], step.rows, step.soft, sweep);
+    return any;
   }
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) {

@@ -18,9 +18,8 @@ class ContactBlocks {
   virtual std::uint32_t size() const = 0;
   /// Takes all out; about so many manifolds will be added.
   virtual void clear(std::size_t manifolds) = 0;
-  /// Appends blocks of the `count` manifolds from `first` of those to solve, all with so many
-  /// points.
-  virtual void add(std::uint32_t first, std::uint32_t count, std::uint32_t points, bool split) = 0;
+  /// Appends blocks of the `count` manifolds from `first` of those to solve.
+  virtual void add(std::uint32_t first, std::uint32_t count, bool split) = 0;
 
   // What is done to blocks [begin, end); those of one stage in any order on any thread.
   virtual void prepare(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
@@ -52,10 +51,11 @@ class ContactBlocks {
   virtual void expect_impacts() = 0;
   // Of blocks near an impact, which are not split (see sweep.h).
   virtual void prepare_impact(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
+  virtual bool meet(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
   virtual void begin_impact(std::uint32_t begin, std::uint32_t end) = 0;
+  virtual bool pass_on(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                       const ImpactSweep& sweep) = 0;
   virtual void end_impact(std::uint32_t begin, std::uint32_t end) = 0;
-  virtual bool closes_fast(std::uint32_t begin, std::uint32_t end,
-                           const ContactStep& step) const = 0;
   virtual void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
 
   /// On bodies, over the step, from what cannot move.

@@ -355,7 +355,7 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
     return bodies.velocity[body].norm() * step.dt_s > double{kStill} * bodies.reach_m[body];
   });
   blocks_->follow_bodies(moving_);
-  impact_pass_.begin(order_.impacts(), active_, *blocks_);
+  impact_pass_.begin(order_.impacts(), active_, rows_.size(), *blocks_);
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(), bodies,
                         contacts);
   Stages(*this, step, bodies, contacts, joints).run();
@@ -372,15 +372,9 @@ void ContactSolver::make_blocks() {
   for (std::uint32_t color = 0; color < order_.colors(); ++color) {
     const bool split = color + 1 == order_.colors();
     const std::uint32_t first = blocks_->size();
-    const auto add = [&](bool near) {
-      for (std::uint32_t points = 4; points > 0; --points) {
-        const std::uint32_t begin = order_.begin(color, near, points);
-        blocks_->add(begin, order_.end(color, near, points) - begin, points, split);
-      }
-    };
-    add(true);
-    impact_pass_.add(first, blocks_->size(), order_.near(color));
-    add(false);
+    blocks_->add(order_.begin(color, true), order_.count(color, true), split);
+    impact_pass_.add(first, blocks_->size(), order_.count(color, true));
+    blocks_->add(order_.begin(color, false), order_.count(color, false), split);
     const std::uint32_t count = blocks_->size() - first;
     if (count > 0) colors_.push_back({first, count, grain});
   }

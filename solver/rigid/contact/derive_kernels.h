@@ -132,21 +132,20 @@ SUNDER_INLINE void derive_points(const GatheredBlock<lanes>& g, ConstraintBlock<
     p.angular_a = to_root(g.root_a, cross(g.arm_a[i], c.normal));
     p.angular_b = to_root(g.root_b, cross(g.arm_b[i], c.normal));
     const Response<V> angular = {dot(p.angular_a, p.angular_a), dot(p.angular_b, p.angular_b)};
-    p.mass = reciprocal(inverse_mass + angular.a + angular.b);
+    p.mass = reciprocal(inverse_mass + angular.a + angular.b) * g.has[i];
     if (c.split)
       c.parts.press_split_scale[i] =
           split_scale(c, {c.inverse_mass_a + angular.a, c.inverse_mass_b + angular.b});
     const Wide3Of<lanes> off = g.arm_b[i] - g.friction_arm_b;
     const Wide3Of<lanes> arm = off - c.normal * dot(off, c.normal);
-    p.arm = sqrt(dot(arm, arm));
+    p.arm = sqrt(dot(arm, arm)) * g.has[1];  // one point alone twists nothing
   }
 }
 
 template <std::uint32_t lanes>
 SUNDER_INLINE void derive_springs(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
-  const V mass = splat<V>(g.press.mass_scale),
-          give = g.compliance_scale * splat<V>(g.press.impulse_scale);
+  const V mass = g.press_mass, give = g.compliance_scale * g.press_give;
   c.press_mass = mass / (mass + give), c.press_give = give / (mass + give);
   if (!c.split) return;
   for (std::uint32_t i = 0; i < c.points; ++i) c.parts.press_split_scale[i] *= g.compliance_scale;
@@ -240,22 +239,27 @@ SUNDER_INLINE void bridge(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
   arms.owes = true;
 }
 
-/// When in a substep the first point of what is apart and bears nothing meets; 0: never.
+/// When the first point of what is apart and bears nothing meets, if that is within the substep; 0:
+/// not, or arms aim at that meeting already: impacts are let close their gaps by the end of a
+/// substep, and what is left then of a gap is rounding.
 template <bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> meets_after(const ConstraintBlock<lanes>& c,
-                                        const Pairs<lanes, kSplit>& x,
+                                        const ArmLanes<lanes>& arms, const Pairs<lanes, kSplit>& x,
                                         const Pairs<lanes, kSplit>& v, float h_s) {
   using V = WideOf<lanes>;
-  const V zero = {}, one = splat<V>(1), h = splat<V>(h_s);
-  V first = total_impulse(c) > zero ? zero : h;
+  const V zero = {}, one = splat<V>(1), now = splat<V>(kNow * h_s), end = splat<V>(h_s) + now;
+  V first = total_impulse(c) > zero ? zero : end;
   for (std::uint32_t i = 0; i < c.points; ++i) {
     const PointLanes<lanes>& p = c.point[i];
     const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
     const V u = v.along(c.normal, p.angular_a, p.angular_b);
     const V after = s / (u < zero ? -u : one);
-    first = s > zero ? (u < zero ? min(first, after) : first) : zero;
+    const V meets = s > zero ? (u < zero ? min(first, after) : first) : zero;
+    first = p.mass > zero ? meets : first;
   }
-  return first < h ? first : zero;
+  const V aside = dot(c.normal, arms.bridged);
+  const auto aims = aside * aside < arms.near;
+  return (first < end) & ((first > now) | !aims) ? first : zero;
 }
 
 template <bool kSplit, std::uint32_t lanes>
@@ -272,7 +276,7 @@ SUNDER_INLINE void follow_as(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
   const V wide = dot(gap, gap) > arms.wide ? one : zero;
   if (any(wide > zero)) {
     const Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
-    const V after = meets_after<kSplit>(c, x, v, h_s) * wide;
+    const V after = meets_after<kSplit>(c, arms, x, v, h_s) * wide;
     gap = gap + (v.b.linear - v.a.linear) * after;
     wanted = wide > zero ? after : wanted;
   }
@@ -303,6 +307,22 @@ void settle(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
     settle_as<true>(c, arms, bodies);
   else if (arms.owes)
     settle_as<false>(c, arms, bodies);
+}
+
+template <std::uint32_t lanes>
+void separations_now(const ConstraintBlock<lanes>& c, const SolverRows& bodies,
+                     float (*separation)[lanes]) {
+  auto write = [&](const auto& x) {
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const PointLanes<lanes>& p = c.point[i];
+      const WideOf<lanes> s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
+      for (std::uint32_t lane = 0; lane < lanes; ++lane) separation[i][lane] = s[lane];
+    }
+  };
+  if (c.split)
+    write(Pairs<lanes, true>(c, bodies, &BodyRow::position));
+  else
+    write(Pairs<lanes, false>(c, bodies, &BodyRow::position));
 }
 
 }  // namespace sunder::solver

@@ -21,13 +21,14 @@ void ImpactPass::add(std::uint32_t first, std::uint32_t end, std::uint32_t manif
   manifolds_ += static_cast<int>(manifolds);
 }
 
-void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active,
+void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active, std::size_t rows,
                        ContactBlocks& blocks) {
   if (empty()) return;
   blocks.expect_impacts();
   for (const BodySlot body : active)
     if (impacts.moves(body)) bodies_.push_back(body);
   velocity_.resize(bodies_.size());
+  moved_.resize(rows);
 }
 
 void ImpactPass::prepare(const ContactStep& step, ContactBlocks& blocks) const {
@@ -36,7 +37,7 @@ void ImpactPass::prepare(const ContactStep& step, ContactBlocks& blocks) const {
 
 void ImpactPass::run(const ContactStep& step, ContactBlocks& blocks) {
   set_aside(step.rows.rows);
-  if (closes_fast(step, blocks)) {
+  if (any_block([&](auto first, auto end) { return blocks.meet(first, end, step); })) {
     for_blocks([&](auto first, auto end) { blocks.begin_impact(first, end); });
     sweep(step, blocks);
     take_back(step.rows.rows);  // what many sweeps round off would add up
@@ -46,20 +47,18 @@ void ImpactPass::run(const ContactStep& step, ContactBlocks& blocks) {
   put_back(step.rows.rows);
 }
 
-bool ImpactPass::closes_fast(const ContactStep& step, const ContactBlocks& blocks) const {
-  return std::ranges::any_of(blocks_, [&](const auto& of_color) {
-    return blocks.closes_fast(of_color.first, of_color.second, step);
-  });
-}
-
-void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) const {
+void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
+  std::ranges::fill(moved_, std::uint8_t{0});
+  ImpactSweep sweep{moved_.data()};
   const auto once = [&](const ContactStep& with) {
-    for_blocks([&](auto first, auto end) { blocks.sweep_relaxed(first, end, with); });
+    ++sweep.now;
+    return any_block([&](auto first, auto end) { return blocks.pass_on(first, end, with, sweep); });
   };
   ContactStep over_relaxed = step;
   over_relaxed.soft.omega = kOverRelaxed;
   const int most = std::min(kMostSweeps, kMostWork / manifolds_);
-  for (int i = 1; i < most && closes_fast(step, blocks); ++i) once(over_relaxed);
+  for (int i = 1; i < most && once(over_relaxed); ++i) sweep.since = sweep.now;
+  sweep.since = std::min<std::uint8_t>(sweep.now, 1);  // all that an impact reached
   once(step), once(step);  // friction goes by the load of the sweep before
 }
 

@@ -22,8 +22,10 @@ class ImpactPass {
   /// Blocks of so many manifolds of one colour, that are near an impact.
   void add(std::uint32_t first, std::uint32_t end, std::uint32_t manifolds);
   bool empty() const { return blocks_.empty(); }
-  /// Once all blocks are added; `active` are the awake bodies in contact.
-  void begin(const Impacts& impacts, std::span<const BodySlot> active, ContactBlocks& blocks);
+  /// Once all blocks are added; `active` are the awake bodies in contact, of so
+  /// many rows.
+  void begin(const Impacts& impacts, std::span<const BodySlot> active, std::size_t rows,
+             ContactBlocks& blocks);
   /// Once all blocks are prepared.
   void prepare(const ContactStep& step, ContactBlocks& blocks) const;
   /// Lets nothing close any more as fast as impacts do. Changes BodyRow::base, and `velocity` by as
@@ -35,8 +37,13 @@ class ImpactPass {
   void for_blocks(const Visit& visit) const {
     for (const auto& [first, end] : blocks_) visit(first, end);
   }
-  bool closes_fast(const ContactStep& step, const ContactBlocks& blocks) const;
-  void sweep(const ContactStep& step, ContactBlocks& blocks) const;
+  template <class Visit>
+  bool any_block(const Visit& visit) const {
+    bool any = false;
+    for (const auto& [first, end] : blocks_) any |= visit(first, end);
+    return any;
+  }
+  void sweep(const ContactStep& step, ContactBlocks& blocks);
   /// Lets velocities be those before the impulses of the substep; lets them be those again; and
   /// adds the impulses back.
   void set_aside(BodyRow* rows);
@@ -46,6 +53,7 @@ class ImpactPass {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> blocks_;  ///< First and end, by colour.
   std::vector<BodySlot> bodies_;                                 ///< That they may move.
   std::vector<Wide> velocity_;                                   ///< Of these, with all impulses.
+  std::vector<std::uint8_t> moved_;                              ///< See ImpactSweep.
   int manifolds_ = 0;
 };
 

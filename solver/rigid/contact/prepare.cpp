@@ -65,7 +65,7 @@ float most_overlap_m(const ContactStep& step, const Manifold& m) {
   const std::uint32_t many = std::max(of(m.body_a), of(m.body_b));
   if (many <= 2) return 1e30f;
   const float share = 2 / static_cast<float>(many);
-  return share * push_m_s(step, m) / step.soft.press[m.count - 1].rate;
+  return share * push_m_s(step, m) / step.soft.of(m.count).press.rate;
 }
 
 template <std::uint32_t lanes>
@@ -76,7 +76,7 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
   set_lane(g.slide_impulse, lane, step.context.impulse_scale * m.friction_impulse_W);
   set_lane(g.friction_arm_a, lane, m.friction_arm_A);
   set_lane(g.friction_arm_b, lane, m.friction_arm_B);
-  c.twist_impulse[lane] = step.context.impulse_scale * m.twist_impulse;
+  if (m.count > 1) c.twist_impulse[lane] = step.context.impulse_scale * m.twist_impulse;
   c.friction[lane] = m.friction;
   c.roll.arm[lane] = m.rolling_m;
   c.rolls = c.rolls || m.rolling_m > 0;
@@ -85,9 +85,14 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
   c.bouncy = c.bouncy || m.restitution > 0;
   g.compliance_scale[lane] = m.compliance_scale;
   c.push_m_s[lane] = push_m_s(step, m);
+  c.points = std::max<std::uint32_t>(c.points, m.count);
+  c.face[lane] = m.count > 2 ? 1 : 0;
+  const Softness& press = step.soft.of(m.count).press;
+  g.press_mass[lane] = press.mass_scale, g.press_give[lane] = press.impulse_scale;
   const float most_overlap = most_overlap_m(step, m);
   for (std::size_t i = 0; i < m.count; ++i) {
     const ManifoldPoint& p = m.points[i];
+    g.has[i][lane] = 1;
     set_lane(g.arm_a[i], lane, p.arm_A);
     set_lane(g.arm_b[i], lane, p.arm_B);
     c.point[i].separation[lane] = std::max(p.separation_m - p.rest_m, -most_overlap);
@@ -100,14 +105,13 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
 template <std::uint32_t lanes>
 void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<lanes>* arms) {
   const std::uint32_t first = c.first, count = c.count;
-  const std::uint32_t points = c.points;
   const bool split = c.split;
   c = ConstraintBlock<lanes>{};
-  c.first = first, c.count = count, c.points = points, c.split = split;
+  c.first = first, c.count = count, c.split = split;
   GatheredBlock<lanes> g;
   c.rebound.least_m_s = step.rebound_m_s;
-  g.press = step.soft.press[points - 1];
-  for (std::uint32_t lane = 0; lane < lanes; ++lane) g.parts_a[lane] = g.parts_b[lane] = 1;
+  for (std::uint32_t lane = 0; lane < lanes; ++lane)
+    g.parts_a[lane] = g.parts_b[lane] = g.press_mass[lane] = 1;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
     const Manifold& m = step.contacts.manifolds[step.manifolds[first + lane]];
     gather_bodies(step, m, lane, c, g);
@@ -128,9 +132,11 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
   arms->share_a = g.share_a;
   arms->gap = g.gap, arms->bridged = g.bridged;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
-    const float size_m = step.contacts.manifolds[step.manifolds[first + lane]].size_m;
-    arms->wide[lane] = 1.0f * size_m * size_m;
-    arms->least[lane] = kStill * kStill * size_m * size_m;
+    const Manifold& m = step.contacts.manifolds[step.manifolds[first + lane]];
+    const float square = m.size_m * m.size_m;
+    arms->wide[lane] = m.round ? 0 : square;
+    arms->near[lane] = kNow * kNow * square;
+    arms->least[lane] = kStill * kStill * square;
   }
 }
 
@@ -148,7 +154,7 @@ void prepare_impact(const ContactStep& step, const ConstraintBlock<lanes>& c,
 template <std::uint32_t lanes>
 float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
                      const Manifold& m) {
-  const float yield_s = step.soft.press[c.points - 1].yield_s, most_m = kMostGive * m.size_m;
+  const float yield_s = step.soft.of(m.count).press.yield_s, most_m = kMostGive * m.size_m;
   float give_m = 0;
   for (std::uint32_t i = 0; i < c.points; ++i) {
     const float mass = c.point[i].mass[lane], rest_m = std::abs(m.points[i].rest_m);

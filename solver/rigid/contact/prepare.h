@@ -29,7 +29,7 @@ struct ContactStep {
   SpanByBody<const std::uint8_t> loaded_contacts = {};  ///< Loaded manifolds, up to kPinched.
 };
 
-/// Fills everything but `first`, `count`, `points` and `split`, which say what goes in; and `arms`,
+/// Fills everything but `first`, `count` and `split`, which say what goes in; and `arms`,
 /// if they are to follow the bodies.
 template <std::uint32_t lanes>
 void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& block,

@@ -21,11 +21,8 @@ Softness softness(double stiffness, double h) {
 
 SoftStep soft_step(const StepContext& step) {
   SoftStep soft;
-  for (int i = 0; i < 4; ++i) {
-    const bool face = i >= 2;
-    soft.press[i] = softness(face ? kFaceStiffness : kStiffness, step.h_s);
-    soft.slide[i] = softness((face ? 0.5 : 1) * kStiffness, step.h_s);
-  }
+  soft.edge = {softness(kStiffness, step.h_s), softness(kStiffness, step.h_s)};
+  soft.face = {softness(kFaceStiffness, step.h_s), softness(0.5 * kStiffness, step.h_s)};
   soft.inverse_h = step.inverse_h;
   soft.push = static_cast<float>(kPush * step.froude.speed_m_s(1));
   return soft;

@@ -1,6 +1,8 @@
 // How soft contacts are, from the length of a substep.
 #pragma once
 
+#include <cstdint>
+
 namespace sunder::solver {
 
 struct StepContext;
@@ -14,14 +16,22 @@ struct Softness {
   float yield_s = 0;
 };
 
+/// How soft contacts of a kind are.
+struct ContactSoftness {
+  Softness press;  ///< Along the normal.
+  Softness slide;  ///< Of friction that sticks.
+};
+
 /// How soft contacts are in a substep.
 struct SoftStep {
-  Softness press[4];    ///< Along the normal, by the number of points less one.
-  Softness slide[4];    ///< Of friction that sticks.
-  float inverse_h = 0;  ///< 1/s.
-  float omega = 1;      ///< By how much more than it asks for a contact is changed in a sweep.
+  ContactSoftness edge;  ///< Of one point or two.
+  ContactSoftness face;  ///< Of more: springs side by side.
+  float inverse_h = 0;   ///< 1/s.
+  float omega = 1;       ///< By how much more than it asks for a contact is changed in a sweep.
   /// Fastest correction of an overlap, √(m)/s: times the root of the smaller piece's inner radius.
   float push = 0;
+
+  const ContactSoftness& of(std::uint32_t points) const { return points > 2 ? face : edge; }
 };
 
 /// Of the substeps of a step.

@@ -321,7 +321,7 @@ void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& 
       const Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
       float deepest = 0;
       for (std::size_t i = 0; i < m.count; ++i)
-        deepest = std::max(deepest, yield_m(c, lane, i, soft.press[c.points - 1].yield_s));
+        deepest = std::max(deepest, yield_m(c, lane, i, soft.of(c.points).press.yield_s));
       if (deepest <= kDeep * m.size_m) continue;
       any = true;
       for (const BodySlot body : {m.body_a, m.body_b}) loads_[body].supported = false;
@@ -337,8 +337,8 @@ void StaticWarmStart::store(const SoftStep& soft, float kept_scale, float factor
       Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
       auto supported = [&](BodySlot body) { return !concerned_[body] || loads_[body].supported; };
       const float part = supported(m.body_a) && supported(m.body_b) ? factor : 0;
-      store_points(c, lane, soft.press[c.points - 1].yield_s, kept_scale, part, m);
-      store_friction(c, lane, soft.slide[c.points - 1].yield_s, kept_scale, part, m);
+      store_points(c, lane, soft.of(c.points).press.yield_s, kept_scale, part, m);
+      store_friction(c, lane, soft.of(c.points).slide.yield_s, kept_scale, part, m);
       m.friction_anchor_B = bodies.rotation_f[m.body_b].transpose() * m.friction_arm_B;
     }
   }

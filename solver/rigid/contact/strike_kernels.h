@@ -3,9 +3,14 @@
 // and so on alone, under the same rule as sweep_kernels.h.
 #pragma once
 
+#include <algorithm>
+
 #include "solver/rigid/contact/derive_kernels.h"
 
 namespace sunder::solver {
+
+/// Of the speed of the slowest impact: a change that is passed on.
+inline constexpr float kNoticed = 0.1f;
 
 /// How the points of a contact meet, as of the start of a substep, before which gravity has kicked.
 template <std::uint32_t lanes>
@@ -183,9 +188,21 @@ void end_impact(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact) {
       c, [&](std::uint32_t slot, WideOf<lanes>& impulse) { impulse = impact.aside[slot]; });
 }
 
+/// How much faster than the slowest impact the point closes; negative or 0: it is none. What is yet
+/// to rebound is left to strikes, as in press().
 template <std::uint32_t lanes>
-bool closes_fast(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact,
-                 const SolverRows& bodies, const SoftStep& soft) {
+SUNDER_INLINE WideOf<lanes> closes_by(const ConstraintBlock<lanes>& c,
+                                      const ImpactLanes<lanes>& impact, std::uint32_t i,
+                                      WideOf<lanes> speed) {
+  const WideOf<lanes> zero = {};
+  const auto rebounds = (impact.gap_m_s[i] > zero) & (c.rebound.restitution > zero);
+  const WideOf<lanes> closes = rebounds ? (c.point[i].impulse > zero ? -speed : zero) : -speed;
+  return c.point[i].mass > zero ? closes - impact.least_m_s : zero;
+}
+
+template <std::uint32_t lanes>
+bool meet(const ConstraintBlock<lanes>& c, ImpactLanes<lanes>& impact, const SolverRows& bodies,
+          float inverse_h) {
   using V = WideOf<lanes>;
   const V zero = {};
   const Pairs<lanes, false> v(c, bodies, &BodyRow::velocity), x(c, bodies, &BodyRow::position);
@@ -193,12 +210,81 @@ bool closes_fast(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impa
   for (std::uint32_t i = 0; i < c.points; ++i) {
     const PointLanes<lanes>& p = c.point[i];
     const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
-    const V u = v.along(c.normal, p.angular_a, p.angular_b) + max(zero, s) * soft.inverse_h;
-    const auto rebounds = (s > zero) & (c.rebound.restitution > zero);  // as in press()
-    const V closes = rebounds ? (p.impulse > zero ? -u : zero) : -u;
-    fastest = p.mass > zero ? max(fastest, closes - impact.least_m_s) : fastest;
+    impact.gap_m_s[i] = max(zero, s) * inverse_h;
+    const V u = v.along(c.normal, p.angular_a, p.angular_b) + impact.gap_m_s[i];
+    fastest = max(fastest, closes_by(c, impact, i, u));
   }
   return any(fastest > zero);
+}
+
+/// What presses, as in press(); how fast the fastest point closed.
+template <std::uint32_t lanes>
+SUNDER_INLINE WideOf<lanes> press_on(ConstraintBlock<lanes>& c, Pairs<lanes, false>& v,
+                                     const ImpactLanes<lanes>& impact, float omega) {
+  using V = WideOf<lanes>;
+  const V zero = {};
+  V fastest = zero;
+  for (std::uint32_t i = 0; i < c.points; ++i) {
+    PointLanes<lanes>& p = c.point[i];
+    const V u = v.along(c.normal, p.angular_a, p.angular_b) + impact.gap_m_s[i];
+    fastest = max(fastest, closes_by(c, impact, i, u));
+    V change = -p.mass * u;
+    if (c.bouncy) {
+      const auto rebounds = (impact.gap_m_s[i] > zero) & (c.rebound.restitution > zero);
+      change = rebounds ? (p.impulse > zero ? change : zero) : change;
+    }
+    const V next = max(zero, p.impulse + omega * change);
+    v.push(c, c.normal, p.angular_a, p.angular_b, next - p.impulse);
+    p.impulse = next;
+  }
+  return fastest;
+}
+
+/// Whether impulses changed so much since that its bodies noticed.
+template <std::uint32_t lanes>
+SUNDER_INLINE WideOf<lanes> noticed(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact,
+                                    const WideOf<lanes> (&was)[9]) {
+  using V = WideOf<lanes>;
+  const V zero = {}, one = splat<V>(1), least = kNoticed * impact.least_m_s;
+  V changed = zero;
+  for_impulses(c, [&](std::uint32_t slot, const V& impulse, const V& mass) {
+    if (slot == 6) return;  // a torque
+    const V change = max(impulse - was[slot], was[slot] - impulse);
+    changed = change > least * mass ? one : changed;
+  });
+  return changed;
+}
+
+template <std::uint32_t lanes>
+bool pass_on(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact, const SolverRows& bodies,
+             const SoftStep& soft, const ImpactSweep& sweep) {
+  using V = WideOf<lanes>;
+  const V zero = {};
+  bool active[lanes], none = true;
+  V on = zero;
+  for (std::uint32_t i = 0; i < lanes; ++i) {
+    active[i] = std::max(sweep.moved[c.row_a[i]], sweep.moved[c.row_b[i]]) >= sweep.since;
+    on[i] = active[i] ? 1.f : 0.f;
+    none = none && !active[i];
+  }
+  if (none) return false;
+  V was[9];
+  for_all_impulses(c, [&](std::uint32_t slot, const V& impulse) { was[slot] = impulse; });
+  Pairs<lanes, false> v(c, bodies, &BodyRow::velocity);
+  slide<false>(c, v, v, soft);
+  if (c.points > 1) twist(c, v);
+  if (c.rolls) roll(c, v);
+  const V fastest = press_on(c, v, impact, soft.omega);
+  store(c, v, bodies, active);
+  for_all_impulses(
+      c, [&](std::uint32_t slot, V& impulse) { impulse = on > zero ? impulse : was[slot]; });
+  const V changed = noticed(c, impact, was);
+  for (std::uint32_t i = 0; i < lanes; ++i) {
+    if (!(changed[i] > 0)) continue;
+    for (const std::int32_t row : {c.row_a[i], c.row_b[i]})
+      if (row != 0) sweep.moved[row] = sweep.now;
+  }
+  return any((on > zero ? fastest : zero) > zero);
 }
 
 /// Compiles all kernels for so many lanes.
@@ -219,8 +305,10 @@ bool closes_fast(const ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impa
   template bool strike(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);   \
   template void begin_impact(ConstraintBlock<lanes>&, ImpactLanes<lanes>&);                    \
   template void end_impact(ConstraintBlock<lanes>&, const ImpactLanes<lanes>&);                \
-  template bool closes_fast(const ConstraintBlock<lanes>&, const ImpactLanes<lanes>&,          \
-                            const SolverRows&, const SoftStep&);                               \
+  template bool meet(const ConstraintBlock<lanes>&, ImpactLanes<lanes>&, const SolverRows&,    \
+                     float);                                                                   \
+  template bool pass_on(ConstraintBlock<lanes>&, const ImpactLanes<lanes>&, const SolverRows&, \
+                        const SoftStep&, const ImpactSweep&);                                  \
   template void separations_now(const ConstraintBlock<lanes>&, const SolverRows&, float(*)[lanes]);
 
 }  // namespace sunder::solver

@@ -13,6 +13,9 @@ struct SolverRows {
   Wide* spins = nullptr;  ///< Angular momentum (root space) that bodies get when the step ends.
 };
 
+/// Of a substep, or of the size of a contact: as good as none.
+inline constexpr float kNow = 0.01f;
+
 /// How the arms of a block's impulses follow its bodies within a step. An impulse and its
 /// counterpart act at one point, where the body whose corners touch the other's face has it; or the
 /// two would change the sum of angular momentum by what the bodies move past each other.
@@ -22,8 +25,9 @@ struct alignas(64) ArmLanes {
   Wide3Of<lanes> root_b[3] = {};
   WideOf<lanes> share_a = {};  ///< Of the gap that arms of a bridge; those of b bridge the rest.
   WideOf<lanes> least = {};    ///< Square of a change of the gap too small to follow.
-  WideOf<lanes> wide = {};     ///< Square of a gap that no body spans.
-  Wide3Of<lanes> gap = {};     ///< From a's point of friction to b's when the step began.
+  WideOf<lanes> wide = {};  ///< Square of a gap that no body spans; balls span none, or they spin.
+  WideOf<lanes> near = {};  ///< Square of a distance along the normal that is as good as none.
+  Wide3Of<lanes> gap = {};  ///< From a's point of friction to b's when the step began.
   Wide3Of<lanes> bridged = {};
   Wide3Of<lanes> moved_by = {};             ///< Impulse on b with which the bodies last moved.
   Wide3Of<lanes> owed_a = {}, owed_b = {};  ///< What impulses would do with the new arms, besides.
@@ -40,9 +44,11 @@ struct alignas(64) GatheredBlock {
   Wide3Of<lanes> offset = {};  ///< Of b's centre from a's.
   WideOf<lanes> share_a = {};  ///< As in ArmLanes.
   Wide3Of<lanes> gap = {}, bridged = {};
-  WideOf<lanes> meets = {};             ///< 1: arms bridge the gap from the start.
-  Wide3Of<lanes> gravity = {};          ///< Acceleration of b from a.
-  Softness press;                       ///< By the number of points.
+  WideOf<lanes> meets = {};       ///< 1: arms bridge the gap from the start.
+  Wide3Of<lanes> gravity = {};    ///< Acceleration of b from a.
+  WideOf<lanes> has[4] = {};      ///< 1: the manifold has such a point.
+  WideOf<lanes> press_mass = {};  ///< Scales of the spring that presses.
+  WideOf<lanes> press_give = {};
   WideOf<lanes> compliance_scale = {};  ///< Of the springs that press.
   WideOf<lanes> awake_a = {}, awake_b = {};
   WideOf<lanes> parts_a = {}, parts_b = {};  ///< Into which a split block cuts its bodies.
@@ -107,23 +113,34 @@ void go_on(ConstraintBlock<lanes>& block, SearchLanes<lanes>& search, const Solv
 template <std::uint32_t lanes>
 bool strike(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
             float h_s);
-/// What impacts need of a block: what closes no faster is none; and the impulses that an impact has
-/// nothing to do with, as in SearchLanes, then those of rolling.
+/// What impacts need of a block.
 template <std::uint32_t lanes>
 struct alignas(64) ImpactLanes {
-  alignas(4 * lanes) WideOf<lanes> least_m_s = {};
-  WideOf<lanes> aside[9] = {};
+  alignas(4 * lanes) WideOf<lanes> least_m_s = {};  ///< What closes no faster is none.
+  WideOf<lanes> gap_m_s[4] = {};  ///< With which a point may close within the substep, by its gap.
+  WideOf<lanes> aside[9] = {};    ///< Impulses it has nothing to do with, rolling last.
 };
-/// Sets them aside, so that sweeps find those of the impact.
+/// A sweep of what is near an impact.
+struct ImpactSweep {
+  std::uint8_t* moved = nullptr;  ///< By row: the last sweep that changed it; 0: none. Row 0 never.
+  std::uint8_t now = 0;
+  std::uint8_t since = 0;  ///< Manifolds are swept that have a body that moved since then.
+};
+/// Finds the gaps. Whether some point of a block, that is not split, closes as fast as impacts do.
+template <std::uint32_t lanes>
+bool meet(const ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact, const SolverRows& bodies,
+          float inverse_h);
+/// Sets impulses aside, so that sweeps find those of the impact.
 template <std::uint32_t lanes>
 void begin_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact);
-/// Puts them back; those of the impact go to the sum of the step.
+/// One pass as sweep_relaxed(), over manifolds whose bodies moved. Whether some point closed as
+/// fast as impacts do when its turn came.
+template <std::uint32_t lanes>
+bool pass_on(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
+             const SolverRows& bodies, const SoftStep& soft, const ImpactSweep& sweep);
+/// Puts impulses back; those of the impact go to the sum of the step.
 template <std::uint32_t lanes>
 void end_impact(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact);
-/// Whether some point of a block, that is not split, closes as fast as impacts do, beyond its gap.
-template <std::uint32_t lanes>
-bool closes_fast(const ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
-                 const SolverRows& bodies, const SoftStep& soft);
 /// Writes the separation of every point now, by point and lane.
 template <std::uint32_t lanes>
 void separations_now(const ConstraintBlock<lanes>& block, const SolverRows& bodies,

@@ -109,15 +109,26 @@ template <class V>
 struct Spring {
   V mass_scale, impulse_scale;
 
-  template <bool kSplit>
-  SUNDER_INLINE static Spring of(const Softness& soft, V split_scale) {
-    if constexpr (kSplit) {
-      const V impulse = split_scale * soft.impulse_scale;
-      const V scale = soft.mass_scale + impulse;
-      return {soft.mass_scale / scale, impulse / scale};
-    } else {
-      return {splat<V>(soft.mass_scale), splat<V>(soft.impulse_scale)};
-    }
+  SUNDER_INLINE Spring split(V split_scale) const {
+    const V impulse = split_scale * impulse_scale, scale = mass_scale + impulse;
+    return {mass_scale / scale, impulse / scale};
+  }
+};
+
+/// A softness a lane, where each is one of two.
+template <class V>
+struct SoftLanes {
+  V rate;
+  Spring<V> spring;
+
+  SUNDER_INLINE SoftLanes(V face, const Softness& of_edge, const Softness& of_face) {
+    const auto is_face = face > V{};
+    const auto pick = [&](float one, float other) {
+      return is_face ? splat<V>(other) : splat<V>(one);
+    };
+    rate = pick(of_edge.rate, of_face.rate);
+    spring.mass_scale = pick(of_edge.mass_scale, of_face.mass_scale);
+    spring.impulse_scale = pick(of_edge.impulse_scale, of_face.impulse_scale);
   }
 };
 
@@ -129,14 +140,15 @@ SUNDER_INLINE void slide(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
   const V limit = c.friction * total_impulse(c);
   V u1 = v.along(c.tangent_1, c.slide_1_a, c.slide_1_b);
   V u2 = v.along(c.tangent_2, c.slide_2_a, c.slide_2_b);
-  const Softness& stick = soft.slide[c.points - 1];
+  const SoftLanes<V> stick(c.face, soft.edge.slide, soft.face.slide);
   if constexpr (kBiased) {
     u1 += stick.rate * (c.drift_1 + x.along(c.tangent_1, c.slide_1_a, c.slide_1_b));
     u2 += stick.rate * (c.drift_2 + x.along(c.tangent_2, c.slide_2_a, c.slide_2_b));
   }
   V d1 = -(c.slide_11 * u1 + c.slide_12 * u2), d2 = -(c.slide_12 * u1 + c.slide_22 * u2);
   if constexpr (kBiased) {
-    const auto spring = Spring<V>::template of<kSplit>(stick, c.parts.slide_split_scale);
+    Spring<V> spring = stick.spring;
+    if constexpr (kSplit) spring = spring.split(c.parts.slide_split_scale);
     d1 = d1 * spring.mass_scale - c.slide_impulse_1 * spring.impulse_scale;
     d2 = d2 * spring.mass_scale - c.slide_impulse_2 * spring.impulse_scale;
   }
@@ -196,7 +208,7 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
                          const Pairs<lanes, kSplit>& x, const SoftStep& soft) {
   using V = WideOf<lanes>;
   const V zero = {}, one = splat<V>(1);
-  const Softness& press = soft.press[c.points - 1];
+  const SoftLanes<V> press(c.face, soft.edge.press, soft.face.press);
   for (std::uint32_t i = 0; i < c.points; ++i) {
     PointLanes<lanes>& p = c.point[i];
     const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
@@ -205,10 +217,9 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
     V change;
     if constexpr (kBiased) {
       const V free = u;
-      u += s * (apart ? splat<V>(soft.inverse_h) : splat<V>(press.rate));
+      u += s * (apart ? splat<V>(soft.inverse_h) : press.rate);
       Spring<V> spring{c.press_mass, c.press_give};
-      if constexpr (kSplit)
-        spring = Spring<V>::template of<true>(press, c.parts.press_split_scale[i]);
+      if constexpr (kSplit) spring = press.spring.split(c.parts.press_split_scale[i]);
       const V mass_scale = apart ? one : spring.mass_scale;
       const V impulse_scale = apart ? zero : spring.impulse_scale;
       change = -p.mass * mass_scale * u - impulse_scale * p.impulse;
@@ -371,22 +382,6 @@ void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRo
   for (std::uint32_t i = 0; i < c.points; ++i)
     v.push(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, step[i]);
   store(c, v, bodies);
-}
-
-template <std::uint32_t lanes>
-void separations_now(const ConstraintBlock<lanes>& c, const SolverRows& bodies,
-                     float (*separation)[lanes]) {
-  auto write = [&](const auto& x) {
-    for (std::uint32_t i = 0; i < c.points; ++i) {
-      const PointLanes<lanes>& p = c.point[i];
-      const WideOf<lanes> s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
-      for (std::uint32_t lane = 0; lane < lanes; ++lane) separation[i][lane] = s[lane];
-    }
-  };
-  if (c.split)
-    write(Pairs<lanes, true>(c, bodies, &BodyRow::position));
-  else
-    write(Pairs<lanes, false>(c, bodies, &BodyRow::position));
 }
 
 }  // namespace sunder::solver

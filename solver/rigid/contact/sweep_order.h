@@ -24,16 +24,13 @@ class SweepOrder {
   std::span<const ManifoldSlot> manifolds() const { return manifolds_; }
   /// What is split included, which is the last.
   std::uint32_t colors() const { return static_cast<std::uint32_t>(start_.size()) / kKeysAColor; }
-  /// Where those of a colour and a number of points (1 to 4) are in manifolds().
-  std::uint32_t begin(std::uint32_t color, bool near, std::uint32_t points) const {
-    return start_[key(color, near, points)];
+  /// Where those of a colour are in manifolds(): near an impact, or far from any.
+  std::uint32_t begin(std::uint32_t color, bool near) const { return start_[key(color, near, 4)]; }
+  std::uint32_t end(std::uint32_t color, bool near) const {
+    return start_[key(color, near, 1) + 1];
   }
-  std::uint32_t end(std::uint32_t color, bool near, std::uint32_t points) const {
-    return start_[key(color, near, points) + 1];
-  }
-  /// How many of a colour are near an impact.
-  std::uint32_t near(std::uint32_t color) const {
-    return end(color, true, 1) - begin(color, true, 4);
+  std::uint32_t count(std::uint32_t color, bool near) const {
+    return end(color, near) - begin(color, near);
   }
   /// From here on, manifolds have no colour.
   std::uint32_t first_split() const { return start_[start_.size() - 1 - kKeysAColor]; }
