@@ -181,7 +181,7 @@ Measure of_landing(const Block& block) {
 Truths break_truths() {
   return {
       truth(16, "block broken in flight: its centre", "m", "parabola", 1e-4,
-            of_flight(&Flight::center_m), {3.9e-5, 2.2e-5, 2.4e-5, 5e-5}),
+            of_flight(&Flight::center_m), {3.9e-5, 3.5e-5, 2.4e-5, 5e-5}),
       truth(16, "block broken in flight: p", "", "constant but for gravity", 1e-6,
             of_flight(&Flight::momentum), {3.5e-6, 2.1e-6, 2.9e-6, 5.3e-6}),
       truth(16, "block broken in flight: L", "", "constant", 1e-5, of_flight(&Flight::spin),
