@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "scenes/load.h"
@@ -78,6 +79,16 @@ Scene scene_at(const Preset& preset, const std::string& text, double duration_s,
       "[scene]\ndescription = \"An extreme.\"\nduration_s = " + std::to_string(duration_s) +
       "\n[limits]\n[accuracy]\n[ground]\n";
   return scenes::parse_scene(head + text, "extreme.toml", {preset.name, std::move(set)});
+}
+
+double mean_of_seeds(Scene scene, const std::function<double(const Run&)>& figure) {
+  constexpr int kSeeds = 8;
+  double sum = 0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    scene.seed = static_cast<std::uint64_t>(seed);
+    sum += figure(run(scene));
+  }
+  return sum / kSeeds;
 }
 
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,

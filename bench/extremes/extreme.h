@@ -39,6 +39,10 @@ Run run(Scene scene);
 Scene scene_at(const Preset& preset, const std::string& text, double duration_s,
                std::vector<std::string> set = {});
 
+/// Mean of a figure over runs of a scene with seeds 1 to 8: one run of rubble says little of the
+/// next.
+double mean_of_seeds(Scene scene, const std::function<double(const Run&)>& figure);
+
 /// A truth about a scene.
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,
               const SceneAt& scene, const std::function<double(const Run&)>& figure,
