@@ -18,7 +18,7 @@ struct Preset {
   int substeps;
   int sweeps = 1;
 };
-inline constexpr std::array<Preset, 4> kPresets = {{{"draft", 1.0 / 60, 4},
+inline constexpr std::array<Preset, 4> kPresets = {{{"draft", 1.0 / 60, 8},
                                                     {"realtime", 1.0 / 120, 4},
                                                     {"accurate", 1.0 / 120, 8},
                                                     {"reference", 1.0 / 480, 4, 4}}};

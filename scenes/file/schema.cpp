@@ -296,7 +296,7 @@ Schema make_schema() {
 
 std::span<const Preset> presets() {
   static constexpr Preset kPresets[] = {
-      {"draft", {1.0 / 60, 4}, 1, "fastest"},
+      {"draft", {1.0 / 60, 8}, 1, "fastest"},
       {"realtime", {1.0 / 120, 4}, 1, "the default"},
       {"accurate", {1.0 / 120, 8}, 1, "a quarter of the penetration"},
       {"reference", {1.0 / 480, 4}, 4, "a sixteenth of it"},

@@ -228,7 +228,7 @@ TEST(Accuracy, TheChainOfAWreckingBallDoesNotStretchAtAnyPreset) {
 }
 
 TEST(Accuracy, AChainThatWouldTearIsWarnedOfOnceWithTheSubstepsThatHoldIt) {
-  const Scene scene = wrecking_ball("120", "draft");
+  const Scene scene = wrecking_ball("120", "draft", {"accuracy.substeps=4"});
   const std::vector<std::string> warnings = chain_warnings(scene, scenes::kMostSubsteps);
   ASSERT_EQ(warnings.size(), 1u);
   const int needed = chains_in(scene).front().substeps;

@@ -62,7 +62,7 @@ TEST(Trade, ListsItsRunsAndEveryShare) {
   const auto all = lines_of(sunder("trade stack --seeds 2 --list").out);
   ASSERT_EQ(all.size(), 26u);
   EXPECT_EQ(all[0], "stack/draft-1  draft scene.seed=1");
-  EXPECT_EQ(all[15], "stack/60x8-2  draft accuracy.substeps=8 scene.seed=2");
+  EXPECT_EQ(all[15], "stack/60x4-2  draft accuracy.substeps=4 scene.seed=2");
   std::multiset<std::string> shared;
   for (const char* shard : {"1/3", "2/3", "3/3"}) {
     for (const std::string& line :
