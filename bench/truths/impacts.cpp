@@ -196,7 +196,7 @@ Truths impact_truths() {
       truth(28, "hulls off-centre at 30 m/s, e = 0: L, worst of 20", "", "constant", 1e-5,
             hulls_off_centre(30, 0), {0.084, 0.003, 0.00028, 5.6e-6}),
       truth(28, "hulls off-centre at 30 m/s, e = .5: L, worst of 20", "", "constant", 1e-5,
-            hulls_off_centre(30, 0.5), {0.00067, 1e-6, 1e-6, 1e-6}),
+            hulls_off_centre(30, 0.5), {0.0019, 1e-6, 1e-6, 1e-6}),
       truth(32, "cube dropped flat, e = .6: spin", "rad/s", "0", 0.05, spin_of_dropped_cube,
             {0.005, 0.005, 0.005, 0.005}),
       truth(32, "ten cubes 50 mm apart, e = 1: energy gained", "", "0", 1e-6, energy_of_ten_cubes,
