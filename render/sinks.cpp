@@ -54,33 +54,24 @@ class LastImageSink final : public FrameSink {
 
 class ImagesSink final : public FrameSink {
  public:
-  ImagesSink(std::filesystem::path folder, Renderer& renderer)
-      : folder_(std::move(folder)), partial_(temporary_name(folder_)), renderer_(renderer) {
-    make_folder(partial_);
-  }
-  ~ImagesSink() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(partial_, ignored);
+  ImagesSink(std::filesystem::path folder, Renderer& renderer, bool resume)
+      : folder_(std::move(folder)), renderer_(renderer), resume_(resume) {
+    make_folder(folder_);
   }
 
   void take(const FramePtr& frame) override {
     char name[32];
     std::snprintf(name, sizeof name, "frame_%05llu.png",
                   static_cast<unsigned long long>(frame->index));
-    write_png(partial_ / name, renderer_.draw(*frame));
+    const std::filesystem::path picture = folder_ / name;
+    if (!resume_ || !std::filesystem::exists(picture)) write_png(picture, renderer_.draw(*frame));
   }
-  void finish() override {
-    make_folder(folder_);
-    for (const auto& image : std::filesystem::directory_iterator(partial_)) {
-      replace_file(image.path(), folder_ / image.path().filename());
-    }
-    std::filesystem::remove_all(partial_);
-  }
+  void finish() override {}
 
  private:
   std::filesystem::path folder_;
-  std::filesystem::path partial_;
   Renderer& renderer_;
+  bool resume_;
 };
 
 /// A sink with a renderer of its own.
@@ -103,13 +94,15 @@ std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
   return std::make_unique<OwnRenderer>(path, options);
 }
 
-std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
-                                             Renderer& renderer) {
+std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer,
+                                             bool resume) {
   const std::string extension = path.extension().string();
   if (extension == ".mp4" || extension == ".png") {
     if (std::filesystem::is_directory(path)) {
       throw InputError(path.string() + ": is a folder; name a file");
     }
+    if (resume)
+      throw InputError(path.string() + ": only pictures in a folder (DIR/) can be resumed");
     make_folder(path.parent_path());
     if (extension == ".mp4") return std::make_unique<VideoSink>(path, renderer);
     return std::make_unique<LastImageSink>(path, renderer);
@@ -118,7 +111,7 @@ std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
   if (!extension.empty() && !std::filesystem::is_directory(folder)) {
     throw InputError(path.string() + ": make it .mp4, .png, or a folder (ending in /)");
   }
-  return std::make_unique<ImagesSink>(folder, renderer);
+  return std::make_unique<ImagesSink>(folder, renderer, resume);
 }
 
 }  // namespace sunder::render

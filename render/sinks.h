@@ -21,12 +21,14 @@ struct RenderOptions {
 class Renderer;
 
 /// `path` ending in .mp4: a video of 60 frames a second; .png: the last frame taken; otherwise a
-/// directory of frame_00000.png and so on. Nothing stands at `path` until it is complete.
+/// directory of frame_00000.png and so on. No file stands there until it is complete.
 /// Throws InputError if ffmpeg is missing (naming the package) or the options cannot be met,
 /// FileError if the place cannot be written.
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
                                              const RenderOptions& options);
-/// The same with a renderer that is there already, and must outlive the sink.
-std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer);
+/// The same with a renderer that is there already, and must outlive the sink; `resume`: pictures
+/// that are in the directory stay as they are, and are not drawn.
+std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer,
+                                             bool resume = false);
 
 }  // namespace sunder::render

@@ -25,6 +25,12 @@ namespace {
 constexpr double kFrame = 1.0 / 60;
 constexpr double kFoundationDepth = 0.3;  // m
 
+void check_view(const View& view, const std::string& where) {
+  if (!view.to_sun_W.isZero() && view.eye_W != view.target_W) return;
+  throw InputError(where +
+                   ": [view] needs a sun that is not zero, and an eye that is not at its target");
+}
+
 /// The loader's state: the document and the scene it is becoming.
 class Loader {
  public:
@@ -83,10 +89,7 @@ Scene Loader::load(const LoadOptions& options) {
   read_table(s.limits, "limits", scene_.limits);
   read_table(s.ground, "ground", scene_.ground);
   read_table(s.view, "view", scene_.view);
-  if (scene_.view.to_sun_W.isZero() || scene_.view.eye_W == scene_.view.target_W) {
-    throw InputError(document_.where +
-                     ": [view] needs a sun that is not zero, and an eye that is not at its target");
-  }
+  check_view(scene_.view, document_.where);
   add_materials(document_, folder_);
   for (const Value* table : tables(document_, "solid")) add_solid(*table);
   for (const Value* table : tables(document_, "body")) add_body(*table);
@@ -319,6 +322,23 @@ void add_builtin_materials(Loader& loader) {
 }
 
 }  // namespace
+
+void change_view(View& view, const std::vector<std::string>& set, const std::string& what) {
+  Value document{what, Table{}};
+  for (const std::string& assignment : set) {
+    if (!assignment.starts_with("view.")) {
+      throw InputError("--set " + assignment + ": " + what +
+                       " has been simulated; keys of [view] alone can be set, as view.fov_deg=30");
+    }
+    set_value(document, assignment);
+  }
+  try {
+    if (const Value* table = find(document, "view")) read(schema().view, *table, {}, view);
+  } catch (const InputError& error) {
+    throw InputError(what + ": " + error.what());
+  }
+  check_view(view, what);
+}
 
 std::vector<Material> builtin_materials() {
   const Value nothing;

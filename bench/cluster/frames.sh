@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws one range of a take's frames, unless all its pictures are there:
+# Draws those of a range of a take's frames that are not there yet:
 #
 #   frames.sh RANGE FRAMES SIZE X.take DIR [OPTIONS OF sunder render]
 #
@@ -11,14 +11,6 @@ shift 5
 first=$(((range - 1) * size))
 last=$((first + size - 1 < frames - 1 ? first + size - 1 : frames - 1))
 for ((frame = first; frame <= last; ++frame)); do
-  if [ ! -e "$folder/$(printf 'frame_%05d.png' "$frame")" ]; then
-    # In a folder of its own: workers on other machines write to the same one.
-    mkdir -p "$folder"
-    part="$folder/frames-$first-$last"
-    rm -rf "$part" "$part".part-*  # of a worker that died
-    "${SUNDER:-build/sunder}" render "$take" --frames "$first:$last" -o "$part/" --quiet "$@"
-    mv "$part"/*.png "$folder/"
-    rm -r "$part"
-    exit
-  fi
+  rm -f "$folder/$(printf 'frame_%05d.png' "$frame")".part-*  # of a worker that died
 done
+exec "${SUNDER:-build/sunder}" render "$take" --frames "$first:$last" --resume -o "$folder/" --quiet "$@"

@@ -61,13 +61,17 @@ int spawn(std::vector<std::string> words, int input, int log, int& pid) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+  posix_spawnattr_t attributes;  // a group of its own: Ctrl-C is for us to decide on
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, log, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, log, STDERR_FILENO);
-  const int error = ::posix_spawnp(&pid, argv[0], &actions, nullptr, argv.data(), environ);
+  const int error = ::posix_spawnp(&pid, argv[0], &actions, &attributes, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   return error;
 }
 
@@ -125,8 +129,9 @@ void Encoder::add(const Image& image) {
   }
 }
 
+/// At a full disk ffmpeg ends with 0, and has said so.
 void Encoder::finish() {
-  if (!wait()) fail();
+  if (!wait() || ::lseek(log_, 0, SEEK_END) > 0) fail();
   replace_file(temporary_, path_);
 }
 

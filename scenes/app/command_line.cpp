@@ -85,8 +85,12 @@ void add_render(CLI::App& program, Command& chosen) {
       ->add_option("-o,--output", options.output,
                    "X.mp4: video; X.png: the last frame; DIR/: a PNG a frame")
       ->required();
-  command.app->add_option("--frames", options.frames, "Draw frames A to B, both included")
+  command.app
+      ->add_option("--frames", options.frames,
+                   "Draw frames A to B, both included; A: to the end, :B from the start, A alone")
       ->type_name("A:B");
+  command.app->add_flag("--resume", options.resume,
+                        "Into DIR/: keep pictures that are there, draw the others");
   command.app->add_option("--size", options.size, "Pixels")
       ->type_name("WxH")
       ->capture_default_str();
@@ -95,6 +99,9 @@ void add_render(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   command.app->add_flag("--hud", options.render.hud, "Frame number, time and counts in the corner");
   command.add_changes();
+  command.app->get_option("--preset")->each([&options](const std::string&) {
+    options.preset_given = true;
+  });
 }
 
 void add_bench(CLI::App& program, Command& chosen) {

@@ -47,9 +47,11 @@ struct SimulateOptions : CommonOptions {
 struct RenderOptions : CommonOptions {
   std::string scene;  ///< Or a stored frame, or a take.
   scenes::LoadOptions load;
+  bool preset_given = false;
   std::string output;
   std::string frames;  ///< "A:B"
   std::string size = "1280x720";
+  bool resume = false;
   render::RenderOptions render;
 };
 

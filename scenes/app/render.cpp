@@ -1,4 +1,5 @@
 // sunder render: a scene, a take or one stored frame becomes a video or images.
+#include <charconv>
 #include <cstdio>
 #include <limits>
 #include <utility>
@@ -19,12 +20,24 @@ struct Span {
   int last = std::numeric_limits<int>::max();
 };
 
+/// "A:B", "A:", ":B" or "A".
 Span parse_frames(const std::string& text) {
+  if (text.empty()) return {};
   Span span;
-  char rest = 0;
-  if (!text.empty() && (std::sscanf(text.c_str(), "%d:%d%c", &span.first, &span.last, &rest) != 2 ||
-                        span.first < 0 || span.last < span.first)) {
-    throw InputError("--frames " + text + ": expected A:B, the first and the last frame, A <= B");
+  const char* const end = text.data() + text.size();
+  const char* at = text.data();
+  const auto number = [&](int& value) {  // none keeps it
+    if (at == end || *at == ':') return true;
+    const auto [stop, error] = std::from_chars(at, end, value);
+    at = stop;
+    return error == std::errc() && value >= 0;
+  };
+  bool good = number(span.first);
+  if (at == end) span.last = span.first;
+  if (at != end) good = good && *at++ == ':' && text != ":" && number(span.last);
+  if (!good || at != end || span.last < span.first) {
+    throw InputError("--frames " + text +
+                     ": expected A:B, the first and the last frame, A <= B; or A:, :B, or A alone");
   }
   return span;
 }
@@ -49,25 +62,52 @@ class StoredFrame final : public FrameSource {
   FramePtr frame_;
 };
 
+/// What another source gives, looked at otherwise.
+class LookedAt final : public FrameSource {
+ public:
+  LookedAt(std::unique_ptr<FrameSource> source, const RenderOptions& options)
+      : source_(std::move(source)), options_(options) {
+    View view;
+    scenes::change_view(view, options.load.set, options.scene);  // before all the work
+  }
+  FramePtr next() override {
+    const FramePtr frame = source_->next();
+    if (!frame || options_.load.set.empty()) return frame;
+    auto seen = std::make_shared<Frame>(*frame);
+    scenes::change_view(seen->view, options_.load.set, options_.scene);
+    return seen;
+  }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  const RenderOptions& options_;
+};
+
 /// What is drawn, and where it comes from.
 struct Shown {
   std::unique_ptr<FrameSource> source;
   Span drawn;
   int skipped = 0;             ///< Frames that the source does not give.
-  TakeReader* take = nullptr;  ///< The source, if it is one.
+  TakeReader* take = nullptr;  ///< What the source plays, if it does.
 };
 
 Shown open(const RenderOptions& options, const Span& span) {
-  if (options.scene.ends_with(".frame")) {
-    return {std::make_unique<StoredFrame>(options.scene), {0, 0}};
+  const bool is_frame = options.scene.ends_with(".frame"),
+             is_take = options.scene.ends_with(".take");
+  if ((is_frame || is_take) && options.preset_given) {
+    throw InputError("--preset " + options.load.preset + ": " + options.scene +
+                     " has been simulated; only how it is looked at can change, by --set view.KEY");
   }
+  if (is_frame)
+    return {std::make_unique<LookedAt>(std::make_unique<StoredFrame>(options.scene), options),
+            {0, 0}};
   Shown shown;
   int last = 0;
-  if (options.scene.ends_with(".take")) {
+  if (is_take) {
     auto take = std::make_unique<TakeReader>(options.scene);
     shown.take = take.get();
-    shown.source = std::move(take);
     last = static_cast<int>(shown.take->frames()) - 1;
+    shown.source = std::make_unique<LookedAt>(std::move(take), options);
   } else {
     Scene scene = scenes::load_scene(options.scene, options.load);
     last = last_frame(scene, -1);
@@ -96,14 +136,14 @@ int render_scene(const RenderOptions& options) {
   const Shown shown = open(options, span);
   render::Renderer renderer(render_options);
   options.say(renderer.description() + "\n");
-  const auto pictures = render::make_picture_sink(options.output, renderer);
+  const auto pictures = render::make_picture_sink(options.output, renderer, options.resume);
   FramesFrom from(*pictures, static_cast<std::uint64_t>(shown.drawn.first));
   FramesUntil frames(*shown.source, shown.drawn.last - shown.skipped);
   Progress progress("render " + options.scene, shown.drawn.last, options.quiet);
   StateHash hash;
   FrameSink* const sinks[] = {&from, &hash, &progress};
-  pump(frames, sinks);
-  options.say("wrote " + options.output + "\n");
+  const int stopped = pump_until_stopped(frames, sinks);
+  options.say((stopped == 0 ? "wrote " : "stopped; kept what was drawn: ") + options.output + "\n");
   options.write_json(format_figures({{"/output", options.output},
                                      {"/gl", renderer.description()},
                                      {"/width", std::int64_t{render_options.width}},
@@ -114,7 +154,7 @@ int render_scene(const RenderOptions& options) {
   if (shown.take && !shown.take->damage().empty()) {
     throw InputError(options.scene + ": " + shown.take->damage() + "; what was before is drawn");
   }
-  return 0;
+  return stopped;
 }
 
 }  // namespace sunder::app

@@ -4,11 +4,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 
 #include "engine/base/check.h"
 
 namespace sunder::app {
+namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+/// A source that ends when a signal asks it to.
+class UntilStopped final : public FrameSource {
+ public:
+  explicit UntilStopped(FrameSource& source) : source_(source) {
+    struct sigaction action = {};
+    action.sa_handler = [](int signal) { stop_signal = signal; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+  }
+  FramePtr next() override { return stop_signal == 0 ? source_.next() : nullptr; }
+
+ private:
+  FrameSource& source_;
+};
+
+}  // namespace
+
+int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks) {
+  UntilStopped until(source);
+  pump(until, sinks);
+  return stop_signal == 0 ? 0 : 128 + stop_signal;
+}
 
 std::unique_ptr<FrameSource> make_simulation(Scene scene) {
   scenes::SimulationOptions options;

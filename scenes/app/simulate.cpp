@@ -38,7 +38,7 @@ int simulate(const SimulateOptions& options) {
   std::optional<TakeWriter> writer;
   if (!options.take.empty()) sinks.push_back(&writer.emplace(options.take));
   if (!options.trace.empty()) start_trace();
-  pump(frames, sinks);
+  const int stopped = pump_until_stopped(frames, sinks);
   if (!options.trace.empty()) {
     write_text(options.trace, format_trace(take_trace()));
     options.say("wrote " + options.trace + ": open it at ui.perfetto.dev\n");
@@ -46,7 +46,7 @@ int simulate(const SimulateOptions& options) {
   options.say(statistics.table() + "state hash " + hash.hex() + "\n");
   options.write_json(statistics.json(hash.hex(), true));
   if (writer) options.say("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
-  if (!verifier) return 0;
+  if (stopped != 0 || !verifier) return stopped;
   const std::string same = std::to_string(verifier->same()) + " frames are those of the take\n";
   if (verifier->difference().empty()) {
     options.say(same);

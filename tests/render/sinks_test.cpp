@@ -116,6 +116,19 @@ TEST(VideoSink, AnFfmpegThatFailsIsAnErrorWithItsWordsAndNotASignal) {
   EXPECT_EQ(folder.contents(), std::vector<std::string>{"bin"});
 }
 
+TEST(VideoSink, AnFfmpegThatFailsWithoutSayingSoInItsStatusIsAnErrorToo) {
+  const TestFolder folder;
+  std::filesystem::create_directories(folder / "bin");
+  const std::filesystem::path program = folder / "bin" / "ffmpeg";
+  std::ofstream(program) << "#!/bin/sh\n/bin/cat >/dev/null\necho no space left >&2\nexit 0\n";
+  ::chmod(program.c_str(), 0755);
+  const SearchPath fake(folder / "bin");
+  const auto sink = make_picture_sink(folder / "v.mp4", renderer());
+  take_frames(*sink, 2);
+  EXPECT_THROW(sink->finish(), FileError);
+  EXPECT_EQ(folder.contents(), std::vector<std::string>{"bin"});
+}
+
 TEST(VideoSink, AnOddSizeIsRefused) {
   const TestFolder folder;
   Renderer odd({.width = 161, .height = 90});
@@ -135,11 +148,24 @@ TEST(ImageSink, AFolderGetsEveryFrameByNumber) {
   const TestFolder folder;
   const auto sink = make_picture_sink(folder / "frames/", renderer());
   take_frames(*sink, 2);
-  EXPECT_FALSE(std::filesystem::exists(folder / "frames"));
   sink->finish();
   EXPECT_EQ(read_png(folder / "frames/frame_00001.png"), renderer().draw(*frame_number(1)));
   EXPECT_TRUE(std::filesystem::exists(folder / "frames/frame_00000.png"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "frames"), {}), 2);
   EXPECT_EQ(folder.contents(), std::vector<std::string>{"frames"});
+}
+
+TEST(ImageSink, AFolderThatIsResumedKeepsItsPictures) {
+  const TestFolder folder;
+  std::filesystem::create_directories(folder / "frames");
+  const Image other = renderer().draw(*frame_number(5));
+  write_png(folder / "frames/frame_00001.png", other);
+  const auto sink = make_picture_sink(folder / "frames/", renderer(), true);
+  take_frames(*sink, 3);
+  sink->finish();
+  EXPECT_EQ(read_png(folder / "frames/frame_00001.png"), other);
+  EXPECT_EQ(read_png(folder / "frames/frame_00002.png"), renderer().draw(*frame_number(2)));
+  EXPECT_THROW(make_picture_sink(folder / "v.mp4", renderer(), true), InputError);
 }
 
 TEST(ImageSink, AnUnknownKindOfFileIsRefused) {

@@ -4,7 +4,11 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -232,6 +236,87 @@ TEST(Program, RenderWritesThePictureItWasAskedFor) {
   const Outcome outcome = sunder("render stack --frames 0:2 --size 64x48 -o " + picture);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(picture));
+}
+
+TEST(Program, RenderDrawsTheFramesItWasAskedFor) {
+  const Folder folder;
+  const std::string take = folder / "s.take";
+  ASSERT_EQ(sunder("simulate stack --frames 4 --quiet --take " + take).exit_code, 0);
+  const auto drawn = [&](const std::string& frames) {
+    const std::string pictures = folder / ("frames" + frames + "/");
+    const Outcome outcome =
+        sunder("render " + take + " --frames " + frames + " --size 64x48 --quiet -o " + pictures);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::set<std::string> names;
+    for (const auto& picture : std::filesystem::directory_iterator(pictures))
+      names.insert(picture.path().stem().string().substr(10));
+    return names;
+  };
+  using Names = std::set<std::string>;
+  EXPECT_EQ(drawn("1:2"), (Names{"1", "2"}));
+  EXPECT_EQ(drawn("3:"), (Names{"3", "4"}));
+  EXPECT_EQ(drawn(":1"), (Names{"0", "1"}));
+  EXPECT_EQ(drawn("2"), (Names{"2"}));
+  for (const std::string wrong : {":", "2:1", "-1", "1:2:3", "x", "1:x", "99999999999"}) {
+    const Outcome outcome = sunder("render " + take + " -o " + folder / "x/ --frames=" + wrong);
+    EXPECT_EQ(outcome.exit_code, 2) << wrong;
+    EXPECT_NE(outcome.err.find("expected A:B"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(Program, ATakeIsLookedAtOtherwiseButNotSimulatedOtherwise) {
+  const Folder folder;
+  const std::string take = folder / "s.take";
+  ASSERT_EQ(sunder("simulate stack --frames 2 --quiet --take " + take).exit_code, 0);
+  const auto picture = [&](const std::string& options, const std::string& name) {
+    const Outcome outcome = sunder("render " + take + " --frames 1 --size 64x48 --quiet " +
+                                   options + " -o " + folder / name);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::ifstream file(folder / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string plain = picture("", "a.png");
+  EXPECT_NE(picture("--set view.fov_deg=20", "b.png"), plain);
+  EXPECT_NE(picture("--set view.sun=[-1,1,0]", "c.png"), plain);
+  EXPECT_EQ(picture("", "d.png"), plain);
+  for (const std::string wrong :
+       {"--set scene.seed=2", "--set foo.bar=1", "--set view.far=1", "--preset draft",
+        "--set view.eye=[0,1,0] --set view.target=[0,1,0]"}) {
+    const Outcome outcome = sunder("render " + take + " " + wrong + " -o " + folder / "x.png");
+    EXPECT_EQ(outcome.exit_code, 2) << wrong;
+    EXPECT_NE(outcome.err.find("s.take"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(Program, WhatIsStoppedKeepsWhatItHasAndLeavesNothingElse) {
+  const Folder folder;
+  const auto stopped = [&](const std::string& arguments, const std::string& until,
+                           const std::string& signal) {
+    const std::string line = "\"" SUNDER_PROGRAM "\" " + arguments +
+                             " >/dev/null 2>&1 & run=$!; i=0; while [ $i -lt 1200 ] && ! ( " +
+                             until + " ); do sleep 0.05; i=$((i+1)); done; kill -" + signal +
+                             " $run; wait $run";
+    const int status = std::system(line.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  const std::string pictures = folder / "p/";
+  EXPECT_EQ(stopped("render brick_wall --size 64x48 -o " + pictures,
+                    "[ -e " + pictures + "frame_00003.png ]", "TERM"),
+            143);
+  for (const auto& picture : std::filesystem::directory_iterator(pictures))
+    EXPECT_EQ(picture.path().extension(), ".png");
+  const std::string take = folder / "t.take";
+  EXPECT_EQ(stopped("simulate brick_wall --take " + take,
+                    "[ \"$(stat -c %s " + take + " 2>/dev/null || echo 0)\" -gt 100000 ]", "TERM"),
+            143);
+  EXPECT_TRUE(TakeReader(take).is_complete());
+  if (std::system("ffprobe -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
+  const std::string video = folder / "v.mp4";
+  EXPECT_EQ(stopped("render brick_wall --size 64x48 -o " + video,
+                    "ls " + video + ".part-* >/dev/null 2>&1 && sleep 1", "TERM"),
+            143);
+  EXPECT_EQ(std::system(("ffprobe -v error " + video).c_str()), 0);
+  EXPECT_FALSE(std::filesystem::exists(video + ".part"));
 }
 
 }  // namespace

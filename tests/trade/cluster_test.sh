@@ -41,12 +41,12 @@ export DOOMED=2/4 SIGN='shared/runs/pile/realtime-1.json'
 "${shared[@]}" || fail "the second pass"
 diff -r whole/runs shared/runs || fail "other results than those of one run"
 
-# Seven frames in ranges of two; the worker of the second is killed as it begins to draw.
+# Seven frames in ranges of two; the worker of the second is killed once it has drawn the first of them.
 rm killed
 "$sunder" simulate stack --frames 6 --take x.take --quiet
 "$sunder" render x.take -o whole.png/ --size 64x48 --quiet
 pictures=("$root/bench/cluster/parallel_render.sh" 7 2 x.take pictures --size 64x48)
-export DOOMED=2:3 SIGN='pictures/frames-2-3*'
+export DOOMED=2:3 SIGN='pictures/frame_00002.png'
 ! "${pictures[@]}" || fail "the first pass lost no picture"
 [ -e killed ] || fail "no worker was killed"
 "${pictures[@]}" || fail "the second pass of pictures"
