@@ -68,6 +68,17 @@ TEST(Points, TheGridIsOfTwelveWithEveryPresetAndTheLimitBeyondThem) {
   EXPECT_LE(limit, finest / 4);
 }
 
+TEST(Points, APresetIsNoCheaperThanTheOneBeforeIt) {
+  const std::span<const scenes::Preset> all = scenes::presets();
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const scenes::Preset &coarse = all[i - 1], &fine = all[i];
+    EXPECT_LE(fine.accuracy.dt_s, coarse.accuracy.dt_s) << fine.name << ": collisions";
+    EXPECT_LE(coarse.accuracy.substeps * coarse.sweeps / coarse.accuracy.dt_s,
+              fine.accuracy.substeps * fine.sweeps / fine.accuracy.dt_s)
+        << fine.name << ": sweeps";
+  }
+}
+
 TEST(Points, AFileNamesThemOneALine) {
   const auto points = parse_points(
       "# comment\n\nlimit reference\ncoarse draft  accuracy.substeps=2 ground.friction=0 # more\n",
