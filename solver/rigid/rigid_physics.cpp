@@ -43,7 +43,7 @@ class RigidPhysics final : public Physics {
   void edit(const BodyEdit& edit) override;
   void collide(double dt_s) override;
   std::vector<Approach> approaches() override {
-    return find_approaches(contacts_, bodies_, shapes_, step_);
+    return approaches_.find(contacts_, bodies_, shapes_, step_);
   }
   std::vector<Touch> touches(std::span<const BodyId> bodies) override;
   std::vector<TouchingBodies> touching(std::span<const BodyId> bodies) override;
@@ -90,6 +90,7 @@ class RigidPhysics final : public Physics {
   Sleep sleep_;
   ContactSolver contact_solver_;
   StaticWarmStart static_warm_start_;
+  Approaches approaches_;
   ContactsOfBodies contacts_of_bodies_;
   Paused paused_;
   StepContext step_;          ///< Of the last collide.
@@ -139,7 +140,10 @@ void RigidPhysics::remove_shapes(std::span<const ShapeSlot> shapes) {
     if (contacts_.pairs[pair].touching()) manifolds.push_back(contacts_.pairs[pair].manifold);
   sleep_.wake_left(manifolds, options_.gravity_W, contacts_, bodies_);
   contacts_of_bodies_.clear();
-  for (const PairSlot pair : pairs) contacts_.remove(pair);
+  for (const PairSlot pair : pairs) {
+    approaches_.forget(contacts_.pairs[pair]);
+    contacts_.remove(pair);
+  }
   broad_phase_.remove(shapes);
   shapes_.remove(shapes, bodies_);
 }
@@ -226,8 +230,12 @@ void RigidPhysics::update_contacts() {
   for (const ContactChanges& chunk : changes)
     for (const PairSlot i : chunk.parted) left.push_back(pairs[i].manifold);
   sleep_.wake_left(left, options_.gravity_W, contacts_, bodies_);
+  approaches_.forget_changed(bodies_);
   for (const ContactChanges& chunk : changes)
-    for (const PairSlot i : chunk.parted) contacts_.part(i);
+    for (const PairSlot i : chunk.parted) {
+      approaches_.forget(pairs[i]);
+      contacts_.part(i);
+    }
   std::size_t touched = 0;
   for (const ContactChanges& chunk : changes) touched += chunk.touched.size();
   contacts_.expect_manifolds(touched);
@@ -240,7 +248,10 @@ void RigidPhysics::update_contacts() {
   work_.add(moved);
   work_.add(touches);
   for (const ContactChanges& chunk : changes)
-    for (const auto& [pair, manifold] : chunk.touched) contacts_.touch(pair, manifold, bodies_);
+    for (const auto& [pair, manifold] : chunk.touched) {
+      approaches_.forget(pairs[pair]);
+      contacts_.touch(pair, manifold, bodies_);
+    }
   for (const ContactChanges& chunk : changes)
     for (const PairSlot i : chunk.gone) contacts_.remove(i);
   std::fill(bodies_.changed.begin(), bodies_.changed.end(), std::uint8_t{0});
@@ -272,30 +283,11 @@ std::vector<TouchingBodies> RigidPhysics::touching(std::span<const BodyId> bodie
 }
 
 void RigidPhysics::set_state(BodyId id, const BodyState& state) {
-  const BodySlot body = bodies_.slot(id);
-  if (!bodies_.dynamic(body)) return;
-  bodies_.wake(body);
-  const Quat rotation = bodies_.rotation[body].conjugate() * state.X_WB.rotation;
-  bodies_.turned_m[body] +=
-      3.2 * rotation.vec().norm() * bodies_.reach_m[body];  // angle <= pi * sine
-  bodies_.place(body, state.X_WB.position, state.X_WB.rotation);
-  bodies_.velocity[body] = state.velocity_W;
-  bodies_.angular_velocity[body] = state.angular_velocity_W;
-  bodies_.changed[body] = 1;
-  bodies_.slow_s[body] = 0;
+  bodies_.set_state(bodies_.slot(id), state);
 }
 
 void RigidPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) {
-  const BodySlot body = bodies_.slot(id);
-  if (!bodies_.dynamic(body)) return;
-  bodies_.wake(body);
-  const Quat& q = bodies_.rotation[body];
-  const Vec3 angular_impulse_B =
-      q.conjugate() * (point_W - bodies_.position[body]).cross(impulse_W);
-  bodies_.velocity[body] += impulse_W / bodies_.mass_kg[body];
-  bodies_.angular_velocity[body] += q * Vec3(bodies_.inertia_B[body].inverse() * angular_impulse_B);
-  bodies_.changed[body] = 1;
-  bodies_.slow_s[body] = 0;
+  bodies_.apply_impulse(bodies_.slot(id), impulse_W, point_W);
 }
 
 /// Pairs that begin to ignore each other are looked at, even if they rest.

@@ -160,6 +160,29 @@ Momentum Bodies::momentum() const {
   return sum;
 }
 
+void Bodies::set_state(BodySlot body, const BodyState& state) {
+  if (!dynamic(body)) return;
+  wake(body);
+  const Quat turn = rotation[body].conjugate() * state.X_WB.rotation;
+  turned_m[body] += 3.2 * turn.vec().norm() * reach_m[body];  // angle <= pi * sine
+  place(body, state.X_WB.position, state.X_WB.rotation);
+  velocity[body] = state.velocity_W;
+  angular_velocity[body] = state.angular_velocity_W;
+  changed[body] = 1;
+  slow_s[body] = 0;
+}
+
+void Bodies::apply_impulse(BodySlot body, const Vec3& impulse_W, const Vec3& point_W) {
+  if (!dynamic(body)) return;
+  wake(body);
+  const Quat& q = rotation[body];
+  const Vec3 angular_impulse_B = q.conjugate() * (point_W - position[body]).cross(impulse_W);
+  velocity[body] += impulse_W / mass_kg[body];
+  angular_velocity[body] += q * Vec3(inertia_B[body].inverse() * angular_impulse_B);
+  changed[body] = 1;
+  slow_s[body] = 0;
+}
+
 void Bodies::wake(BodySlot body) {
   if (motion[body] != Motion::kAsleep) return;
   motion[body] = Motion::kAwake;

@@ -85,6 +85,10 @@ struct Bodies {
   bool finite(BodySlot body) const;
   /// Stops a body for good; the answer is the momentum that went with it.
   Vec3 freeze(BodySlot body);
+  /// Puts a body that can move into a state of motion and wakes it; others stay as they are.
+  void set_state(BodySlot body, const BodyState& state);
+  /// Likewise changes its momentum by an impulse at a point.
+  void apply_impulse(BodySlot body, const Vec3& impulse_W, const Vec3& point_W);
   /// Wakes a sleeper; others are left as they are.
   void wake(BodySlot body);
 

@@ -77,15 +77,28 @@ double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A
   return m.normal_W.cast<double>().dot(v_a - v_b);
 }
 
-std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
-                                      const Shapes& shapes, const StepContext& step) {
+void Approaches::forget_changed(const Bodies& bodies) {
+  forgotten_.resize(bodies.size());
+  for (const BodySlot body : bodies.slots()) forgotten_[body] |= bodies.changed[body];
+}
+
+std::vector<Approach> Approaches::find(const Contacts& contacts, const Bodies& bodies,
+                                       const Shapes& shapes, const StepContext& step) {
   constexpr std::size_t kChunk = 4096;
-  using Keyed = std::pair<std::uint64_t, Approach>;
+  forget_changed(bodies);
+  if (std::exchange(dt_s_, step.dt_s) != step.dt_s)
+    std::fill(forgotten_.begin(), forgotten_.end(), std::uint8_t{1});
+  std::erase_if(known_, [&](const Keyed& keyed) {
+    const BodyId a = keyed.second.a, b = keyed.second.b;
+    return !bodies.contains(a) || !bodies.contains(b) || forgotten_[BodySlot(a.slot)] ||
+           forgotten_[BodySlot(b.slot)];
+  });
   std::vector<std::vector<Keyed>> found((contacts.manifolds.size() + kChunk - 1) / kChunk);
   for_chunks(contacts.manifolds.size(), kChunk,
              [&](std::size_t begin, std::size_t end, std::size_t c) {
                for (std::size_t i = begin; i < end; ++i) {
                  const Manifold& m = contacts.manifolds[ManifoldSlot(i)];
+                 if (m.count == 0 || !(forgotten_[m.body_a] || forgotten_[m.body_b])) continue;
                  if (!touches_awake(m, bodies) || rests(m, bodies, step)) continue;
                  const Pair& pair = contacts.pairs[m.pair];
                  Approach approach;
@@ -93,13 +106,15 @@ std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bo
                    found[c].emplace_back(pair.key(), approach);
                }
              });
-  std::vector<Keyed> all;
-  for (const auto& chunk : found) all.insert(all.end(), chunk.begin(), chunk.end());
-  std::sort(all.begin(), all.end(),
-            [](const Keyed& a, const Keyed& b) { return a.first < b.first; });
+  const auto kept = static_cast<std::ptrdiff_t>(known_.size());
+  for (const auto& chunk : found) known_.insert(known_.end(), chunk.begin(), chunk.end());
+  const auto by_key = [](const Keyed& a, const Keyed& b) { return a.first < b.first; };
+  std::sort(known_.begin() + kept, known_.end(), by_key);
+  std::inplace_merge(known_.begin(), known_.begin() + kept, known_.end(), by_key);
+  std::fill(forgotten_.begin(), forgotten_.end(), std::uint8_t{0});
   std::vector<Approach> approaches;
-  approaches.reserve(all.size());
-  for (Keyed& keyed : all) approaches.push_back(std::move(keyed.second));
+  approaches.reserve(known_.size());
+  for (const Keyed& keyed : known_) approaches.push_back(keyed.second);
   return approaches;
 }
 

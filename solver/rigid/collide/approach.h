@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/rigid/body/bodies.h"
@@ -11,9 +12,25 @@
 
 namespace sunder::solver {
 
-/// One approach for each manifold that closes, or would within the step; in order of pair keys.
-std::vector<Approach> find_approaches(const Contacts& contacts, const Bodies& bodies,
-                                      const Shapes& shapes, const StepContext& step);
+/// One approach for each manifold that closes, or would within the step; kept from one time to the
+/// next where nothing has changed.
+class Approaches {
+ public:
+  /// In order of pair keys.
+  std::vector<Approach> find(const Contacts& contacts, const Bodies& bodies, const Shapes& shapes,
+                             const StepContext& step);
+  /// A pair comes to touch, or parts.
+  void forget(const Pair& pair) { forgotten_[pair.body_a] = forgotten_[pair.body_b] = 1; }
+  /// What a collide is about to look at anew.
+  void forget_changed(const Bodies& bodies);
+
+ private:
+  using Keyed = std::pair<std::uint64_t, Approach>;
+
+  std::vector<Keyed> known_;        ///< Ascending by pair key.
+  double dt_s_ = 0;                 ///< Of the step then.
+  ByBody<std::uint8_t> forgotten_;  ///< Since the last time.
+};
 
 /// The manifolds of each body that can move.
 class ContactsOfBodies {
