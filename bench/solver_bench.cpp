@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/cpu_time.h"
 #include "bench/flags.h"
 #include "bench/piles.h"
+#include "engine/base/cpu_time.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "solver/rigid/rigid_physics.h"
@@ -22,7 +22,6 @@
 namespace sunder::solver {
 namespace {
 
-using bench::cpu_ms;
 using bench::pyramid;
 using bench::rubble;
 using bench::stack;

@@ -10,9 +10,9 @@
 #include <functional>
 #include <string_view>
 
-#include "bench/cpu_time.h"
 #include "bench/piles.h"
 #include "bench/truths/truth.h"
+#include "engine/base/cpu_time.h"
 #include "engine/base/parallel.h"
 
 namespace sunder::ablation {
@@ -103,13 +103,13 @@ PileFigures try_pile(const Scene& scene, Switch& rule) {
   double on_ms = 0, off_ms = 0;
   for (std::uint64_t seed = 1; seed <= scene.seeds; ++seed) {
     const Pile pile = scene.make(seed);
-    const double start_ms = bench::cpu_ms();
+    const double start_ms = cpu_ms();
     settle(pile, scene.frames);
-    const double middle_ms = bench::cpu_ms();
+    const double middle_ms = cpu_ms();
     rule.turn();
     const PileFigures off = settle(pile, scene.frames);
     rule.turn();
-    on_ms += middle_ms - start_ms, off_ms += bench::cpu_ms() - middle_ms;
+    on_ms += middle_ms - start_ms, off_ms += cpu_ms() - middle_ms;
     const double share = 1 / static_cast<double>(scene.seeds);
     sum.mean_mm += share * off.mean_mm, sum.deepest_mm += share * off.deepest_mm;
     sum.rms_m_s += share * off.rms_m_s, sum.awake += share * off.awake;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "bench/cpu_time.h"
 #include "bench/extremes/extreme.h"
+#include "engine/base/cpu_time.h"
 #include "engine/base/parallel.h"
 #include "engine/io/state_hash.h"
 
@@ -91,9 +91,9 @@ double dearer(const Preset& preset) {
   const auto cpu_ms_a_body = [&](int count) {
     Scene scene = walls(count)(preset);
     const std::size_t bodies = scene.solids.size();
-    const double start_ms = bench::cpu_ms();
+    const double start_ms = cpu_ms();
     run(std::move(scene));
-    return (bench::cpu_ms() - start_ms) / static_cast<double>(bodies);
+    return (cpu_ms() - start_ms) / static_cast<double>(bodies);
   };
   const double of_fewer_ms = cpu_ms_a_body(kFewer);
   return cpu_ms_a_body(kMany) / of_fewer_ms - 1;

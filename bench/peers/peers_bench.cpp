@@ -7,11 +7,11 @@
 #include <cstring>
 #include <string>
 
-#include "bench/cpu_time.h"
 #include "bench/flags.h"
 #include "bench/peers/peer.h"
 #include "bench/peers/penetration.h"
 #include "bench/piles.h"
+#include "engine/base/cpu_time.h"
 #include "engine/base/parallel.h"
 
 namespace sunder::bench {

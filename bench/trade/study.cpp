@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <set>
 
-#include "bench/cpu_time.h"
 #include "engine/base/check.h"
+#include "engine/base/cpu_time.h"
 #include "engine/io/bytes.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/cpu_time.h"
 #include "bench/flags.h"
+#include "engine/base/cpu_time.h"
 
 namespace sunder::truths {
 namespace {
@@ -49,9 +49,9 @@ Line measure(const Truth& truth, const Options& options) {
   Line line{truth, {}};
   for (std::size_t i = 0; truth.measure && i < kPresets.size(); ++i) {
     if (!options.preset.empty() && options.preset != kPresets[i].name) continue;
-    const double start_ms = bench::cpu_ms();
+    const double start_ms = cpu_ms();
     const double value = truth.measure(kPresets[i]);
-    const double cpu_s = 1e-3 * (bench::cpu_ms() - start_ms);
+    const double cpu_s = 1e-3 * (cpu_ms() - start_ms);
     line.figures.push_back({i, value, cpu_s, truth.told ? truth.told(kPresets[i]) : ""});
   }
   return line;

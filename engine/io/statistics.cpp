@@ -25,15 +25,18 @@ struct Statistics::Series {
   std::uint64_t pieces = 0;
   std::uint64_t frames = 0;
 
-  std::vector<double> stage_ms(int stage) const {
+  /// Of every frame: wall time, or processor time.
+  using Clock = double (FrameReport::*)[kStages];
+  std::vector<double> stage_ms(int stage, Clock clock = &FrameReport::stage_ms) const {
     std::vector<double> values;
-    for (const FrameReport& report : reports) values.push_back(report.stage_ms[stage]);
+    for (const FrameReport& report : reports) values.push_back((report.*clock)[stage]);
     return values;
   }
-  std::vector<double> frame_ms() const {
+  std::vector<double> frame_ms(Clock clock = &FrameReport::stage_ms) const {
     std::vector<double> values;
     for (const FrameReport& report : reports) {
-      values.push_back(std::accumulate(report.stage_ms, report.stage_ms + kStages, 0.0));
+      const auto& ms = report.*clock;
+      values.push_back(std::accumulate(ms, ms + kStages, 0.0));
     }
     return values;
   }
@@ -102,11 +105,25 @@ Json work_json(std::span<const WorkItem> items) {
   return json;
 }
 
+/// How long frames, or a stage of them, take: p50_ms and so on, each name after `prefix`.
+void add_times(Json& json, const std::string& prefix, const std::vector<double>& ms) {
+  json[prefix + "p50_ms"] = quantile(ms, 0.5);
+  json[prefix + "p95_ms"] = quantile(ms, 0.95);
+  json[prefix + "p99_ms"] = quantile(ms, 0.99);
+  json[prefix + "max_ms"] = quantile(ms, 1);
+  const double count = static_cast<double>(std::max<std::size_t>(1, ms.size()));
+  json[prefix + "mean_ms"] = std::accumulate(ms.begin(), ms.end(), 0.0) / count;
+}
+
 Json frame_json(const FrameReport& report, double ms) {
-  Json stages;
-  for (int s = 0; s < kStages; ++s) stages[kStageNames[s]] = report.stage_ms[s];
+  Json stages, cpu;
+  for (int s = 0; s < kStages; ++s) {
+    stages[kStageNames[s]] = report.stage_ms[s];
+    cpu[kStageNames[s]] = report.stage_cpu_ms[s];
+  }
   return {{"ms", ms},
           {"stages_ms", stages},
+          {"stages_cpu_ms", cpu},
           {"counts", counts_json(report.counts)},
           {"carried_over", report.carried_over},
           {"kinetic_J", report.kinetic_J},
@@ -177,20 +194,19 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   if (!state_hash.empty()) json["state_hash"] = state_hash;
   json["steps"] = static_cast<std::uint64_t>(steps_per_frame) * s.reports.size();
   for (int i = 0; i < kStages; ++i) {
-    const std::vector<double> ms = s.stage_ms(i);
-    json["stages"][kStageNames[i]] = {
-        {"p50_ms", quantile(ms, 0.5)}, {"p95_ms", quantile(ms, 0.95)}, {"max_ms", quantile(ms, 1)}};
+    Json& stage = json["stages"][kStageNames[i]];
+    add_times(stage, "", s.stage_ms(i));
+    add_times(stage, "cpu_", s.stage_ms(i, &FrameReport::stage_cpu_ms));
   }
   WorkLog work;
   for (const FrameReport& report : s.reports) {
     for (const WorkItem& item : report.work) work.add(item);
   }
   json["work"] = work_json(work.items());
-  json["frame"] = {{"p50_ms", quantile(frame_ms, 0.5)},
-                   {"p95_ms", quantile(frame_ms, 0.95)},
-                   {"p99_ms", quantile(frame_ms, 0.99)},
-                   {"max_ms", quantile(frame_ms, 1)},
-                   {"busiest_2s_p95_ms", busiest_p95(frame_ms)}};
+  Json& frame = json["frame"];
+  add_times(frame, "", frame_ms);
+  add_times(frame, "cpu_", s.frame_ms(&FrameReport::stage_cpu_ms));
+  frame["busiest_2s_p95_ms"] = busiest_p95(frame_ms);
   json["counts"] = counts_json(s.last.counts);
   json["peak"] = counts_json(peak_of(s.reports));
   json["fractures"] = {

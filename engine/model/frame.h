@@ -103,8 +103,9 @@ struct Counts {
 
 /// The ledger of a frame.
 struct FrameReport {
-  double stage_ms[kStages] = {};  ///< Summed over the frame's steps.
-  std::vector<WorkItem> work;     ///< Parts of stages; summed as well.
+  double stage_ms[kStages] = {};      ///< Summed over the frame's steps.
+  double stage_cpu_ms[kStages] = {};  ///< The same in processor time, of all threads.
+  std::vector<WorkItem> work;         ///< Parts of stages; summed as well.
   Counts counts;
   double mass_kg = 0;  ///< Everything: debris, what the script took and shots yet to come included.
   double kinetic_J = 0;

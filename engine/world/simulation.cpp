@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/cpu_time.h"
 #include "engine/base/trace.h"
 #include "engine/model/work_log.h"
 #include "engine/world/act/act_stage.h"
@@ -28,6 +29,20 @@ void add_ground(const Ground& ground, Physics& physics) {
   body.tag = kGroundKey;
   physics.replace({}, std::span(&body, 1));
 }
+
+/// Tells stages of a frame apart, each from where the last one ended.
+class StageClock {
+ public:
+  void end(Stage stage, FrameReport& report) {
+    const double now_ms = cpu_ms();
+    report.stage_ms[static_cast<int>(stage)] += watch_.lap_ms();
+    report.stage_cpu_ms[static_cast<int>(stage)] += now_ms - std::exchange(cpu_ms_, now_ms);
+  }
+
+ private:
+  Stopwatch watch_;
+  double cpu_ms_ = cpu_ms();
+};
 
 /// Everything moves by the step; joints that bear too much break, and what flows is noted.
 void solve(World& world) {
@@ -90,12 +105,12 @@ FramePtr Simulation::next() {
   }
   started = true;
   const TraceSpan span(kStageNames[static_cast<int>(Stage::kSnapshot)]);
-  const Stopwatch watch;
+  StageClock clock;
   for (const WorkItem& item : world.physics->take_work()) world.ledger.work.add(item);
   auto frame = snapshot(world, particles, act.shots_to_come(world.scene),
                         breaks.waiting() + loads.waiting());
   frame->report.work = world.ledger.work.take();
-  frame->report.stage_ms[static_cast<int>(Stage::kSnapshot)] = watch.ms();
+  clock.end(Stage::kSnapshot, frame->report);
   return frame;
 }
 
@@ -103,11 +118,11 @@ void Simulation::advance() {
   Parts& parts = *parts_;
   World& world = parts.world;
   const Breaker& breaker = *parts.breaker;
+  StageClock clock;
   const auto timed = [&](Stage stage, const auto& work) {
     const TraceSpan span(kStageNames[static_cast<int>(stage)]);
-    const Stopwatch watch;
     work();
-    world.ledger.report.stage_ms[static_cast<int>(stage)] += watch.ms();
+    clock.end(stage, world.ledger.report);
   };
   std::vector<Impact> impacts;  // of blasts
   timed(Stage::kAct, [&] { impacts = parts.act.run(world); });

@@ -179,6 +179,7 @@ TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
   auto frame = std::make_shared<Frame>(sample_frame());
   frame->report.mass_kg = 5;
   frame->report.stage_ms[static_cast<int>(Stage::kSolve)] = 2;
+  frame->report.stage_cpu_ms[static_cast<int>(Stage::kSolve)] = 3;
   frame->report.penetrations_m = {0.001f, 0.002f};
   frame->breaks.push_back({0, 42, Vec3::Zero(), 10, 1, 0.5, 8});
   statistics.take(frame);
@@ -212,6 +213,13 @@ TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
   EXPECT_EQ(json["frames"], 1);
   EXPECT_EQ(json["solver"]["lanes"], 8);
   EXPECT_EQ(json["frame"]["p50_ms"], 2.0);
+  EXPECT_EQ(json["frame"]["cpu_p50_ms"], 3.0);
+  for (const char* figure : {"p50_ms", "p95_ms", "p99_ms", "max_ms", "mean_ms"}) {
+    EXPECT_EQ(json["stages"]["solve"][figure], 2.0) << figure;
+    EXPECT_EQ(json["stages"]["solve"][std::string("cpu_") + figure], 3.0) << figure;
+    EXPECT_EQ(json["stages"]["load"][figure], 0.0) << figure;
+  }
+  EXPECT_EQ(json["per_frame"][0]["stages_cpu_ms"]["solve"], 3.0);
   EXPECT_EQ(json["fractures"]["pieces"], 16);
   EXPECT_NEAR(json["penetration_m"]["max"].get<double>(), 0.002, 1e-9);
   EXPECT_FALSE(nlohmann::json::parse(statistics.json("", false)).contains("state_hash"));

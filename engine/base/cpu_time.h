@@ -3,7 +3,7 @@
 
 #include <ctime>
 
-namespace sunder::bench {
+namespace sunder {
 
 /// Milliseconds that all threads of this process have used so far.
 inline double cpu_ms() {
@@ -12,4 +12,4 @@ inline double cpu_ms() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-}  // namespace sunder::bench
+}  // namespace sunder
