@@ -1,6 +1,5 @@
 #include "scenes/make_simulation.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -8,6 +7,7 @@
 #include "engine/model/scene_chains.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
+#include "scenes/features.h"
 #include "scenes/file/planar.h"
 #include "scenes/file/schema.h"
 #include "solver/particles/debris_and_dust.h"
@@ -45,6 +45,7 @@ std::unique_ptr<Physics> make_physics(const Scene& scene) {
     solver::PlanarOptions planar;
     planar.gravity_W = scene.gravity_W;
     planar.piece_m = planar_piece_m(scene);
+    planar.sleeping = scene.solver.sleeping;
     return solver::make_planar_physics(planar);
   }
   solver::RigidOptions rigid;
@@ -52,6 +53,7 @@ std::unique_ptr<Physics> make_physics(const Scene& scene) {
   rigid.max_colors = scene.solver.max_colors;
   rigid.sweeps = scene.solver.sweeps;
   rigid.lanes = scene.solver.lanes;
+  rigid.sleeping = scene.solver.sleeping;
   return solver::make_rigid_physics(rigid);
 }
 
@@ -93,25 +95,16 @@ std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOption
 }
 
 RunInfo run_info(const Scene& scene, const std::string& preset) {
-  const auto breaks = [&](const Solid& solid) {
-    return std::any_of(solid.compound.convexes.begin(), solid.compound.convexes.end(),
-                       [&](const ConvexPtr& convex) {
-                         return scene.materials[convex->material.value].breakable();
-                       });
-  };
-  const bool scripted = !scene.shots.empty() || !scene.blasts.empty() || !scene.removals.empty() ||
-                        !scene.drives.empty();
-  const bool any = std::any_of(scene.solids.begin(), scene.solids.end(), breaks);
-  return {scene.name,
-          preset,
-          threads(),
-          scene.accuracy,
-          {{"fracture", any ? "on" : "off: nothing here is breakable"},
-           {"script", scripted ? "on" : "off: nothing happens"},
-           {"sleeping", "on"},
-           {"third_dimension", scene.planar ? "off: planar = true, so Box2D moves it" : "on"}},
-          {scene.solver.max_colors, scene.solver.sweeps, solver::lanes_in_use(scene.solver.lanes)},
-          warnings_of(scene)};
+  RunInfo info{scene.name,
+               preset,
+               threads(),
+               scene.accuracy,
+               {},
+               {scene.solver.max_colors, scene.solver.sweeps,
+                solver::lanes_in_use(scene.solver.lanes), scene.solver.sleeping},
+               warnings_of(scene)};
+  for (const Feature& feature : features()) info.modelled[feature.name] = feature.state(scene);
+  return info;
 }
 
 }  // namespace sunder::scenes

@@ -85,6 +85,7 @@ struct SolverDials {
   int max_colors = 64;
   int sweeps = 1;
   int lanes = 0;
+  bool sleeping = true;
 };
 
 struct Limits {
