@@ -1,121 +1,177 @@
-// sunder bench: frame timing of the benchmark scenes, gated by the state hash: a faster run that
-// simulates something else is no faster run.
-#include <algorithm>
+// sunder bench: frame timing that a stranger can repeat, gated by the state: a faster run that
+// simulates something else is no faster run. How to read it: bench/README.md.
+//
+// Read first: bench(), then measure(). Every run is a process of its own and leaves an object of
+// figures; everything reported is made of those.
 #include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
 
+#include "bench/timing/compare.h"
+#include "bench/timing/hash_book.h"
+#include "bench/timing/states.h"
+#include "bench/timing/timing.h"
+#include "bench/timing/timing_report.h"
 #include "engine/base/check.h"
+#include "engine/base/parallel.h"
 #include "engine/io/figures.h"
-#include "engine/io/statistics.h"
-#include "scenes/app/bench_report.h"
-#include "scenes/app/run.h"
+#include "scenes/app/apart.h"
+#include "scenes/app/commands.h"
+#include "scenes/app/work_progress.h"
+#include "scenes/features.h"
 #include "scenes/file/text_file.h"
 
 namespace sunder::app {
 namespace {
 
-constexpr const char* kQuantiles[] = {"p50_ms", "p95_ms", "p99_ms", "max_ms"};
+using bench::Outcome;
+using bench::TimedRun;
+using bench::Verdict;
 
-/// The figures of one scene's run, without the leading place, and its times frame by frame.
-Figures measure(const std::string& name, const BenchOptions& options, TimedScene& timed) {
-  Scene scene = scenes::load_scene(name, options.load);
-  // Scenes are timed beside each other: a shorter one to its end.
-  const int end = last_frame(scene, -1);
-  const int last = options.frames < 0 ? end : std::min(options.frames, end);
-  Statistics statistics(scenes::run_info(scene, options.load.preset));
-  Progress progress("bench " + scene.name, last, options.quiet);
-  StateHash hash;
-  StageTimes times;
-  timed.name = scene.name;
-  const auto simulation = make_simulation(std::move(scene));
-  FramesUntil frames(*simulation, last);
-  FrameSink* const sinks[] = {&statistics, &hash, &times, &progress};
-  pump(frames, sinks);
-  timed.frames = times.frames();
-  return parse_figures(statistics.json(hash.hex(), false), name);
-}
-
-/// Where a document of scenes holds the one of this name; empty if it does not.
-std::string place_of(const Figures& figures, const std::string& scene) {
-  for (int i = 0;; ++i) {
-    const std::string at = "/scenes/" + std::to_string(i);
-    if (!figures.contains(at + "/scene")) return {};
-    if (text_at(figures, at + "/scene") == scene) return at;
-  }
-}
-
-std::string row(const Figures& figures, const std::string& at) {
-  char line[200];
-  std::snprintf(line, sizeof line, "%-14s %6.0f frames %9.2f %9.2f %9.2f %9.2f  %s\n",
-                text_at(figures, at + "/scene").c_str(), number_at(figures, at + "/frames"),
-                number_at(figures, at + "/frame/p50_ms"), number_at(figures, at + "/frame/p95_ms"),
-                number_at(figures, at + "/frame/p99_ms"), number_at(figures, at + "/frame/max_ms"),
-                text_at(figures, at + "/state_hash").c_str());
-  return line;
-}
-
-/// Ratios old to new, and whether both simulated the same.
-struct Comparison {
-  std::string line;
-  bool same = true;
+/// A scene, as it is or without a feature, and what its repeats came to.
+struct Timed {
+  TimedRun run;
+  std::size_t scene = 0;                  ///< By number of those asked for.
+  std::vector<std::string> repeats = {};  ///< As JSON, for as long as other runs copy this process.
 };
 
-Comparison compare(const Figures& now, const std::string& at, const Figures& old) {
-  const std::string scene = text_at(now, at + "/scene");
-  const std::string was = place_of(old, scene);
-  if (was.empty()) return {scene + ": not in the older file\n"};
-  for (const char* key :
-       {"/preset", "/frames", "/dt_s", "/substeps", "/solver/max_colors", "/solver/sweeps"}) {
-    if (!old.contains(was + key)) continue;  // older than the figure
-    if (text_at(now, at + key) != text_at(old, was + key) ||
-        number_at(now, at + key) != number_at(old, was + key)) {
-      return {scene + ": not comparable, its " + (key + 1) + " differs\n", false};
+/// What there is to run, in the order of a turn. Loads every scene: what is wrong with the input is
+/// known before anything runs.
+std::vector<Timed> timed_runs(const BenchOptions& options) {
+  std::vector<Timed> all;
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < options.scenes.size(); ++i) {
+    const TimedRun run{options.scenes[i], options.load, options.frames, ""};
+    const Scene scene = bench::load_scene(run);
+    if (!names.insert(scene.name).second) {
+      throw InputError(options.scenes[i] + ": a second scene named " + scene.name +
+                       "; time it in a run of its own");
+    }
+    all.push_back({run, i});
+    if (!options.features) continue;
+    for (const scenes::Feature& feature : scenes::features()) {
+      if (!feature.turn_off || feature.state(scene) != "on") continue;
+      all.push_back({run, i});
+      all.back().run.without = feature.name;
     }
   }
-  std::string line = scene + ": new / old";
-  for (const char* quantile : kQuantiles) {
-    const double before = number_at(old, was + "/frame/" + quantile);
-    const double after = number_at(now, at + "/frame/" + quantile);
-    char part[64];
-    std::snprintf(part, sizeof part, "  %.3s %.2f", quantile, before > 0 ? after / before : 0);
-    line += part;
+  return all;
+}
+
+std::string title_of(const TimedRun& run) {
+  return run.without.empty() ? run.scene : run.scene + " without " + run.without;
+}
+
+/// Its figures as JSON. In a process of its own, so that its peak memory is its own.
+std::string run_once(const BenchOptions& options, const TimedRun& run, bool warn) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), &std::fclose);
+  if (!file) throw FileError("no temporary file can be made: set TMPDIR to where there is room");
+  const Ended ended = run_apart([&] {
+    try {
+      options.apply();
+      const std::string text = format_figures(bench::time_run(run, warn));
+      return std::fputs(text.c_str(), file.get()) >= 0 && std::fflush(file.get()) == 0 ? 0 : 1;
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s: %s\n", title_of(run).c_str(), error.what());
+      return 1;
+    }
+  });
+  if (ended.signal != 0 || ended.exit_code != 0) {
+    throw std::runtime_error(title_of(run) + " has no timing: " + ended.how());
   }
-  const bool same = text_at(now, at + "/state_hash") == text_at(old, was + "/state_hash");
-  return {line + (same ? "  same state\n" : "  OTHER STATE: it simulated something else\n"), same};
+  std::string text(static_cast<std::size_t>(std::ftell(file.get())), ' ');
+  std::rewind(file.get());
+  text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+  return text;
+}
+
+/// The object of each scene. Repeats go in turns, every scene once a turn, so that what slows the
+/// machine for a while slows all of them.
+std::vector<Figures> measure(const BenchOptions& options) {
+  set_threads(1);  // a process that has begun others cannot be copied
+  std::vector<Timed> all = timed_runs(options);
+  const int turns = options.warm_up + options.repeats;
+  WorkProgress progress("bench", options.quiet);
+  for (int turn = 0; turn < turns; ++turn) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double done = static_cast<double>(i) / static_cast<double>(all.size());
+      progress(title_of(all[i].run).c_str(), (turn + done) / turns);
+      const bool warn = turn == 0 && all[i].run.without.empty();
+      std::string figures = run_once(options, all[i].run, warn);
+      if (turn >= options.warm_up) all[i].repeats.push_back(std::move(figures));
+    }
+  }
+  std::vector<Figures> scenes(options.scenes.size());
+  for (const Timed& timed : all) {
+    std::vector<Figures> repeats;
+    for (const std::string& text : timed.repeats) {
+      repeats.push_back(parse_figures(text, timed.run.scene));
+    }
+    const Figures median = bench::median_of(repeats);
+    Figures& scene = scenes[timed.scene];
+    if (timed.run.without.empty()) {
+      scene = median;
+    } else {
+      scene["/features/" + timed.run.without + "/cpu_mean_ms"] =
+          number_at(median, "/frame/cpu_mean_ms");
+    }
+  }
+  return scenes;
+}
+
+std::vector<Figures> read_timings(const std::string& file) {
+  return bench::scenes_of(parse_figures(scenes::read_text(file), file), file);
+}
+
+/// The hashes of the file; none if there is no file.
+bench::HashBook read_book(const std::string& file) {
+  if (!std::filesystem::exists(file)) return {};
+  return bench::parse_hashes(scenes::read_text(file), file);
+}
+
+/// The part by which a stage may be slower; none if it is not asked about.
+std::optional<double> fail_slower_of(const BenchOptions& options) {
+  if (options.fail_slower.empty()) return std::nullopt;
+  if (options.compare.empty()) {
+    throw InputError("--fail-slower needs --compare OLD.json: slower than what?");
+  }
+  return bench::parse_percent("--fail-slower", options.fail_slower);
 }
 
 }  // namespace
 
 int bench(const BenchOptions& options) {
-  options.apply();
-  Figures old;
+  const std::optional<double> fail_slower = fail_slower_of(options);
+  bench::HashBook book = read_book(options.hashes);
+  std::vector<Figures> old;
+  if (!options.compare.empty()) old = read_timings(options.compare);
+
+  const std::vector<Figures> scenes =
+      options.from.empty() ? measure(options) : read_timings(options.from);
+  if (options.accept) {
+    bench::accept_states(scenes, book);
+    write_text(options.hashes, bench::format_hashes(book));
+  }
+  std::vector<Verdict> verdicts = bench::judge_states(scenes, book, options.hashes);
+  bench::Comparison comparison;
   if (!options.compare.empty()) {
-    old = parse_figures(scenes::read_text(options.compare), options.compare);
-    if (!old.contains("/scenes/0/scene")) {
-      throw InputError(options.compare + ": not a file of sunder bench --json");
-    }
+    comparison = bench::compare(scenes, old, options.compare, fail_slower);
+    verdicts.insert(verdicts.end(), comparison.verdicts.begin(), comparison.verdicts.end());
   }
-  Figures all;
-  std::string table = "scene                  ms a frame:   p50       p95       p99       max\n";
-  std::string comparison;
-  bool same = true;
-  std::vector<TimedScene> timed(options.scenes.size());
-  for (std::size_t i = 0; i < options.scenes.size(); ++i) {
-    const std::string at = "/scenes/" + std::to_string(i);
-    for (const auto& [place, value] : measure(options.scenes[i], options, timed[i])) {
-      all[at + place] = value;
-    }
-    table += row(all, at);
-    if (!options.compare.empty()) {
-      const Comparison compared = compare(all, at, old);
-      comparison += compared.line;
-      same = same && compared.same;
-    }
+
+  options.say(bench::timing_table(scenes) + bench::features_table(scenes) +
+              bench::changes_table(comparison.changes) + bench::verdict_lines(verdicts, false));
+  options.write_json(format_figures(bench::document_of(scenes)));
+  if (!options.junit.empty()) write_text(options.junit, bench::junit_xml(verdicts));
+  if (!options.page.empty()) {
+    write_text(options.page, bench::timing_page(scenes, verdicts, comparison.changes));
   }
-  options.say(table + comparison);
-  options.write_json(format_figures(all));
-  if (!options.page.empty()) write_text(options.page, bench_page(timed));
-  if (!same) std::fprintf(stderr, "failed: the state differs from %s\n", options.compare.c_str());
-  return same ? 0 : 1;
+  const std::string failed = bench::verdict_lines(verdicts, true);
+  std::fputs(failed.c_str(), stderr);
+  return failed.empty() ? 0 : 1;
 }
 
 }  // namespace sunder::app

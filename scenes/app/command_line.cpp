@@ -107,12 +107,35 @@ void add_render(CLI::App& program, Command& chosen) {
 void add_bench(CLI::App& program, Command& chosen) {
   Subcommand<BenchOptions> command(program, "bench", "Frame timing of the benchmark scenes", bench,
                                    chosen);
-  command.app->add_option("SCENE", command.options->scenes, "Files or names of scenes")
+  BenchOptions& options = *command.options;
+  auto* scenes = command.app->add_option("SCENE", options.scenes, "Files or names of scenes")
+                     ->capture_default_str();
+  command.app->add_option("--repeats", options.repeats, "Runs of each scene, in turns")
+      ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command.app->add_option("--compare", command.options->compare,
-                          "An earlier --json file: prints ratios, fails if the state differs");
-  command.app->add_option("--page", command.options->page,
-                          "Write an HTML page with every stage plotted over time");
+  command.app->add_option("--warm-up", options.warm_up, "Turns before them that do not count")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  auto* features = command.app->add_flag("--features", options.features,
+                                         "Also run each scene without each feature it has");
+  command.app->add_option("--compare", options.compare,
+                          "An earlier --json file, of simulate too: what is slower; fails if the "
+                          "state differs or it lacks a scene");
+  command.app
+      ->add_option("--fail-slower", options.fail_slower,
+                   "With --compare: fail if a stage is slower by more than this")
+      ->type_name("PERCENT");
+  auto* accept = command.app->add_flag("--accept", options.accept,
+                                       "Store the states that the scenes come to as right");
+  command.app->add_option("--hashes", options.hashes, "File of stored states")
+      ->capture_default_str();
+  command.app->add_option("--from", options.from, "Run nothing: report on an earlier --json file")
+      ->excludes(scenes)
+      ->excludes(features)
+      ->excludes(accept);
+  command.app->add_option("--junit", options.junit, "Write what passed and failed as JUnit XML");
+  command.app->add_option("--page", options.page,
+                          "Write an HTML page with every stage of every frame plotted");
   command.add_frames();
   command.add_changes();
 }

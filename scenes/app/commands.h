@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/timing/timing.h"
 #include "render/renderer.h"
 #include "scenes/file/mesh_solid.h"
 #include "scenes/load.h"
@@ -56,11 +57,20 @@ struct RenderOptions : CommonOptions {
 };
 
 struct BenchOptions : CommonOptions {
+  BenchOptions() { threads = 1; }  ///< Waiting costs time too.
   std::vector<std::string> scenes = {"house", "brick_wall", "column_row", "glass"};
   scenes::LoadOptions load;
-  int frames = -1;  ///< All.
-  std::string compare;
-  std::string page;  ///< File to write; empty: none.
+  int frames = bench::kStateFrames;  ///< Or to the end of the scene.
+  int repeats = 5;
+  int warm_up = 1;          ///< Turns before them, not counted.
+  bool features = false;    ///< Also without each feature that can be turned off.
+  std::string from;         ///< Timings to read; empty: what is run.
+  std::string compare;      ///< Older timings; empty: none.
+  std::string fail_slower;  ///< "10%"; empty: never.
+  std::string hashes = SUNDER_GOLDENS_FOLDER "/hashes.txt";
+  bool accept = false;
+  std::string junit;  ///< File to write; empty: none, as for:
+  std::string page;
 };
 
 struct TradeOptions : CommonOptions {

@@ -2,15 +2,8 @@
 // process of its own and leaves a file, and reports are made of the files that are there.
 //
 // Read first: trade().
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <map>
 
 #include "bench/trade/merge.h"
@@ -20,6 +13,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/io/figures.h"
+#include "scenes/app/apart.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/file/text_file.h"
@@ -94,35 +88,21 @@ int carry_out_here(const TradeOptions& options, const StudyRun& run) {
   }
 }
 
-/// Whether a process that ended so did by its own mistake, and not because somebody ended it.
-bool is_crash(int signal) {
-  return signal == SIGABRT || signal == SIGSEGV || signal == SIGBUS || signal == SIGFPE ||
-         signal == SIGILL;
-}
-
-/// In a process of its own, so that a crash is a result of this run and takes no other with it; it
-/// ends with this one. Answers whether the run has its files then.
+/// In a process of its own, so that a crash is a result of this run. Answers whether the run has
+/// its files then.
 bool carry_out_apart(const TradeOptions& options, const StudyRun& run) {
-  const pid_t parent = getpid(), child = fork();
-  if (child < 0) throw FileError(std::string("no process can be started: ") + std::strerror(errno));
-  if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    _exit(getppid() == parent ? carry_out_here(options, run) : 1);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFSIGNALED(status) && is_crash(WTERMSIG(status))) {
+  const Ended ended = run_apart([&] { return carry_out_here(options, run); });
+  if (ended.crashed()) {
     bench::Ran crashed;
-    crashed.result.failed = std::string("crashed: ") + strsignal(WTERMSIG(status));
+    crashed.result.failed = ended.how();
     bench::write_run(options.output, run, crashed);
     return true;
   }
-  if (WIFSIGNALED(status)) {
-    std::fprintf(stderr, "%s: ended by %s\n", run.name().c_str(), strsignal(WTERMSIG(status)));
+  if (ended.signal != 0) {
+    std::fprintf(stderr, "%s: %s\n", run.name().c_str(), ended.how().c_str());
     return false;
   }
-  if (WEXITSTATUS(status) != 0) throw FileError(run.name() + " has no file: nothing more is run");
+  if (ended.exit_code != 0) throw FileError(run.name() + " has no file: nothing more is run");
   return true;
 }
 

@@ -1,0 +1,149 @@
+#include "bench/timing/compare.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "engine/base/check.h"
+#include "engine/io/page.h"
+#include "engine/model/work.h"
+
+namespace sunder::bench {
+namespace {
+
+/// What runs must have in common to be compared, as far as the older file has it.
+constexpr const char* kSameRun[] = {
+    "/preset", "/frames", "/dt_s", "/substeps", "/solver/max_colors", "/solver/sweeps", "/threads"};
+
+const Figures* find_scene(std::span<const Figures> scenes, const std::string& name) {
+  const auto found = std::ranges::find_if(
+      scenes, [&](const Figures& scene) { return text_at(scene, "/scene") == name; });
+  return found == scenes.end() ? nullptr : &*found;
+}
+
+std::string figure_text(const Figures& figures, const std::string& place) {
+  const std::string text = text_at(figures, place);
+  return text.empty() ? rounded(number_at(figures, place), 6) : text;
+}
+
+/// Why the two are no runs of the same; empty if they are.
+std::string why_other(const Figures& now, const Figures& old, const std::string& old_file) {
+  for (const std::string place : kSameRun) {
+    if (!old.contains(place)) continue;  // older than the figure
+    const std::string after = figure_text(now, place), before = figure_text(old, place);
+    if (after == before) continue;
+    return "not comparable: " + place.substr(1) + " is " + before + " in " + old_file +
+           " and now " + after + "; run it as that was";
+  }
+  const std::string after = text_at(now, "/state_hash"), before = text_at(old, "/state_hash");
+  if (after == before) return {};
+  return "the state differs: " + before + " in " + old_file + ", " + after + " now" +
+         "; something else is simulated";
+}
+
+/// Of the stage, what both have of "mean_ms" and the like: processor time, or else wall time.
+void add_changes(const std::string& stage, const std::string& at, const Figures& now,
+                 const Figures& old, std::vector<Change>& changes) {
+  for (const std::string figure : {"mean", "p50"}) {
+    for (const bool is_cpu : {true, false}) {
+      const std::string place = at + (is_cpu ? "cpu_" : "") + figure + "_ms";
+      if (!now.contains(place) || !old.contains(place)) continue;
+      changes.push_back({text_at(now, "/scene"), stage, figure, is_cpu, number_at(old, place),
+                         number_at(now, place)});
+      break;
+    }
+  }
+}
+
+std::string sentence(const Change& change) {
+  return change.figure + " " + rounded(change.before_ms) + " ms of " +
+         (change.is_cpu ? "processor" : "wall") + " time before, " + rounded(change.after_ms) +
+         " ms now";
+}
+
+Verdict judge_stage(std::span<const Change> changes, const std::string& scene,
+                    const std::string& stage, std::optional<double> fail_slower) {
+  Verdict verdict{scene, "stage " + stage, Outcome::kPassed, {}};
+  if (changes.empty()) {
+    verdict.outcome = Outcome::kFailed;
+    verdict.text = "the older file has no time of it";
+  }
+  for (const Change& change : changes) {
+    if (!verdict.text.empty()) verdict.text += "; ";
+    verdict.text += sentence(change);
+    if (!fail_slower || !change.is_slower(*fail_slower)) continue;
+    verdict.outcome = Outcome::kFailed;
+    verdict.text += ", slower by more than " + rounded(100 * *fail_slower) + " %";
+  }
+  return verdict;
+}
+
+void compare_stages(const Figures& now, const Figures& old, std::optional<double> fail_slower,
+                    Comparison& comparison) {
+  const std::string scene = text_at(now, "/scene");
+  const auto add = [&](const std::string& stage, const std::string& at) {
+    std::vector<Change> changes;
+    add_changes(stage, at, now, old, changes);
+    comparison.verdicts.push_back(judge_stage(changes, scene, stage, fail_slower));
+    comparison.changes.insert(comparison.changes.end(), changes.begin(), changes.end());
+  };
+  for (const std::string stage : kStageNames) add(stage, "/stages/" + stage + "/");
+  add("frame", "/frame/");
+}
+
+}  // namespace
+
+double parse_percent(const std::string& flag, const std::string& text) {
+  double percent = 0;
+  const std::string digits = text.ends_with('%') ? text.substr(0, text.size() - 1) : text;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, percent);
+  if (error != std::errc() || stop != end || !(percent >= 0) || !std::isfinite(percent)) {
+    throw InputError(flag + " " + text + ": not a percentage; give one from 0 up, such as 10%");
+  }
+  return percent / 100;
+}
+
+bool Change::is_slower(double part) const {
+  return after_ms > (1 + part) * std::max(before_ms, kNoise_ms);
+}
+
+Comparison compare(std::span<const Figures> now, std::span<const Figures> old,
+                   const std::string& old_file, std::optional<double> fail_slower) {
+  Comparison comparison;
+  for (const Figures& scene : now) {
+    const std::string name = text_at(scene, "/scene");
+    const Figures* before = find_scene(old, name);
+    const std::string why = before ? why_other(scene, *before, old_file)
+                                   : "not in " + old_file + ": time it with the older program too";
+    if (!why.empty()) {
+      comparison.verdicts.push_back({name, "same run", Outcome::kFailed, why});
+      continue;
+    }
+    const std::string cpu = text_at(*before, "/cpu");
+    comparison.verdicts.push_back(
+        {name, "same run", Outcome::kPassed,
+         "same state as in " + old_file +
+             (cpu == text_at(scene, "/cpu") ? "" : ", which is of another processor: " + cpu)});
+    compare_stages(scene, *before, fail_slower, comparison);
+  }
+  return comparison;
+}
+
+std::string changes_table(std::span<const Change> changes) {
+  if (changes.empty()) return {};
+  std::string text = "scene          stage      ms a frame       before       now   change\n";
+  for (const Change& change : changes) {
+    char line[200];
+    const double part = change.before_ms > 0 ? change.after_ms / change.before_ms - 1 : 0;
+    std::snprintf(line, sizeof line, "%-14s %-10s %-4s %-9s %9.3f %9.3f %+7.1f %%%s\n",
+                  change.scene.c_str(), change.stage.c_str(), change.figure.c_str(),
+                  change.is_cpu ? "processor" : "wall", change.before_ms, change.after_ms,
+                  100 * part, change.is_slower(0) ? "  slower" : "");
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace sunder::bench

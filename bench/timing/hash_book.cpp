@@ -1,0 +1,51 @@
+#include "bench/timing/hash_book.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "engine/base/check.h"
+
+namespace sunder::bench {
+namespace {
+
+constexpr std::size_t kDigits = 16;
+
+bool is_hash(const std::string& text) {
+  return text.size() == kDigits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+}  // namespace
+
+HashBook parse_hashes(const std::string& text, const std::string& file) {
+  HashBook book;
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::string what, hash, more;
+    if (!(words >> what)) continue;
+    const std::string at = file + ":" + std::to_string(number) + ": ";
+    if (!(words >> hash) || !is_hash(hash) || words >> more) {
+      throw InputError(at + "a line is WHAT and 16 hexadecimal digits (0-9, a-f), as in " +
+                       "state/house/realtime/200 0123456789abcdef");
+    }
+    if (!book.emplace(what, hash).second) {
+      throw InputError(at + what + " is there twice; remove the line that is wrong");
+    }
+  }
+  return book;
+}
+
+std::string format_hashes(const HashBook& book) {
+  std::string text =
+      "# What is known to be right. Changed by `sunder bench --accept` alone: a line that differs\n"
+      "# says that something else is simulated, and should say why in its commit.\n";
+  std::size_t widest = 0;
+  for (const auto& [what, hash] : book) widest = std::max(widest, what.size());
+  for (const auto& [what, hash] : book)
+    text += what + std::string(widest + 2 - what.size(), ' ') + hash + "\n";
+  return text;
+}
+
+}  // namespace sunder::bench

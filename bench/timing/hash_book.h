@@ -1,0 +1,20 @@
+// Hashes of what is known to be right, by what they are of: one file in the repository
+// (tests/golden/hashes.txt), which only an accept command changes.
+//
+// A line is WHAT HASH. WHAT is a path that says all that decides the hash:
+// state/SCENE/PRESET/FRAMES is the state hash over that many frames of a scene as it is given.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace sunder::bench {
+
+using HashBook = std::map<std::string, std::string>;
+
+/// From the text of a file; `file` is what errors call it. Throws InputError naming the line.
+HashBook parse_hashes(const std::string& text, const std::string& file);
+/// As a file has it.
+std::string format_hashes(const HashBook& book);
+
+}  // namespace sunder::bench

@@ -1,0 +1,69 @@
+#include "bench/timing/states.h"
+
+#include <variant>
+
+#include "bench/timing/timing.h"
+#include "engine/base/check.h"
+
+namespace sunder::bench {
+namespace {
+
+bool differs(const Figures& scene) {
+  const auto found = scene.find("/differs");
+  const bool* value = found == scene.end() ? nullptr : std::get_if<bool>(&found->second);
+  return value && *value;
+}
+
+constexpr const char* kDiffers =
+    "its repeats come to different states; `sunder simulate --take` and --verify find the frame";
+
+/// Why a run has no stored state to be held against; empty if it has.
+std::string not_held(const Figures& scene) {
+  if (scene.contains("/set/0")) return "changed by --set, so not held against a stored state";
+  if (scene.contains("/state/hash")) return {};
+  return "a stored state is of " + std::to_string(kStateFrames) + " frames, this run has " +
+         std::to_string(static_cast<int>(number_at(scene, "/frames")));
+}
+
+std::string name_of(const Figures& scene) {
+  return "state/" + text_at(scene, "/scene") + "/" + text_at(scene, "/preset") + "/" +
+         std::to_string(static_cast<int>(number_at(scene, "/state/frames")));
+}
+
+Verdict judge_state(const Figures& scene, const HashBook& book, const std::string& file) {
+  Verdict verdict{text_at(scene, "/scene"), "state", Outcome::kFailed, {}};
+  if (differs(scene)) {
+    verdict.text = kDiffers;
+  } else if (verdict.text = not_held(scene); !verdict.text.empty()) {
+    verdict.outcome = Outcome::kSkipped;
+  } else if (const auto known = book.find(name_of(scene)); known == book.end()) {
+    verdict.text = file + " has no " + name_of(scene) + "; --accept stores it";
+  } else if (known->second != text_at(scene, "/state/hash")) {
+    verdict.text = name_of(scene) + " is " + text_at(scene, "/state/hash") + ", and " +
+                   known->second + " in " + file +
+                   ": something else is simulated; if that is right, --accept stores it";
+  } else {
+    verdict.outcome = Outcome::kPassed;
+    verdict.text = name_of(scene) + " is " + known->second + ", as stored";
+  }
+  return verdict;
+}
+
+}  // namespace
+
+std::vector<Verdict> judge_states(std::span<const Figures> scenes, const HashBook& book,
+                                  const std::string& file) {
+  std::vector<Verdict> verdicts;
+  for (const Figures& scene : scenes) verdicts.push_back(judge_state(scene, book, file));
+  return verdicts;
+}
+
+void accept_states(std::span<const Figures> scenes, HashBook& book) {
+  for (const Figures& scene : scenes) {
+    const std::string why = differs(scene) ? kDiffers : not_held(scene);
+    if (!why.empty()) throw InputError("--accept: " + text_at(scene, "/scene") + ": " + why);
+    book[name_of(scene)] = text_at(scene, "/state/hash");
+  }
+}
+
+}  // namespace sunder::bench

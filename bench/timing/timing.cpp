@@ -1,0 +1,135 @@
+#include "bench/timing/timing.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+#include "engine/base/check.h"
+#include "engine/io/statistics.h"
+#include "scenes/features.h"
+#include "scenes/make_simulation.h"
+
+namespace sunder::bench {
+namespace {
+
+/// Of this process, at its most.
+double memory_MB() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
+}
+
+/// What of a run is kept for every frame: a page needs no more of it.
+bool is_kept(const std::string& place) {
+  return !place.starts_with("/per_frame/") || place.find("/work/") == std::string::npos;
+}
+
+double median_at(std::span<const Figures> runs, const std::string& place) {
+  std::vector<double> values;
+  for (const Figures& run : runs) values.push_back(number_at(run, place));
+  return quantile(values, 0.5);
+}
+
+/// Largest less least, over the median.
+double spread_of(std::span<const Figures> runs) {
+  const std::string place = "/frame/cpu_mean_ms";
+  const auto less = [&](const Figures& a, const Figures& b) {
+    return number_at(a, place) < number_at(b, place);
+  };
+  const auto [least, largest] = std::ranges::minmax_element(runs, less);
+  const double median = median_at(runs, place);
+  return median > 0 ? (number_at(*largest, place) - number_at(*least, place)) / median : 0;
+}
+
+}  // namespace
+
+Scene load_scene(const TimedRun& run) {
+  Scene scene = scenes::load_scene(run.scene, run.load);
+  if (const scenes::Feature* feature = scenes::find_feature(run.without)) feature->turn_off(scene);
+  return scene;
+}
+
+Figures time_run(const TimedRun& run, bool warn) {
+  Scene scene = load_scene(run);
+  const int end = static_cast<int>(std::lround(scene.duration_s * 60));
+  const int last = std::min(run.frames, end), state_frames = std::min(kStateFrames, end);
+  Statistics statistics(scenes::run_info(scene, run.load.preset));
+  StateHash all, state;
+  scenes::SimulationOptions options;
+  options.warn = [warn](const std::string& warning) {
+    if (warn) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  };
+  const auto simulation = scenes::make_simulation(std::move(scene), options);
+  for (int i = 0; i <= last; ++i) {
+    const FramePtr frame = simulation->next();
+    statistics.take(frame);
+    all.take(frame);
+    if (i <= state_frames) state.take(frame);
+  }
+  Figures figures = parse_figures(statistics.json(all.hex(), true), run.scene);
+  std::erase_if(figures, [](const auto& entry) { return !is_kept(entry.first); });
+  for (std::size_t i = 0; i < run.load.set.size(); ++i) {
+    figures["/set/" + std::to_string(i)] = run.load.set[i];
+  }
+  figures["/memory_MB"] = memory_MB();
+  if (last < state_frames) return figures;
+  figures["/state/frames"] = std::int64_t{state_frames};
+  figures["/state/hash"] = state.hex();
+  return figures;
+}
+
+Figures median_of(std::span<const Figures> runs) {
+  SUNDER_CHECK(!runs.empty());
+  Figures median = runs.front();
+  for (auto& [place, value] : median) {
+    if (auto* whole = std::get_if<std::int64_t>(&value)) {
+      *whole = std::llround(median_at(runs, place));
+    } else if (auto* real = std::get_if<double>(&value)) {
+      *real = median_at(runs, place);
+    }
+  }
+  median["/repeats"] = static_cast<std::int64_t>(runs.size());
+  median["/spread"] = spread_of(runs);
+  median["/differs"] = std::ranges::any_of(runs, [&](const Figures& run) {
+    return text_at(run, "/state_hash") != text_at(median, "/state_hash");
+  });
+  return median;
+}
+
+Figures document_of(std::span<const Figures> scenes) {
+  Figures document;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const std::string at = "/scenes/" + std::to_string(i);
+    for (const auto& [place, value] : scenes[i]) document[at + place] = value;
+  }
+  return document;
+}
+
+std::vector<Figures> scenes_of(const Figures& document, const std::string& file) {
+  std::vector<Figures> scenes;
+  if (document.contains("/scene")) return {document};
+  for (const auto& [place, value] : document) {
+    constexpr std::string_view kScenes = "/scenes/";
+    const std::size_t end = place.find('/', kScenes.size());
+    if (!place.starts_with(kScenes) || end == std::string::npos) continue;
+    std::size_t number = document.size();
+    std::from_chars(place.data() + kScenes.size(), place.data() + end, number);
+    if (number >= document.size()) break;
+    scenes.resize(std::max(scenes.size(), number + 1));
+    scenes[number][place.substr(end)] = value;
+  }
+  const bool named = std::ranges::all_of(
+      scenes, [](const Figures& scene) { return !text_at(scene, "/scene").empty(); });
+  if (scenes.empty() || !named) {
+    throw InputError(file +
+                     ": holds no timings; give a file of sunder bench --json or of sunder simulate "
+                     "--json");
+  }
+  return scenes;
+}
+
+}  // namespace sunder::bench

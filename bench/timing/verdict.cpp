@@ -1,0 +1,52 @@
+#include "bench/timing/verdict.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "engine/io/page.h"
+
+namespace sunder::bench {
+namespace {
+
+std::string quoted(const std::string& text) { return "\"" + escaped(text) + "\""; }
+
+std::string test_case(const Verdict& verdict) {
+  const std::string head = "    <testcase classname=" + quoted("sunder.bench." + verdict.scene) +
+                           " name=" + quoted(verdict.what);
+  switch (verdict.outcome) {
+    case Outcome::kFailed:
+      return head + "><failure message=" + quoted(verdict.text) + "/></testcase>\n";
+    case Outcome::kSkipped:
+      return head + "><skipped message=" + quoted(verdict.text) + "/></testcase>\n";
+    case Outcome::kPassed:
+      break;
+  }
+  return head + "><system-out>" + escaped(verdict.text) + "</system-out></testcase>\n";
+}
+
+std::string counts(std::span<const Verdict> verdicts) {
+  const auto count = [&](Outcome outcome) {
+    return quoted(std::to_string(std::ranges::count(verdicts, outcome, &Verdict::outcome)));
+  };
+  return " tests=" + quoted(std::to_string(verdicts.size())) +
+         " failures=" + count(Outcome::kFailed) + " skipped=" + count(Outcome::kSkipped);
+}
+
+}  // namespace
+
+std::string junit_xml(std::span<const Verdict> verdicts) {
+  std::map<std::string, std::vector<Verdict>> suites;
+  for (const Verdict& verdict : verdicts) suites[verdict.scene].push_back(verdict);
+  std::string xml =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"sunder bench\"" +
+      counts(verdicts) + ">\n";
+  for (const auto& [scene, suite] : suites) {
+    xml += "  <testsuite name=" + quoted(scene) + counts(suite) + ">\n";
+    for (const Verdict& verdict : suite) xml += test_case(verdict);
+    xml += "  </testsuite>\n";
+  }
+  return xml + "</testsuites>\n";
+}
+
+}  // namespace sunder::bench

@@ -1,0 +1,111 @@
+// Timings beside older ones.
+#include "bench/timing/compare.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "bench/timing/timing.h"
+#include "engine/base/check.h"
+#include "tests/timing/planted.h"
+
+namespace sunder::bench {
+namespace {
+
+using tests::planted;
+
+/// What fails, in the order of the verdicts.
+std::vector<std::string> failed(const Comparison& comparison) {
+  std::vector<std::string> all;
+  for (const Verdict& verdict : comparison.verdicts) {
+    if (verdict.outcome == Outcome::kFailed) all.push_back(verdict.scene + ", " + verdict.what);
+  }
+  return all;
+}
+
+Comparison compared(const Figures& now, const Figures& old, std::optional<double> fail_slower) {
+  return compare(std::span(&now, 1), std::span(&old, 1), "old.json", fail_slower);
+}
+
+TEST(CompareTimings, ASlowdownOfATenthFailsAtFivePercentAndNotAtFifteen) {
+  const Figures old = planted("house", 1);
+  Figures now = old;
+  now["/stages/solve/cpu_mean_ms"] = 1.1;
+  EXPECT_EQ(failed(compared(now, old, 0.05)), (std::vector<std::string>{"house, stage solve"}));
+  EXPECT_TRUE(failed(compared(now, old, 0.15)).empty());
+  EXPECT_TRUE(failed(compared(now, old, std::nullopt)).empty()) << "said, but no threshold to fail";
+  EXPECT_TRUE(failed(compared(old, old, 0.0)).empty());
+  EXPECT_TRUE(failed(compared(old, now, 0.0)).empty()) << "faster is fine";
+
+  now = old;
+  now["/stages/break/cpu_p50_ms"] = 1.1;
+  now["/frame/cpu_mean_ms"] = 7.7;
+  EXPECT_EQ(failed(compared(now, old, 0.05)),
+            (std::vector<std::string>{"house, stage break", "house, stage frame"}));
+}
+
+TEST(CompareTimings, ProcessorTimeDecidesWhereBothHaveIt) {
+  const Figures old = planted("house", 1);
+  Figures now = old;
+  now["/stages/solve/mean_ms"] = 5.0;
+  EXPECT_TRUE(failed(compared(now, old, 0.05)).empty()) << "another program had the processor";
+  Figures older = old;
+  std::erase_if(older, [](const auto& entry) { return entry.first.ends_with("cpu_mean_ms"); });
+  EXPECT_EQ(failed(compared(now, older, 0.05)), (std::vector<std::string>{"house, stage solve"}));
+  const auto changes = compared(now, older, 0.05).changes;
+  EXPECT_TRUE(std::ranges::any_of(
+      changes, [](const Change& c) { return c.stage == "solve" && !c.is_cpu && c.after_ms == 5; }));
+}
+
+TEST(CompareTimings, NoiseOfLittleStagesFailsNothing) {
+  Figures old = planted("house", 0.05);
+  Figures now = planted("house", 0.05);
+  now["/stages/act/cpu_mean_ms"] = 0.19;
+  EXPECT_TRUE(failed(compared(now, old, 0.05)).empty()) << "nearly four times as long, of nothing";
+  now["/stages/act/cpu_mean_ms"] = 0.25;
+  EXPECT_EQ(failed(compared(now, old, 0.05)), (std::vector<std::string>{"house, stage act"}))
+      << "no longer little";
+}
+
+TEST(CompareTimings, AStageWithoutATimeOfBeforeFails) {
+  Figures old = planted("house", 1);
+  std::erase_if(old, [](const auto& entry) { return entry.first.starts_with("/stages/load/"); });
+  EXPECT_EQ(failed(compared(planted("house", 1), old, std::nullopt)),
+            (std::vector<std::string>{"house, stage load"}));
+}
+
+TEST(CompareTimings, ASceneThatTheOlderFileLacksIsSaidAndFails) {
+  const Figures now[] = {planted("house", 1), planted("glass", 1)}, old[] = {planted("house", 1)};
+  const Comparison comparison = compare(now, old, "old.json", std::nullopt);
+  EXPECT_EQ(failed(comparison), (std::vector<std::string>{"glass, same run"}));
+  EXPECT_NE(comparison.verdicts.back().text.find("not in old.json"), std::string::npos);
+}
+
+TEST(CompareTimings, OtherRunsAreNotCompared) {
+  const Figures old = planted("house", 1);
+  const std::pair<const char*, std::string> texts[] = {{"/preset", "draft"},
+                                                       {"/state_hash", "0123456789abcdee"}};
+  for (const auto& [place, value] : texts) {
+    Figures now = old;
+    now[place] = value;
+    EXPECT_EQ(failed(compared(now, old, 0.05)), (std::vector<std::string>{"house, same run"}));
+    EXPECT_TRUE(compared(now, old, 0.05).changes.empty()) << place;
+  }
+  for (const char* place : {"/frames", "/threads"}) {
+    Figures now = old;
+    now[place] = std::int64_t{7};
+    EXPECT_EQ(failed(compared(now, old, 0.05)), (std::vector<std::string>{"house, same run"}));
+  }
+}
+
+TEST(CompareTimings, PercentagesAreReadAndNothingElse) {
+  EXPECT_DOUBLE_EQ(parse_percent("--fail-slower", "10%"), 0.1);
+  EXPECT_DOUBLE_EQ(parse_percent("--fail-slower", "2.5"), 0.025);
+  EXPECT_DOUBLE_EQ(parse_percent("--fail-slower", "0%"), 0);
+  for (const char* wrong : {"", "%", "ten", "10%%", "-5%", "inf", "nan", "1 0"}) {
+    EXPECT_THROW(parse_percent("--fail-slower", wrong), InputError) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace sunder::bench

@@ -1,0 +1,92 @@
+// What a run models, as its scene says.
+#include "scenes/features.h"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "engine/io/statistics.h"
+#include "scenes/load.h"
+#include "scenes/make_simulation.h"
+
+namespace sunder::scenes {
+namespace {
+
+std::string state(const Scene& scene, const char* name) { return find_feature(name)->state(scene); }
+
+Scene of(const std::string& text) {
+  return parse_scene("[scene]\ndescription = \"x\"\nduration_s = 1\n" + text, "x.toml");
+}
+
+TEST(Features, EachIsOnOrOffOrOffForAReasonInEveryScene) {
+  std::set<std::string> on, off;
+  for (const char* name : {"house", "glass", "stack", "planar_wall", "wrecking_ball", "vase"}) {
+    const RunInfo info = run_info(load_scene(name));
+    EXPECT_EQ(info.modelled.size(), features().size());
+    for (const auto& [feature, state] : info.modelled) {
+      (state == "on" ? on : off).insert(feature);
+      EXPECT_TRUE(state == "on" || state == "off" ||
+                  (state.starts_with("off: ") && state.size() > 10))
+          << feature << ": " << state;
+    }
+  }
+  for (const char* feature : {"fracture", "impact_probe", "own_weight", "debris", "dust", "joints",
+                              "sleeping", "continuous_collision", "visual_meshes", "script"}) {
+    EXPECT_TRUE(on.contains(feature)) << feature;
+    EXPECT_TRUE(off.contains(feature) || feature == std::string("sleeping")) << feature;
+  }
+}
+
+TEST(Features, TurnedOffTheyAreOff) {
+  for (const char* name : {"house", "glass", "wrecking_ball", "steel_hall"}) {
+    for (const Feature& feature : features()) {
+      Scene scene = load_scene(name);
+      if (!feature.turn_off || feature.state(scene) != "on") continue;
+      feature.turn_off(scene);
+      EXPECT_TRUE(feature.state(scene).starts_with("off")) << name << ", " << feature.name;
+    }
+  }
+}
+
+TEST(Features, AreOnWhereTheSceneSaysSo) {
+  const Scene plain = of("[[ball]]\nposition = [0, 5, 0]\n");
+  EXPECT_EQ(state(plain, "fracture"), "off: nothing here is breakable");
+  EXPECT_EQ(state(plain, "debris"), "off: nothing here is breakable");
+  EXPECT_TRUE(state(plain, "restitution").starts_with("off: "));
+  EXPECT_TRUE(state(plain, "rolling_resistance").starts_with("off: "));
+  EXPECT_EQ(
+      state(of("[ground]\nrestitution = 0.5\n[[ball]]\nposition = [0, 5, 0]\n"), "restitution"),
+      "on");
+  EXPECT_EQ(state(of("[[material]]\nname = \"rubber\"\nrolling = 0.1\n[[ball]]\nmaterial = "
+                     "\"rubber\"\nposition = [0, 5, 0]\n"),
+                  "rolling_resistance"),
+            "on");
+  EXPECT_TRUE(
+      state(of("[[material]]\nname = \"rubber\"\nrolling = 0.1\n[[ball]]\nposition = [0, 5, "
+               "0]\n"),
+            "rolling_resistance")
+          .starts_with("off: "))
+      << "nothing is made of it";
+  EXPECT_EQ(state(load_scene("house", {"realtime", {"limits.dust=0"}}), "dust"),
+            "off: dust = 0 in [limits]");
+  EXPECT_EQ(state(load_scene("house", {"realtime", {"limits.ageing=500"}}), "ageing"), "on");
+  EXPECT_EQ(state(load_scene("house", {"reference", {}}), "conjugate_gradients"), "on");
+  EXPECT_EQ(find_feature("no such thing"), nullptr);
+}
+
+TEST(Features, WithoutSleepNothingSleeps) {
+  for (const char* planar : {"", "planar = true\n"}) {
+    Scene scene = of(std::string(planar) + "[[ball]]\nposition = [0, 0.5, 0]\n");
+    scene.duration_s = 3;
+    for (const bool sleeping : {true, false}) {
+      scene.solver.sleeping = sleeping;
+      const auto simulation = make_simulation(scene);
+      FramePtr last;
+      while (FramePtr frame = simulation->next()) last = frame;
+      EXPECT_EQ(last->report.counts.awake, sleeping ? 0u : 1u) << planar;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunder::scenes

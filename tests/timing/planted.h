@@ -1,0 +1,33 @@
+// Timings as nobody measured them: no clock decides a test.
+#pragma once
+
+#include <string>
+
+#include "engine/io/figures.h"
+#include "engine/model/work.h"
+
+namespace sunder::tests {
+
+/// A scene in which every stage takes `ms`, by either clock, and all of them together 7 times that.
+inline Figures planted(const std::string& scene, double ms) {
+  Figures figures = {{"/scene", scene},
+                     {"/preset", std::string("realtime")},
+                     {"/threads", std::int64_t{1}},
+                     {"/frames", std::int64_t{200}},
+                     {"/cpu", std::string("a processor")},
+                     {"/state_hash", std::string("0123456789abcdef")},
+                     {"/state/frames", std::int64_t{200}},
+                     {"/state/hash", std::string("fedcba9876543210")},
+                     {"/differs", false}};
+  for (const std::string clock : {"", "cpu_"}) {
+    for (const std::string figure : {"p50_ms", "mean_ms"}) {
+      for (const char* stage : kStageNames) {
+        figures[std::string("/stages/") + stage + "/" + clock + figure] = ms;
+      }
+      figures["/frame/" + clock + figure] = kStages * ms;
+    }
+  }
+  return figures;
+}
+
+}  // namespace sunder::tests

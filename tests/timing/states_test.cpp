@@ -1,0 +1,102 @@
+// Stored states, and what is held against them.
+#include "bench/timing/states.h"
+
+#include <gtest/gtest.h>
+
+#include "bench/timing/timing.h"
+#include "engine/base/check.h"
+#include "tests/engine/markup.h"
+#include "tests/timing/planted.h"
+
+namespace sunder::bench {
+namespace {
+
+using tests::planted;
+
+const char* const kStored = "fedcba9876543210";  // of planted()
+
+Verdict judged(const Figures& scene, const HashBook& book) {
+  return judge_states(std::span(&scene, 1), book, "hashes.txt").front();
+}
+
+TEST(HashBook, IsReadAsItIsWritten) {
+  const HashBook book = {{"state/house/realtime/200", "0123456789abcdef"}, {"x", kStored}};
+  EXPECT_EQ(parse_hashes(format_hashes(book), "hashes.txt"), book);
+  EXPECT_TRUE(parse_hashes("# nothing\n\n  \n", "hashes.txt").empty());
+}
+
+TEST(HashBook, ALineThatIsWrongIsNamed) {
+  const std::string fine = "x fedcba9876543210\n";
+  for (const std::string wrong :
+       {"y", "y 0123", "y 0123456789abcdeg", "y 0123456789abcdef more", "x 0123456789abcdef"}) {
+    try {
+      parse_hashes("# a comment\n" + fine + wrong + "\n", "hashes.txt");
+      ADD_FAILURE() << wrong;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find("hashes.txt:3: "), 0u) << error.what();
+    }
+  }
+}
+
+TEST(States, OneBitThatDiffersFails) {
+  const HashBook book = {{"state/house/realtime/200", kStored}};
+  Figures scene = planted("house", 1);
+  EXPECT_EQ(judged(scene, book).outcome, Outcome::kPassed);
+  scene["/state/hash"] = std::string("fedcba9876543211");
+  const Verdict verdict = judged(scene, book);
+  EXPECT_EQ(verdict.outcome, Outcome::kFailed);
+  for (const char* part : {"state/house/realtime/200", kStored, "fedcba9876543211", "--accept"}) {
+    EXPECT_NE(verdict.text.find(part), std::string::npos) << part << ": " << verdict.text;
+  }
+}
+
+TEST(States, OneThatIsNotStoredFailsAndOneThatCannotBeIsSkipped) {
+  Figures scene = planted("house", 1);
+  EXPECT_EQ(judged(scene, {}).outcome, Outcome::kFailed);
+  const HashBook other = {{"state/house/draft/200", kStored},
+                          {"state/house/realtime/100", kStored}};
+  EXPECT_EQ(judged(scene, other).outcome, Outcome::kFailed) << "of another preset, or shorter";
+  scene["/set/0"] = std::string("limits.dust=0");
+  EXPECT_EQ(judged(scene, {}).outcome, Outcome::kSkipped);
+  scene = planted("house", 1);
+  scene.erase("/state/hash");
+  EXPECT_EQ(judged(scene, {}).outcome, Outcome::kSkipped);
+}
+
+TEST(States, RepeatsThatDifferFailWhateverIsStored) {
+  Figures scene = planted("house", 1);
+  scene["/differs"] = true;
+  HashBook book = {{"state/house/realtime/200", kStored}};
+  EXPECT_EQ(judged(scene, book).outcome, Outcome::kFailed);
+  EXPECT_THROW(accept_states(std::span(&scene, 1), book), InputError);
+}
+
+TEST(States, WhatIsAcceptedPassesAndTheRestOfTheBookStays) {
+  HashBook book = {{"state/house/realtime/200", "0123456789abcdef"}, {"pixels/house", kStored}};
+  const Figures scene = planted("house", 1);
+  EXPECT_EQ(judged(scene, book).outcome, Outcome::kFailed);
+  accept_states(std::span(&scene, 1), book);
+  EXPECT_EQ(judged(scene, book).outcome, Outcome::kPassed);
+  EXPECT_EQ(book.size(), 2u);
+  EXPECT_EQ(book.at("pixels/house"), kStored);
+  Figures changed = scene;
+  changed["/set/0"] = std::string("limits.dust=0");
+  EXPECT_THROW(accept_states(std::span(&changed, 1), book), InputError);
+}
+
+TEST(Junit, CountsWhatFailedAndWhatWasSkipped) {
+  const Verdict verdicts[] = {{"house", "state", Outcome::kFailed, "a < b & \"c\""},
+                              {"house", "stage solve", Outcome::kPassed, "1 ms"},
+                              {"glass", "state", Outcome::kSkipped, "too short"}};
+  const std::string xml = junit_xml(verdicts);
+  EXPECT_EQ(tests::markup_mistake(xml.substr(xml.find('\n'))), "");
+  for (const char* part :
+       {"tests=\"3\" failures=\"1\" skipped=\"1\"", "<testsuite name=\"house\" tests=\"2\"",
+        "<failure message=\"a &lt; b &amp; &quot;c&quot;\"/>",
+        "<skipped message=\"too short\"/>"}) {
+    EXPECT_NE(xml.find(part), std::string::npos) << part << "\n" << xml;
+  }
+}
+
+}  // namespace
+}  // namespace sunder::bench

@@ -1,0 +1,143 @@
+// `sunder bench` as its users see it. What it measures decides nothing here: timings are planted
+// in the files that it wrote.
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "scenes/file/text_file.h"
+#include "tests/engine/markup.h"
+#include "tests/scenes/program.h"
+
+namespace sunder::tests {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A ball that falls for a fifth of a second, timed and accepted.
+class Bench : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(folder_ / "fall.toml") << "[scene]\ndescription = \"x\"\nduration_s = 0.2\n"
+                                            "[[ball]]\nposition = [0, 5, 0]\n";
+    const Outcome outcome =
+        bench(folder_ / "fall.toml" + " --repeats 2 --warm-up 0 --accept --json " + file("now"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    timings_ = Json::parse(scenes::read_text(file("now")));
+    Json& scene = timings_["scenes"][0];
+    for (auto& stage : scene["stages"]) {
+      for (auto& figure : stage) figure = 1.0;
+    }
+    for (auto& figure : scene["frame"]) figure = 7.0;
+    write("old");
+  }
+  Outcome bench(const std::string& arguments) const {
+    return sunder("bench --hashes " + folder_ / "hashes.txt" + " " + arguments);
+  }
+  std::string file(const std::string& name) const { return folder_ / (name + ".json"); }
+  /// The timings as they are now.
+  void write(const std::string& name) const { std::ofstream(file(name)) << timings_.dump(); }
+  Json& scene() { return timings_["scenes"][0]; }
+
+  Folder folder_;
+  Json timings_;
+};
+
+TEST_F(Bench, AcceptsAndHoldsTheStateAgainstIt) {
+  const std::string book = scenes::read_text(folder_ / "hashes.txt");
+  EXPECT_NE(book.find("state/fall/realtime/12"), std::string::npos) << book;
+  const Outcome same = bench("--from " + file("now"));
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_NE(same.out.find("as stored"), std::string::npos) << same.out;
+  const Outcome longer = bench(folder_ / "fall.toml" + " --repeats 1 --warm-up 0");
+  EXPECT_EQ(longer.exit_code, 0) << longer.err;
+}
+
+TEST_F(Bench, OneBitOfTheStateFails) {
+  std::string hash = scene()["state"]["hash"];
+  hash.back() = "1032547698badcfe"[std::stoi(hash.substr(hash.size() - 1), nullptr, 16)];
+  scene()["state"]["hash"] = hash;
+  write("planted");
+  const Outcome outcome = bench("--quiet --from " + file("planted"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("failed: fall, state: "), std::string::npos) << outcome.err;
+}
+
+TEST_F(Bench, ASlowdownOfATenthFailsAtFivePercent) {
+  for (const std::string clock : {"cpu_", ""}) {
+    for (const std::string figure : {"p50_ms", "mean_ms"}) {
+      scene()["stages"]["solve"][clock + figure] = 1.1;
+    }
+  }
+  write("planted");
+  const std::string compare = "--from " + file("planted") + " --compare " + file("old");
+  const Outcome failed = bench(compare + " --fail-slower 5%");
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_NE(failed.err.find("failed: fall, stage solve: "), std::string::npos) << failed.err;
+  EXPECT_EQ(bench(compare + " --fail-slower 15%").exit_code, 0);
+  const Outcome said = bench(compare);
+  EXPECT_EQ(said.exit_code, 0);
+  EXPECT_NE(said.out.find("slower"), std::string::npos) << said.out;
+  EXPECT_EQ(bench("--from " + file("old") + " --compare " + file("planted") + " --fail-slower 5%")
+                .exit_code,
+            0)
+      << "faster";
+}
+
+TEST_F(Bench, ASceneThatTheOlderFileLacksFails) {
+  scene()["scene"] = "rise";
+  write("other");
+  const Outcome outcome = bench("--from " + file("now") + " --compare " + file("other"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("fall, same run: not in "), std::string::npos) << outcome.err;
+}
+
+TEST_F(Bench, TakesTheFileOfSimulateAsOlder) {
+  ASSERT_EQ(sunder("simulate " + folder_ / "fall.toml" + " --threads 1 --quiet --json " +
+                   file("simulated"))
+                .exit_code,
+            0);
+  const Outcome outcome = bench("--from " + file("now") + " --compare " + file("simulated"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("same state as in"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("processor"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Bench, TellsWhatFeaturesSaveAndWritesPageAndJunit) {
+  const Outcome outcome =
+      bench(folder_ / "fall.toml" + " --repeats 1 --warm-up 0 --features --json " +
+            file("features") + " --page " + folder_ / "x.html" + " --junit " + folder_ / "x.xml");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = Json::parse(scenes::read_text(file("features")));
+  EXPECT_TRUE(json["scenes"][0]["features"].contains("sleeping"));
+  EXPECT_FALSE(json["scenes"][0]["features"].contains("dust")) << "it has none";
+  EXPECT_NE(outcome.out.find("sleeping"), std::string::npos);
+  EXPECT_EQ(markup_mistake(scenes::read_text(folder_ / "x.html")), "");
+  const std::string xml = scenes::read_text(folder_ / "x.xml");
+  EXPECT_NE(xml.find("name=\"state\""), std::string::npos) << xml;
+}
+
+TEST_F(Bench, WrongUseExitsWithTwoAndSaysWhatToDo) {
+  std::ofstream(folder_ / "bad.txt") << "state/fall/realtime/12 wrong\n";
+  std::ofstream(folder_ / "bad.json") << "{\"frames\": 3}";
+  std::ofstream(folder_ / "no.json") << "{";
+  const std::string from = "--from " + file("now");
+  for (const std::string& wrong : std::vector<std::string>{
+           from + " --fail-slower 5%", from + " --compare " + file("old") + " --fail-slower ten",
+           from + " --accept", from + " --features", from + " stack",
+           from + " --compare " + file("bad"), from + " --compare " + file("no"),
+           "--from " + file("nowhere"), "nowhere", "stack stack --frames 1", "stack --repeats 0",
+           folder_ / "fall.toml" + " --frames 5 --repeats 1 --warm-up 0 --accept",
+           from + " --hashes " + folder_ / "bad.txt"}) {
+    const Outcome outcome = bench(wrong);
+    EXPECT_EQ(outcome.exit_code, 2) << wrong << "\n" << outcome.err;
+    EXPECT_NE(outcome.err, "") << wrong;
+  }
+  EXPECT_NE(sunder("bench " + from + " --hashes " + folder_ / "bad.txt").err.find("bad.txt:1: "),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sunder::tests
