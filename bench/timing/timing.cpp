@@ -6,10 +6,14 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <numeric>
 #include <string_view>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/io/statistics.h"
+#include "engine/model/work.h"
 #include "scenes/features.h"
 #include "scenes/make_simulation.h"
 
@@ -43,6 +47,40 @@ double spread_of(std::span<const Figures> runs) {
   const auto [least, largest] = std::ranges::minmax_element(runs, less);
   const double median = median_at(runs, place);
   return median > 0 ? (number_at(*largest, place) - number_at(*least, place)) / median : 0;
+}
+
+/// Of every frame what it says at that place within it.
+std::vector<double> of_frames(const Figures& scene, const std::string& place) {
+  std::vector<double> values;
+  for (int i = 0;; ++i) {
+    const std::string at = "/per_frame/" + std::to_string(i) + place;
+    if (!scene.contains(at)) return values;
+    values.push_back(number_at(scene, at));
+  }
+}
+
+void put_times(const std::string& at, const std::vector<double>& ms, Figures& scene) {
+  for (const auto& [figure, q] :
+       {std::pair{"p50_ms", 0.5}, {"p95_ms", 0.95}, {"p99_ms", 0.99}, {"max_ms", 1.0}}) {
+    scene[at + figure] = quantile(ms, q);
+  }
+  scene[at + "mean_ms"] =
+      std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
+}
+
+/// The times of stages and of all of them, from those of every frame.
+void put_times(Figures& scene) {
+  for (const bool is_cpu : {true, false}) {
+    const std::string clock = is_cpu ? "cpu_" : "";
+    std::vector<double> all_ms;
+    for (const std::string stage : kStageNames) {
+      const auto ms = of_frames(scene, (is_cpu ? "/stages_cpu_ms/" : "/stages_ms/") + stage);
+      put_times("/stages/" + stage + "/" + clock, ms, scene);
+      all_ms.resize(ms.size());
+      std::ranges::transform(all_ms, ms, all_ms.begin(), std::plus());
+    }
+    put_times("/frame/" + clock, all_ms, scene);
+  }
 }
 
 }  // namespace
@@ -92,6 +130,7 @@ Figures median_of(std::span<const Figures> runs) {
       *real = median_at(runs, place);
     }
   }
+  put_times(median);
   median["/repeats"] = static_cast<std::int64_t>(runs.size());
   median["/spread"] = spread_of(runs);
   median["/differs"] = std::ranges::any_of(runs, [&](const Figures& run) {

@@ -31,9 +31,10 @@ Scene load_scene(const TimedRun& run);
 /// if the run is shorter.
 Figures time_run(const TimedRun& run, bool warn);
 
-/// Of runs of the same: the median of every number, the first run's texts, and over the runs
-/// `repeats`, `spread` (largest less least over the median, of the processor time of all frames)
-/// and `differs`, true if their states do.
+/// Of runs of the same: the median of every number, the first run's texts; times of stages are of
+/// the frames' medians, as every frame does the same in every run, and what disturbs one does not
+/// disturb the same in most. And over the runs `repeats`, `spread` (largest less least over the
+/// median, of the processor time of all frames) and `differs`, true if their states do.
 Figures median_of(std::span<const Figures> runs);
 
 /// The document {"scenes": [...]}, and back: also the object of `sunder simulate --json`. Throws

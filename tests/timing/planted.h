@@ -27,6 +27,12 @@ inline Figures planted(const std::string& scene, double ms) {
       figures["/frame/" + clock + figure] = kStages * ms;
     }
   }
+  for (int frame = 0; frame < 200; ++frame) {
+    for (const char* stage : kStageNames) {
+      const std::string at = "/per_frame/" + std::to_string(frame);
+      figures[at + "/stages_ms/" + stage] = figures[at + "/stages_cpu_ms/" + stage] = ms;
+    }
+  }
   return figures;
 }
 

@@ -76,6 +76,24 @@ TEST(MedianOf, TakesTheMedianOfEveryNumber) {
   EXPECT_EQ(std::get<bool>(median_of(runs).at("/differs")), true);
 }
 
+TEST(MedianOf, AFrameThatIsDisturbedInOneRunChangesNothing) {
+  std::vector<Figures> runs(3, planted("house", 1));
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const char* clock : {"stages_ms", "stages_cpu_ms"}) {
+      const std::string frame = std::to_string(50 + 40 * i);
+      runs[i]["/per_frame/" + frame + "/" + clock + "/solve"] = 1000.0;
+      runs[i]["/per_frame/" + std::to_string(7) + "/" + clock + "/solve"] = 3.0;
+    }
+    runs[i]["/frame/cpu_mean_ms"] = runs[i]["/stages/solve/cpu_mean_ms"] = 6.0;
+    runs[i]["/stages/solve/max_ms"] = 1000.0;
+  }
+  const Figures median = median_of(runs);
+  EXPECT_DOUBLE_EQ(number_at(median, "/stages/solve/cpu_mean_ms"), (199 + 3) / 200.0);
+  EXPECT_EQ(number_at(median, "/stages/solve/max_ms"), 3) << "slow in every run";
+  EXPECT_EQ(number_at(median, "/frame/max_ms"), kStages - 1 + 3);
+  EXPECT_DOUBLE_EQ(number_at(median, "/frame/cpu_mean_ms"), (199.0 * kStages + kStages + 2) / 200);
+}
+
 TEST(Document, IsReadAsItIsWritten) {
   std::vector<Figures> scenes;
   for (int i = 0; i < 12; ++i) scenes.push_back(planted("scene " + std::to_string(i), i));
