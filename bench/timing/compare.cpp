@@ -42,18 +42,19 @@ std::string why_other(const Figures& now, const Figures& old, const std::string&
          "; something else is simulated";
 }
 
-/// Of the stage, what both have of "mean_ms" and the like: processor time, or else wall time.
-void add_changes(const std::string& stage, const std::string& at, const Figures& now,
-                 const Figures& old, std::vector<Change>& changes) {
+/// Of the stage, what both have: processor time before wall time, and the mean before the median of
+/// frames, which jumps where some frames are quiet and some are not.
+std::optional<Change> change_of(const std::string& stage, const std::string& at, const Figures& now,
+                                const Figures& old) {
   for (const std::string figure : {"mean", "p50"}) {
     for (const bool is_cpu : {true, false}) {
       const std::string place = at + (is_cpu ? "cpu_" : "") + figure + "_ms";
       if (!now.contains(place) || !old.contains(place)) continue;
-      changes.push_back({text_at(now, "/scene"), stage, figure, is_cpu, number_at(old, place),
-                         number_at(now, place)});
-      break;
+      return Change{text_at(now, "/scene"), stage, figure, is_cpu, number_at(old, place),
+                    number_at(now, place)};
     }
   }
+  return std::nullopt;
 }
 
 std::string sentence(const Change& change) {
@@ -62,31 +63,24 @@ std::string sentence(const Change& change) {
          " ms now";
 }
 
-Verdict judge_stage(std::span<const Change> changes, const std::string& scene,
-                    const std::string& stage, std::optional<double> fail_slower) {
-  Verdict verdict{scene, "stage " + stage, Outcome::kPassed, {}};
-  if (changes.empty()) {
-    verdict.outcome = Outcome::kFailed;
-    verdict.text = "the older file has no time of it";
-  }
-  for (const Change& change : changes) {
-    if (!verdict.text.empty()) verdict.text += "; ";
-    verdict.text += sentence(change);
-    if (!fail_slower || !change.is_slower(*fail_slower)) continue;
-    verdict.outcome = Outcome::kFailed;
-    verdict.text += ", slower by more than " + rounded(100 * *fail_slower) + " %";
-  }
-  return verdict;
+Verdict judge_stage(const Change& change, std::optional<double> fail_slower) {
+  const bool fails = fail_slower && change.is_slower(*fail_slower);
+  std::string text = sentence(change);
+  if (fails) text += ", slower by more than " + rounded(100 * *fail_slower) + " %";
+  return {change.scene, "stage " + change.stage, fails ? Outcome::kFailed : Outcome::kPassed, text};
 }
 
 void compare_stages(const Figures& now, const Figures& old, std::optional<double> fail_slower,
                     Comparison& comparison) {
-  const std::string scene = text_at(now, "/scene");
   const auto add = [&](const std::string& stage, const std::string& at) {
-    std::vector<Change> changes;
-    add_changes(stage, at, now, old, changes);
-    comparison.verdicts.push_back(judge_stage(changes, scene, stage, fail_slower));
-    comparison.changes.insert(comparison.changes.end(), changes.begin(), changes.end());
+    const std::optional<Change> change = change_of(stage, at, now, old);
+    if (!change) {
+      comparison.verdicts.push_back({text_at(now, "/scene"), "stage " + stage, Outcome::kFailed,
+                                     "the older file has no time of it"});
+      return;
+    }
+    comparison.verdicts.push_back(judge_stage(*change, fail_slower));
+    comparison.changes.push_back(*change);
   };
   for (const std::string stage : kStageNames) add(stage, "/stages/" + stage + "/");
   add("frame", "/frame/");

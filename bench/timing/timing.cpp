@@ -75,15 +75,18 @@ void put_times(Figures& scene) {
     std::vector<double> all_ms;
     for (const std::string stage : kStageNames) {
       const auto ms = of_frames(scene, (is_cpu ? "/stages_cpu_ms/" : "/stages_ms/") + stage);
+      if (ms.empty()) break;  // older than the clock
       put_times("/stages/" + stage + "/" + clock, ms, scene);
       all_ms.resize(ms.size());
       std::ranges::transform(all_ms, ms, all_ms.begin(), std::plus());
     }
-    put_times("/frame/" + clock, all_ms, scene);
+    if (!all_ms.empty()) put_times("/frame/" + clock, all_ms, scene);
   }
 }
 
 }  // namespace
+
+int last_frame(const Scene& scene) { return static_cast<int>(std::lround(scene.duration_s * 60)); }
 
 Scene load_scene(const TimedRun& run) {
   Scene scene = scenes::load_scene(run.scene, run.load);
@@ -93,7 +96,7 @@ Scene load_scene(const TimedRun& run) {
 
 Figures time_run(const TimedRun& run, bool warn) {
   Scene scene = load_scene(run);
-  const int end = static_cast<int>(std::lround(scene.duration_s * 60));
+  const int end = last_frame(scene);
   const int last = std::min(run.frames, end), state_frames = std::min(kStateFrames, end);
   Statistics statistics(scenes::run_info(scene, run.load.preset));
   StateHash all, state;

@@ -24,6 +24,8 @@ struct TimedRun {
   std::string without;        ///< A feature that is turned off (scenes/features.h); none if empty.
 };
 
+/// Index of the last frame of a scene.
+int last_frame(const Scene& scene);
 /// The scene as the run has it. Throws InputError.
 Scene load_scene(const TimedRun& run);
 /// Carries it out, in this process, whose peak memory is the run's. Beside what Statistics say:

@@ -3,6 +3,9 @@
 //
 // Read first: bench(), then measure(). Every run is a process of its own and leaves an object of
 // figures; everything reported is made of those.
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -31,10 +34,11 @@ using bench::Outcome;
 using bench::TimedRun;
 using bench::Verdict;
 
-/// A scene, as it is or without a feature, and what its repeats came to.
+/// A scene, as it is, without a feature, or by another program, and what its repeats came to.
 struct Timed {
   TimedRun run;
   std::size_t scene = 0;                  ///< By number of those asked for.
+  std::string program;                    ///< Empty: this one.
   std::vector<std::string> repeats = {};  ///< As JSON, for as long as other runs copy this process.
 };
 
@@ -44,53 +48,96 @@ std::vector<Timed> timed_runs(const BenchOptions& options) {
   std::vector<Timed> all;
   std::set<std::string> names;
   for (std::size_t i = 0; i < options.scenes.size(); ++i) {
-    const TimedRun run{options.scenes[i], options.load, options.frames, ""};
+    TimedRun run{options.scenes[i], options.load, options.frames, ""};
     const Scene scene = bench::load_scene(run);
+    run.frames = std::min(run.frames, bench::last_frame(scene));
     if (!names.insert(scene.name).second) {
       throw InputError(options.scenes[i] + ": a second scene named " + scene.name +
                        "; time it in a run of its own");
     }
-    all.push_back({run, i});
+    all.push_back({run, i, ""});
+    if (!options.against.empty()) all.push_back({run, i, options.against});
     if (!options.features) continue;
     for (const scenes::Feature& feature : scenes::features()) {
       if (!feature.turn_off || feature.state(scene) != "on") continue;
-      all.push_back({run, i});
+      all.push_back({run, i, ""});
       all.back().run.without = feature.name;
     }
   }
   return all;
 }
 
-std::string title_of(const TimedRun& run) {
-  return run.without.empty() ? run.scene : run.scene + " without " + run.without;
+std::string title_of(const Timed& timed) {
+  if (!timed.program.empty()) return timed.run.scene + " by " + timed.program;
+  return timed.run.without.empty() ? timed.run.scene
+                                   : timed.run.scene + " without " + timed.run.without;
+}
+
+/// Writes the figures of a run to the file; answers an exit code.
+int run_here(const BenchOptions& options, const Timed& timed, bool warn, std::FILE* file) {
+  try {
+    options.apply();
+    const std::string text = format_figures(bench::time_run(timed.run, warn));
+    return std::fputs(text.c_str(), file) >= 0 && std::fflush(file) == 0 ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", title_of(timed).c_str(), error.what());
+    return 1;
+  }
+}
+
+/// Becomes the other program, which writes its figures to the file.
+int become(const BenchOptions& options, const Timed& timed, std::FILE* file) {
+  std::vector<std::string> words = {timed.program,   "simulate",
+                                    timed.run.scene, "--quiet",
+                                    "--json",        "-",
+                                    "--preset",      timed.run.load.preset,
+                                    "--frames",      std::to_string(timed.run.frames),
+                                    "--threads",     std::to_string(options.threads)};
+  for (const std::string& assignment : timed.run.load.set) {
+    words.insert(words.end(), {"--set", assignment});
+  }
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  if (dup2(fileno(file), STDOUT_FILENO) >= 0) execv(timed.program.c_str(), arguments.data());
+  return 1;
 }
 
 /// Its figures as JSON. In a process of its own, so that its peak memory is its own.
-std::string run_once(const BenchOptions& options, const TimedRun& run, bool warn) {
+std::string run_once(const BenchOptions& options, const Timed& timed, bool warn) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), &std::fclose);
   if (!file) throw FileError("no temporary file can be made: set TMPDIR to where there is room");
   const Ended ended = run_apart([&] {
-    try {
-      options.apply();
-      const std::string text = format_figures(bench::time_run(run, warn));
-      return std::fputs(text.c_str(), file.get()) >= 0 && std::fflush(file.get()) == 0 ? 0 : 1;
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "%s: %s\n", title_of(run).c_str(), error.what());
-      return 1;
-    }
+    return timed.program.empty() ? run_here(options, timed, warn, file.get())
+                                 : become(options, timed, file.get());
   });
   if (ended.signal != 0 || ended.exit_code != 0) {
-    throw std::runtime_error(title_of(run) + " has no timing: " + ended.how());
+    throw std::runtime_error(title_of(timed) + " has no timing: " + ended.how());
   }
+  std::fseek(file.get(), 0, SEEK_END);
   std::string text(static_cast<std::size_t>(std::ftell(file.get())), ' ');
   std::rewind(file.get());
   text.resize(std::fread(text.data(), 1, text.size(), file.get()));
   return text;
 }
 
-/// The object of each scene. Repeats go in turns, every scene once a turn, so that what slows the
-/// machine for a while slows all of them.
-std::vector<Figures> measure(const BenchOptions& options) {
+/// What was measured: an object a scene, and those of the other program, if there is one.
+struct Measured {
+  std::vector<Figures> scenes, others;
+};
+
+/// The median of the repeats.
+Figures median_of(const Timed& timed) {
+  std::vector<Figures> repeats;
+  for (const std::string& text : timed.repeats) {
+    repeats.push_back(parse_figures(text, title_of(timed)));
+  }
+  return bench::median_of(repeats);
+}
+
+/// Repeats go in turns, everything once a turn, so that what slows the machine for a while slows
+/// all of it.
+Measured measure(const BenchOptions& options) {
   set_threads(1);  // a process that has begun others cannot be copied
   std::vector<Timed> all = timed_runs(options);
   const int turns = options.warm_up + options.repeats;
@@ -98,28 +145,26 @@ std::vector<Figures> measure(const BenchOptions& options) {
   for (int turn = 0; turn < turns; ++turn) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const double done = static_cast<double>(i) / static_cast<double>(all.size());
-      progress(title_of(all[i].run).c_str(), (turn + done) / turns);
-      const bool warn = turn == 0 && all[i].run.without.empty();
-      std::string figures = run_once(options, all[i].run, warn);
+      progress(title_of(all[i]).c_str(), (turn + done) / turns);
+      std::string figures = run_once(options, all[i], turn == 0 && all[i].run.without.empty());
       if (turn >= options.warm_up) all[i].repeats.push_back(std::move(figures));
     }
   }
-  std::vector<Figures> scenes(options.scenes.size());
+  Measured measured;
+  measured.scenes.resize(options.scenes.size());
   for (const Timed& timed : all) {
-    std::vector<Figures> repeats;
-    for (const std::string& text : timed.repeats) {
-      repeats.push_back(parse_figures(text, timed.run.scene));
-    }
-    const Figures median = bench::median_of(repeats);
-    Figures& scene = scenes[timed.scene];
-    if (timed.run.without.empty()) {
+    const Figures median = median_of(timed);
+    Figures& scene = measured.scenes[timed.scene];
+    if (!timed.program.empty()) {
+      measured.others.push_back(median);
+    } else if (timed.run.without.empty()) {
       scene = median;
     } else {
       scene["/features/" + timed.run.without + "/cpu_mean_ms"] =
           number_at(median, "/frame/cpu_mean_ms");
     }
   }
-  return scenes;
+  return measured;
 }
 
 std::vector<Figures> read_timings(const std::string& file) {
@@ -135,30 +180,47 @@ bench::HashBook read_book(const std::string& file) {
 /// The part by which a stage may be slower; none if it is not asked about.
 std::optional<double> fail_slower_of(const BenchOptions& options) {
   if (options.fail_slower.empty()) return std::nullopt;
-  if (options.compare.empty()) {
-    throw InputError("--fail-slower needs --compare OLD.json: slower than what?");
+  if (options.compare.empty() && options.against.empty()) {
+    throw InputError(
+        "--fail-slower needs --compare OLD.json or --against PROGRAM: slower than what?");
   }
   return bench::parse_percent("--fail-slower", options.fail_slower);
+}
+
+void check_program(const std::string& program) {
+  if (program.empty() ||
+      (std::filesystem::is_regular_file(program) && access(program.c_str(), X_OK) == 0))
+    return;
+  throw InputError("--against " + program +
+                   ": no program; give the path of an older sunder, such as old/build/sunder");
 }
 
 }  // namespace
 
 int bench(const BenchOptions& options) {
   const std::optional<double> fail_slower = fail_slower_of(options);
+  check_program(options.against);
   bench::HashBook book = read_book(options.hashes);
   std::vector<Figures> old;
   if (!options.compare.empty()) old = read_timings(options.compare);
 
-  const std::vector<Figures> scenes =
-      options.from.empty() ? measure(options) : read_timings(options.from);
+  Measured measured;
+  if (options.from.empty()) {
+    measured = measure(options);
+  } else {
+    measured.scenes = read_timings(options.from);
+  }
+  const std::vector<Figures>& scenes = measured.scenes;
+  const std::string old_name = options.against.empty() ? options.compare : options.against;
+  if (!options.against.empty()) old = measured.others;
   if (options.accept) {
     bench::accept_states(scenes, book);
     write_text(options.hashes, bench::format_hashes(book));
   }
   std::vector<Verdict> verdicts = bench::judge_states(scenes, book, options.hashes);
   bench::Comparison comparison;
-  if (!options.compare.empty()) {
-    comparison = bench::compare(scenes, old, options.compare, fail_slower);
+  if (!old_name.empty()) {
+    comparison = bench::compare(scenes, old, old_name, fail_slower);
     verdicts.insert(verdicts.end(), comparison.verdicts.begin(), comparison.verdicts.end());
   }
 

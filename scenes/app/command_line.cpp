@@ -118,12 +118,19 @@ void add_bench(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   auto* features = command.app->add_flag("--features", options.features,
                                          "Also run each scene without each feature it has");
-  command.app->add_option("--compare", options.compare,
-                          "An earlier --json file, of simulate too: what is slower; fails if the "
-                          "state differs or it lacks a scene");
+  auto* compare =
+      command.app->add_option("--compare", options.compare,
+                              "An earlier --json file, of simulate too: what is slower; fails if "
+                              "the state differs or it lacks a scene");
+  auto* against =
+      command.app
+          ->add_option("--against", options.against,
+                       "Another sunder, timed in the same turns: compares as --compare does")
+          ->type_name("PROGRAM")
+          ->excludes(compare);
   command.app
       ->add_option("--fail-slower", options.fail_slower,
-                   "With --compare: fail if a stage is slower by more than this")
+                   "With these two: fail if a stage is slower by more than this")
       ->type_name("PERCENT");
   auto* accept = command.app->add_flag("--accept", options.accept,
                                        "Store the states that the scenes come to as right");
@@ -131,6 +138,7 @@ void add_bench(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   command.app->add_option("--from", options.from, "Run nothing: report on an earlier --json file")
       ->excludes(scenes)
+      ->excludes(against)
       ->excludes(features)
       ->excludes(accept);
   command.app->add_option("--junit", options.junit, "Write what passed and failed as JUnit XML");

@@ -66,6 +66,7 @@ struct BenchOptions : CommonOptions {
   bool features = false;    ///< Also without each feature that can be turned off.
   std::string from;         ///< Timings to read; empty: what is run.
   std::string compare;      ///< Older timings; empty: none.
+  std::string against;      ///< Another program, timed in the same turns; empty: none.
   std::string fail_slower;  ///< "10%"; empty: never.
   std::string hashes = SUNDER_GOLDENS_FOLDER "/hashes.txt";
   bool accept = false;

@@ -1,5 +1,6 @@
 // `sunder bench` as its users see it. What it measures decides nothing here: timings are planted
 // in the files that it wrote.
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -103,6 +104,23 @@ TEST_F(Bench, TakesTheFileOfSimulateAsOlder) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("same state as in"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("processor"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Bench, AnotherProgramIsTimedInTheSameTurnsAndCompared) {
+  const std::string fall = folder_ / "fall.toml" + " --repeats 2 --warm-up 0 --against ";
+  const Outcome same = bench(fall + SUNDER_PROGRAM);
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_NE(same.out.find("fall, same run: same state as in"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("processor"), std::string::npos) << same.out;
+
+  std::ofstream(folder_ / "other")
+      << "#!/bin/sh\nexec \"" SUNDER_PROGRAM "\" \"$@\" --set scene.gravity=[0,-9,0]\n";
+  std::filesystem::permissions(folder_ / "other", std::filesystem::perms::owner_all);
+  const Outcome other = bench(fall + folder_ / "other");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("the state differs"), std::string::npos) << other.err;
+  EXPECT_EQ(bench(fall + folder_ / "fall.toml").exit_code, 2) << "no program";
+  EXPECT_EQ(bench(fall + "/bin/false").exit_code, 1);
 }
 
 TEST_F(Bench, TellsWhatFeaturesSaveAndWritesPageAndJunit) {
