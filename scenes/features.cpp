@@ -1,6 +1,8 @@
 #include "scenes/features.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace sunder::scenes {

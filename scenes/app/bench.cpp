@@ -30,7 +30,6 @@
 namespace sunder::app {
 namespace {
 
-using bench::Outcome;
 using bench::TimedRun;
 using bench::Verdict;
 
