@@ -7,6 +7,7 @@
 #include "engine/geometry/polygon_mesh.h"
 #include "engine/model/piece_mesh.h"
 #include "fracture/adjacency/adjacency.h"
+#include "fracture/adjacency/flush_caps.h"
 #include "fracture/adjacency/islands.h"
 #include "fracture/adjacency/overlap.h"
 
@@ -84,7 +85,7 @@ std::shared_ptr<const PolygonMesh> renamed_caps(const PolygonMesh& visual,
   return mesh;
 }
 
-/// Names the planes of all faces; those back to back share one.
+/// Names the planes of all faces; those back to back share one, and there visual meshes get caps.
 void name_planes(std::vector<Part>& parts, const PartPairs& pairs, double tolerance) {
   std::vector<std::uint32_t> first_face;
   std::uint32_t faces = 0;
@@ -97,31 +98,55 @@ void name_planes(std::vector<Part>& parts, const PartPairs& pairs, double tolera
     join_faces(parts[i].polyhedron, first_face[i], parts[j].polyhedron, first_face[j], tolerance,
                planes);
   }
+  std::vector<std::uint32_t> sharing(faces, 0);  // by the first face of a plane: how many do
+  for (std::uint32_t face = 0; face < faces; ++face) ++sharing[planes.find(face).first];
   std::uint64_t spare = faces;
   std::vector<PlaneId> old_names;
+  std::vector<std::uint32_t> flush;
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
     old_names.clear();
+    flush.clear();
     for (std::uint32_t f = 0; f < parts[i].polyhedron.faces.size(); ++f) {
       PlaneId& id = parts[i].polyhedron.faces[f].id;
       old_names.push_back(id);
       const auto [root, side] = planes.find(first_face[i] + f);
       id = {2 * (std::uint64_t{root} + 1) + side};
+      if (sharing[root] > 1) flush.push_back(f);
     }
-    if (!parts[i].visual || first_cap(*parts[i].visual) == parts[i].visual->faces.size()) continue;
-    parts[i].visual = renamed_caps(*parts[i].visual, old_names, parts[i].polyhedron, spare);
+    std::shared_ptr<const PolygonMesh>& visual = parts[i].visual;
+    if (!visual) continue;
+    if (first_cap(*visual) < visual->faces.size())
+      visual = renamed_caps(*visual, old_names, parts[i].polyhedron, spare);
+    visual = with_flush_caps(std::move(visual), parts[i].polyhedron, flush, tolerance);
   }
+}
+
+/// A mesh whose caps of one name look broken; itself if they do.
+std::shared_ptr<const PolygonMesh> with_inner_caps(std::shared_ptr<const PolygonMesh> visual,
+                                                   PlaneId id) {
+  for (std::size_t cap = first_cap(*visual); cap < visual->faces.size(); ++cap) {
+    const PolygonMesh::Face& face = visual->faces[cap];
+    if (face.id != id || face.kind == FaceKind::kInterior) continue;
+    auto mesh = std::make_shared<PolygonMesh>(*visual);
+    mesh->faces[cap].kind = FaceKind::kInterior;
+    visual = std::move(mesh);
+  }
+  return visual;
 }
 
 /// Faces that a neighbour covers were never part of the surface: laid bare, they look broken.
 void mark_inner_faces(Compound& compound) {
   const auto hidden = hidden_faces(compound);
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-    ConvexPolyhedron polyhedron = compound.convexes[c]->polyhedron;
-    for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
-      if (hidden[c][f]) polyhedron.faces[f].kind = FaceKind::kInterior;
-    }
     const Convex& convex = *compound.convexes[c];
-    compound.convexes[c] = make_convex(std::move(polyhedron), convex.material, convex.visual);
+    ConvexPolyhedron polyhedron = convex.polyhedron;
+    std::shared_ptr<const PolygonMesh> visual = convex.visual;
+    for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
+      if (!hidden[c][f]) continue;
+      polyhedron.faces[f].kind = FaceKind::kInterior;
+      if (visual) visual = with_inner_caps(std::move(visual), polyhedron.faces[f].id);
+    }
+    compound.convexes[c] = make_convex(std::move(polyhedron), convex.material, std::move(visual));
   }
 }
 

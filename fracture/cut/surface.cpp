@@ -145,9 +145,11 @@ class SurfaceCutter {
     return convex;
   }
 
-  /// Whether the draft is all solid: its part of the mesh has no face but caps.
+  /// Whether the draft is all solid: its part of the mesh has nothing of the old surface.
   bool is_inside(const Draft& draft) const {
-    if (first_cap(draft.visual) > 0) return false;
+    for (const PolygonMesh::Face& face : draft.visual.faces) {
+      if (face.kind == FaceKind::kSurface) return false;
+    }
     const double missing = draft.convex->solid.volume_m3 - draft.volume_m3;
     return std::abs(missing) <= 0.1 * cutter_.allowed_error_m3(whole_m3_);
   }

@@ -1,0 +1,177 @@
+// Boxes of a file that lie flush are one solid, with or without texture coordinates.
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/geometry/repair/repair.h"
+#include "engine/io/mesh/mesh_reader.h"
+#include "fracture/adjacency/compound_builder.h"
+#include "fracture/pattern_breaker.h"
+#include "fracture/vacd/vacd.h"
+
+namespace sunder {
+namespace {
+
+/// Faces of boxes, four corners each, that share no vertex: as exporters write what is textured.
+std::vector<std::array<Vec3, 4>> quads(const std::vector<Box>& boxes) {
+  std::vector<std::array<Vec3, 4>> all;
+  for (const Box& box : boxes) {
+    const ConvexPolyhedron solid = make_box(box.min, box.max);
+    for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+      std::array<Vec3, 4>& quad = all.emplace_back();
+      for (std::size_t k = 0; k < 4; ++k) quad[k] = solid.vertices[solid.face_corners(f)[k]];
+    }
+  }
+  return all;
+}
+
+std::vector<std::byte> obj(const std::vector<Box>& boxes, bool textured) {
+  std::string text = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+  for (const auto& quad : quads(boxes)) {
+    for (const Vec3& corner : quad) {
+      text += "v";
+      for (int i = 0; i < 3; ++i) text += " " + std::to_string(corner[i]);
+      text += "\n";
+    }
+    text += textured ? "f -4/1 -3/2 -2/3 -1/4\n" : "f -4 -3 -2 -1\n";
+  }
+  const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+  return {begin, begin + text.size()};
+}
+
+/// A GLB of triangles.
+std::vector<std::byte> glb(const std::vector<Box>& boxes, bool textured) {
+  std::string places, uvs, indices;
+  const auto put = [](std::string& to, auto value) {
+    to.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  std::uint32_t count = 0;
+  for (const auto& quad : quads(boxes)) {
+    for (int k = 0; k < 4; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        put(places, static_cast<float>(quad[static_cast<std::size_t>(k)][i]));
+      }
+      put(uvs, k == 1 || k == 2 ? 1.f : 0.f);
+      put(uvs, k >= 2 ? 1.f : 0.f);
+    }
+    for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) put(indices, count + k);
+    count += 4;
+  }
+  const auto text = [](std::size_t n) { return std::to_string(n); };
+  const std::string binary = places + uvs + indices;
+  const auto view = [&](std::size_t from, std::size_t size) {
+    return R"({"buffer":0,"byteOffset":)" + text(from) + R"(,"byteLength":)" + text(size) + "}";
+  };
+  const std::string of = R"(,"componentType":5126,"count":)" + text(count);
+  std::string json =
+      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+      R"("meshes":[{"primitives":[{"indices":0,"attributes":{"POSITION":1)" +
+      std::string(textured ? R"(,"TEXCOORD_0":2)" : "") +
+      R"(}}]}],"accessors":[{"bufferView":2,"componentType":5125,"type":"SCALAR","count":)" +
+      text(count / 4 * 6) + R"(},{"bufferView":0,"type":"VEC3")" + of +
+      R"(},{"bufferView":1,"type":"VEC2")" + of + R"(}],"bufferViews":[)" + view(0, places.size()) +
+      "," + view(places.size(), uvs.size()) + "," +
+      view(places.size() + uvs.size(), indices.size()) + R"(],"buffers":[{"byteLength":)" +
+      text(binary.size()) + "}]}";
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string file = "glTF";
+  const auto size = [&](std::size_t n) { put(file, static_cast<std::uint32_t>(n)); };
+  size(2), size(28 + json.size() + binary.size()), size(json.size());
+  file += "JSON" + json;
+  size(binary.size());
+  file += std::string("BIN\0", 4) + binary;
+  const auto* begin = reinterpret_cast<const std::byte*>(file.data());
+  return {begin, begin + file.size()};
+}
+
+struct Way {
+  const char* name;
+  MeshFormat format;
+  std::vector<std::byte> (*write)(const std::vector<Box>&, bool textured);
+  bool textured;
+};
+const Way kWays[] = {{"obj", MeshFormat::kObj, obj, false},
+                     {"obj with vt", MeshFormat::kObj, obj, true},
+                     {"glTF", MeshFormat::kGltf, glb, false},
+                     {"glTF with texture coordinates", MeshFormat::kGltf, glb, true}};
+
+/// One convex a box.
+Compound compound_of(const std::vector<Box>& boxes, const Way& way) {
+  RawMesh mesh = parse_mesh(way.write(boxes, way.textured), way.format, way.name);
+  fracture::VacdOptions options;
+  options.node_count = static_cast<std::uint32_t>(boxes.size());
+  return fracture::decompose(repair_mesh(std::move(mesh), way.name), options).compound;
+}
+
+TEST(FlushBoxes, AreOneSolidWithTextureCoordinatesOrWithout) {
+  for (const Way& way : kWays) {
+    const Compound pair = compound_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 1, 1}}}, way);
+    EXPECT_EQ(pair.convexes[0]->is_internal(), !way.textured) << way.name;
+    ASSERT_EQ(pair.bonds.size(), 1u) << way.name;
+    EXPECT_NEAR(pair.bonds[0].area_m2, 1, 1e-12) << way.name;
+    EXPECT_EQ(fracture::split_islands(pair).size(), 1u) << way.name;
+    EXPECT_NEAR(volume(pair), 2, 1e-12) << way.name;
+  }
+}
+
+TEST(FlushBoxes, TouchWhereTheyOverlap) {
+  for (const Way& way : kWays) {
+    // A slab on two piers; the right one stands out by half of its width.
+    const Compound portal = compound_of({{{0, 0, 0}, {0.5, 2, 1}},
+                                         {{2.75, 0, 0}, {3.25, 2, 1}},
+                                         {{0, 2, 0}, {3, 2.25, 1}},
+                                         {{5, 0, 0}, {6, 1, 1}}},
+                                        way);
+    ASSERT_EQ(portal.bonds.size(), 2u) << way.name;
+    EXPECT_NEAR(portal.bonds[0].area_m2, 0.5, 1e-12) << way.name;
+    EXPECT_NEAR(portal.bonds[1].area_m2, 0.25, 1e-12) << way.name;
+    EXPECT_EQ(fracture::split_islands(portal).size(), 2u) << way.name << ": one stands apart";
+  }
+}
+
+TEST(FlushBoxes, OnlyWhatIsCoveredLooksBrokenInside) {
+  const Compound pair = compound_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 2, 1}}}, kWays[3]);
+  std::vector<std::size_t> inner;
+  for (const ConvexPtr& convex : pair.convexes) {
+    inner.push_back(0);
+    for (const PolygonMesh::Face& face : convex->visual->faces) {
+      inner.back() += face.kind == FaceKind::kInterior ? 1 : 0;
+    }
+    EXPECT_EQ(open_edges(*convex->visual), 0u);
+    EXPECT_EQ(convex->visual->faces.size(), 11u) << "two triangles a side, but one cap";
+  }
+  EXPECT_EQ(inner, (std::vector<std::size_t>{1, 0}));
+}
+
+TEST(FlushBoxes, HoldOnToEachOtherAfterABreakBesideThem) {
+  BreakCommand command;
+  command.event = command.seed = 1;
+  command.pattern.kind = PatternSpec::Kind::kVoronoi;
+  command.pattern.cells = 40;
+  command.X_RP.position = Vec3(2, 2, 0.5);
+  command.radius_m = 0.6;
+  for (const Way& way : kWays) {
+    const Compound pair = compound_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 2, 1}}}, way);
+    const BreakPlan plan = fracture::break_compound(pair, command);
+    ASSERT_GT(plan.pieces.size(), 1u) << way.name;
+    EXPECT_EQ(plan.failed, 0u) << way.name;
+    double sum = plan.debris_volume_m3, held_m2 = 0;
+    for (const Compound& piece : plan.pieces) sum += volume(piece);
+    EXPECT_NEAR(sum, 3, 1e-9) << way.name;
+    for (const Bond& bond : plan.pieces[0].bonds) {
+      const Compound& rest = plan.pieces[0];
+      const Box a = rest.convexes[bond.a]->box, b = rest.convexes[bond.b]->box;
+      const bool across =
+          std::abs(a.max.x() - b.min.x()) < 1e-9 || std::abs(b.max.x() - a.min.x()) < 1e-9;
+      if (across && std::abs(std::min(a.max.x(), b.max.x()) - 1) < 1e-9) held_m2 += bond.area_m2;
+    }
+    EXPECT_NEAR(held_m2, 1, 1e-9) << way.name;
+  }
+}
+
+}  // namespace
+}  // namespace sunder
