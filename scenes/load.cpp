@@ -12,8 +12,10 @@
 #include "scenes/file/body.h"
 #include "scenes/file/builtin_materials.h"
 #include "scenes/file/joint.h"
+#include "scenes/file/moved_part.h"
 #include "scenes/file/names.h"
 #include "scenes/file/patterns.h"
+#include "scenes/file/placement.h"
 #include "scenes/file/planar.h"
 #include "scenes/file/schema.h"
 #include "scenes/file/script.h"
@@ -23,7 +25,6 @@ namespace sunder::scenes {
 namespace {
 
 constexpr double kFrame = 1.0 / 60;
-constexpr double kFoundationDepth = 0.3;  // m
 
 void check_view(const View& view, const std::string& where) {
   if (!view.to_sun_W.isZero() && view.eye_W != view.target_W) return;
@@ -185,26 +186,35 @@ void Loader::add_materials(const Value& document, const std::filesystem::path& f
   }
 }
 
-/// A block under every part that reaches the structure's lowest level; the world holds the blocks.
-/// What yields goes on into the ground, as a bar does.
-void add_foundation(std::vector<Piece>& pieces, MaterialIndex foundation,
-                    std::span<const Material> materials) {
-  double bottom = std::numeric_limits<double>::max();
-  for (const Piece& piece : pieces) {
-    for (const fracture::Part& part : piece.parts) {
-      bottom = std::min(bottom, piece.at.y() + bounds(part.polyhedron).min.y());
+/// The solids that pieces are, in the frame of the structure.
+std::vector<Solid> solids_of(std::vector<Piece> pieces) {
+  std::vector<Solid> solids;
+  for (Piece& piece : pieces) {
+    const Compound whole = fracture::make_compound(std::move(piece.parts));
+    for (Compound& island : fracture::split_islands(whole)) {
+      solids.push_back({"", std::move(island), {piece.at, Quat::Identity()}});
     }
   }
+  return solids;
+}
+
+std::vector<Piece> mirrored_pieces(std::vector<Piece> pieces) {
   for (Piece& piece : pieces) {
-    const std::size_t count = piece.parts.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Box box = bounds(piece.parts[i].polyhedron);
-      if (piece.at.y() + box.min.y() > bottom + 1e-6) continue;
-      const Vec3 max(box.max.x(), box.min.y(), box.max.z());
-      const Vec3 min = box.min - Vec3(0, kFoundationDepth, 0);
-      const MaterialIndex own = piece.parts[i].material;
-      piece.parts.push_back(
-          {make_box(min, max), materials[own.value].yields() ? own : foundation, true});
+    piece.at.x() = -piece.at.x();
+    for (Part& part : piece.parts) part = mirrored(std::move(part));
+  }
+  return pieces;
+}
+
+/// The world holds pieces as asked for.
+void anchor(std::vector<Piece>& pieces, Anchored how, const Value& table,
+            std::span<const Material> materials) {
+  if (how == Anchored::kBottom) {
+    add_foundation(pieces, find_material("foundation", table.where, materials), materials);
+  }
+  for (Piece& piece : pieces) {
+    for (Part& part : piece.parts) {
+      if (how == Anchored::kAll) part.anchored = kAnchoredAllRound;
     }
   }
 }
@@ -213,35 +223,26 @@ void Loader::add_solid(const Value& table) {
   const Keys<SolidHead>& keys = schema().solid;
   SolidHead head;
   read_keys(table, keys.table, keys.keys, {}, &head);
-  const StructureType& structure =
-      find_named(structures(), head.structure,
-                 find(table, "structure")->where + ": unknown structure '" + head.structure + "'");
-  const std::string name = std::string(keys.table) + " " + head.structure;
-  check_known(table, name, {keys.keys, structure.keys});
-  const std::shared_ptr<void> parameters = structure.parameters();
-  read_keys(table, name, structure.keys, scene_.materials, parameters.get());
-
-  std::vector<Piece> pieces;
-  try {
-    pieces = structure.build(parameters.get());
-  } catch (const InputError& error) {
-    throw InputError(table.where + ": " + error.what());
-  }
-  check_bodies(scene_.solids.size() + pieces.size());  // before work that takes long
-  if (head.anchored == Anchored::kBottom) {
-    add_foundation(pieces, find_material("foundation", table.where, scene_.materials),
-                   scene_.materials);
-  }
-  const Pose X_WS{head.position, rotation(head.rotation_rad)};
+  const std::vector<Copy> copies = read_copies(table, keys.table);
+  std::vector<Piece> pieces =
+      read_structure(table, keys.table, head.structure, {keys.keys, placement_keys().keys},
+                     {scene_.materials, folder_});
+  check_bodies(scene_.solids.size() + pieces.size() * copies.size());  // before long work
+  std::size_t parts = 0;
+  for (const Piece& piece : pieces) parts += piece.parts.size();
+  check_parts(static_cast<double>(parts * copies.size()), table);
+  anchor(pieces, head.anchored, table, scene_.materials);
+  const bool any_mirrored =
+      std::any_of(copies.begin(), copies.end(), [](const Copy& copy) { return copy.mirrored; });
+  const std::vector<Solid> twins =
+      any_mirrored ? solids_of(mirrored_pieces(pieces)) : std::vector<Solid>();
+  const std::vector<Solid> whole = solids_of(std::move(pieces));
   std::vector<Solid> solids;
-  for (Piece& piece : pieces) {
-    const Compound whole = fracture::make_compound(std::move(piece.parts));
-    for (Compound& island : fracture::split_islands(whole)) {
-      Solid solid;
-      solid.compound = std::move(island);
-      solid.X_WR = {X_WS * piece.at, X_WS.rotation};
-      solid.velocity_W = head.velocity;
-      solid.angular_velocity_W = head.angular_velocity;
+  for (const Copy& copy : copies) {
+    for (Solid solid : copy.mirrored ? twins : whole) {
+      solid.X_WR = {copy.X_FM * solid.X_WR.position, copy.X_FM.rotation};
+      solid.velocity_W = copy.velocity(head.velocity);
+      solid.angular_velocity_W = copy.angular_velocity(head.angular_velocity);
       solids.push_back(std::move(solid));
     }
   }
@@ -249,13 +250,8 @@ void Loader::add_solid(const Value& table) {
 }
 
 void Loader::add_body(const Value& table) {
-  BodyTable given;
-  read(body_keys(), table, scene_.materials, given);
-  try {
-    add_solids({given.name, default_name(given), table.where}, make_body(given, folder_));
-  } catch (const InputError& error) {
-    throw InputError(table.where + ": " + error.what());
-  }
+  Body body = read_body(table, scene_.materials, folder_);
+  add_solids({body.name, body.usual, table.where}, std::move(body.solids));
 }
 
 void Loader::add_solids(Made made, std::vector<Solid> solids) {

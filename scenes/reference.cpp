@@ -2,6 +2,7 @@
 #include "engine/geometry/approximate_hull.h"
 #include "scenes/file/body.h"
 #include "scenes/file/joint.h"
+#include "scenes/file/placement.h"
 #include "scenes/file/schema.h"
 #include "scenes/load.h"
 #include "scenes/structures/structure.h"
@@ -14,6 +15,7 @@ std::string show(double number) { return format(number); }
 std::string show(const std::string& text) { return text.empty() ? "none" : text; }
 std::string show(const MaterialRef& material) { return show(material.name); }
 std::string show(const CountOrFile&) { return "automatic"; }
+std::string show(const std::vector<Vec2>&) { return "none"; }
 std::string show(const Fit& fit) { return name_of(fit); }
 template <class Integer>
 requires std::is_integral_v<Integer> std::string show(Integer number) {
@@ -94,15 +96,18 @@ std::string key_reference() {
                      section(s.limits) + section(s.ground) + section(s.view) +
                      section(s.material_head) + section(s.material) + section(s.pattern) +
                      section(s.stronger) + section(s.crumbling) + section(s.look) +
-                     section(s.solid);
+                     section(s.solid) + section(s.part) + section(placement_keys()) +
+                     section(repeat_keys());
   for (const StructureType& structure : structures()) {
     text += "#### structure = \"" + std::string(structure.name) + "\"\n\n" +
             std::string(structure.help) + "\n\n" +
             rows(structure.keys, structure.parameters().get());
   }
-  return text + section(body_keys()) + section(s.ball) + section(joint_keys()) + section(s.script) +
-         section(s.shot) + section(s.wrecking_ball) + section(s.blast) + section(s.remove) +
-         section(s.drive);
+  MeshTable mesh;
+  BodyTable body;
+  text += "### [[body]]\n\n" + rows(mesh_keys().keys, &mesh) + rows(body_keys().keys, &body);
+  return text + section(s.ball) + section(joint_keys()) + section(s.script) + section(s.shot) +
+         section(s.wrecking_ball) + section(s.blast) + section(s.remove) + section(s.drive);
 }
 
 }  // namespace sunder::scenes

@@ -1,46 +1,50 @@
 #include "scenes/file/body.h"
 
+#include <array>
 #include <utility>
 
-#include "engine/base/trigonometry.h"
+#include "engine/base/check.h"
 #include "scenes/file/make_compound.h"
 #include "scenes/file/mesh_solid.h"
+#include "scenes/file/moved_part.h"
+#include "scenes/file/placement.h"
 
 namespace sunder::scenes {
 namespace {
 
 constexpr std::string_view kRepairs[] = {"auto", "off"};
-constexpr std::string_view kAnchored[] = {"none", "bottom"};
 /// What reaches this part of the height is the bottom.
 constexpr double kBottom = 0.01;
 
-Keys<BodyTable> make_body_keys() {
-  constexpr Range kPlace{-1e6, 1e6}, kSpeed{-1e4, 1e4}, kTurn{-6.2832, 6.2832};
+Keys<MeshTable> make_mesh_keys() {
   return {"[[body]]",
-          {key<&BodyTable::mesh>("mesh",
+          {key<&MeshTable::mesh>("mesh",
                                  "A file (.obj .ply .stl .off .gltf .glb) from the scene's folder "
                                  "on, or a built-in solid, such as torus:1,0.3.")
                .must(),
-           key<&BodyTable::name>("name", "Shown in messages; the mesh's name by default."),
-           key<&BodyTable::scale>("scale", "", Range{1e-6, 1e6}, "Of a file: one unit of it."),
-           key<&BodyTable::size_m>("size_m", "m", Range{1e-3, 1e4},
+           key<&MeshTable::scale>("scale", "", Range{1e-6, 1e6}, "Of a file: one unit of it."),
+           key<&MeshTable::size_m>("size_m", "m", Range{1e-3, 1e4},
                                    "Of a file, in place of scale: its longest side."),
-           key<&BodyTable::nodes>("nodes", "Of its decomposition."),
-           key<&BodyTable::convexes>("convexes", "", Range{0, 10000},
+           key<&MeshTable::nodes>("nodes", "Of its decomposition."),
+           key<&MeshTable::convexes>("convexes", "", Range{0, 10000},
                                      "Most convexes of its decomposition; 0: what nodes make."),
-           key<&BodyTable::fit>("fit", "Of its convexes: aabb, 14dop, 26dop or hull:N."),
-           choice<&BodyTable::repair>("repair", kRepairs, "off: a mesh that needs it is refused."),
-           key<&BodyTable::material>("material", "What it is made of."),
-           key<&BodyTable::position>("position", "m", kPlace, "Where the middle of its foot is."),
-           key<&BodyTable::rotation_rad>("rotation_rad", "rad", kTurn,
-                                         "About the axes x, then y, then z, through its foot."),
-           key<&BodyTable::velocity>("velocity", "m/s", kSpeed, "At the start."),
-           key<&BodyTable::angular_velocity>("angular_velocity", "rad/s", kSpeed, "At the start."),
-           choice<&BodyTable::anchored>("anchored", kAnchored,
-                                        "bottom: the world holds its lowest parts.")}};
+           key<&MeshTable::fit>("fit", "Of its convexes: aabb, 14dop, 26dop or hull:N."),
+           choice<&MeshTable::repair>("repair", kRepairs, "off: a mesh that needs it is refused."),
+           key<&MeshTable::material>("material", "What it is made of.")}};
 }
 
-MeshOptions options_of(const BodyTable& given, const std::filesystem::path& folder) {
+Keys<BodyTable> make_body_keys() {
+  constexpr Range kSpeed{-1e4, 1e4};
+  return {"[[body]]",
+          {key<&BodyTable::name>("name", "Shown in messages; the mesh's name by default."),
+           key<&BodyTable::velocity>("velocity", "m/s", kSpeed, "At the start."),
+           key<&BodyTable::angular_velocity>("angular_velocity", "rad/s", kSpeed, "At the start."),
+           choice<&BodyTable::anchored>("anchored", anchored_names(),
+                                        "bottom: the world holds its lowest parts; all: every "
+                                        "part, on all sides.")}};
+}
+
+MeshOptions options_of(const MeshTable& given, const std::filesystem::path& folder) {
   MeshOptions options;
   options.nodes = given.nodes.file.empty() ? std::to_string(given.nodes.count)
                                            : (folder / given.nodes.file).string();
@@ -54,53 +58,85 @@ MeshOptions options_of(const BodyTable& given, const std::filesystem::path& fold
   return options;
 }
 
-void anchor_bottom(Compound& compound) {
+void anchor(Compound& compound, Anchored how) {
+  if (how == Anchored::kNone) return;
   const Box box = bounds(compound);
   const double bottom = box.min.y() + kBottom * box.extent().y();
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-    if (compound.convexes[c]->box.min.y() <= bottom) {
+    if (how == Anchored::kAll) {
+      compound.anchored[c] = kAnchoredAllRound;
+    } else if (compound.convexes[c]->box.min.y() <= bottom) {
       compound.anchored[c] = anchor_side(1, false);
     }
   }
 }
 
+Compound mirrored_whole(const Compound& compound) {
+  std::vector<Part> parts;
+  for (Part& part : parts_of(compound)) parts.push_back(mirrored(std::move(part)));
+  return make_compound(std::move(parts));
+}
+
+std::string default_name(const std::string& mesh) {
+  return names_built_in(mesh) ? mesh : std::filesystem::path(mesh).stem().string();
+}
+
 }  // namespace
+
+const Keys<MeshTable>& mesh_keys() {
+  static const Keys<MeshTable> kKeys = make_mesh_keys();
+  return kKeys;
+}
 
 const Keys<BodyTable>& body_keys() {
   static const Keys<BodyTable> kKeys = make_body_keys();
   return kKeys;
 }
 
-Quat rotation(const Vec3& angles_rad) {
-  Quat q = Quat::Identity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const SinCos half = sin_cos(angles_rad[axis] / 2);
-    const Vec3 v = half.sin * Vec3::Unit(axis);
-    q = Quat(half.cos, v.x(), v.y(), v.z()) * q;
-  }
-  return q.normalized();
-}
-
-std::string default_name(const BodyTable& given) {
-  return names_built_in(given.mesh) ? given.mesh
-                                    : std::filesystem::path(given.mesh).stem().string();
-}
-
-std::vector<Solid> make_body(const BodyTable& given, const std::filesystem::path& folder) {
+Compound read_compound(const MeshTable& given, const std::filesystem::path& folder) {
   const bool built_in = names_built_in(given.mesh);
   const std::string mesh = built_in ? given.mesh : (folder / given.mesh).string();
-  Compound compound = make_compound(mesh, given.material.index, options_of(given, folder));
-  if (given.anchored == Anchored::kBottom) anchor_bottom(compound);
+  return make_compound(mesh, given.material.index, options_of(given, folder));
+}
 
+Vec3 foot_of(const Compound& compound) {
   const Box box = bounds(compound);
-  const Vec3 foot_R(box.center().x(), box.min.y(), box.center().z());
-  Pose X_WR{given.position, rotation(given.rotation_rad)};
-  X_WR.position -= X_WR.rotation * foot_R;
-  std::vector<Solid> solids;
-  for (Compound& part : split_islands(compound)) {
-    solids.push_back({"", std::move(part), X_WR, given.velocity, given.angular_velocity});
+  return Vec3(box.center().x(), box.min.y(), box.center().z());
+}
+
+Body read_body(const Value& table, std::span<const Material> materials,
+               const std::filesystem::path& folder) {
+  const std::string_view name = body_keys().table;
+  check_known(table, name, {mesh_keys().keys, body_keys().keys, placement_keys().keys});
+  MeshTable mesh;
+  read_keys(table, name, mesh_keys().keys, materials, &mesh);
+  BodyTable given;
+  read_keys(table, name, body_keys().keys, {}, &given);
+  const std::vector<Copy> copies = read_copies(table, name);
+  Body body{given.name, default_name(mesh.mesh), {}};
+  try {
+    Compound compound = read_compound(mesh, folder);
+    anchor(compound, given.anchored);
+    std::array<std::vector<Compound>, 2> islands;  // as they are, and mirrored
+    std::array<Vec3, 2> foot_R;
+    for (const Copy& copy : copies) {
+      std::vector<Compound>& parts = islands[copy.mirrored];
+      if (parts.empty()) {
+        const Compound whole = copy.mirrored ? mirrored_whole(compound) : compound;
+        foot_R[copy.mirrored] = foot_of(whole);
+        parts = split_islands(whole);
+      }
+      Pose X_WR = copy.X_FM;
+      X_WR.position -= X_WR.rotation * foot_R[copy.mirrored];
+      for (const Compound& part : parts) {
+        body.solids.push_back({"", part, X_WR, copy.velocity(given.velocity),
+                               copy.angular_velocity(given.angular_velocity)});
+      }
+    }
+  } catch (const InputError& error) {
+    throw InputError(table.where + ": " + error.what());
   }
-  return solids;
+  return body;
 }
 
 }  // namespace sunder::scenes

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,9 @@ namespace sunder::scenes {
 
 enum class RepairChoice { kAuto, kOff };
 
-/// The keys of [[body]].
-struct BodyTable {
+/// The keys that name a mesh and say how it is decomposed.
+struct MeshTable {
   std::string mesh;
-  std::string name;
   double scale = 1;
   std::optional<double> size_m;
   CountOrFile nodes;
@@ -25,22 +25,32 @@ struct BodyTable {
   std::string fit = "hull:24";
   RepairChoice repair = RepairChoice::kAuto;
   MaterialRef material{"concrete", {}};
-  Vec3 position = Vec3::Zero();
-  Vec3 rotation_rad = Vec3::Zero();
+};
+const Keys<MeshTable>& mesh_keys();
+
+/// The other keys of [[body]], but for its place (placement.h).
+struct BodyTable {
+  std::string name;
   Vec3 velocity = Vec3::Zero();
   Vec3 angular_velocity = Vec3::Zero();
   Anchored anchored = Anchored::kNone;
 };
 const Keys<BodyTable>& body_keys();
 
-/// What it is called if nothing is given: its mesh's name.
-std::string default_name(const BodyTable& given);
-/// The solids that a body is, one for each part that hangs together, without names. Files are
-/// sought from `folder` on, decompositions kept in the cache (mesh_cache.h). Throws InputError
-/// without a place.
-std::vector<Solid> make_body(const BodyTable& given, const std::filesystem::path& folder);
+/// A mesh in its own coordinates, of its material. Files are sought from `folder` on,
+/// decompositions kept in the cache (mesh_cache.h). Throws InputError without a place.
+Compound read_compound(const MeshTable& given, const std::filesystem::path& folder);
+/// The middle of a compound's lowest level.
+Vec3 foot_of(const Compound& compound);
 
-/// About x, then y, then z.
-Quat rotation(const Vec3& angles_rad);
+/// What a [[body]] is.
+struct Body {
+  std::string name;           ///< Empty: none was given.
+  std::string usual;          ///< In place of it: its mesh's name.
+  std::vector<Solid> solids;  ///< One for each part of a copy that hangs together, without names.
+};
+/// Throws InputError.
+Body read_body(const Value& table, std::span<const Material> materials,
+               const std::filesystem::path& folder);
 
 }  // namespace sunder::scenes

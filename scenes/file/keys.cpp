@@ -13,6 +13,7 @@ namespace sunder::scenes {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::size_t kFewestCorners = 3, kMostCorners = 64;  // of an outline
 
 std::string bounds(const Range& range) {
   const bool low = range.low > -std::numeric_limits<double>::max();
@@ -79,6 +80,16 @@ struct Reading {
       read(to.file);
     } else {
       read(to.count);
+    }
+  }
+  void read(std::vector<Vec2>& to) const {
+    const Array& corners = exactly<Array>();
+    if (corners.size() < kFewestCorners || corners.size() > kMostCorners) fail();
+    to.clear();
+    for (const Value& corner : corners) {
+      const Array* xy = std::get_if<Array>(&corner.data);
+      if (!xy || xy->size() != 2) fail();
+      to.emplace_back(number((*xy)[0]), number((*xy)[1]));
     }
   }
   template <class Integer>
@@ -186,6 +197,9 @@ std::string allowed(const Key& key) {
     case Kind::kVector:
     case Kind::kColor:
       return "[x, y, z], each a number" + bounds(key.range) + unit;
+    case Kind::kOutline:
+      return "[[x, y], ...], " + std::to_string(kFewestCorners) + " to " +
+             std::to_string(kMostCorners) + " corners, each a number" + bounds(key.range) + unit;
     case Kind::kText:
       return "a text that is not empty";
     case Kind::kMaterial:

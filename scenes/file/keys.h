@@ -52,8 +52,9 @@ struct Key {
     kMaterial,  ///< MaterialRef
     kFit,       ///< Fit
     kCountOrFile,
-    kChoice,  ///< an enumeration
-    kTable,   ///< read by whoever asks for it: allowed, and documented elsewhere
+    kOutline,  ///< std::vector<Vec2>
+    kChoice,   ///< an enumeration
+    kTable,    ///< read by whoever asks for it: allowed, and documented elsewhere
   };
 
   std::string_view name;  ///< Ending in _rad: may also be given in degrees, ending in _deg.
@@ -97,7 +98,7 @@ struct Unwrapped<std::optional<T>> {
 template <class... T>
 struct TypeList {};
 using FieldTypes = TypeList<bool, int, std::uint32_t, std::uint64_t, double, Vec3, Vec3f,
-                            std::string, MaterialRef, Fit, CountOrFile>;
+                            std::string, MaterialRef, Fit, CountOrFile, std::vector<Vec2>>;
 
 template <class Field, class... T>
 constexpr Key::Kind kind_of(TypeList<T...>) {

@@ -9,13 +9,12 @@ constexpr Range kPlace{-1e6, 1e6};
 constexpr Range kSpeed{-1e4, 1e4};
 constexpr Range kRadius{0.001, 100};
 constexpr Range kFraction{0, 1};
-constexpr Range kTurn{-6.2832, 6.2832};
 
 constexpr std::string_view kPatterns[] = {"none",  "voronoi", "web",  "radial",
                                           "brick", "slabs",   "grid", "file"};
 constexpr std::string_view kTextures[] = {"plain", "brick", "concrete", "plaster",
                                           "wood",  "glass", "metal"};
-constexpr std::string_view kAnchored[] = {"none", "bottom"};
+constexpr std::string_view kAnchored[] = {"none", "bottom", "all"};
 
 Keys<Scene> top_keys() {
   return {
@@ -148,14 +147,12 @@ Keys<SolidHead> solid_keys() {
       "[[solid]]",
       {key<&SolidHead::structure>("structure", "Which structure; its keys follow below.").must(),
        key<&SolidHead::name>("name", "Shown in messages; the structure's name by default."),
-       key<&SolidHead::position>("position", "m", kPlace, "Where the middle of its foot is."),
-       key<&SolidHead::rotation_rad>("rotation_rad", "rad", kTurn,
-                                     "About the axes x, then y, then z, through its foot."),
        key<&SolidHead::velocity>("velocity", "m/s", kSpeed, "At the start."),
        key<&SolidHead::angular_velocity>("angular_velocity", "rad/s", kSpeed, "At the start."),
        choice<&SolidHead::anchored>("anchored", kAnchored,
                                     "bottom: its lowest parts stand on a foundation that the "
-                                    "world holds; none: it is loose.")}};
+                                    "world holds; all: it holds every part, on all sides; none: it "
+                                    "is loose.")}};
 }
 
 Keys<ShotTable> shot_keys() {
@@ -272,6 +269,9 @@ Schema make_schema() {
             {choice<&Look::texture>("texture", kTextures, "Procedural texture."),
              key<&Look::color>("color", "", kFraction, "Linear red, green, blue.")}};
   s.solid = solid_keys();
+  s.part = {"[[solid.part]]",
+            {key<&PartHead::structure>("structure", "Which structure; its keys as in [[solid]].")
+                 .must()}};
   s.ball = {"[[ball]]",
             {key<&BallTable::name>("name", "Shown in messages."),
              key<&BallTable::position>("position", "m", kPlace, "Of its centre."),
@@ -303,6 +303,8 @@ std::span<const Preset> presets() {
   };
   return kPresets;
 }
+
+std::span<const std::string_view> anchored_names() { return kAnchored; }
 
 const Schema& schema() {
   static const Schema kSchema = make_schema();

@@ -28,17 +28,22 @@ struct MaterialHead {
   std::string like;
 };
 
-enum class Anchored { kNone, kBottom };
+enum class Anchored { kNone, kBottom, kAll };
+/// Their names, in order.
+std::span<const std::string_view> anchored_names();
 
-/// The keys of [[solid]] that all structures share.
+/// The keys of [[solid]] that all structures share, but for its place (placement.h).
 struct SolidHead {
   std::string structure;
   std::string name;
-  Vec3 position = Vec3::Zero();
-  Vec3 rotation_rad = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
   Vec3 angular_velocity = Vec3::Zero();
   Anchored anchored = Anchored::kNone;
+};
+
+/// The keys of a part of a compound, but for its place.
+struct PartHead {
+  std::string structure;
 };
 
 struct BallTable {
@@ -107,6 +112,7 @@ struct Schema {
   Keys<Crumbling> crumbling;
   Keys<Look> look;
   Keys<SolidHead> solid;
+  Keys<PartHead> part;
   Keys<BallTable> ball;
   Keys<Script> script;
   Keys<ShotTable> shot;

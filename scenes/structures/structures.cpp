@@ -132,6 +132,14 @@ void check_parts(double parts) {
   throw InputError(text);
 }
 
+void check_parts(double parts, const Value& table) {
+  try {
+    check_parts(parts);
+  } catch (const InputError& error) {
+    throw InputError(table.where + ": " + error.what());
+  }
+}
+
 void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max,
                 double longest_m, MaterialIndex material) {
   const Vec3 extent = max - min;
@@ -206,11 +214,29 @@ StructureType wheel_structure() {
        key<&Wheel::hub>("hub", "What the hub is made of.")});
 }
 
+std::vector<Piece> read_structure(const Value& table, std::string_view name,
+                                  const std::string& structure,
+                                  std::initializer_list<std::span<const Key>> more,
+                                  const Site& site) {
+  const StructureType& type =
+      find_named(structures(), structure,
+                 find(table, "structure")->where + ": unknown structure '" + structure + "'");
+  const std::string full_name = std::string(name) + " " + structure;
+  std::vector<Key> known;
+  for (const std::span<const Key> keys : more) known.insert(known.end(), keys.begin(), keys.end());
+  known.insert(known.end(), type.keys.begin(), type.keys.end());
+  check_known(table, full_name, {known});
+  const std::shared_ptr<void> parameters = type.parameters();
+  read_keys(table, full_name, type.keys, site.materials, parameters.get());
+  return type.build(parameters.get(), table, site);
+}
+
 std::span<const StructureType> structures() {
   static const std::vector<StructureType> all = {
-      box_structure(),   brick_wall_structure(), bridge_structure(), column_structure(),
-      hall_structure(),  house_structure(),      pane_structure(),   reinforced_structure(),
-      stack_structure(), temple_structure(),     wheel_structure()};
+      arch_structure(),   box_structure(),      brick_wall_structure(), bridge_structure(),
+      column_structure(), compound_structure(), hall_structure(),       house_structure(),
+      mesh_structure(),   pane_structure(),     prism_structure(),      reinforced_structure(),
+      stack_structure(),  temple_structure(),   wheel_structure()};
   return all;
 }
 

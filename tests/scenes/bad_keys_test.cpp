@@ -8,6 +8,7 @@
 #include "engine/base/check.h"
 #include "scenes/file/body.h"
 #include "scenes/file/joint.h"
+#include "scenes/file/placement.h"
 #include "scenes/file/schema.h"
 #include "scenes/load.h"
 
@@ -33,6 +34,13 @@ std::vector<Sample> samples() {
        {{"kind", "\"ball\""}, {"a", "\"x\""}, {"at", "[0, 1, 0]"}}},
       {"[[ball]]", all.ball.table, all.ball.keys, {}},
       {"[[body]]", body_keys().table, body_keys().keys, {{"mesh", "\"box:1,1,1\""}}},
+      {"[[body]]", mesh_keys().table, mesh_keys().keys, {{"mesh", "\"box:1,1,1\""}}},
+      {"[[body]]", "[[body]]", placement_keys().keys, {{"mesh", "\"box:1,1,1\""}}},
+      {"[[solid]]", "[[solid]]", placement_keys().keys, {{"structure", "\"box\""}}},
+      {"[[solid]]\nstructure = \"compound\"\n[[solid.part]]",
+       "[[solid.part]]",
+       placement_keys().keys,
+       {{"structure", "\"box\""}}},
       {"[script]", all.script.table, all.script.keys, {}},
       {"[[script.shot]]",
        all.shot.table,
@@ -73,7 +81,7 @@ Answer say(const Sample& sample, const std::string& key, const std::string* valu
   }
   Answer answer;
   std::string text = kBefore + sample.header + "\n";
-  answer.line = kLinesBefore + 1;
+  answer.line = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
   int at = answer.line;
   for (const auto& [name, given] : lines) {
     ++at;
