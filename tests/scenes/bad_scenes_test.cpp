@@ -151,8 +151,9 @@ constexpr Fault kFaults[] = {
     // Names
     {"[[solid]]\nstructure = \"hose\"",
      "bad.toml:4: unknown structure 'hose'; did you mean "
-     "'house'?; allowed: box | brick_wall | bridge | column | "
-     "hall | house | pane | reinforced | stack | temple"},
+     "'house'?; allowed: arch | box | brick_wall | bridge | column | compound | hall | house | "
+     "mesh "
+     "| pane | prism | reinforced | stack | temple | wheel"},
     {"[[solid]]\nstructure = \"box\"\nmaterial = \"stel\"",
      "bad.toml:5: unknown material 'stel'; "
      "did you mean 'steel'?; there are: "
