@@ -46,6 +46,10 @@ void repeat(const Value& table, std::vector<Copy>& copies) {
   RepeatTable given;
   read(repeat_keys(), table, {}, given);
   const std::size_t before = copies.size();
+  if (given.count > 1 && given.step_m.isZero() && given.turn_rad == 0) {
+    throw InputError(table.where + ": repeat puts all copies in one place; give it step_m, " +
+                     "turn_rad or turn_deg");
+  }
   if (before * given.count > kMostCopies) {
     throw InputError(table.where + ": " + std::to_string(before * given.count) +
                      " copies by repeat; allowed: at most " + std::to_string(kMostCopies));

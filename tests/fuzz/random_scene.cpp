@@ -83,9 +83,24 @@ void put_head(Writer& w, bool planar) {
   if (w.chance(0.2)) w.number("restitution", w.between(0, 1));
 }
 
+/// Parts of a compound on one line, since the solid's own keys follow: piers on a slab, an arch
+/// between them and beams over them.
+void put_parts(Writer& w) {
+  char text[600];
+  std::snprintf(text, sizeof text,
+                "part = [{ structure = \"box\", size_m = [4, 0.2, 1], material = \"%s\" }, "
+                "{ structure = \"%s\", position = [%.6g, 0.2, 0], rotation_deg = [0, %.6g, 0], "
+                "mirror = \"x\" }, { structure = \"arch\", position = [0, 0.2, 0] }, "
+                "{ structure = \"box\", size_m = [3, 0.3, %.6g], position = [0, 3.2, 0], "
+                "repeat = { count = %d, step_m = [0, 0.3, 0], turn_deg = %.6g } }]",
+                w.one_of(kMaterials), w.chance(0.5) ? "column" : "reinforced", w.between(0.4, 1.2),
+                w.between(-90, 90), w.between(0.1, 0.6), w.whole(1, 3), w.between(-30, 30));
+  w.line(text);
+}
+
 /// The keys of a structure that is not too large; it says what it is made of itself.
 void put_structure(Writer& w) {
-  switch (w.whole(0, 8)) {
+  switch (w.whole(0, 9)) {
     case 0:
       w.word("structure", "box");
       w.word("material", w.one_of(kMaterials));
@@ -126,6 +141,10 @@ void put_structure(Writer& w) {
       w.count("rings", w.whole(1, 3));
       w.count("sectors", w.whole(6, 24));
       break;
+    case 8:
+      w.word("structure", "compound");
+      put_parts(w);
+      break;
     default:
       w.word("structure", "house");
       w.number("width_m", w.between(4, 6));
@@ -151,7 +170,9 @@ void put_solid(Writer& w) {
   if (turned > 0.5) w.vector("rotation_deg", Vec3(0, w.between(-180, 180), 0));
   if (w.chance(0.1)) w.vector("velocity", place(w, 10, -5, 5));
   if (w.chance(0.1)) w.vector("angular_velocity", place(w, 10, -10, 10));
-  if (w.chance(0.5)) w.word("anchored", "bottom");
+  if (w.chance(0.5)) w.word("anchored", w.chance(0.1) ? "all" : "bottom");
+  if (w.chance(0.1)) w.line("repeat = { count = 2, step_m = [0.5, 4, 0], turn_deg = 20 }");
+  if (w.chance(0.1)) w.word("mirror", "z");
 }
 
 /// A ball that hangs beside what stands, or from nothing.

@@ -133,16 +133,21 @@ TEST(CompoundStructure, RefusesWhatCannotBeMeant) {
                                "to 1000, in m"))
         << said;
   }
-  EXPECT_EQ(refusal("[[solid]]\nstructure = \"box\"\nrepeat = [{ count = 1000 }, { count = 21 }]"),
+  EXPECT_EQ(refusal("[[solid]]\nstructure = \"box\"\nrepeat = [{ count = 1000, turn_deg = 1 }, { "
+                    "count = 21, turn_deg = 2 }]"),
             "x.toml:5: 21000 copies by repeat; allowed: at most 20000");
   EXPECT_TRUE(refusal("[[solid]]\nstructure = \"box\"\nrepeat = { count = 0 }")
                   .starts_with("x.toml:5: count in [solid.repeat], [solid.part.repeat], "
                                "[body.repeat] is the number 0; allowed: a whole number from 1"));
   EXPECT_TRUE(refusal("[[solid]]\nstructure = \"box\"\nrepeat = { cuont = 2 }")
                   .starts_with("x.toml:5: unknown key 'cuont'"));
+  EXPECT_EQ(refusal("[[solid]]\nstructure = \"box\"\nrepeat = { count = 2 }"),
+            "x.toml:5: repeat puts all copies in one place; give it step_m, turn_rad or turn_deg");
   EXPECT_TRUE(refusal("[[solid]]\nstructure = \"box\"\nrepeat = 3").starts_with("x.toml:5: "));
-  EXPECT_TRUE(refusal("[[solid]]\nstructure = \"box\"\nblock_m = 0.05\nrepeat = { count = 100 }")
-                  .starts_with("x.toml:3: 8e+05 parts, more than 200000"));
+  EXPECT_TRUE(
+      refusal(
+          "[[solid]]\nstructure = \"box\"\nblock_m = 0.05\nrepeat = { count = 100, turn_deg = 3 }")
+          .starts_with("x.toml:3: 8e+05 parts, more than 200000"));
 }
 
 TEST(Copies, StandInARowUnderNamesOfTheirOwn) {
