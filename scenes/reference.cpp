@@ -15,6 +15,7 @@ std::string show(double number) { return format(number); }
 std::string show(const std::string& text) { return text.empty() ? "none" : text; }
 std::string show(const MaterialRef& material) { return show(material.name); }
 std::string show(const CountOrFile&) { return "automatic"; }
+std::string show(const HeightGrid&) { return "none"; }
 std::string show(const std::vector<Vec2>&) { return "none"; }
 std::string show(const Fit& fit) { return name_of(fit); }
 template <class Integer>

@@ -56,6 +56,12 @@ struct Reading {
     return *exact;
   }
 
+  /// Of an array; 0 for anything else.
+  static std::size_t length(const Value& row) {
+    const Array* array = std::get_if<Array>(&row.data);
+    return array ? array->size() : 0;
+  }
+
   std::size_t choice() const {
     const auto found = std::find(key.choices.begin(), key.choices.end(), exactly<std::string>());
     if (found == key.choices.end()) fail();
@@ -91,6 +97,17 @@ struct Reading {
       if (!xy || xy->size() != 2) fail();
       to.emplace_back(number((*xy)[0]), number((*xy)[1]));
     }
+  }
+  void read(HeightGrid& to) const {
+    to = {};
+    const Array& rows = exactly<Array>();
+    for (const Value& row : rows) {
+      const Array* numbers = std::get_if<Array>(&row.data);
+      if (!numbers || numbers->size() != length(rows[0])) fail();
+      for (const Value& one : *numbers) to.values.push_back(number(one));
+    }
+    to.columns = rows.empty() ? 0 : length(rows[0]);
+    if (rows.size() < 2 || to.columns < 2) fail();
   }
   template <class Integer>
   requires std::is_integral_v<Integer>
@@ -200,6 +217,9 @@ std::string allowed(const Key& key) {
     case Kind::kOutline:
       return "[[x, y], ...], " + std::to_string(kFewestCorners) + " to " +
              std::to_string(kMostCorners) + " corners, each a number" + bounds(key.range) + unit;
+    case Kind::kGrid:
+      return "[[h, h, ...], ...], two rows or more of equal length, two or more, each a number" +
+             bounds(key.range) + unit;
     case Kind::kText:
       return "a text that is not empty";
     case Kind::kMaterial:

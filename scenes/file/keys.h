@@ -4,6 +4,7 @@
 // Read first: kGroundKeys in schema.cpp for what a declaration looks like, then Keys::read().
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -32,6 +33,15 @@ struct CountOrFile {
   std::string file;
 };
 
+/// Numbers in rows of equal length.
+struct HeightGrid {
+  std::size_t columns = 0;
+  std::vector<double> values;  ///< Row after row.
+
+  std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
+  double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
+};
+
 /// Allowed values, both ends included; of every component of a vector.
 struct Range {
   double low = -std::numeric_limits<double>::max();
@@ -53,6 +63,7 @@ struct Key {
     kFit,       ///< Fit
     kCountOrFile,
     kOutline,  ///< std::vector<Vec2>
+    kGrid,     ///< HeightGrid
     kChoice,   ///< an enumeration
     kTable,    ///< read by whoever asks for it: allowed, and documented elsewhere
   };
@@ -97,8 +108,9 @@ struct Unwrapped<std::optional<T>> {
 /// What keys are stored in, in the order of their kinds.
 template <class... T>
 struct TypeList {};
-using FieldTypes = TypeList<bool, int, std::uint32_t, std::uint64_t, double, Vec3, Vec3f,
-                            std::string, MaterialRef, Fit, CountOrFile, std::vector<Vec2>>;
+using FieldTypes =
+    TypeList<bool, int, std::uint32_t, std::uint64_t, double, Vec3, Vec3f, std::string, MaterialRef,
+             Fit, CountOrFile, std::vector<Vec2>, HeightGrid>;
 
 template <class Field, class... T>
 constexpr Key::Kind kind_of(TypeList<T...>) {

@@ -83,6 +83,7 @@ StructureType prism_structure();
 StructureType reinforced_structure();
 StructureType stack_structure();
 StructureType temple_structure();
+StructureType terrain_structure();
 StructureType wheel_structure();
 
 /// Throws InputError for more parts than any scene may hold.

@@ -236,7 +236,7 @@ std::span<const StructureType> structures() {
       arch_structure(),   box_structure(),      brick_wall_structure(), bridge_structure(),
       column_structure(), compound_structure(), hall_structure(),       house_structure(),
       mesh_structure(),   pane_structure(),     prism_structure(),      reinforced_structure(),
-      stack_structure(),  temple_structure(),   wheel_structure()};
+      stack_structure(),  temple_structure(),   terrain_structure(),    wheel_structure()};
   return all;
 }
 

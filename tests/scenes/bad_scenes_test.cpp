@@ -153,7 +153,7 @@ constexpr Fault kFaults[] = {
      "bad.toml:4: unknown structure 'hose'; did you mean "
      "'house'?; allowed: arch | box | brick_wall | bridge | column | compound | hall | house | "
      "mesh "
-     "| pane | prism | reinforced | stack | temple | wheel"},
+     "| pane | prism | reinforced | stack | temple | terrain | wheel"},
     {"[[solid]]\nstructure = \"box\"\nmaterial = \"stel\"",
      "bad.toml:5: unknown material 'stel'; "
      "did you mean 'steel'?; there are: "
