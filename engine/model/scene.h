@@ -46,6 +46,7 @@ struct Blast {
   Vec3 center_W = Vec3::Zero();
   double radius_m = 4;
   double impulse_Ns_m2 = 1000;  ///< At the centre.
+  bool cover = false;           ///< Whether what is nearer to the centre covers what is behind it.
 };
 
 /// Supports go: solids with all that came off them, or else the anchors in a box.

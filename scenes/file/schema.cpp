@@ -189,8 +189,10 @@ Keys<Blast> blast_keys() {
   return {"[[script.blast]]",
           {key<&Blast::time_s>("time_s", "s", kTime, "When.").must(),
            key<&Blast::center_W>("at", "m", kPlace, "Its centre.").must(),
-           key<&Blast::radius_m>("radius_m", "m", Range{0.01, 1000},
-                                 "How far it reaches; nothing stands in its way."),
+           key<&Blast::radius_m>("radius_m", "m", Range{0.01, 1000}, "How far it reaches."),
+           key<&Blast::cover>("cover",
+                              "Whether what stands nearer covers what is behind it; else nothing "
+                              "stands in its way."),
            key<&Blast::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0, 1e9},
                                       "On a face turned to the centre, there; less with "
                                       "distance and slant.")}};

@@ -69,6 +69,24 @@ TEST(Blast, PushesEachFaceThatSeesItByAreaAndDistance) {
   EXPECT_NEAR(run.state(0).velocity_W.x(), 0.6 * 0.6, 1e-9) << "once";
 }
 
+TEST(Blast, PushesOnlyWhatNothingCoversIfItIsAskedTo) {
+  for (const bool cover : {false, true}) {
+    Scene scene = empty_scene();
+    scene.materials[0].pattern.kind = PatternSpec::Kind::kNone;
+    // One box behind another, one that is as far off to the side, a ball behind them.
+    scene.solids = {row(Vec3(1, -0.5, -0.5), 1, true), row(Vec3(2.5, -0.5, -0.5), 1, false),
+                    row(Vec3(-0.5, -0.5, 2.5), 1, false)};
+    scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(4, 0, 0), Vec3::Zero()}};
+    scene.blasts = {{0, Vec3::Zero(), 5, 1000, cover}};
+    ActRun run(scene);
+    for (int i = 0; i < 5; ++i) run.simulation->next();
+    const double free_m_s = 0.5 * 0.5;  // 2.5 of 5 metres away
+    EXPECT_NEAR(run.state(1).velocity_W.x(), cover ? 0 : free_m_s, 1e-9);
+    EXPECT_NEAR(run.state(2).velocity_W.z(), free_m_s, 1e-9);
+    EXPECT_EQ(run.state(3).velocity_W.norm() > 0, !cover);
+  }
+}
+
 TEST(Blast, WithinASolidWhoseFacesAllLookAwayLeavesItAlone) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3::Constant(-0.5), 1, false)};

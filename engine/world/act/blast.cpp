@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/world/act/cover.h"
+
 namespace sunder {
 namespace {
 
@@ -36,7 +38,8 @@ Vec3 impulse_Ns_m2(const Blast& blast, const Vec3& point_W) {
 }
 
 /// On the faces of a convex that nothing covers.
-Push push_on(const Blast& blast, const Actor& actor, ConvexSlot slot, const Pose& X_WR) {
+Push push_on(const Blast& blast, const Cover& cover, const Actor& actor, ConvexSlot slot,
+             const Pose& X_WR) {
   Push push;
   const ConvexPolyhedron& hull = actor.structure.convex(slot)->polyhedron;
   for (std::size_t f = 0; f < hull.faces.size(); ++f) {
@@ -47,7 +50,7 @@ Push push_on(const Blast& blast, const Actor& actor, ConvexSlot slot, const Pose
     const Vec3 middle_W = X_WR * Vec3(middle_R / static_cast<double>(corners.size()));
     const Vec3 impulse = impulse_Ns_m2(blast, middle_W);
     const double size = impulse.norm();
-    if (size <= 0) continue;
+    if (size <= 0 || cover.covers(middle_W, actor.key, slot)) continue;
     const double facing = -impulse.dot(X_WR.rotation * hull.faces[f].plane.normal) / size;
     if (facing > 0) push.add(facing * face_area(hull, f) * impulse, middle_W);
   }
@@ -72,7 +75,8 @@ bool was_tried(const World& world, const Burst& burst, const Convex& convex, con
 
 /// The impact that a blast amounts to, where it presses hardest; of no energy if it cannot break
 /// it.
-Impact impact_of(const World& world, const Burst& burst, const Actor& actor, const Pose& X_WB) {
+Impact impact_of(const World& world, const Burst& burst, const Cover& cover, const Actor& actor,
+                 const Pose& X_WB) {
   const Blast& blast = burst.blast;
   Impact impact;
   const Pose X_WR = rest_pose(actor, X_WB);
@@ -82,7 +86,7 @@ Impact impact_of(const World& world, const Burst& burst, const Actor& actor, con
   ConvexSlot hardest(0);
   structure.for_each([&](ConvexSlot slot, const Convex& convex) {
     Push& push = pushes[slot.value];
-    push = push_on(blast, actor, slot, X_WR);
+    push = push_on(blast, cover, actor, slot, X_WR);
     const bool breaks = world.material(convex.material).breakable();
     if (!breaks || was_tried(world, burst, convex, push)) push = {};
     if (push.weight_Ns > pushes[hardest.value].weight_Ns) hardest = slot;
@@ -110,17 +114,17 @@ Impact impact_of(const World& world, const Burst& burst, const Actor& actor, con
   return impact;
 }
 
-void push_away(World& world, const Blast& blast, const Actor& actor) {
+void push_away(World& world, const Blast& blast, const Cover& cover, const Actor& actor) {
   const Pose X_WR = rest_pose(actor, world.physics->state(actor.body).X_WB);
   if (!reaches(blast, actor, X_WR)) return;
   Push push;
   actor.structure.for_each([&](ConvexSlot slot, const Convex&) {
-    const Push part = push_on(blast, actor, slot, X_WR);
+    const Push part = push_on(blast, cover, actor, slot, X_WR);
     push.impulse_W += part.impulse_W;
     push.weighted_point_W += part.weighted_point_W;
     push.weight_Ns += part.weight_Ns;
   });
-  if (actor.structure.empty()) {
+  if (actor.structure.empty() && !cover.covers(X_WR.position)) {
     const double radius = ball_radius_m(actor.volume_m3);
     push.add(std::numbers::pi * radius * radius * impulse_Ns_m2(blast, X_WR.position),
              X_WR.position);
@@ -130,9 +134,11 @@ void push_away(World& world, const Blast& blast, const Actor& actor) {
 }
 
 /// From where it is by now.
-void push_away(const World& world, const Blast& blast, Chip& chip) {
+void push_away(const World& world, const Blast& blast, const Cover& cover, Chip& chip) {
   const double elapsed_s = world.clock.elapsed_s();
-  const Vec3 impulse_Ns = impulse_Ns_m2(blast, chip.center_W + elapsed_s * chip.velocity_W);
+  const Vec3 place_W = chip.center_W + elapsed_s * chip.velocity_W;
+  if (cover.covers(place_W)) return;
+  const Vec3 impulse_Ns = impulse_Ns_m2(blast, place_W);
   const double density_kg_m3 = world.material(chip.material).density_kg_m3;
   const Vec3 gain_W = 0.75 / (chip.radius_m * density_kg_m3) * impulse_Ns;  // of a ball's section
   chip.velocity_W += gain_W;
@@ -147,9 +153,10 @@ Burst light(const Blast& blast, const Clock& clock) {
 
 std::vector<Impact> blows_of(const World& world, Burst& burst) {
   const BodyStates states = world.physics->states();
+  const Cover cover(world, burst.blast);
   std::vector<Impact> impacts;
   for (const Actor& actor : world.actors) {
-    const Impact impact = impact_of(world, burst, actor, states[actor.body].X_WB);
+    const Impact impact = impact_of(world, burst, cover, actor, states[actor.body].X_WB);
     if (impact.energy_J <= 0) continue;
     impacts.push_back(impact);
   }
@@ -158,11 +165,12 @@ std::vector<Impact> blows_of(const World& world, Burst& burst) {
 }
 
 void push_by(World& world, const Blast& blast) {
+  const Cover cover(world, blast);
   if (world.exposed) {
-    for (Chip& chip : world.exposed->chips) push_away(world, blast, chip);
+    for (Chip& chip : world.exposed->chips) push_away(world, blast, cover, chip);
   }
   for (const Actor& actor : world.actors) {
-    if (!actor.is_static) push_away(world, blast, actor);
+    if (!actor.is_static) push_away(world, blast, cover, actor);
   }
 }
 

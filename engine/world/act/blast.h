@@ -3,8 +3,8 @@
 //
 // What a blast can break is decided by the break stage, from the energy that its impulse would give
 // the convexes it meets if they were free: for a few steps one place of each solid, the hardest
-// pressed first. Then all that is loose is pushed. Nothing stands in the way of a blast: walls give
-// no cover.
+// pressed first. Then all that is loose is pushed. Walls give cover if the blast says so (cover.h):
+// what they hid when it broke them stays hidden as long as they are in the way.
 #pragma once
 
 #include <vector>
