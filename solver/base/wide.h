@@ -69,6 +69,15 @@ SUNDER_INLINE Wide load(const float* from) {
   typedef float Floats __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
   return *reinterpret_cast<const Floats*>(from);
 }
+/// As many numbers, side by side, as floats.
+template <class V>
+SUNDER_INLINE V floats(const std::int32_t* from) {
+  float to[kLanesOf<V>];
+  for (std::uint32_t i = 0; i < kLanesOf<V>; ++i) to[i] = static_cast<float>(from[i]);
+  V v;
+  __builtin_memcpy(&v, to, sizeof v);
+  return v;
+}
 template <class V>
 SUNDER_INLINE V min(V a, V b) {
   return a < b ? a : b;
@@ -100,6 +109,18 @@ SUNDER_INLINE std::uint32_t bits(WideInt mask) {
   for (std::uint32_t i = 0; i < kLanes; ++i) set |= mask[i] ? 1u << i : 0u;
   return set;
 #endif
+}
+/// The same of any number of lanes.
+template <class Mask>
+SUNDER_INLINE std::uint32_t bits(Mask mask) {
+  if constexpr (std::is_integral_v<Mask>) {
+    return mask != 0 ? 1 : 0;  // of one lane
+  } else {
+    std::uint32_t set = 0;
+    for (std::uint32_t i = 0; i < sizeof(Mask) / sizeof(std::int32_t); ++i)
+      set |= static_cast<std::uint32_t>(mask[i]) & 1u << i;
+    return set;
+  }
 }
 /// Whether some lane of a comparison is true.
 template <class Mask>
@@ -165,9 +186,9 @@ SUNDER_INLINE V quads(const float* const* row, std::uint32_t offset) {
   }
 }
 template <class V>
-SUNDER_INLINE void store_quads(V v, float* const* row, const bool* wanted, std::uint32_t offset) {
+SUNDER_INLINE void store_quads(V v, float* const* row, std::uint32_t offset) {
   auto put = [&](std::uint32_t i, Simd4 quad) {
-    if (wanted[i]) *reinterpret_cast<Simd4*>(row[i] + offset) = quad;
+    *reinterpret_cast<Simd4*>(row[i] + offset) = quad;
   };
   if constexpr (kLanesOf<V> == 4) {
     put(0, v);
@@ -226,11 +247,10 @@ SUNDER_INLINE Motion6<V> load_rows(const float* const* row) {
     return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
   }
 }
-/// The way back, for the rows that are wanted; the last two of eight become 0.
+/// The way back; the last two of eight become 0.
 template <class V>
-SUNDER_INLINE void store_rows(const Motion6<V>& m, float* const* row, const bool* wanted) {
+SUNDER_INLINE void store_rows(const Motion6<V>& m, float* const* row) {
   if constexpr (kLanesOf<V> == 1) {
-    if (!wanted[0]) return;
     const float values[8] = {m.linear.x[0],  m.linear.y[0],  m.linear.z[0],
                              m.angular.x[0], m.angular.y[0], m.angular.z[0]};
     for (int i = 0; i < 8; ++i) row[0][i] = values[i];
@@ -239,8 +259,7 @@ SUNDER_INLINE void store_rows(const Motion6<V>& m, float* const* row, const bool
     v[6] = v[7] = V{};
     detail::transpose(v[0], v[1], v[2], v[3]);
     detail::transpose(v[4], v[5], v[6], v[7]);
-    for (std::uint32_t i = 0; i < 8; ++i)
-      detail::store_quads(v[i], row + i % 4, wanted + i % 4, i / 4 * 4);
+    for (std::uint32_t i = 0; i < 8; ++i) detail::store_quads(v[i], row + i % 4, i / 4 * 4);
   }
 }
 

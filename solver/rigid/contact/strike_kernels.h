@@ -12,6 +12,22 @@ namespace sunder::solver {
 /// Of the speed of the slowest impact: a change that is passed on.
 inline constexpr float kNoticed = 0.1f;
 
+/// The rows of those lanes that take part, 1; of others none.
+template <std::uint32_t lanes>
+struct ActiveRows {
+  std::int32_t a[lanes], b[lanes];
+
+  SUNDER_INLINE ActiveRows(const ConstraintBlock<lanes>& c, const std::int32_t* active) {
+    for (std::uint32_t i = 0; i < lanes; ++i)
+      a[i] = active[i] * c.row_a[i], b[i] = active[i] * c.row_b[i];
+  }
+  SUNDER_INLINE void store(const Pairs<lanes, false>& of, const SolverRows& bodies,
+                           Wide BodyRow::*member) const {
+    store_side<lanes>(of.a, a, bodies.rows, member);
+    store_side<lanes>(of.b, b, bodies.rows, member);
+  }
+};
+
 /// How the points of a contact meet, as of the start of a substep, before which gravity has kicked.
 template <std::uint32_t lanes>
 struct Meeting {
@@ -151,13 +167,12 @@ bool strike(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
   strike.apply(c, strike.now, one);
   strike.apply(c, v, one);
   strike.apply(c, x, -meeting.meets_s);  // the way to where they met was gone at the speed before
-  bool active[lanes];
+  std::int32_t active[lanes];
   for (std::uint32_t lane = 0; lane < lanes; ++lane) active[lane] = meeting.struck[lane] > 0;
-  store(c, v, bodies, active);
-  store_side<lanes>(strike.now.a, c.row_a, active, bodies.rows, &BodyRow::base);
-  store_side<lanes>(strike.now.b, c.row_b, active, bodies.rows, &BodyRow::base);
-  store_side<lanes>(x.a, c.row_a, active, bodies.rows, &BodyRow::position);
-  store_side<lanes>(x.b, c.row_b, active, bodies.rows, &BodyRow::position);
+  const ActiveRows<lanes> to(c, active);
+  to.store(v, bodies, &BodyRow::velocity);
+  to.store(strike.now, bodies, &BodyRow::base);
+  to.store(x, bodies, &BodyRow::position);
   c.total = c.total + c.normal * strike.load(c) + c.tangent_1 * strike.slide_1 +
             c.tangent_2 * strike.slide_2;
   return true;
@@ -260,14 +275,13 @@ bool pass_on(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact, const 
              const SoftStep& soft, const ImpactSweep& sweep) {
   using V = WideOf<lanes>;
   const V zero = {};
-  bool active[lanes], none = true;
-  V on = zero;
+  std::int32_t active[lanes], some = 0;
   for (std::uint32_t i = 0; i < lanes; ++i) {
     active[i] = std::max(sweep.moved[c.row_a[i]], sweep.moved[c.row_b[i]]) >= sweep.since;
-    on[i] = active[i] ? 1.f : 0.f;
-    none = none && !active[i];
+    some |= active[i];
   }
-  if (none) return false;
+  if (some == 0) return false;
+  const V on = floats<V>(active);
   V was[9];
   for_all_impulses(c, [&](std::uint32_t slot, const V& impulse) { was[slot] = impulse; });
   Pairs<lanes, false> v(c, bodies, &BodyRow::velocity);
@@ -275,13 +289,12 @@ bool pass_on(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact, const 
   if (c.points > 1) twist(c, v);
   if (c.rolls) roll(c, v);
   const V fastest = press_on(c, v, impact, soft.omega);
-  store(c, v, bodies, active);
+  ActiveRows<lanes>(c, active).store(v, bodies, &BodyRow::velocity);
   for_all_impulses(
       c, [&](std::uint32_t slot, V& impulse) { impulse = on > zero ? impulse : was[slot]; });
-  const V changed = noticed(c, impact, was);
-  for (std::uint32_t i = 0; i < lanes; ++i) {
-    if (!(changed[i] > 0)) continue;
-    for (const std::int32_t row : {c.row_a[i], c.row_b[i]})
+  for (std::uint32_t set = bits(noticed(c, impact, was) > zero); set != 0; set &= set - 1) {
+    const int lane = __builtin_ctz(set);
+    for (const std::int32_t row : {c.row_a[lane], c.row_b[lane]})
       if (row != 0) sweep.moved[row] = sweep.now;
   }
   return any((on > zero ? fastest : zero) > zero);

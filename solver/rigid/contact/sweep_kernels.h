@@ -51,17 +51,19 @@ struct Pairs {
   }
 };
 
+/// A row's room, for lanes that have nothing to store: a branch for each would be a guess.
+struct alignas(32) NoRow {
+  float lane[8];
+};
+
 template <std::uint32_t lanes>
 SUNDER_INLINE void store_side(const Motion6<WideOf<lanes>>& v, const std::int32_t* index,
-                              const bool* active, BodyRow* rows,
-                              Wide BodyRow::*member = &BodyRow::velocity) {
+                              BodyRow* rows, Wide BodyRow::*member = &BodyRow::velocity) {
   float* row[lanes];
-  bool wanted[lanes];
-  for (std::uint32_t i = 0; i < lanes; ++i) {
-    row[i] = reinterpret_cast<float*>(&(rows[index[i]].*member));
-    wanted[i] = index[i] != 0 && (!active || active[i]);
-  }
-  store_rows(v, row, wanted);
+  NoRow none;
+  for (std::uint32_t i = 0; i < lanes; ++i)
+    row[i] = index[i] != 0 ? reinterpret_cast<float*>(&(rows[index[i]].*member)) : none.lane;
+  store_rows(v, row);
 }
 
 /// What the parts of a body did, less what the body was, is their average's change.
@@ -72,26 +74,24 @@ SUNDER_INLINE void store_part(const Motion6<WideOf<lanes>>& v, const Motion6<Wid
   const Motion6<WideOf<lanes>> change = {(v.linear - was.linear) * share,
                                          (v.angular - was.angular) * root};
   float* row[lanes];
-  bool wanted[lanes];
-  for (std::uint32_t i = 0; i < lanes; ++i) {
-    row[i] = reinterpret_cast<float*>(&parts[part[i]]);
-    wanted[i] = index[i] != 0;
-  }
-  store_rows(change, row, wanted);
+  NoRow none;
+  for (std::uint32_t i = 0; i < lanes; ++i)
+    row[i] = index[i] != 0 ? reinterpret_cast<float*>(&parts[part[i]]) : none.lane;
+  store_rows(change, row);
 }
 
 /// Hands new velocities back: to the bodies, or as changes to what will be summed.
 template <std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void store(const ConstraintBlock<lanes>& c, const Pairs<lanes, kSplit>& v,
-                         const SolverRows& bodies, const bool* active = nullptr) {
+                         const SolverRows& bodies) {
   if constexpr (kSplit) {
     const Pairs<lanes, true> was(c, bodies, &BodyRow::velocity);
     const SplitLanes<lanes>& p = c.parts;
     store_part<lanes>(v.a, was.a, p.share_a, p.root_a, c.row_a, p.part_a, bodies.parts);
     store_part<lanes>(v.b, was.b, p.share_b, p.root_b, c.row_b, p.part_b, bodies.parts);
   } else {
-    store_side<lanes>(v.a, c.row_a, active, bodies.rows);
-    store_side<lanes>(v.b, c.row_b, active, bodies.rows);
+    store_side<lanes>(v.a, c.row_a, bodies.rows);
+    store_side<lanes>(v.b, c.row_b, bodies.rows);
   }
 }
 
