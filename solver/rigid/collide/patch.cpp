@@ -10,15 +10,17 @@ namespace {
 
 /// The face of `hull` that faces most against `direction` (in the hull's frame).
 std::uint32_t incident_face(const Hull& hull, const Vec3f& direction) {
-  std::uint32_t best = 0;
-  float least = 1e30f;
-  for (std::uint32_t f = 0; f < hull.face_count();) {
-    const Wide3& n = hull.planes()[f / kLanes].normal;
-    const Wide along = n.x * direction.x() + (n.y * direction.y() + n.z * direction.z());
-    for (std::uint32_t k = 0; k < kLanes && f < hull.face_count(); ++k, ++f)
-      if (along[k] < least) least = along[k], best = f;
-  }
-  return best;
+  const auto along = [&](const Hull::PlaneChunk& planes) {
+    const Wide3& n = planes.normal;
+    return n.x * direction.x() + (n.y * direction.y() + n.z * direction.z());
+  };
+  Wide least = splat(1e30f);
+  for (const Hull::PlaneChunk& planes : hull.planes()) least = min(least, along(planes));
+  const Wide best = splat(least_of(least));
+  for (std::uint32_t c = 0; c < hull.planes().size(); ++c)
+    if (const std::uint32_t set = bits(along(hull.planes()[c]) == best))
+      return c * kLanes + static_cast<std::uint32_t>(__builtin_ctz(set));
+  return 0;  // of what is not a number
 }
 
 /// Keeps the part of the polygon with side·(x − origin) <= 0.
@@ -27,9 +29,13 @@ void clip_side(const Vec3f& origin, const Vec3f& side, std::uint32_t side_index,
   auto& in = scratch.polygon;
   auto& out = scratch.clipped;
   auto& ahead = scratch.ahead;
-  ahead.clear();
-  for (const auto& corner : in) ahead.push_back(side.dot(corner.position - origin));
-  if (std::none_of(ahead.begin(), ahead.end(), [](float d) { return d > 0; })) return;
+  ahead.resize(in.size());
+  float most = 0;
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    ahead[i] = side.dot(in[i].position - origin);
+    most = std::max(most, ahead[i]);
+  }
+  if (most <= 0) return;
   out.clear();
   for (std::size_t i = 0; i < in.size(); ++i) {
     const auto& from = in[i];

@@ -53,6 +53,14 @@ Wide ahead_of(const Hull::PlaneChunk& planes, const Wide3& point) {
   return dot(planes.normal, point) + planes.d;
 }
 
+/// Where the first of these numbers is; 0: none, of what is not a number.
+std::uint32_t first_of(float number, const std::vector<Wide>& among) {
+  for (std::uint32_t c = 0; c < among.size(); ++c)
+    if (const std::uint32_t set = bits(among[c] == splat(number)))
+      return c * kLanes + static_cast<std::uint32_t>(__builtin_ctz(set));
+  return 0;
+}
+
 /// The face of `hull` that the vertices are furthest in front of. None can have all of them
 /// further in front of it than one point among them, as `within`: the most promising face is tried
 /// first, and its deepest vertex rules out most others.
@@ -71,14 +79,14 @@ FaceAnswer best_face(const Hull& hull, const Vec3f& within, const std::vector<Wi
     at_most[face / kLanes][face % kLanes] = kTried;
   };
   at_most.resize(planes.size());
-  for (std::size_t c = 0; c < planes.size(); ++c) at_most[c] = ahead_of(planes[c], splat3(within));
-  std::uint32_t first = 0;
-  float most = kTried;
-  for (std::uint32_t f = 0; f < planes.size() * kLanes; ++f) {
-    float& bound = at_most[f / kLanes][f % kLanes];
-    if (f >= hull.face_count()) bound = kTried;
-    if (bound > most) most = bound, first = f;
+  Wide most = splat(kTried);
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    at_most[c] = ahead_of(planes[c], splat3(within));
+    most = max(most, at_most[c]);
   }
+  const std::uint32_t first = first_of(most_of(most), at_most);
+  for (std::uint32_t f = hull.face_count(); f < planes.size() * kLanes; ++f)
+    at_most[f / kLanes][f % kLanes] = kTried;
   try_face(first);
   for (std::uint32_t c = 0; c < planes.size(); ++c)
     while (const std::uint32_t open = bits(at_most[c] >= splat(best.separation_m)))
