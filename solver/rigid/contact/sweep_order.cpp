@@ -18,33 +18,31 @@ void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Co
   if (impacts) impacts_.find(step, bodies, contacts);
   const std::uint32_t colors = color_rest(bodies, contacts) + 1;
   start_.assign(colors * kKeysAColor + 1, 0);
-  auto for_each = [&](const auto& visit) {
-    for (const ManifoldSlot i : contacts.manifolds.slots()) {
-      const Manifold& m = contacts.manifolds[i];
-      if (touches_awake(m, bodies)) visit(i, m);
-    }
-  };
   const auto key_of = [&](ManifoldSlot i, const Manifold& m) {
     if (m.color < kMaxColors) return key(m.color, impacts_.near(m), m.count);
     const std::uint32_t color = more_colors_.empty() ? kNoColor : more_colors_[i];
     return color == kNoColor ? key(colors - 1, false, m.count) : key(color, true, m.count);
   };
-  for_each([&](ManifoldSlot i, const Manifold& m) {
-    ++start_[key_of(i, m) + 1];
+  found_.clear();
+  for (const ManifoldSlot i : contacts.manifolds.slots()) {
+    const Manifold& m = contacts.manifolds[i];
+    if (!touches_awake(m, bodies)) continue;
+    found_.emplace_back(i, key_of(i, m));
+    ++start_[found_.back().second + 1];
     in_contact_[m.body_a] = in_contact_[m.body_b] = 1;
     if (m.normal_impulse() > 0)
       for (const BodySlot body : {m.body_a, m.body_b})
         loaded_contacts_[body] = std::min<std::uint8_t>(loaded_contacts_[body] + 1, kPinched);
     points_ += m.count;
     bouncy_ = bouncy_ || m.restitution > 0;
-    if (!m.deep) return;
+    if (!m.deep) continue;
     deep_contacts_.resize(bodies.size());
     ++deep_contacts_[m.body_a], ++deep_contacts_[m.body_b];
-  });
+  }
   for (std::size_t k = 1; k < start_.size(); ++k) start_[k] += start_[k - 1];
   manifolds_.resize(start_.back());
   std::vector<std::uint32_t> next = start_;
-  for_each([&](ManifoldSlot i, const Manifold& m) { manifolds_[next[key_of(i, m)]++] = i; });
+  for (const auto& [i, key] : found_) manifolds_[next[key]++] = i;
 }
 
 /// Gives what is near an impact and found no colour one of as many more: what is split takes an

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/rigid/body/bodies.h"
@@ -52,7 +53,8 @@ class SweepOrder {
   std::uint32_t color_rest(const Bodies& bodies, const Contacts& contacts);
 
   std::vector<ManifoldSlot> manifolds_;
-  std::vector<std::uint32_t> start_;  ///< In `manifolds_`, by key().
+  std::vector<std::pair<ManifoldSlot, std::uint32_t>> found_;  ///< The same by slot, with keys.
+  std::vector<std::uint32_t> start_;                           ///< In `manifolds_`, by key().
   std::uint32_t points_ = 0;
   bool bouncy_ = false;
   ByBody<std::uint8_t> in_contact_, loaded_contacts_;
