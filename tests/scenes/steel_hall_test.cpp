@@ -85,24 +85,46 @@ TEST(SteelHall, StandsUnhurtWhileNothingStrikesIt) {
   EXPECT_EQ(last->report.counts.awake, 0u);
 }
 
-TEST(SteelHall, BendsBeforeItFalls) {
-  const auto simulation = steel_hall({"script.blast=[]"});
+/// How a hall takes a ball that strikes it so far along its side.
+struct Struck {
+  double bent_rad = 0;  ///< The most, before anything has fallen.
+  double plastic_J = 0;
+  bool fell = false;
+};
+Struck strike(double along_m) {
+  const std::string z = std::to_string(along_m);
+  const auto simulation = steel_hall({"script.blast=[]", "script.wrecking_ball.0.from.2=" + z,
+                                      "script.wrecking_ball.0.hangs_from.2=" + z});
   FramePtr frame = simulation->next();
   const double mass_kg = frame->report.mass_kg;
-  Seen seen = look_at(*frame);
-  ASSERT_GT(seen.lowest_m, kEaves);
-  double bent_rad = 0;
-  while (frame && seen.lowest_m > kFallen) {
-    bent_rad = std::max(bent_rad, seen.bent_rad);
-    frame = simulation->next();
-    if (!frame) break;
-    seen = look_at(*frame);
+  Struck all;
+  for (Seen seen = look_at(*frame); frame; frame = simulation->next()) {
     EXPECT_NEAR(frame->report.mass_kg, mass_kg, 1e-9 * mass_kg);
+    seen = look_at(*frame);
+    all.fell = seen.lowest_m < kFallen;
+    all.plastic_J = frame->report.plastic_J;
+    if (all.fell) break;
+    all.bent_rad = std::max(all.bent_rad, seen.bent_rad);
   }
-  ASSERT_TRUE(frame) << "nothing has fallen";
-  std::printf("bent by %.1f degrees at %.2f s\n", bent_rad / kDegree, frame->time_s);
-  EXPECT_GT(bent_rad, 5 * kDegree);
-  EXPECT_GT(frame->report.plastic_J, 1e5);
+  return all;
+}
+
+TEST(SteelHall, BendsBeforeItFalls) {
+  // What falls when is chaotic: a centimetre changes it.
+  constexpr int kBalls = 6;
+  int fell = 0;
+  std::vector<double> bent_rad;
+  for (int i = 0; i < kBalls; ++i) {
+    const Struck one = strike(1.95 + 0.02 * i);
+    std::printf("bent by %.1f degrees, %.0f kJ, %s\n", one.bent_rad / kDegree, 1e-3 * one.plastic_J,
+                one.fell ? "fell" : "stands");
+    fell += one.fell ? 1 : 0;
+    bent_rad.push_back(one.bent_rad);
+    EXPECT_GT(one.plastic_J, 1e5);
+  }
+  EXPECT_GE(2 * fell, kBalls);
+  std::ranges::sort(bent_rad);
+  EXPECT_GT(0.5 * (bent_rad[2] + bent_rad[3]), 4 * kDegree);
 }
 
 }  // namespace
