@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "engine/base/check.h"
@@ -62,25 +63,27 @@ class StoredFrame final : public FrameSource {
   FramePtr frame_;
 };
 
-/// What another source gives, looked at otherwise.
+/// What another source gives, looked at as the first of it is with the user's changes.
 class LookedAt final : public FrameSource {
  public:
   LookedAt(std::unique_ptr<FrameSource> source, const RenderOptions& options)
-      : source_(std::move(source)), options_(options) {
-    View view;
-    scenes::change_view(view, options.load.set, options.scene);  // before all the work
-  }
+      : source_(std::move(source)), options_(options) {}
   FramePtr next() override {
     const FramePtr frame = source_->next();
     if (!frame || options_.load.set.empty()) return frame;
+    if (!view_) {
+      view_ = frame->view;
+      scenes::change_view(*view_, options_.load.set, options_.scene);
+    }
     auto seen = std::make_shared<Frame>(*frame);
-    scenes::change_view(seen->view, options_.load.set, options_.scene);
+    seen->view = *view_;
     return seen;
   }
 
  private:
   std::unique_ptr<FrameSource> source_;
   const RenderOptions& options_;
+  std::optional<View> view_;
 };
 
 /// What is drawn, and where it comes from.

@@ -278,6 +278,7 @@ TEST(Program, ATakeIsLookedAtOtherwiseButNotSimulatedOtherwise) {
   const std::string plain = picture("", "a.png");
   EXPECT_NE(picture("--set view.fov_deg=20", "b.png"), plain);
   EXPECT_NE(picture("--set view.sun=[-1,1,0]", "c.png"), plain);
+  EXPECT_NE(picture("--set view.eye=[0,1,0]", "e.png"), plain);
   EXPECT_EQ(picture("", "d.png"), plain);
   for (const std::string wrong :
        {"--set scene.seed=2", "--set foo.bar=1", "--set view.far=1", "--preset draft",
