@@ -142,10 +142,11 @@ void ask_all(World& world, std::vector<Trial>& trials, std::set<std::uint64_t>& 
       if (!held.contains(trial.fingerprint)) trial.loads = trial.probe.next();
     }
   });
+  std::size_t asked = due.size();
   for (const Trial& trial : trials) {
-    if (trial.loads.empty() && !held.insert(trial.fingerprint).second) due.pop_back();
+    if (trial.loads.empty() && !held.insert(trial.fingerprint).second) --asked;
   }
-  span.count(due.size());
+  span.count(asked);
   std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
 }
 
