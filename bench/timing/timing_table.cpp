@@ -1,32 +1,21 @@
 // The tables of a timing on a terminal.
-#include <cstdarg>
-#include <cstdio>
-
 #include "bench/timing/timing_report.h"
+#include "engine/base/printed.h"
 #include "engine/io/page.h"
 #include "engine/model/work.h"
 
 namespace sunder::bench {
 namespace {
 
-[[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
-
 std::string count_of(const Figures& scene, const std::string& place) {
   return std::to_string(static_cast<long long>(number_at(scene, place)));
 }
 
 std::string stage_row(const Figures& scene, const std::string& name, const std::string& at) {
-  std::string row = line("  %-10s", name.c_str());
+  std::string row = printed("  %-10s", name.c_str());
   for (const std::string clock : {"cpu_", ""}) {
     for (const char* figure : {"mean_ms", "p50_ms", "p95_ms", "p99_ms", "max_ms"}) {
-      row += line(" %8.3f", number_at(scene, at + clock + figure));
+      row += printed(" %8.3f", number_at(scene, at + clock + figure));
     }
     if (!clock.empty()) row += "  ";
   }
@@ -89,9 +78,9 @@ std::string features_table(std::span<const Figures> scenes) {
   for (const Figures& scene : scenes) {
     for (const Saving& saving : savings_of(scene)) {
       const double saved_ms = saving.with_ms - saving.without_ms;
-      text += line("%-14s %-20s %9.3f %9.3f %9.3f %7.1f %%\n", text_at(scene, "/scene").c_str(),
-                   saving.feature.c_str(), saving.with_ms, saving.without_ms, saved_ms,
-                   saving.with_ms > 0 ? 100 * saved_ms / saving.with_ms : 0);
+      text += printed("%-14s %-20s %9.3f %9.3f %9.3f %7.1f %%\n", text_at(scene, "/scene").c_str(),
+                      saving.feature.c_str(), saving.with_ms, saving.without_ms, saved_ms,
+                      saving.with_ms > 0 ? 100 * saved_ms / saving.with_ms : 0);
     }
   }
   if (text.empty()) return text;

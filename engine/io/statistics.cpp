@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <fstream>
 #include <numeric>
 #include <span>
@@ -11,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/printed.h"
 #include "engine/model/work_log.h"
 
 namespace sunder {
@@ -133,15 +132,6 @@ Json frame_json(const FrameReport& report, double ms) {
           {"work", work_json(report.work)}};
 }
 
-[[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
-
 }  // namespace
 
 std::string cpu_name() {
@@ -241,25 +231,26 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
 
 std::string Statistics::table() const {
   const Series& s = *series_;
-  std::string text = line("%-10s %9s %9s %9s\n", "stage", "p50 ms", "p95 ms", "max ms");
+  std::string text = printed("%-10s %9s %9s %9s\n", "stage", "p50 ms", "p95 ms", "max ms");
   const auto row = [&](const char* name, const std::vector<double>& ms) {
-    text += line("%-10s %9.3f %9.3f %9.3f\n", name, quantile(ms, 0.5), quantile(ms, 0.95),
-                 quantile(ms, 1));
+    text += printed("%-10s %9.3f %9.3f %9.3f\n", name, quantile(ms, 0.5), quantile(ms, 0.95),
+                    quantile(ms, 1));
   };
   for (int i = 0; i < kStages; ++i) row(kStageNames[i], s.stage_ms(i));
   const std::vector<double> frame_ms = s.frame_ms();
   row("frame", frame_ms);
-  text += line("busiest 2 s: p95 %.3f ms\n", busiest_p95(frame_ms));
+  text += printed("busiest 2 s: p95 %.3f ms\n", busiest_p95(frame_ms));
   const Counts& c = s.last.counts;
-  text += line("bodies %u (awake %u), convexes %u, compounds %u, contacts %u\n", c.bodies, c.awake,
-               c.convexes, c.compounds, c.contacts);
-  text += line("breaks %zu into %llu pieces, slowest plan %.2f ms\n", s.fracture_ms.size(),
-               static_cast<unsigned long long>(s.pieces), quantile(s.fracture_ms, 1));
+  text += printed("bodies %u (awake %u), convexes %u, compounds %u, contacts %u\n", c.bodies,
+                  c.awake, c.convexes, c.compounds, c.contacts);
+  text += printed("breaks %zu into %llu pieces, slowest plan %.2f ms\n", s.fracture_ms.size(),
+                  static_cast<unsigned long long>(s.pieces), quantile(s.fracture_ms, 1));
   const std::vector<double> depth = s.penetrations();
-  text += line("penetration p50 %.2f mm, p99 %.2f mm, max %.2f mm\n", 1e3 * quantile(depth, 0.5),
-               1e3 * quantile(depth, 0.99), 1e3 * quantile(depth, 1));
-  text += line("mass %.6f kg -> %.6f kg, momentum residual %.1e, limits hit %u\n", s.first.mass_kg,
-               s.last.mass_kg, s.momentum_residual(), s.sum(&FrameReport::limits_hit));
+  text += printed("penetration p50 %.2f mm, p99 %.2f mm, max %.2f mm\n", 1e3 * quantile(depth, 0.5),
+                  1e3 * quantile(depth, 0.99), 1e3 * quantile(depth, 1));
+  text +=
+      printed("mass %.6f kg -> %.6f kg, momentum residual %.1e, limits hit %u\n", s.first.mass_kg,
+              s.last.mass_kg, s.momentum_residual(), s.sum(&FrameReport::limits_hit));
   return text;
 }
 
