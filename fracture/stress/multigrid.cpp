@@ -128,44 +128,49 @@ void Multigrid::to_units(std::vector<Spring>& springs) const {
 void Multigrid::factorize() {
   // In double precision: how softly all of it hangs on the world is lost beside its stiffness.
   const SpringLevel<float>& last = levels_.back();
-  const auto rows = static_cast<Eigen::Index>(6 * last.size());
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, rows);
+  std::vector<BlockCholesky::Pair> pairs;
   last.for_each_spring([&](const Spring& spring) {
-    for (const std::uint32_t i : {spring.a, spring.b}) {
-      for (const std::uint32_t j : {spring.a, spring.b}) {
-        if (i == Spring::kWorld || j == Spring::kWorld) continue;
-        matrix.block<6, 6>(6 * Eigen::Index{i}, 6 * Eigen::Index{j}) +=
-            (i == j ? 1 : -1) * stiffness(spring, last.place(i), last.place(j));
-      }
-    }
+    if (spring.a != Spring::kWorld && spring.b != Spring::kWorld)
+      pairs.emplace_back(spring.a, spring.b);
   });
-  double most = matrix.diagonal().maxCoeff();
-  if (!(most > 0)) most = 1;                 // nothing is left that could move
-  for (Eigen::Index i = 0; i < rows; ++i) {  // groups that an edit has emptied
-    if (matrix(i, i) == 0) matrix(i, i) = most;
+  BlockCholesky matrix(last.size(), pairs);
+  last.for_each_spring([&](const Spring& spring) {
+    for (const std::uint32_t end : {spring.a, spring.b}) {
+      if (end == Spring::kWorld) continue;
+      matrix.add(end, end, stiffness(spring, last.place(end), last.place(end)));
+    }
+    if (spring.a != Spring::kWorld && spring.b != Spring::kWorld)
+      matrix.add(spring.a, spring.b, -stiffness(spring, last.place(spring.a), last.place(spring.b)));
+  });
+  const auto nodes = static_cast<std::uint32_t>(last.size());
+  double most = 0;
+  for (std::uint32_t i = 0; i < nodes; ++i)
+    most = std::max(most, matrix.diagonal(i).diagonal().maxCoeff());
+  if (!(most > 0)) most = 1;  // nothing is left that could move
+  for (std::uint32_t i = 0; i < nodes; ++i) {
+    auto diagonal = matrix.diagonal(i).diagonal();
+    diagonal = (diagonal.array() == 0).select(most, diagonal);  // groups that an edit has emptied
   }
   // What hangs by next to nothing gets a little ground of its own, as much as it takes.
-  for (double ground = 1e-13; ground < 1; ground *= 100) {
-    coarsest_.compute(matrix);
-    if (coarsest_.info() == Eigen::Success) return;
-    matrix.diagonal().array() += ground * most;
+  double ground = 0;
+  for (double more = 1e-13; more < 1; more *= 100) {
+    coarsest_ = matrix;
+    for (std::uint32_t i = 0; i < nodes; ++i)
+      coarsest_.diagonal(i).diagonal().array() += ground * most;
+    if (coarsest_.factorize()) return;
+    ground += more;
   }
   SUNDER_CHECK(false);
 }
 
 void Multigrid::solve_coarsest(const Nodal<float>& r, Nodal<float>& z) const {
-  const std::size_t nodes = levels_.back().size();
-  Eigen::VectorXd flat(static_cast<Eigen::Index>(6 * nodes));
-  for (std::size_t i = 0; i < nodes; ++i) {
-    flat.segment<3>(static_cast<Eigen::Index>(6 * i)) = vec3(r[i].linear);
-    flat.segment<3>(static_cast<Eigen::Index>(6 * i + 3)) = vec3(r[i].angular);
-  }
-  coarsest_.solveInPlace(flat);
+  const std::size_t nodes = coarsest_.nodes();
+  std::vector<BlockCholesky::Row> x(nodes);
+  for (std::size_t i = 0; i < nodes; ++i) x[i] << vec3(r[i].linear), vec3(r[i].angular);
+  coarsest_.solve(x);
   z.resize(nodes + 1);
-  for (std::size_t i = 0; i < nodes; ++i) {
-    z[i].linear = simd4<float>(flat.segment<3>(static_cast<Eigen::Index>(6 * i)));
-    z[i].angular = simd4<float>(flat.segment<3>(static_cast<Eigen::Index>(6 * i + 3)));
-  }
+  for (std::size_t i = 0; i < nodes; ++i)
+    z[i] = {simd4<float>(x[i].head<3>()), simd4<float>(x[i].tail<3>())};
 }
 
 void Multigrid::cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,

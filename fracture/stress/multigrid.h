@@ -8,8 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
+#include "fracture/stress/block_cholesky.h"
 #include "fracture/stress/spring_groups.h"
 #include "fracture/stress/spring_level.h"
 
@@ -58,7 +57,7 @@ class Multigrid {
   double unit_N_m_;  ///< The levels' unit of stiffness: their numbers are about one.
   std::vector<SpringLevel<float>> levels_;  ///< The same springs, then coarser ones.
   std::vector<SpringGroups> groups_;        ///< Of each level but the coarsest.
-  Eigen::LLT<Eigen::MatrixXd> coarsest_;
+  BlockCholesky coarsest_;
 };
 
 }  // namespace sunder::fracture

@@ -1,0 +1,79 @@
+#include "fracture/stress/block_cholesky.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "engine/base/random.h"
+
+namespace sunder::fracture {
+namespace {
+
+using Block = BlockCholesky::Block;
+
+/// Nodes side by side in a plane, `width` in a row, each held to its neighbours and to the world.
+std::vector<BlockCholesky::Pair> lattice(std::uint32_t nodes, std::uint32_t width) {
+  std::vector<BlockCholesky::Pair> pairs;
+  for (std::uint32_t i = 0; i < nodes; ++i) {
+    if (i % width + 1 < width && i + 1 < nodes) pairs.emplace_back(i + 1, i);
+    if (i + width < nodes) pairs.emplace_back(i, i + width);
+  }
+  return pairs;
+}
+
+Block random_block(Random& random) {
+  Block block;
+  for (double& x : block.reshaped()) x = random.uniform(-1, 1);
+  return block;
+}
+
+TEST(BlockCholesky, SolvesAsADenseMatrixIsSolved) {
+  for (const std::uint32_t nodes : {1u, 2u, 7u, 30u, 70u}) {
+    Random random(nodes);
+    const auto pairs = lattice(nodes, 5);
+    BlockCholesky sparse(nodes, pairs);
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(6 * nodes, 6 * nodes);
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+      const Block own = 40 * Block::Identity();
+      sparse.add(i, i, own);
+      dense.block<6, 6>(6 * i, 6 * i) += own;
+    }
+    for (const auto& [a, b] : pairs) {
+      const Block both = random_block(random);
+      sparse.add(a, b, both);
+      dense.block<6, 6>(6 * a, 6 * b) += both;
+      dense.block<6, 6>(6 * b, 6 * a) += both.transpose();
+    }
+    ASSERT_TRUE(sparse.factorize());
+    std::vector<BlockCholesky::Row> x(nodes);
+    Eigen::VectorXd f(6 * nodes);
+    for (double& value : f) value = random.uniform(-1, 1);
+    for (std::uint32_t i = 0; i < nodes; ++i) x[i] = f.segment<6>(6 * i);
+    sparse.solve(x);
+    const Eigen::VectorXd expected = dense.llt().solve(f);
+    for (std::uint32_t i = 0; i < nodes; ++i)
+      EXPECT_LT((x[i] - expected.segment<6>(6 * i)).norm(), 1e-13) << nodes << ' ' << i;
+  }
+}
+
+TEST(BlockCholesky, SaysSoIfAMatrixIsNotPositiveDefinite) {
+  const std::vector<BlockCholesky::Pair> pairs = {{0, 1}};
+  BlockCholesky matrix(2, pairs);
+  matrix.add(0, 0, Block::Identity());
+  matrix.add(1, 1, Block::Identity());
+  matrix.add(0, 1, -1.01 * Block::Identity());
+  EXPECT_FALSE(matrix.factorize());
+}
+
+TEST(BlockCholesky, NodesThatHoldOntoNothingElseCostNoMoreThanThemselves) {
+  constexpr std::uint32_t kNodes = 20000;  // 115 GB as a dense matrix
+  BlockCholesky matrix(kNodes, {});
+  for (std::uint32_t i = 0; i < kNodes; ++i) matrix.add(i, i, 2 * Block::Identity());
+  ASSERT_TRUE(matrix.factorize());
+  std::vector<BlockCholesky::Row> x(kNodes, BlockCholesky::Row::Ones());
+  matrix.solve(x);
+  for (const BlockCholesky::Row& row : x) EXPECT_NEAR((row.array() - 0.5).abs().maxCoeff(), 0, 1e-15);
+}
+
+}  // namespace
+}  // namespace sunder::fracture
