@@ -17,8 +17,8 @@ class Paused {
   void stop(Bodies& bodies) {
     std::erase_if(items_, [&](const Item& item) { return !bodies.awake(item.body); });
     std::ranges::sort(items_, {}, &Item::body);
-    const auto twice = std::ranges::unique(items_, {}, &Item::body);
-    items_.erase(twice.begin(), twice.end());
+    const auto same = [](const Item& x, const Item& y) { return x.body == y.body; };
+    items_.erase(std::unique(items_.begin(), items_.end(), same), items_.end());
     for (Item& item : items_) {
       item.velocity = std::exchange(bodies.velocity[item.body], Vec3::Zero());
       item.angular_velocity = std::exchange(bodies.angular_velocity[item.body], Vec3::Zero());
