@@ -23,6 +23,39 @@ std::vector<Nodes> neighbours(std::size_t nodes, std::span<const BlockCholesky::
   return beside;
 }
 
+/// y -= factor · x
+void subtract(const Six<double>& x, double factor, Six<double>& y) {
+  y.linear -= splat<double>(factor) * x.linear;
+  y.angular -= splat<double>(factor) * x.angular;
+}
+
+using Columns = std::array<Six<double>, 6>;
+
+/// Entry `row` of a column.
+double entry(const Six<double>& column, std::size_t row) {
+  return row < 3 ? column.linear[row] : column.angular[row - 3];
+}
+
+/// c -= a bᵀ
+void subtract_product(const Columns& a, const Columns& b, Columns& c) {
+  for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t k = 0; k < 6; ++k) subtract(a[k], entry(b[k], j), c[j]);
+  }
+}
+
+/// a x
+Six<double> times(const Columns& a, const Six<double>& x) {
+  Six<double> product{};
+  for (std::size_t k = 0; k < 6; ++k) subtract(a[k], -entry(x, k), product);
+  return product;
+}
+
+/// aᵀ x
+Six<double> transposed_times(const Columns& a, const Six<double>& x) {
+  return {Simd4<double>{dot(a[0], x), dot(a[1], x), dot(a[2], x), 0},
+          Simd4<double>{dot(a[3], x), dot(a[4], x), dot(a[5], x), 0}};
+}
+
 }  // namespace
 
 BlockCholesky::BlockCholesky(std::size_t nodes, std::span<const Pair> pairs) : place_(nodes) {
@@ -54,55 +87,83 @@ BlockCholesky::BlockCholesky(std::size_t nodes, std::span<const Pair> pairs) : p
     std::sort(rows_.begin() + columns_.back(), rows_.end());
   }
   columns_.push_back(static_cast<std::uint32_t>(rows_.size()));
-  blocks_.assign(rows_.size(), Block::Zero());
+  blocks_.assign(rows_.size(), Columns{});
+}
+
+BlockCholesky::Columns BlockCholesky::columns_of(const Block& block) {
+  Columns columns;
+  for (int j = 0; j < 6; ++j)
+    columns[static_cast<std::size_t>(j)] = {simd4<double>(block.col(j).head<3>()),
+                                            simd4<double>(block.col(j).tail<3>())};
+  return columns;
+}
+
+BlockCholesky::Block BlockCholesky::block_of(const Columns& columns) {
+  Block block;
+  for (int j = 0; j < 6; ++j) {
+    const Six<double>& column = columns[static_cast<std::size_t>(j)];
+    block.col(j) << vec3(column.linear), vec3(column.angular);
+  }
+  return block;
 }
 
 void BlockCholesky::add(std::uint32_t i, std::uint32_t j, const Block& block) {
   const bool below = place_[i] >= place_[j];
   const std::uint32_t row = place_[below ? i : j], column = place_[below ? j : i];
-  const auto at = std::lower_bound(rows_.begin() + columns_[column],
-                                   rows_.begin() + columns_[column + 1], row);
-  Block& here = blocks_[static_cast<std::size_t>(at - rows_.begin())];
-  if (below) {
-    here += block;
-  } else {
-    here += block.transpose();
-  }
+  const auto at =
+      std::lower_bound(rows_.begin() + columns_[column], rows_.begin() + columns_[column + 1], row);
+  Columns& here = blocks_[static_cast<std::size_t>(at - rows_.begin())];
+  const Columns more = columns_of(below ? block : block.transpose());
+  for (std::size_t k = 0; k < 6; ++k) subtract(more[k], -1, here[k]);
 }
 
 bool BlockCholesky::factorize() {
   for (std::size_t k = 0; k < nodes(); ++k) {
     const std::uint32_t begin = columns_[k], end = columns_[k + 1];
-    const Eigen::LLT<Block> factor(blocks_[begin]);
+    const Eigen::LLT<Block> factor(block_of(blocks_[begin]));
     if (factor.info() != Eigen::Success) return false;
-    Block& inverse = blocks_[begin];
-    inverse.setIdentity();
-    factor.matrixL().solveInPlace(inverse);
-    for (std::uint32_t a = begin + 1; a < end; ++a) blocks_[a] *= inverse.transpose();
+    const Columns inverse = columns_of(factor.matrixL().solve(Block::Identity()));
+    blocks_[begin] = inverse;
+    for (std::uint32_t a = begin + 1; a < end; ++a) {
+      Columns product{};
+      subtract_product(blocks_[a], inverse, product);
+      for (std::size_t j = 0; j < 6; ++j) blocks_[a][j] = {-product[j].linear, -product[j].angular};
+    }
     for (std::uint32_t b = begin + 1; b < end; ++b) {
       std::uint32_t at = columns_[rows_[b]];  // what is below k's row is in that row's column
       for (std::uint32_t a = b; a < end; ++a) {
         while (rows_[at] != rows_[a]) ++at;
-        blocks_[at].noalias() -= blocks_[a] * blocks_[b].transpose();
+        subtract_product(blocks_[a], blocks_[b], blocks_[at]);
       }
     }
   }
   return true;
 }
 
-void BlockCholesky::solve(std::span<Row> x) const {
+void BlockCholesky::solve(std::span<Six<double>> x) const {
   for (std::size_t k = 0; k < nodes(); ++k) {
-    Row& here = x[order_[k]];
-    here = blocks_[columns_[k]] * here;
-    for (std::uint32_t i = columns_[k] + 1; i < columns_[k + 1]; ++i)
-      x[order_[rows_[i]]].noalias() -= blocks_[i] * here;
+    Six<double>& here = x[order_[k]];
+    here = times(blocks_[columns_[k]], here);
+    for (std::uint32_t i = columns_[k] + 1; i < columns_[k + 1]; ++i) {
+      const Six<double> product = times(blocks_[i], here);
+      subtract(product, 1, x[order_[rows_[i]]]);
+    }
   }
   for (std::size_t k = nodes(); k-- > 0;) {
-    Row here = x[order_[k]];
+    Six<double> here = x[order_[k]];
     for (std::uint32_t i = columns_[k] + 1; i < columns_[k + 1]; ++i)
-      here.noalias() -= blocks_[i].transpose() * x[order_[rows_[i]]];
-    x[order_[k]].noalias() = blocks_[columns_[k]].transpose() * here;
+      subtract(transposed_times(blocks_[i], x[order_[rows_[i]]]), 1, here);
+    x[order_[k]] = transposed_times(blocks_[columns_[k]], here);
   }
+}
+
+std::uint64_t BlockCholesky::products() const {
+  std::uint64_t sum = 0;
+  for (std::size_t k = 0; k < nodes(); ++k) {
+    const std::uint64_t blocks = columns_[k + 1] - columns_[k];
+    sum += blocks * (blocks + 1) / 2;
+  }
+  return sum;
 }
 
 }  // namespace sunder::fracture

@@ -1,7 +1,8 @@
-// The direct solver of a few nodes on springs: the Cholesky factor of a matrix of 6×6 blocks, most
-// of which are zero, and stay so if nodes go in order of least degree (Rose 1972).
+// The direct solver of nodes on springs: the Cholesky factor of a matrix of 6×6 blocks, most of
+// which are zero, and stay so if nodes go in order of least degree (Rose 1972).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -9,13 +10,14 @@
 
 #include <Eigen/Core>
 
+#include "fracture/stress/simd4.h"
+
 namespace sunder::fracture {
 
 /// K = L Lᵀ of a symmetric positive definite K; zero until added to.
 class BlockCholesky {
  public:
   using Block = Eigen::Matrix<double, 6, 6>;
-  using Row = Eigen::Matrix<double, 6, 1>;
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
   BlockCholesky() = default;
@@ -25,17 +27,22 @@ class BlockCholesky {
   std::size_t nodes() const { return order_.size(); }
   /// K_ij, of a node with itself or one of the pairs; K_ji follows.
   void add(std::uint32_t i, std::uint32_t j, const Block& block);
-  /// K_ii.
-  Block& diagonal(std::uint32_t i) { return blocks_[columns_[place_[i]]]; }
   /// What was added becomes L; false if K is not positive definite, and then nothing is left of it.
   bool factorize();
   /// x, by node, becomes K⁻¹ x.
-  void solve(std::span<Row> x) const;
+  void solve(std::span<Six<double>> x) const;
+  /// Of blocks, to factorize it.
+  std::uint64_t products() const;
 
  private:
+  using Columns = std::array<Six<double>, 6>;  ///< Of a block.
+
+  static Columns columns_of(const Block& block);
+  static Block block_of(const Columns& columns);
+
   std::vector<std::uint32_t> order_, place_;  ///< Nodes as they are eliminated; when, per node.
   /// By columns in that order, each from its diagonal down; of L, with the diagonal's inverse.
-  std::vector<Block> blocks_;
+  std::vector<Columns> blocks_;
   std::vector<std::uint32_t> rows_;     ///< Per block.
   std::vector<std::uint32_t> columns_;  ///< Where each begins; and the end.
 };

@@ -13,8 +13,11 @@ namespace {
 constexpr std::size_t kGroup = 8;  // nodes that move as one on the next coarser level
 // Groups that move rigidly are too stiff: their correction is lengthened by this much.
 constexpr float kOvercorrection = 1.4f;
-constexpr std::size_t kDenseNodes = 48;  // few enough for a dense factorization
-constexpr float kDamping = 2.0f / 3;     // of block Jacobi; the blocks bound the spectrum by 2
+// A level is solved directly if that costs no more than so many iterations, and it has no more
+// nodes than can be put in order in no time.
+constexpr std::uint64_t kDirectIterations = 50;
+constexpr std::size_t kDirectNodes = 1000;
+constexpr float kDamping = 2.0f / 3;  // of block Jacobi; the blocks bound the spectrum by 2
 constexpr std::size_t kChunk = 1024;
 
 /// Sum over nodes in an order that threads do not change.
@@ -98,13 +101,15 @@ Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
   unit_N_m_ /= static_cast<double>(springs.size());
   to_units(springs);
   levels_.emplace_back(nodes, std::move(springs));
-  while (levels_.back().size() > kDenseNodes) {
+  while (!factorize(false)) {
     SpringGroups groups(levels_.back(), kGroup);
-    if (groups.count() == levels_.back().size()) break;  // no two hang together
+    if (groups.count() == levels_.back().size()) {  // no two hang together
+      factorize(true);
+      break;
+    }
     levels_.push_back(groups.coarsen(levels_.back()));
     groups_.push_back(std::move(groups));
   }
-  factorize();
 }
 
 Multigrid::Multigrid(const Multigrid& old, SpringEdit edit)
@@ -114,7 +119,7 @@ Multigrid::Multigrid(const Multigrid& old, SpringEdit edit)
   for (std::size_t level = 0; level < groups_.size(); ++level) {
     levels_.push_back(groups_[level].coarsen(levels_[level], old.levels_[level + 1], edit));
   }
-  factorize();
+  factorize(true);
 }
 
 void Multigrid::to_units(std::vector<Spring>& springs) const {
@@ -124,53 +129,62 @@ void Multigrid::to_units(std::vector<Spring>& springs) const {
   }
 }
 
-/// The coarsest level, made ready to be solved.
-void Multigrid::factorize() {
+/// Makes the coarsest level ready to be solved; false if there should be a coarser one, unless that
+/// is how it has `to_be`.
+bool Multigrid::factorize(bool to_be) {
   // In double precision: how softly all of it hangs on the world is lost beside its stiffness.
   const SpringLevel<float>& last = levels_.back();
+  if (!to_be && last.size() > kDirectNodes) return false;
   std::vector<BlockCholesky::Pair> pairs;
   last.for_each_spring([&](const Spring& spring) {
     if (spring.a != Spring::kWorld && spring.b != Spring::kWorld)
       pairs.emplace_back(spring.a, spring.b);
   });
   BlockCholesky matrix(last.size(), pairs);
+  if (!to_be && matrix.products() > kDirectIterations * pairs.size()) return false;
+  using Row = Eigen::Matrix<double, 6, 1>;
+  std::vector<Row> diagonal(last.size(), Row::Zero());
   last.for_each_spring([&](const Spring& spring) {
     for (const std::uint32_t end : {spring.a, spring.b}) {
       if (end == Spring::kWorld) continue;
-      matrix.add(end, end, stiffness(spring, last.place(end), last.place(end)));
+      const BlockCholesky::Block own = stiffness(spring, last.place(end), last.place(end));
+      matrix.add(end, end, own);
+      diagonal[end] += own.diagonal();
     }
     if (spring.a != Spring::kWorld && spring.b != Spring::kWorld)
-      matrix.add(spring.a, spring.b, -stiffness(spring, last.place(spring.a), last.place(spring.b)));
+      matrix.add(spring.a, spring.b,
+                 -stiffness(spring, last.place(spring.a), last.place(spring.b)));
   });
-  const auto nodes = static_cast<std::uint32_t>(last.size());
   double most = 0;
-  for (std::uint32_t i = 0; i < nodes; ++i)
-    most = std::max(most, matrix.diagonal(i).diagonal().maxCoeff());
-  if (!(most > 0)) most = 1;  // nothing is left that could move
-  for (std::uint32_t i = 0; i < nodes; ++i) {
-    auto diagonal = matrix.diagonal(i).diagonal();
-    diagonal = (diagonal.array() == 0).select(most, diagonal);  // groups that an edit has emptied
+  for (const Row& row : diagonal) most = std::max(most, row.maxCoeff());
+  if (!(most > 0)) most = 1;                             // nothing is left that could move
+  for (std::uint32_t i = 0; i < diagonal.size(); ++i) {  // groups that an edit has emptied
+    const Row missing = (diagonal[i].array() == 0).select(most, Row::Zero());
+    if (!missing.isZero(0)) matrix.add(i, i, missing.asDiagonal());
   }
   // What hangs by next to nothing gets a little ground of its own, as much as it takes.
-  double ground = 0;
-  for (double more = 1e-13; more < 1; more *= 100) {
+  for (double ground = 1e-13; ground < 1; ground *= 100) {
     coarsest_ = matrix;
-    for (std::uint32_t i = 0; i < nodes; ++i)
-      coarsest_.diagonal(i).diagonal().array() += ground * most;
-    if (coarsest_.factorize()) return;
-    ground += more;
+    if (coarsest_.factorize()) return true;
+    for (std::uint32_t i = 0; i < diagonal.size(); ++i)
+      matrix.add(i, i, ground * most * BlockCholesky::Block::Identity());
   }
   SUNDER_CHECK(false);
+  return false;
 }
 
 void Multigrid::solve_coarsest(const Nodal<float>& r, Nodal<float>& z) const {
-  const std::size_t nodes = coarsest_.nodes();
-  std::vector<BlockCholesky::Row> x(nodes);
-  for (std::size_t i = 0; i < nodes; ++i) x[i] << vec3(r[i].linear), vec3(r[i].angular);
+  Nodal<double> x(coarsest_.nodes());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    x[i] = {__builtin_convertvector(r[i].linear, Simd4<double>),
+            __builtin_convertvector(r[i].angular, Simd4<double>)};
+  }
   coarsest_.solve(x);
-  z.resize(nodes + 1);
-  for (std::size_t i = 0; i < nodes; ++i)
-    z[i] = {simd4<float>(x[i].head<3>()), simd4<float>(x[i].tail<3>())};
+  z.resize(x.size() + 1);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    z[i] = {__builtin_convertvector(x[i].linear, Simd4<float>),
+            __builtin_convertvector(x[i].angular, Simd4<float>)};
+  }
 }
 
 void Multigrid::cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,

@@ -1,6 +1,7 @@
 // Solves K x = f for the springs of a compound: conjugate gradients (Hestenes and Stiefel 1952),
-// preconditioned by a W-cycle over coarser and coarser levels of springs. The cycle is in single
-// precision: it decides how fast the answer comes, not what it is.
+// preconditioned by a W-cycle over coarser and coarser levels of springs, of which the last is
+// solved directly; for most compounds that is the first. The cycle is in single precision: it
+// decides how fast the answer comes, not what it is.
 //
 // Read first: Multigrid::solve(), then cycle().
 #pragma once
@@ -33,6 +34,9 @@ class Multigrid {
 
   /// The finest level, in SI units.
   const SpringLevel<double>& springs() const { return springs_; }
+  /// What it cost to make the coarsest level ready, in visits of springs: a product of blocks takes
+  /// about as long, what else there is to do counted.
+  std::uint64_t direct_work() const { return coarsest_.products(); }
   /// Improves x until residual and error are at most `tolerance`, what is left is rounding
   /// (`nothing_N`), or so many iterations are done. `way`: the direction in which an unfinished
   /// solve went last, from which this one goes on; empty if there was none.
@@ -46,7 +50,7 @@ class Multigrid {
   };
 
   void to_units(std::vector<Spring>& springs) const;
-  void factorize();
+  bool factorize(bool to_be);
   std::vector<Scratch> scratch() const;
   /// z = (about) K⁻¹ r, on one level and those below it; symmetric.
   void cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,

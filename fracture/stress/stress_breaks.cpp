@@ -99,7 +99,7 @@ class StressBreaks {
       std::vector<std::uint32_t> gone;
       std::ranges::merge(cut, flow.bonds, std::back_inserter(gone));
       remove(gone);
-      answer.work += kEditWork * memory_->system->work();
+      answer.work += memory_->system->edit_work();
       if (!hinges_.empty()) break;  // what moves feels its hinges only in the next step
       if (!impulses_.empty() && parted()) break;  // what is struck is another body now
     }

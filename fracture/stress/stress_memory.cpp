@@ -9,8 +9,6 @@
 namespace sunder::fracture {
 namespace {
 
-// Iterations that making a system costs, about.
-constexpr std::uint64_t kSetUpWork = 20;
 // A system is edited if so much of it stays; else it is made anew.
 constexpr double kStays = 0.5;
 
@@ -54,10 +52,10 @@ class Recollection {
   std::shared_ptr<KnownStress> run(const KnownStress* old, std::uint64_t& work) {
     known_->displacements.resize(compound_.convexes.size());
     if (old && edit_system(*old)) {
-      work += kEditWork * known_->system->work();
+      work += known_->system->edit_work();
     } else {
       make_system(old);
-      work += kSetUpWork * known_->system->work();
+      work += known_->system->set_up_work();
     }
     return known_;
   }

@@ -29,9 +29,6 @@ struct KnownStress final : StressMemory {
   }
 };
 
-// Iterations that editing a system costs, about.
-inline constexpr std::uint64_t kEditWork = 4;
-
 /// The system of a compound, and a guess of its displacements, from the memory of it or of what it
 /// was a part of; null: of nothing. Adds to `work` what that took, in visits of springs.
 std::shared_ptr<KnownStress> recall(const StressMemory* memory, const Compound& compound,

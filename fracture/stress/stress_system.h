@@ -53,8 +53,11 @@ class StressSystem {
 
   /// Of the compound's bonds.
   const std::vector<BondGeometry>& geometry() const { return geometry_; }
-  /// What an iteration costs, in visits of springs.
+  /// What an iteration costs, in visits of springs,
   std::uint64_t work() const { return springs_; }
+  /// and what it costs, about, to make the system anew or as an edit.
+  std::uint64_t set_up_work() const { return 20 * springs_ + direct_work(); }
+  std::uint64_t edit_work() const { return 4 * springs_ + direct_work(); }
   /// Improves the displacements, one per convex, under loads, weight and spin (rad/s). `way`, of
   /// this system: where an unfinished solve left off, for the next to go on from.
   SolveResult solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, double tolerance,
@@ -104,6 +107,7 @@ class StressSystem {
     const StressOrigin& origin;
   };
 
+  std::uint64_t direct_work() const { return multigrid_ ? multigrid_->direct_work() : 0; }
   bool number_nodes(const Edited& edited, SpringEdit& edit);
   void make_bonds(const Compound& compound, std::span<const Material> materials,
                   const Edited* edited);

@@ -1,8 +1,7 @@
 #include "fracture/stress/block_cholesky.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Cholesky>
+#include <gtest/gtest.h>
 
 #include "engine/base/random.h"
 
@@ -10,6 +9,7 @@ namespace sunder::fracture {
 namespace {
 
 using Block = BlockCholesky::Block;
+using Nodal = std::vector<Six<double>>;
 
 /// Nodes side by side in a plane, `width` in a row, each held to its neighbours and to the world.
 std::vector<BlockCholesky::Pair> lattice(std::uint32_t nodes, std::uint32_t width) {
@@ -45,14 +45,17 @@ TEST(BlockCholesky, SolvesAsADenseMatrixIsSolved) {
       dense.block<6, 6>(6 * b, 6 * a) += both.transpose();
     }
     ASSERT_TRUE(sparse.factorize());
-    std::vector<BlockCholesky::Row> x(nodes);
+    Nodal x(nodes);
     Eigen::VectorXd f(6 * nodes);
     for (double& value : f) value = random.uniform(-1, 1);
-    for (std::uint32_t i = 0; i < nodes; ++i) x[i] = f.segment<6>(6 * i);
+    for (std::uint32_t i = 0; i < nodes; ++i)
+      x[i] = {simd4<double>(f.segment<3>(6 * i)), simd4<double>(f.segment<3>(6 * i + 3))};
     sparse.solve(x);
     const Eigen::VectorXd expected = dense.llt().solve(f);
-    for (std::uint32_t i = 0; i < nodes; ++i)
-      EXPECT_LT((x[i] - expected.segment<6>(6 * i)).norm(), 1e-13) << nodes << ' ' << i;
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+      EXPECT_LT((vec3(x[i].linear) - expected.segment<3>(6 * i)).norm(), 1e-13) << i;
+      EXPECT_LT((vec3(x[i].angular) - expected.segment<3>(6 * i + 3)).norm(), 1e-13) << i;
+    }
   }
 }
 
@@ -70,9 +73,14 @@ TEST(BlockCholesky, NodesThatHoldOntoNothingElseCostNoMoreThanThemselves) {
   BlockCholesky matrix(kNodes, {});
   for (std::uint32_t i = 0; i < kNodes; ++i) matrix.add(i, i, 2 * Block::Identity());
   ASSERT_TRUE(matrix.factorize());
-  std::vector<BlockCholesky::Row> x(kNodes, BlockCholesky::Row::Ones());
+  EXPECT_EQ(matrix.products(), kNodes);
+  const Simd4<double> ones = simd4<double>(Vec3::Ones());
+  Nodal x(kNodes, {ones, ones});
   matrix.solve(x);
-  for (const BlockCholesky::Row& row : x) EXPECT_NEAR((row.array() - 0.5).abs().maxCoeff(), 0, 1e-15);
+  for (const Six<double>& node : x) {
+    EXPECT_LT((vec3(node.linear) - Vec3::Constant(0.5)).norm(), 1e-15);
+    EXPECT_LT((vec3(node.angular) - Vec3::Constant(0.5)).norm(), 1e-15);
+  }
 }
 
 }  // namespace
