@@ -23,7 +23,7 @@ FLOORS = {
     "solver": (("base",), ("rigid/tolerances.h",), ("rigid/body",), ("rigid/collide",),
                ("rigid/joint",), ("rigid/contact",), ("rigid", "planar", "particles")),
     "render": (("gl", "shaders"), ("image",), ("passes",), ("",)),
-    "scenes": (("file",), ("structures",), ("",), ("app",)),
+    "scenes": (("sculpture",), ("file",), ("structures",), ("",), ("app",)),
 }
 FLOOR_OF = {str(Path(room, folder)): floor for room, floors in FLOORS.items()
             for floor, folders in enumerate(floors) for folder in folders}

@@ -180,7 +180,7 @@ void add_trade(CLI::App& program, Command& chosen) {
 
 constexpr const char* kMeshHelp =
     "A file (.obj .ply .stl .off .gltf .glb), or a built-in solid: box:X,Y,Z column:R,H torus:R,r "
-    "grid:NX,NY,NZ voronoi:N hall:N";
+    "grid:NX,NY,NZ voronoi:N hall:N, or the built-in mesh statue:N, of N triangles";
 
 /// How a mesh from a file is decomposed.
 void add_decomposition(CLI::App* app, scenes::MeshOptions& options) {
@@ -235,7 +235,9 @@ void add_vacd(CLI::App& program, Command& chosen) {
   Subcommand<VacdOptions> command(program, "vacd", "Approximate convex decomposition of a mesh",
                                   vacd, chosen);
   VacdOptions& options = *command.options;
-  command.app->add_option("MESH", options.mesh, "A file: .obj .ply .stl .off .gltf .glb")
+  command.app
+      ->add_option("MESH", options.mesh,
+                   "A file (.obj .ply .stl .off .gltf .glb), or statue:N, of N triangles")
       ->required();
   add_decomposition(command.app, options.solid);
   command.app->add_flag("--watch", options.watch,

@@ -6,7 +6,6 @@
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
 #include "engine/geometry/approximate_hull.h"
-#include "engine/io/mesh/mesh_reader.h"
 #include "fracture/solids.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/mesh_report.h"
@@ -20,7 +19,7 @@ constexpr double kOutside = 1e-9;
 /// The vertices that a mesh's faces have; of built-in solids, all.
 std::vector<Vec3> points_of(const std::string& mesh, scenes::MeshSolid& solid) {
   std::vector<Vec3> points;
-  if (scenes::names_built_in(mesh)) {
+  if (scenes::names_solid(mesh)) {
     solid = scenes::as_mesh_solid(mesh, fracture::make_solid(mesh));
     for (const ConvexPtr& convex : solid.compound.convexes) {
       const auto& vertices = convex->polyhedron.vertices;
@@ -28,7 +27,7 @@ std::vector<Vec3> points_of(const std::string& mesh, scenes::MeshSolid& solid) {
     }
     return points;
   }
-  const RawMesh raw = read_mesh(mesh);
+  const RawMesh raw = scenes::make_raw_mesh(mesh);
   solid.name = mesh;
   solid.vertices = raw.vertices.size();
   solid.faces = raw.polygons.size();

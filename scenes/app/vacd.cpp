@@ -93,7 +93,7 @@ void decompose_once(const VacdOptions& options) {
 
 int vacd(const VacdOptions& options) {
   options.apply();
-  if (scenes::names_built_in(options.mesh)) {
+  if (scenes::names_solid(options.mesh)) {
     throw InputError(options.mesh + ": is made of convexes already; name a file of a mesh");
   }
   check_output(options.output);

@@ -20,7 +20,8 @@ Keys<MeshTable> make_mesh_keys() {
   return {"[[body]]",
           {key<&MeshTable::mesh>("mesh",
                                  "A file (.obj .ply .stl .off .gltf .glb) from the scene's folder "
-                                 "on, or a built-in solid, such as torus:1,0.3.")
+                                 "on, a built-in solid, such as torus:1,0.3, or a built-in "
+                                 "mesh, statue:80000, of so many triangles.")
                .must(),
            key<&MeshTable::scale>("scale", "", Range{1e-6, 1e6}, "Of a file: one unit of it."),
            key<&MeshTable::size_m>("size_m", "m", Range{1e-3, 1e4},

@@ -12,11 +12,14 @@
 #include "fracture/solids.h"
 #include "scenes/file/mesh_cache.h"
 #include "scenes/file/text_file.h"
+#include "scenes/sculpture/statue.h"
 
 namespace sunder::scenes {
 namespace {
 
-constexpr const char* kBuiltIn[] = {"box", "column", "torus", "grid", "voronoi", "hall"};
+constexpr const char* kSolids[] = {"box", "column", "torus", "grid", "voronoi", "hall"};
+constexpr const char* kStatue = "statue";
+constexpr std::uint32_t kFewestTriangles = 1000, kMostTriangles = 1000000;
 
 /// A whole number from `low` to `high`; none if the text is anything else.
 std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t low,
@@ -26,6 +29,9 @@ std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t l
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return number < low || number > high ? std::nullopt : std::optional(number);
 }
+
+/// What is before the colon, if there is one.
+std::string kind_of(const std::string& mesh) { return mesh.substr(0, mesh.find(':')); }
 
 Fit fit_of(const std::string& text) {
   if (const std::optional<Fit> fit = parse_fit(text)) return *fit;
@@ -86,7 +92,7 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
     options.progress("reading", 0);
     vacd_of.progress = [&](double share) { options.progress("decomposing", 0.4 + 0.6 * share); };
   }
-  RawMesh raw = read_mesh(file);
+  RawMesh raw = make_raw_mesh(file);
   scale_mesh(raw, options, vacd_of);
   const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
   std::optional<MeshSolid> known = options.cached ? recall(key) : std::nullopt;
@@ -104,10 +110,22 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
 
 }  // namespace
 
+bool names_solid(const std::string& mesh) {
+  return std::ranges::count(kSolids, kind_of(mesh)) > 0 && !std::filesystem::exists(mesh);
+}
+
 bool names_built_in(const std::string& mesh) {
-  if (std::filesystem::exists(mesh)) return false;
-  const std::string kind = mesh.substr(0, mesh.find(':'));
-  return std::find(std::begin(kBuiltIn), std::end(kBuiltIn), kind) != std::end(kBuiltIn);
+  return names_solid(mesh) || (kind_of(mesh) == kStatue && !std::filesystem::exists(mesh));
+}
+
+RawMesh make_raw_mesh(const std::string& mesh) {
+  if (kind_of(mesh) != kStatue || std::filesystem::exists(mesh)) return read_mesh(mesh);
+  const std::size_t colon = std::string_view(kStatue).size();
+  const std::string_view count = std::string_view(mesh).substr(std::min(colon + 1, mesh.size()));
+  if (const auto triangles = whole_number(count, kFewestTriangles, kMostTriangles))
+    return make_statue(*triangles);
+  throw InputError("'" + mesh + "' is no built-in mesh; expected statue:N, of N triangles from " +
+                   std::to_string(kFewestTriangles) + " to " + std::to_string(kMostTriangles));
 }
 
 fracture::VacdOptions vacd_options(const MeshOptions& options) {
@@ -145,7 +163,7 @@ MeshSolid as_mesh_solid(const std::string& name, Compound compound) {
 MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options) {
   const Stopwatch watch;
   MeshSolid solid;
-  if (names_built_in(mesh)) {
+  if (names_solid(mesh)) {
     vacd_options(options);
     if (options.scale != 1 || options.size_m) {
       throw InputError(mesh + ": is built in; give it its size there, in place of a scale");

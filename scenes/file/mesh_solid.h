@@ -1,5 +1,5 @@
 // What a MESH on the command line, or `mesh = "..."` in a scene, becomes: a file is read, repaired
-// and decomposed; a built-in solid is made.
+// and decomposed, and so is a built-in mesh; a built-in solid is made of convexes.
 //
 // Read first: make_mesh_solid().
 #pragma once
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/raw_mesh.h"
 #include "engine/geometry/repair/repair.h"
 #include "fracture/vacd/vacd.h"
 #include "scenes/file/make_compound.h"
@@ -23,7 +24,7 @@ struct MeshSolid {
   std::size_t faces = 0;
   bool closed = true;
   std::vector<Repair> repairs;
-  std::optional<fracture::VacdFigures> vacd;  ///< None for what is built in.
+  std::optional<fracture::VacdFigures> vacd;  ///< None for what is made of convexes.
   double prepare_ms = 0;                      ///< All of it: reading, repairs and decomposition.
 };
 
@@ -31,8 +32,12 @@ struct MeshSolid {
 MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options);
 /// A compound that is there already.
 MeshSolid as_mesh_solid(const std::string& name, Compound compound);
-/// Whether `mesh` is meant to name what is built in: "box:1,1,1".
+/// Whether `mesh` is meant to name what is built in: "box:1,1,1", "statue:80000".
 bool names_built_in(const std::string& mesh);
+/// Whether it is meant to name a built-in solid, which is made of convexes: all but "statue:80000".
+bool names_solid(const std::string& mesh);
+/// A file's mesh, or a built-in one, as it is given. Throws InputError.
+RawMesh make_raw_mesh(const std::string& mesh);
 /// Throws InputError unless the options can be meant; before work that takes long.
 fracture::VacdOptions vacd_options(const MeshOptions& options);
 
