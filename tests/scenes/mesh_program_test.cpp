@@ -153,6 +153,21 @@ TEST(Hull, EnclosesAndComesCloserWithMoreVertices) {
   EXPECT_NEAR(before, 1, 0.02);
 }
 
+TEST(Statue, IsAMeshThatIsDecomposedBrokenAndFittedAsAFilesIs) {
+  const std::string nodes = " --nodes " SUNDER_ROOT "/scenes/meshes/statue.nodes";
+  const Figures vacd = figures("vacd statue:6000" + nodes);
+  EXPECT_GE(count(vacd, "/convexes"), 12);
+  EXPECT_LT(number(vacd, "/hull_volume_ratio"), 1.3);
+  expect_sound(figures("fracture statue:6000 --pattern voronoi:20 --radius 0.5" + nodes), "statue");
+  EXPECT_LT(number(figures("hull statue:6000 --vertices 20"), "/volume_ratio"), 1.05)
+      << "as the paper has it";
+  for (const char* wrong : {"statue", "statue:999", "statue:1e5", "statue:2000000", "statue:x"}) {
+    const Outcome outcome = sunder(std::string("hull --vertices 8 ") + wrong);
+    EXPECT_EQ(outcome.exit_code, 2) << wrong;
+    EXPECT_NE(outcome.err.find("expected statue:N"), std::string::npos) << outcome.err;
+  }
+}
+
 /// A tetrahedron with an open side, as text.
 std::string open_tetrahedron() {
   return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
