@@ -29,8 +29,8 @@ struct MeshOptions {
 };
 
 /// A compound of one material from a mesh: a file (.obj .ply .stl .off .gltf .glb), repaired and
-/// decomposed, or a built-in solid such as "torus:1,0.3". Throws InputError if `mesh` names
-/// nothing, or what is asked of it cannot be.
+/// decomposed, a built-in mesh, "statue:80000", likewise, or a built-in solid such as
+/// "torus:1,0.3". Throws InputError if `mesh` names nothing, or what is asked of it cannot be.
 Compound make_compound(const std::string& mesh, MaterialIndex material,
                        const MeshOptions& options = {});
 

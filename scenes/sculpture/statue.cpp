@@ -12,7 +12,8 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr double kArea = 4.01;  ///< m², of the surface.
+/// m², of the sides of a fine grid's cells between what is inside and what is outside.
+constexpr double kSides = 6.015;
 
 /// Two shapes as one, with a fillet of about that radius.
 double join(double a, double b, double radius_m) {
@@ -166,9 +167,8 @@ RawMesh make_statue(std::uint32_t triangles) {
   Box box;
   box.extend(Vec3(-0.55, 0, -0.4));
   box.extend(Vec3(0.45, 2.4, 0.45));
-  // A grid's edges cross a square metre of surface 3/2 times for each square metre of cells' sides,
-  // in the mean of its directions, and each crossing makes two triangles.
-  return triangulate(figure, box, std::sqrt(3 * kArea / triangles));
+  // Each side makes two triangles.
+  return triangulate(figure, box, std::sqrt(2 * kSides / triangles));
 }
 
 }  // namespace sunder::scenes

@@ -8,7 +8,7 @@
 
 namespace sunder::scenes {
 
-/// A closed, smooth mesh of about so many triangles, from 1,000 to 1,000,000: 2.4 m tall with its
+/// A closed, smooth mesh of about so many triangles, from 1,000 to 1,000,000: 2.3 m tall with its
 /// base, which stands on y = 0; it faces +z.
 RawMesh make_statue(std::uint32_t triangles);
 
