@@ -1,17 +1,18 @@
 #include "bench/timing/hash_book.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "engine/base/check.h"
+#include "scenes/file/text_file.h"
 
 namespace sunder::bench {
 namespace {
 
-constexpr std::size_t kDigits = 16;
-
-bool is_hash(const std::string& text) {
-  return text.size() == kDigits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+bool is_hash(const std::string& what, const std::string& text) {
+  const bool whole = what.starts_with("frames/") ? text.size() % 4 == 0 : text.size() == 16;
+  return whole && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
 }  // namespace
@@ -26,9 +27,10 @@ HashBook parse_hashes(const std::string& text, const std::string& file) {
     std::string what, hash, more;
     if (!(words >> what)) continue;
     const std::string at = file + ":" + std::to_string(number) + ": ";
-    if (!(words >> hash) || !is_hash(hash) || words >> more) {
+    if (!(words >> hash) || !is_hash(what, hash) || words >> more) {
       throw InputError(at + "a line is WHAT and 16 hexadecimal digits (0-9, a-f), as in " +
-                       "state/house/realtime/200 0123456789abcdef");
+                       "state/house/realtime/200 0123456789abcdef, or four a frame where WHAT "
+                       "begins with frames/");
     }
     if (!book.emplace(what, hash).second) {
       throw InputError(at + what + " is there twice; remove the line that is wrong");
@@ -37,10 +39,16 @@ HashBook parse_hashes(const std::string& text, const std::string& file) {
   return book;
 }
 
+HashBook read_hashes(const std::string& file) {
+  if (!std::filesystem::exists(file)) return {};
+  return parse_hashes(scenes::read_text(file), file);
+}
+
 std::string format_hashes(const HashBook& book) {
   std::string text =
-      "# What is known to be right. Changed by `sunder bench --accept` alone: a line that differs\n"
-      "# says that something else is simulated, and should say why in its commit.\n";
+      "# What is known to be right. Changed by `sunder bench --accept` and `sunder golden accept`\n"
+      "# alone: a line that differs says that something else is simulated, and should say why in\n"
+      "# its commit.\n";
   std::size_t widest = 0;
   for (const auto& [what, hash] : book) widest = std::max(widest, what.size());
   for (const auto& [what, hash] : book)

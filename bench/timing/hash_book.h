@@ -2,7 +2,8 @@
 // (tests/golden/hashes.txt), which only an accept command changes.
 //
 // A line is WHAT HASH. WHAT is a path that says all that decides the hash:
-// state/SCENE/PRESET/FRAMES is the state hash over that many frames of a scene as it is given.
+// state/SCENE/PRESET/FRAMES is the state hash over that many frames of a scene as it is given;
+// frames/GOLDEN/PRESET/FIRST is that of single frames, shortened (frame_states.h).
 #pragma once
 
 #include <map>
@@ -14,6 +15,8 @@ using HashBook = std::map<std::string, std::string>;
 
 /// From the text of a file; `file` is what errors call it. Throws InputError naming the line.
 HashBook parse_hashes(const std::string& text, const std::string& file);
+/// Of a file; none if there is no file.
+HashBook read_hashes(const std::string& file);
 /// As a file has it.
 std::string format_hashes(const HashBook& book);
 

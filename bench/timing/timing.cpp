@@ -99,7 +99,7 @@ Figures time_run(const TimedRun& run, bool warn) {
   const int end = last_frame(scene);
   const int last = std::min(run.frames, end), state_frames = std::min(kStateFrames, end);
   Statistics statistics(scenes::run_info(scene, run.load.preset));
-  StateHash all, state;
+  StateHash states;
   scenes::SimulationOptions options;
   options.warn = [warn](const std::string& warning) {
     if (warn) std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -108,10 +108,9 @@ Figures time_run(const TimedRun& run, bool warn) {
   for (int i = 0; i <= last; ++i) {
     const FramePtr frame = simulation->next();
     statistics.take(frame);
-    all.take(frame);
-    if (i <= state_frames) state.take(frame);
+    states.take(frame);
   }
-  Figures figures = parse_figures(statistics.json(all.hex(), true), run.scene);
+  Figures figures = parse_figures(statistics.json(states.hex(), true), run.scene);
   std::erase_if(figures, [](const auto& entry) { return !is_kept(entry.first); });
   for (std::size_t i = 0; i < run.load.set.size(); ++i) {
     figures["/set/" + std::to_string(i)] = run.load.set[i];
@@ -119,7 +118,7 @@ Figures time_run(const TimedRun& run, bool warn) {
   figures["/memory_MB"] = memory_MB();
   if (last < state_frames) return figures;
   figures["/state/frames"] = std::int64_t{state_frames};
-  figures["/state/hash"] = state.hex();
+  figures["/state/hash"] = states.hex(static_cast<std::size_t>(state_frames) + 1);
   return figures;
 }
 

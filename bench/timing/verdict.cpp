@@ -11,9 +11,10 @@ namespace {
 
 std::string quoted(const std::string& text) { return "\"" + escaped(text) + "\""; }
 
-std::string test_case(const Verdict& verdict) {
-  const std::string head = "    <testcase classname=" + quoted("sunder.bench." + verdict.scene) +
-                           " name=" + quoted(verdict.what);
+std::string test_case(const std::string& command, const Verdict& verdict) {
+  const std::string head =
+      "    <testcase classname=" + quoted("sunder." + command + "." + verdict.scene) +
+      " name=" + quoted(verdict.what);
   switch (verdict.outcome) {
     case Outcome::kFailed:
       return head + "><failure message=" + quoted(verdict.text) + "/></testcase>\n";
@@ -35,15 +36,14 @@ std::string counts(std::span<const Verdict> verdicts) {
 
 }  // namespace
 
-std::string junit_xml(std::span<const Verdict> verdicts) {
+std::string junit_xml(const std::string& command, std::span<const Verdict> verdicts) {
   std::map<std::string, std::vector<Verdict>> suites;
   for (const Verdict& verdict : verdicts) suites[verdict.scene].push_back(verdict);
-  std::string xml =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"sunder bench\"" +
-      counts(verdicts) + ">\n";
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=" +
+                    quoted("sunder " + command) + counts(verdicts) + ">\n";
   for (const auto& [scene, suite] : suites) {
     xml += "  <testsuite name=" + quoted(scene) + counts(suite) + ">\n";
-    for (const Verdict& verdict : suite) xml += test_case(verdict);
+    for (const Verdict& verdict : suite) xml += test_case(command, verdict);
     xml += "  </testsuite>\n";
   }
   return xml + "</testsuites>\n";

@@ -9,13 +9,14 @@ namespace sunder::bench {
 enum class Outcome { kPassed, kFailed, kSkipped };
 
 struct Verdict {
-  std::string scene;
-  std::string what;  ///< "state", "stage solve" and so on; once a scene.
+  std::string scene;  ///< Or golden.
+  std::string what;   ///< "state", "stage solve", "drawing" and so on; once a scene.
   Outcome outcome = Outcome::kPassed;
   std::string text;  ///< Why, in a sentence.
 };
 
-/// All of them as JUnit has it: XML, a suite a scene.
-std::string junit_xml(std::span<const Verdict> verdicts);
+/// All of them as JUnit has it: XML, a suite a scene. `command` is that of the program which
+/// looked.
+std::string junit_xml(const std::string& command, std::span<const Verdict> verdicts);
 
 }  // namespace sunder::bench

@@ -1,5 +1,6 @@
 #include "engine/io/state_hash.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <xxhash.h>
@@ -62,10 +63,10 @@ std::uint64_t hash_body(const FrameBody& body) {
 
 void StateHash::take(const FramePtr& frame) { per_frame_.push_back(hash_state(*frame)); }
 
-std::string StateHash::hex() const {
+std::string StateHash::hex(std::size_t frames) const {
   char text[17];
-  const XXH64_hash_t all =
-      XXH3_64bits(per_frame_.data(), per_frame_.size() * sizeof(std::uint64_t));
+  const std::size_t count = std::min(frames, per_frame_.size());
+  const XXH64_hash_t all = XXH3_64bits(per_frame_.data(), count * sizeof(std::uint64_t));
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(all));
   return text;
 }

@@ -17,8 +17,8 @@ namespace sunder {
 class StateHash final : public FrameSink {
  public:
   void take(const FramePtr& frame) override;
-  /// 16 hexadecimal digits, over all frames so far.
-  std::string hex() const;
+  /// 16 hexadecimal digits, over the first so many frames, or all so far if there are fewer.
+  std::string hex(std::size_t frames = SIZE_MAX) const;
   const std::vector<std::uint64_t>& per_frame() const { return per_frame_; }
 
  private:

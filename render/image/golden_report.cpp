@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <vector>
 
-#include "engine/io/page.h"
 #include "render/image/golden_page.h"
 
 namespace sunder::render {
@@ -61,9 +60,9 @@ std::string section(const GoldenPicture& picture, std::size_t number) {
   html += "<div class=\"views\">\n" + figure("reference", "reference", picture.reference);
   if (!picture.difference.same_bytes) html += figure("actual", "drawn now", picture.actual);
   html += figure("heat", "FLIP error", picture.difference.heat_map) + "</div>\n";
+  if (!picture.runs.empty()) html += html_table({"simulated", "frames"}, picture.runs);
   if (!picture.passed) {
-    html +=
-        "<p>If what is drawn now is right: <code>" + escaped(picture.accept_by) + "</code></p>\n";
+    html += "<p>If this is right: <code>" + escaped(picture.accept_by) + "</code></p>\n";
   }
   return html + "<p>Remade by <code>" + escaped(picture.remade_by) + "</code><br>Drawn by " +
          escaped(picture.renderer) + "</p>\n</section>\n";
@@ -80,8 +79,8 @@ std::string golden_report(std::span<const GoldenPicture> pictures) {
   std::string sections;
   for (std::size_t i = 0; i < order.size(); ++i) sections += section(*order[i], i);
 
-  return html_page({"Sunder: golden images",
-                    "<h1>Golden images</h1>\n<p>Point at a picture for the magnifier. Heat: black "
+  return html_page({"Sunder: goldens",
+                    "<h1>Goldens</h1>\n<p>Point at a picture for the magnifier. Heat: black "
                     "no error, red, yellow, white the most.</p>\n" +
                         sections + "<div id=\"lens\"></div>\n",
                     golden_page::golden_report_css, golden_page::golden_report_js});

@@ -3,12 +3,14 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
+#include "engine/io/page.h"
 #include "render/image/compare.h"
 
 namespace sunder::render {
 
-/// One golden test: its baseline, what is drawn now, and how they differ.
+/// One golden test: its baseline, what is drawn now, how they differ, and what was simulated.
 struct GoldenPicture {
   std::string name;
   bool passed = false;
@@ -20,6 +22,7 @@ struct GoldenPicture {
   std::string remade_by;  ///< The command that makes the subject and its baseline.
   std::string accept_by;  ///< The command that makes `actual` the baseline.
   std::string renderer;   ///< That drew `actual`.
+  std::vector<std::vector<Cell>> runs = {};  ///< What was simulated, and what came of it.
 };
 
 /// One self-contained HTML page, failures first: both pictures and the map of the FLIP error side

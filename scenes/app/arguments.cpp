@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <vector>
 
@@ -99,6 +100,16 @@ Vec3 parse_point(const std::string& flag, const std::string& text) {
     throw InputError(flag + " " + text + ": expected three numbers, x,y,z, without spaces");
   }
   return {found[0], found[1], found[2]};
+}
+
+void parse_size(const std::string& text, render::RenderOptions& options) {
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 ||
+      options.width < 16 || options.height < 16 || options.width > 8192 || options.height > 8192 ||
+      options.width % 2 != 0 || options.height % 2 != 0) {
+    throw InputError("--size " + text +
+                     ": expected WIDTHxHEIGHT, even numbers from 16 to 8192 (video needs even)");
+  }
 }
 
 PatternSpec parse_pattern(const std::string& text) {

@@ -5,11 +5,15 @@
 
 #include "engine/base/types.h"
 #include "engine/model/material.h"
+#include "render/sinks.h"
 
 namespace sunder::app {
 
 /// "x,y,z"; throws InputError naming `flag` for anything else.
 Vec3 parse_point(const std::string& flag, const std::string& text);
+
+/// Puts the "WIDTHxHEIGHT" of --size into the options. Throws InputError for anything else.
+void parse_size(const std::string& text, render::RenderOptions& options);
 
 /// What parse_pattern() understands.
 inline constexpr const char* kPatternHelp =

@@ -170,12 +170,6 @@ std::vector<Figures> read_timings(const std::string& file) {
   return bench::scenes_of(parse_figures(scenes::read_text(file), file), file);
 }
 
-/// The hashes of the file; none if there is no file.
-bench::HashBook read_book(const std::string& file) {
-  if (!std::filesystem::exists(file)) return {};
-  return bench::parse_hashes(scenes::read_text(file), file);
-}
-
 /// The part by which a stage may be slower; none if it is not asked about.
 std::optional<double> fail_slower_of(const BenchOptions& options) {
   if (options.fail_slower.empty()) return std::nullopt;
@@ -199,7 +193,7 @@ void check_program(const std::string& program) {
 int bench(const BenchOptions& options) {
   const std::optional<double> fail_slower = fail_slower_of(options);
   check_program(options.against);
-  bench::HashBook book = read_book(options.hashes);
+  bench::HashBook book = bench::read_hashes(options.hashes);
   std::vector<Figures> old;
   if (!options.compare.empty()) old = read_timings(options.compare);
 
@@ -226,7 +220,7 @@ int bench(const BenchOptions& options) {
   options.say(bench::timing_table(scenes) + bench::features_table(scenes) +
               bench::changes_table(comparison.changes) + bench::verdict_lines(verdicts, false));
   options.write_json(format_figures(bench::document_of(scenes)));
-  if (!options.junit.empty()) write_text(options.junit, bench::junit_xml(verdicts));
+  if (!options.junit.empty()) write_text(options.junit, bench::junit_xml("bench", verdicts));
   if (!options.page.empty()) {
     write_text(options.page, bench::timing_page(scenes, verdicts, comparison.changes));
   }

@@ -265,19 +265,25 @@ Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const ch
 }
 
 void add_golden(CLI::App& program, Command& chosen) {
-  CLI::App* golden = program.add_subcommand("golden", "Golden-image regression");
+  CLI::App* golden = program.add_subcommand("golden", "Guards drawing and simulation against change");
   golden->require_subcommand(1);
   const auto add = [&](const char* name, const char* help, int (*work)(const GoldenOptions&)) {
     return add_golden(*golden, chosen, name, help, work);
   };
   for (auto& command :
-       {add("test", "Draw the stored frames and compare with the baselines", golden_test),
+       {add("test",
+            "Draw the stored frames and simulate their scenes: both must be as they were",
+            golden_test),
         add("report", "As test, and write report.html with all pictures", golden_report)}) {
     command.app->add_option("NAME", command.options->names, "Goldens; all by default");
+    command.app->add_flag("--full", command.options->full,
+                          "Also whole simulations, of which sunder bench knows the state");
+    command.app->add_option("--junit", command.options->junit,
+                            "Write what passed and failed as JUnit XML");
     command.app->add_option("--out", command.options->out, "Where new files go")
         ->capture_default_str();
   }
-  const auto accept = add("accept", "Make what is drawn now the baseline", golden_accept);
+  const auto accept = add("accept", "Make what is drawn and simulated now what is right", golden_accept);
   accept.app->add_option("NAME", accept.options->names, "Goldens")->required();
   auto record = add("record", "Store a frame of a scene as a golden's subject", golden_record);
   record.app
@@ -285,10 +291,16 @@ void add_golden(CLI::App& program, Command& chosen) {
           "NAME", [given = record.options](const std::string& name) { given->names = {name}; },
           "What to call it")
       ->required();
-  record.app->add_option("SCENE", record.options->scene, "File or name of a scene")->required();
-  record.app->add_option("FRAME", record.options->frame, "Which frame")
-      ->required()
+  record.app
+      ->add_option("SCENE", record.options->scene,
+                   "File or name of a scene, or X.frame: a golden that draws the frame of another")
+      ->required();
+  record.app->add_option("FRAME", record.options->frame, "Which frame of a scene")
       ->check(CLI::Range(0, kMostFrames));
+  record.app->add_option("--size", record.options->size, "Pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  record.app->add_flag("--hud", record.options->hud, "As in sunder render");
   record.add_changes();
 }
 

@@ -117,9 +117,13 @@ struct GoldenOptions : CommonOptions {
   std::string folder = SUNDER_GOLDENS_FOLDER;
   std::string out = "out/golden";
   std::string gl = "auto";
-  std::string scene;  ///< Of golden_record, as are:
+  bool full = false;  ///< Whole simulations, too.
+  std::string junit;  ///< File to write; empty: none.
+  std::string scene;  ///< Of golden_record, or a stored frame; as are:
   scenes::LoadOptions load;
-  int frame = 0;
+  int frame = -1;
+  std::string size = "640x360";
+  bool hud = false;
 };
 
 /// Each answers the program's exit code: 0 done, 1 failed; bad input is an InputError.

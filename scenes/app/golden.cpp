@@ -1,14 +1,22 @@
-// sunder golden: pictures that must not change unasked. A golden is a stored frame and the picture
-// it gave: NAME.frame, NAME.png and NAME.json in tests/golden.
+// sunder golden: what must not change unasked: how stored frames are drawn, and what their scenes
+// simulate. A golden is a stored frame and the picture it gave, NAME.frame, NAME.png and NAME.json
+// in tests/golden, and states of the run that the frame is of, in hashes.txt.
 //
-// Read first: golden_test(). `accept` is the one way to change a baseline.
+// Read first: golden_test(). `accept` is the one way to change what is held to be right.
+#include <algorithm>
 #include <cstdio>
+#include <map>
+#include <memory>
+#include <tuple>
 
+#include "bench/timing/frame_states.h"
+#include "bench/timing/hash_book.h"
 #include "engine/base/check.h"
 #include "engine/io/frame_file.h"
 #include "engine/io/statistics.h"
 #include "render/image/golden_report.h"
 #include "render/renderer.h"
+#include "scenes/app/arguments.h"
 #include "scenes/app/golden_file.h"
 #include "scenes/app/run.h"
 
@@ -16,67 +24,126 @@ namespace sunder::app {
 namespace {
 
 namespace fs = std::filesystem;
+using bench::Outcome;
+using bench::Verdict;
 
-render::Image draw(const GoldenOptions& options, const Golden& golden, std::string& renderer_name) {
-  render::RenderOptions render_options;
-  render_options.width = golden.width;
-  render_options.height = golden.height;
-  render_options.gl = options.gl;
-  render::Renderer renderer(render_options);
-  renderer_name = renderer.description();
-  return renderer.draw(*read_frame(golden.frame_file()));
-}
+/// Draws goldens, with a renderer for all that are drawn alike.
+class Drawer {
+ public:
+  explicit Drawer(std::string gl) : gl_(std::move(gl)) {}
 
-GoldenResult compare_with_baseline(const GoldenOptions& options, const std::string& name) {
-  GoldenResult result;
-  result.golden = read_golden(options.folder, name);
-  result.actual = draw(options, result.golden, result.renderer);
-  if (!fs::exists(result.golden.picture_file())) {
-    result.verdict = "no baseline: look at the picture, then run: sunder golden accept " + name;
-    return result;
+  render::Image draw(const Golden& golden) {
+    FramePtr frame = read_frame(golden.frame_file());
+    if (!golden.is_simulated() && !golden.load.set.empty()) {
+      auto seen = std::make_shared<Frame>(*frame);
+      scenes::change_view(seen->view, golden.load.set, golden.file(".json").string());
+      frame = std::move(seen);
+    }
+    return renderer(golden).draw(*frame);
   }
-  result.baseline = render::read_png(result.golden.picture_file());
+  std::string description(const Golden& golden) { return renderer(golden).description(); }
+
+ private:
+  render::Renderer& renderer(const Golden& golden) {
+    auto& known = renderers_[{golden.width, golden.height, golden.hud}];
+    if (!known) {
+      render::RenderOptions options;
+      options.width = golden.width;
+      options.height = golden.height;
+      options.hud = golden.hud;
+      options.gl = gl_;
+      known = std::make_unique<render::Renderer>(options);
+    }
+    return *known;
+  }
+
+  std::string gl_;
+  std::map<std::tuple<int, int, bool>, std::unique_ptr<render::Renderer>> renderers_;
+};
+
+/// Draws it and compares with the baseline.
+Verdict judge_drawing(Drawer& drawer, GoldenResult& result) {
+  const Golden& golden = result.golden;
+  Verdict verdict{golden.name, "drawing", Outcome::kFailed, {}};
+  result.actual = drawer.draw(golden);
+  result.renderer = drawer.description(golden);
+  if (!fs::exists(golden.picture_file())) {
+    verdict.text = "has no baseline: look at the picture, then run: " + golden.accept_command();
+    return verdict;
+  }
+  result.baseline = render::read_png(golden.picture_file());
   result.difference = render::compare(result.baseline, result.actual);
-  result.passed = result.difference.passes(result.golden.thresholds);
+  const bool passes = result.difference.passes(golden.thresholds);
+  if (passes) verdict.outcome = Outcome::kPassed;
   char text[200];
   std::snprintf(text, sizeof text, "%s: FLIP mean %.4f of %.4f, worst window %d of %d pixels",
-                result.passed ? "similar" : "different", result.difference.flip_mean,
-                result.golden.thresholds.flip_mean, result.difference.worst_window_pixels,
-                result.golden.thresholds.window_pixels);
-  result.verdict = result.difference.same_bytes ? "same bytes" : text;
-  return result;
+                passes ? "similar" : "differs", result.difference.flip_mean,
+                golden.thresholds.flip_mean, result.difference.worst_window_pixels,
+                golden.thresholds.window_pixels);
+  verdict.text = result.difference.same_bytes ? "same" : text;
+  return verdict;
 }
 
 std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
+  options.apply();
+  Drawer drawer(options.gl);
   std::vector<GoldenResult> results;
+  std::string failed;
   const auto names = options.names.empty() ? golden_names(options.folder) : options.names;
   for (const std::string& name : names) {
-    results.push_back(compare_with_baseline(options, name));
-    const GoldenResult& result = results.back();
-    options.say((result.passed ? "pass " : "FAIL ") + name + ": " + result.verdict + "\n");
-    if (!result.passed) {
+    GoldenResult& result = results.emplace_back();
+    result.golden = read_golden(options.folder, name);
+    result.verdicts.push_back(judge_drawing(drawer, result));
+    if (result.golden.is_simulated()) {
+      const std::string book = result.golden.hashes_file().string();
+      const auto verdicts =
+          bench::judge_frames(result.golden.run(), bench::read_hashes(book), book, options.full);
+      result.verdicts.insert(result.verdicts.end(), verdicts.begin(), verdicts.end());
+    }
+    options.say((result.passed() ? "pass " : "FAIL ") + name + ": " + result.sentence() + "\n");
+    if (!result.passed()) failed += " " + name;
+    if (!result.drawing_passed()) {
       fs::create_directories(options.out);
       const fs::path picture = fs::path(options.out) / (name + ".png");
       render::write_png(picture, result.actual);
       options.say("     what was drawn: " + picture.string() + "\n");
     }
   }
+  if (!failed.empty())
+    options.say("What is right now is accepted by: sunder golden accept" + failed + "\n");
+  if (!options.junit.empty()) {
+    std::vector<Verdict> verdicts;
+    for (const GoldenResult& result : results) {
+      verdicts.insert(verdicts.end(), result.verdicts.begin(), result.verdicts.end());
+    }
+    write_text(options.junit, bench::junit_xml("golden", verdicts));
+  }
+  options.write_json(format_results(results));
   return results;
 }
 
-int failures(const std::vector<GoldenResult>& results) {
-  int count = 0;
-  for (const GoldenResult& result : results) count += result.passed ? 0 : 1;
-  return count;
+int exit_code(const std::vector<GoldenResult>& results) {
+  return std::ranges::all_of(results, &GoldenResult::passed) ? 0 : 1;
+}
+
+/// The frame of that index of a scene.
+FramePtr simulated_frame(const GoldenOptions& options) {
+  Scene scene = scenes::load_scene(options.scene, options.load);
+  const int last = last_frame(scene, options.frame, "FRAME " + std::to_string(options.frame));
+  Progress progress("record " + scene.name, last, options.quiet);
+  const auto simulation = make_simulation(std::move(scene));
+  FramePtr frame;
+  for (int i = 0; i <= last; ++i) {
+    frame = simulation->next();
+    progress.take(frame);
+  }
+  progress.finish();
+  return frame;
 }
 
 }  // namespace
 
-int golden_test(const GoldenOptions& options) {
-  const std::vector<GoldenResult> results = compare_all(options);
-  options.write_json(format_results(results));
-  return failures(results) == 0 ? 0 : 1;
-}
+int golden_test(const GoldenOptions& options) { return exit_code(compare_all(options)); }
 
 int golden_report(const GoldenOptions& options) {
   const std::vector<GoldenResult> results = compare_all(options);
@@ -84,25 +151,45 @@ int golden_report(const GoldenOptions& options) {
   const fs::path page = fs::path(options.out) / "report.html";
   std::vector<render::GoldenPicture> pictures;
   for (const GoldenResult& r : results) {
-    pictures.push_back({r.golden.name, r.passed, r.verdict, r.baseline, r.actual, r.difference,
-                        r.golden.thresholds, r.golden.command,
-                        "sunder golden accept " + r.golden.name, r.renderer});
+    pictures.push_back({r.golden.name, r.passed(), r.sentence(), r.baseline, r.actual, r.difference,
+                        r.golden.thresholds, r.golden.command(), r.golden.accept_command(),
+                        r.renderer});
+    for (const Verdict& verdict : std::span(r.verdicts).subspan(1)) {
+      pictures.back().runs.push_back(
+          {{verdict.what}, {verdict.text, verdict.outcome == Outcome::kFailed}});
+    }
   }
   write_text(page.string(), render::golden_report(pictures));
   options.say("wrote " + page.string() + "\n");
-  options.write_json(format_results(results));
-  return failures(results) == 0 ? 0 : 1;
+  return exit_code(results);
 }
 
+/// Changes what differs, and nothing else.
 int golden_accept(const GoldenOptions& options) {
+  options.apply();
+  Drawer drawer(options.gl);
   for (const std::string& name : options.names) {
-    Golden golden = read_golden(options.folder, name);
-    const render::Image picture = draw(options, golden, golden.renderer);
-    golden.cpu = cpu_name();
-    golden.hash = pixel_hash(picture);
-    render::write_png(golden.picture_file(), picture);
-    write_golden(golden);
-    options.say("accepted " + name + ", " + golden.hash + "\n");
+    GoldenResult result;
+    result.golden = read_golden(options.folder, name);
+    Golden& golden = result.golden;
+    std::string said = "drawing as before";
+    if (judge_drawing(drawer, result).outcome != Outcome::kPassed) {
+      golden.renderer = result.renderer;
+      golden.cpu = cpu_name();
+      golden.hash = pixel_hash(result.actual);
+      render::write_png(golden.picture_file(), result.actual);
+      write_golden(golden);
+      said = "drawing " + golden.hash;
+    }
+    if (golden.is_simulated()) {
+      const std::string file = golden.hashes_file().string();
+      const bench::HashBook before = bench::read_hashes(file);
+      bench::HashBook book = before;
+      bench::accept_frames(golden.run(), book);
+      if (book != before) write_text(file, bench::format_hashes(book));
+      said += book == before ? ", simulation as before" : ", simulation anew";
+    }
+    options.say("accepted " + name + ": " + said + "\n");
   }
   return 0;
 }
@@ -110,27 +197,36 @@ int golden_accept(const GoldenOptions& options) {
 // Stores a frame of a scene as the subject of a golden; its picture still has to be accepted.
 int golden_record(const GoldenOptions& options) {
   options.apply();
-  const std::string& name = options.names.front();
-  Scene scene = scenes::load_scene(options.scene, options.load);
-  const int last = last_frame(scene, options.frame, "FRAME " + std::to_string(options.frame));
-  Progress progress("record " + scene.name, last, options.quiet);
-  const auto simulation = make_simulation(std::move(scene));
-  FramePtr frame;
-  while (FramePtr next = simulation->next()) {
-    frame = next;
-    progress.take(frame);
-    if (frame->index == static_cast<std::uint64_t>(last)) break;
-  }
   Golden golden;
   golden.folder = options.folder;
-  golden.name = name;
-  golden.command = "sunder golden record " + name + " " + options.scene + " " +
-                   std::to_string(last) + " && sunder golden accept " + name;
+  golden.name = options.names.front();
+  golden.scene = options.scene;
+  golden.load = options.load;
+  golden.hud = options.hud;
+  render::RenderOptions size;
+  parse_size(options.size, size);
+  golden.width = size.width;
+  golden.height = size.height;
+  if (fs::is_regular_file(options.scene)) {
+    golden.scene =
+        fs::proximate(fs::absolute(options.scene), fs::absolute(options.folder)).string();
+  }
   fs::create_directories(options.folder);
-  write_frame(golden.frame_file(), without_unused_meshes(*frame));
+  if (golden.is_simulated()) {
+    if (options.frame < 0)
+      throw InputError("golden record " + golden.name + " " + options.scene +
+                       ": which FRAME of it? Give its number");
+    golden.frame = options.frame;
+    write_frame(golden.frame_file(), without_unused_meshes(*simulated_frame(options)));
+  } else {
+    if (options.frame >= 0)
+      throw InputError("golden record " + golden.name + " " + options.scene +
+                       ": a stored frame is one frame; leave out FRAME");
+    Drawer(options.gl).draw(golden);  // throws if it cannot be
+  }
   write_golden(golden);
-  options.say("recorded " + golden.frame_file().string() +
-              "; look at it, then: sunder golden accept " + name + "\n");
+  options.say("recorded " + golden.file(".json").string() +
+              "; look at it, then: " + golden.accept_command() + "\n");
   return 0;
 }
 

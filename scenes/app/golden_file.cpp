@@ -1,9 +1,12 @@
 #include "scenes/app/golden_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <span>
+#include <string_view>
 
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
@@ -37,6 +40,18 @@ int whole(const Figures& figures, const std::string& place, const fs::path& file
   return static_cast<int>(number);
 }
 
+/// A word of a command as a shell takes it.
+std::string quoted(const std::string& word) {
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("_-./=,:").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
+
 }  // namespace
 
 std::vector<std::string> golden_names(const fs::path& folder) {
@@ -51,6 +66,31 @@ std::vector<std::string> golden_names(const fs::path& folder) {
   return names;
 }
 
+std::string Golden::scene_file() const {
+  const fs::path here = folder / scene;
+  return fs::is_regular_file(here) ? here.lexically_normal().string() : scene;
+}
+
+fs::path Golden::frame_file() const {
+  return is_simulated() ? file(".frame") : fs::path(scene_file());
+}
+
+std::string Golden::accept_command() const {
+  const bool is_usual = folder == GoldenOptions().folder;
+  return "sunder golden accept " + quoted(name) +
+         (is_usual ? "" : " --folder " + quoted(folder.string()));
+}
+
+std::string Golden::command() const {
+  std::string text = "sunder golden record " + quoted(name) + " " + quoted(scene_file());
+  if (is_simulated()) text += " " + std::to_string(frame) + " --preset " + load.preset;
+  for (const std::string& assignment : load.set) text += " --set " + quoted(assignment);
+  text += " --size " + std::to_string(width) + "x" + std::to_string(height);
+  if (hud) text += " --hud";
+  if (folder != GoldenOptions().folder) text += " --folder " + quoted(folder.string());
+  return text + " && " + accept_command();
+}
+
 Golden read_golden(const fs::path& folder, const std::string& name) {
   Golden golden;
   golden.folder = folder;
@@ -62,12 +102,18 @@ Golden read_golden(const fs::path& folder, const std::string& name) {
     throw InputError(name + ": no such golden; there are:" + known);
   }
   const Figures figures = parse_figures(scenes::read_text(file), file.string());
+  golden.scene = value<std::string>(figures, "/scene", file);
+  golden.load.preset = value<std::string>(figures, "/preset", file);
+  for (int i = 0; figures.contains("/set/" + std::to_string(i)); ++i) {
+    golden.load.set.push_back(value<std::string>(figures, "/set/" + std::to_string(i), file));
+  }
+  golden.frame = whole(figures, "/frame", file, 0, std::numeric_limits<int>::max());
   golden.width = whole(figures, "/width", file, 1, kMostPixels);
   golden.height = whole(figures, "/height", file, 1, kMostPixels);
+  golden.hud = value<bool>(figures, "/hud", file);
   golden.thresholds.flip_mean = value<double>(figures, "/thresholds/flip_mean", file);
   golden.thresholds.window_pixels =
       whole(figures, "/thresholds/window_pixels", file, 0, std::numeric_limits<int>::max());
-  golden.command = value<std::string>(figures, "/command", file);
   golden.hash = value<std::string>(figures, "/hash", file);
   golden.renderer = value<std::string>(figures, "/renderer", file);
   golden.cpu = value<std::string>(figures, "/cpu", file);
@@ -75,16 +121,42 @@ Golden read_golden(const fs::path& folder, const std::string& name) {
 }
 
 void write_golden(const Golden& golden) {
-  write_text(
-      golden.file(".json").string(),
-      format_figures({{"/width", std::int64_t{golden.width}},
-                      {"/height", std::int64_t{golden.height}},
-                      {"/thresholds/flip_mean", golden.thresholds.flip_mean},
-                      {"/thresholds/window_pixels", std::int64_t{golden.thresholds.window_pixels}},
-                      {"/command", golden.command},
-                      {"/hash", golden.hash},
-                      {"/renderer", golden.renderer},
-                      {"/cpu", golden.cpu}}));
+  Figures figures = {{"/scene", golden.scene},
+                     {"/preset", golden.load.preset},
+                     {"/frame", std::int64_t{golden.frame}},
+                     {"/width", std::int64_t{golden.width}},
+                     {"/height", std::int64_t{golden.height}},
+                     {"/hud", golden.hud},
+                     {"/thresholds/flip_mean", golden.thresholds.flip_mean},
+                     {"/thresholds/window_pixels", std::int64_t{golden.thresholds.window_pixels}},
+                     {"/hash", golden.hash},
+                     {"/renderer", golden.renderer},
+                     {"/cpu", golden.cpu}};
+  for (std::size_t i = 0; i < golden.load.set.size(); ++i) {
+    figures["/set/" + std::to_string(i)] = golden.load.set[i];
+  }
+  write_text(golden.file(".json").string(), format_figures(figures));
+}
+
+bool GoldenResult::drawing_passed() const {
+  return verdicts.front().outcome == bench::Outcome::kPassed;
+}
+
+bool GoldenResult::passed() const {
+  return std::ranges::all_of(verdicts, [](const bench::Verdict& verdict) {
+    return verdict.outcome == bench::Outcome::kPassed;
+  });
+}
+
+std::string GoldenResult::sentence() const {
+  std::string text = "drawing " + verdicts.front().text;
+  bool is_same = true;
+  for (const bench::Verdict& verdict : std::span(verdicts).subspan(1)) {
+    if (verdict.outcome == bench::Outcome::kPassed) continue;
+    text += "; " + verdict.what + " " + verdict.text;
+    is_same = false;
+  }
+  return text + (is_same && golden.is_simulated() ? "; simulation same" : "");
 }
 
 std::string format_results(const std::vector<GoldenResult>& results) {
@@ -93,12 +165,19 @@ std::string format_results(const std::vector<GoldenResult>& results) {
     const GoldenResult& result = results[i];
     const std::string at = "/goldens/" + std::to_string(i);
     figures[at + "/name"] = result.golden.name;
-    figures[at + "/passed"] = result.passed;
-    figures[at + "/verdict"] = result.verdict;
+    figures[at + "/passed"] = result.passed();
+    figures[at + "/verdict"] = result.sentence();
     figures[at + "/same_bytes"] = result.difference.same_bytes;
     figures[at + "/flip_mean"] = result.difference.flip_mean;
     figures[at + "/worst_window_pixels"] = std::int64_t{result.difference.worst_window_pixels};
     figures[at + "/renderer"] = result.renderer;
+    for (std::size_t j = 0; j < result.verdicts.size(); ++j) {
+      const bench::Verdict& verdict = result.verdicts[j];
+      const std::string of = at + "/verdicts/" + std::to_string(j);
+      figures[of + "/what"] = verdict.what;
+      figures[of + "/passed"] = verdict.outcome == bench::Outcome::kPassed;
+      figures[of + "/text"] = verdict.text;
+    }
   }
   return format_figures(figures);
 }

@@ -5,26 +5,42 @@
 #include <string>
 #include <vector>
 
+#include "bench/timing/frame_states.h"
+#include "bench/timing/verdict.h"
 #include "engine/model/frame.h"
 #include "render/image/compare.h"
+#include "render/sinks.h"
 
 namespace sunder::app {
 
-/// NAME.json: how the baseline was made and how far a picture may be from it.
+/// NAME.json: how frame and baseline were made, and how far a picture may be from it.
 struct Golden {
   std::filesystem::path folder;
   std::string name;
+  std::string scene;  ///< File (from the folder on) or name; or a stored frame, drawn differently.
+  scenes::LoadOptions load;
+  int frame = 0;  ///< Of the scene.
   int width = 640;
   int height = 360;
+  bool hud = false;
   render::Thresholds thresholds;
-  std::string command;   ///< That remakes it.
   std::string hash;      ///< Of the baseline's pixels.
   std::string renderer;  ///< That drew the baseline.
   std::string cpu;       ///< On which.
 
   std::filesystem::path file(const char* extension) const { return folder / (name + extension); }
-  std::filesystem::path frame_file() const { return file(".frame"); }
   std::filesystem::path picture_file() const { return file(".png"); }
+  std::filesystem::path hashes_file() const { return folder / "hashes.txt"; }
+  /// Whether it is of a scene, and not another picture of a frame that a golden has.
+  bool is_simulated() const { return !scene.ends_with(".frame"); }
+  /// The scene's file, if it lies where the golden says, or its name.
+  std::string scene_file() const;
+  std::filesystem::path frame_file() const;
+  /// What is simulated to be held against stored states.
+  bench::GuardedRun run() const { return {name, scene_file(), load, frame}; }
+  /// The commands that make it again, for a shell.
+  std::string command() const;
+  std::string accept_command() const;
 };
 
 /// Names of the goldens in a folder, sorted. Throws InputError if there are none.
@@ -39,8 +55,12 @@ struct GoldenResult {
   render::Image actual;
   render::Difference difference;
   std::string renderer;
-  std::string verdict;
-  bool passed = false;
+  std::vector<bench::Verdict> verdicts;  ///< The first is on the drawing, others on simulations.
+
+  bool drawing_passed() const;
+  bool passed() const;
+  /// Of drawing and simulation, which is the same and how the other differs.
+  std::string sentence() const;
 };
 /// As JSON.
 std::string format_results(const std::vector<GoldenResult>& results);

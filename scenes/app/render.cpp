@@ -11,6 +11,7 @@
 #include "engine/io/statistics.h"
 #include "engine/io/take/take.h"
 #include "render/sinks.h"
+#include "scenes/app/arguments.h"
 #include "scenes/app/run.h"
 
 namespace sunder::app {
@@ -41,16 +42,6 @@ Span parse_frames(const std::string& text) {
                      ": expected A:B, the first and the last frame, A <= B; or A:, :B, or A alone");
   }
   return span;
-}
-
-void parse_size(const std::string& text, render::RenderOptions& options) {
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 ||
-      options.width < 16 || options.height < 16 || options.width > 8192 || options.height > 8192 ||
-      options.width % 2 != 0 || options.height % 2 != 0) {
-    throw InputError("--size " + text +
-                     ": expected WIDTHxHEIGHT, even numbers from 16 to 8192 (video needs even)");
-  }
 }
 
 /// A source of the one frame that a file holds.

@@ -88,7 +88,7 @@ TEST(Junit, CountsWhatFailedAndWhatWasSkipped) {
   const Verdict verdicts[] = {{"house", "state", Outcome::kFailed, "a < b & \"c\""},
                               {"house", "stage solve", Outcome::kPassed, "1 ms"},
                               {"glass", "state", Outcome::kSkipped, "too short"}};
-  const std::string xml = junit_xml(verdicts);
+  const std::string xml = junit_xml("bench", verdicts);
   EXPECT_EQ(tests::markup_mistake(xml.substr(xml.find('\n'))), "");
   for (const char* part :
        {"tests=\"3\" failures=\"1\" skipped=\"1\"", "<testsuite name=\"house\" tests=\"2\"",
