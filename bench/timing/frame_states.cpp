@@ -13,8 +13,8 @@
 namespace sunder::bench {
 namespace {
 
-constexpr std::size_t kDigits = 4;  // of a frame
-constexpr int kFrames = 60, kFramesOfOthers = 10;
+constexpr std::size_t kDigits = 4;                        // of a frame
+constexpr int kAfterBreak = 50, kAfterBreakOfOthers = 8;  // frames
 
 std::vector<std::string> preset_names() {
   std::vector<std::string> names;
@@ -29,27 +29,27 @@ std::string digits_of(std::uint64_t hash) {
 }
 
 std::string place_of(const std::string& name, const std::string& preset) {
-  return "frames/" + name + "/" + preset + "/";
+  return "frames/" + name + "/" + preset;
 }
 
-/// The entry whose name begins so, and ends in a number; none if there is none.
-struct Entry {
-  int number = 0;
+/// A state that `sunder bench` knows: over so many frames of a scene.
+struct WholeState {
+  int frames = 0;
   std::string what, hash;
 };
-std::optional<Entry> find_entry(const HashBook& book, const std::string& place,
-                                const std::string& file) {
+std::optional<WholeState> find_whole(const HashBook& book, const std::string& scene,
+                                     const std::string& preset, const std::string& file) {
+  const std::string place = "state/" + scene + "/" + preset + "/";
   const auto found = book.lower_bound(place);
   if (found == book.end() || !found->first.starts_with(place)) return std::nullopt;
-  Entry entry{0, found->first, found->second};
-  const char* const end = entry.what.data() + entry.what.size();
-  const auto [stop, error] = std::from_chars(entry.what.data() + place.size(), end, entry.number);
-  constexpr int kMost = 100000;
-  if (error != std::errc() || stop != end || entry.number < 0 || entry.number > kMost) {
-    throw InputError(file + ": " + entry.what + ": after " + place + " stands a frame, from 0 to " +
-                     std::to_string(kMost));
+  const std::string& what = found->first;
+  const char* const end = what.data() + what.size();
+  WholeState state{0, what, found->second};
+  const auto [stop, error] = std::from_chars(what.data() + place.size(), end, state.frames);
+  if (error != std::errc() || stop != end || state.frames < 0) {
+    throw InputError(file + ": " + what + ": after " + place + " stands a number of frames");
   }
-  return entry;
+  return state;
 }
 
 std::unique_ptr<FrameSource> simulation_of(const GuardedRun& run, const std::string& preset,
@@ -71,52 +71,57 @@ StateHash states_until(const GuardedRun& run, const std::string& preset, int las
 }
 
 /// What the run comes to at a preset.
-FrameStates found_states(const GuardedRun& run, const std::string& preset) {
-  const int count = preset == run.load.preset ? kFrames : kFramesOfOthers;
-  int end = 0;
-  const auto simulation = simulation_of(run, preset, end);
+std::string found_digits(const GuardedRun& run, const std::string& preset) {
+  const int after = preset == run.load.preset ? kAfterBreak : kAfterBreakOfOthers;
+  int last = 0;
+  const auto simulation = simulation_of(run, preset, last);
   StateHash states;
-  int last = run.frame;
-  for (int i = 0; i <= std::min(last, end); ++i) {
+  int end = std::min(run.frame, last);
+  bool is_whole = true;
+  for (int i = 0; i <= end; ++i) {
     const FramePtr frame = simulation->next();
-    const bool is_first = last == run.frame && !frame->breaks.empty();
-    if (is_first) last = std::max(0, i - count / 6) + count - 1;
+    if (is_whole && !frame->breaks.empty()) {
+      is_whole = false;
+      end = std::min(i + after, last);
+    }
     states.take(frame);
   }
-  last = std::min(last, end);
-  return frame_states(preset, std::max(0, last - count + 1), last, states.per_frame());
+  return frame_digits(states.per_frame());
 }
 
-Verdict judge_frames(const std::string& name, const FrameStates& known,
-                     std::span<const std::uint64_t> run) {
-  Verdict verdict{name, "simulation " + known.preset, Outcome::kPassed, {}};
-  if (const std::optional<int> frame = first_difference(known, run)) {
+Verdict judge_digits(const GuardedRun& run, const std::string& preset, const std::string& known,
+                     std::span<const std::uint64_t> states) {
+  Verdict verdict{run.name, "simulation at " + preset, Outcome::kPassed, {}};
+  if (const std::optional<int> frame = first_difference(known, states)) {
     verdict.outcome = Outcome::kFailed;
-    verdict.text = "differs from frame " + std::to_string(*frame) + " on" +
-                   (*frame == known.first && *frame > 0 ? ", or from an earlier one" : "");
+    verdict.text = "differs from frame " + std::to_string(*frame) + " on";
   } else {
-    verdict.text = "frames " + std::to_string(known.first) + " to " + std::to_string(known.last()) +
-                   " are as stored";
+    verdict.text = std::to_string(known.size() / kDigits) + " frames are as stored";
   }
   return verdict;
 }
 
-}  // namespace
-
-int FrameStates::last() const { return first + static_cast<int>(digits.size() / kDigits) - 1; }
-
-FrameStates frame_states(const std::string& preset, int first, int last,
-                         std::span<const std::uint64_t> run) {
-  FrameStates states{preset, first, {}};
-  for (int i = first; i <= last; ++i) states.digits += digits_of(run[static_cast<std::size_t>(i)]);
-  return states;
+Verdict judge_whole(const GuardedRun& run, const std::string& preset, const WholeState& known,
+                    const StateHash& states) {
+  const std::string hash = states.hex(static_cast<std::size_t>(known.frames) + 1);
+  const bool same = hash == known.hash;
+  return {run.name, "whole simulation at " + preset, same ? Outcome::kPassed : Outcome::kFailed,
+          known.what + " is " + hash + (same ? ", as stored" : ", and " + known.hash + " stored")};
 }
 
-std::optional<int> first_difference(const FrameStates& known, std::span<const std::uint64_t> run) {
-  for (int i = known.first; i <= known.last(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const auto in_known = static_cast<std::size_t>(i - known.first) * kDigits;
-    if (at >= run.size() || digits_of(run[at]) != known.digits.substr(in_known, kDigits)) return i;
+}  // namespace
+
+std::string frame_digits(std::span<const std::uint64_t> run) {
+  std::string digits;
+  for (const std::uint64_t hash : run) digits += digits_of(hash);
+  return digits;
+}
+
+std::optional<int> first_difference(const std::string& known, std::span<const std::uint64_t> run) {
+  for (std::size_t i = 0; i * kDigits < known.size(); ++i) {
+    if (i >= run.size() || digits_of(run[i]) != known.substr(i * kDigits, kDigits)) {
+      return static_cast<int>(i);
+    }
   }
   return std::nullopt;
 }
@@ -124,39 +129,27 @@ std::optional<int> first_difference(const FrameStates& known, std::span<const st
 std::vector<Verdict> judge_frames(const GuardedRun& run, const HashBook& book,
                                   const std::string& file, bool whole) {
   std::vector<Verdict> verdicts;
+  const std::string scene = scenes::scene_file(run.scene).stem().string();
   for (const std::string& preset : preset_names()) {
-    const auto entry = find_entry(book, place_of(run.name, preset), file);
-    if (!entry) continue;
-    const FrameStates known{preset, entry->number, entry->hash};
-    std::optional<Entry> all;
-    if (whole && run.load.set.empty()) {
-      const std::string scene = scenes::scene_file(run.scene).stem().string();
-      all = find_entry(book, "state/" + scene + "/" + preset + "/", file);
-    }
-    const int last = std::max(known.last(), all ? all->number : 0);
-    const StateHash states = states_until(run, preset, last);
-    verdicts.push_back(judge_frames(run.name, known, states.per_frame()));
-    if (!all) continue;
-    const std::string hash = states.hex(static_cast<std::size_t>(all->number) + 1);
-    const bool same = hash == all->hash;
-    verdicts.push_back({run.name, "simulation " + preset + " whole",
-                        same ? Outcome::kPassed : Outcome::kFailed,
-                        same ? all->what + " is as stored"
-                             : all->what + " is " + hash + ", and " + all->hash + " stored"});
+    const auto known = book.find(place_of(run.name, preset));
+    if (known == book.end()) continue;
+    std::optional<WholeState> all;
+    if (whole && run.load.set.empty()) all = find_whole(book, scene, preset, file);
+    const int frames = static_cast<int>(known->second.size() / kDigits);
+    const StateHash states = states_until(run, preset, std::max(frames - 1, all ? all->frames : 0));
+    verdicts.push_back(judge_digits(run, preset, known->second, states.per_frame()));
+    if (all) verdicts.push_back(judge_whole(run, preset, *all, states));
   }
   if (verdicts.empty()) {
     verdicts.push_back({run.name, "simulation", Outcome::kFailed,
-                        "no states of it are stored: run: sunder golden accept " + run.name});
+                        "has no stored states: run: sunder golden accept " + run.name});
   }
   return verdicts;
 }
 
 void accept_frames(const GuardedRun& run, HashBook& book) {
   for (const std::string& preset : preset_names()) {
-    const FrameStates found = found_states(run, preset);
-    const std::string place = place_of(run.name, preset);
-    std::erase_if(book, [&](const auto& entry) { return entry.first.starts_with(place); });
-    book[place + std::to_string(found.first)] = found.digits;
+    book[place_of(run.name, preset)] = found_digits(run, preset);
   }
 }
 

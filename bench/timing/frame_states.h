@@ -1,6 +1,6 @@
 // Whether the frames of a run are those that they are known to be, and if not, from which on. The
-// book (hash_book.h) has them as frames/NAME/PRESET/FIRST: four digits of the state hash of every
-// frame from FIRST on. A run whose states differ once keeps differing, so few digits are enough.
+// book (hash_book.h) has them as frames/NAME/PRESET: four digits of the state hash of every frame,
+// from frame 0 on. A run that has gone another way stays on it, so few digits are enough.
 #pragma once
 
 #include <optional>
@@ -14,36 +14,27 @@
 
 namespace sunder::bench {
 
-/// Frames one after another, at a preset.
-struct FrameStates {
-  std::string preset;
-  int first = 0;
-  std::string digits;
-
-  int last() const;
-};
-/// Of a run, of which every frame's hash is given, from frame 0 on.
-FrameStates frame_states(const std::string& preset, int first, int last,
-                         std::span<const std::uint64_t> run);
-/// The first frame that is another in a run; none if all are the same.
-std::optional<int> first_difference(const FrameStates& known, std::span<const std::uint64_t> run);
+/// Of a run, of which every frame's hash is given.
+std::string frame_digits(std::span<const std::uint64_t> run);
+/// The first of the known frames that is another in the run; none if all are the same.
+std::optional<int> first_difference(const std::string& known, std::span<const std::uint64_t> run);
 
 /// A scene that is simulated to be held against its states.
 struct GuardedRun {
   std::string name;   ///< In the book.
   std::string scene;  ///< File or name.
   scenes::LoadOptions load;
-  int frame = 0;  ///< One that is of interest, where nothing breaks before it.
+  int frame = 0;  ///< Where it ends if nothing has broken.
 };
 
-/// One for every preset that the book has frames for: "simulation realtime" and so on; one that
+/// One for every preset that the book has frames for: "simulation at realtime" and so on; one that
 /// fails if it has none. `whole`: as well the states that `sunder bench` knows of the scene, if the
 /// run is of the scene as it is. `file` is what the book is called. Throws InputError.
 std::vector<Verdict> judge_frames(const GuardedRun& run, const HashBook& book,
                                   const std::string& file, bool whole);
 
-/// Puts into the book what the run comes to: 60 frames around the first break at its own preset,
-/// 10 at every other. Throws InputError.
+/// Puts into the book what the run comes to, until some time after its first break: 50 frames at
+/// its own preset, 8 at every other. Throws InputError.
 void accept_frames(const GuardedRun& run, HashBook& book);
 
 }  // namespace sunder::bench

@@ -3,7 +3,8 @@
 //
 // A line is WHAT HASH. WHAT is a path that says all that decides the hash:
 // state/SCENE/PRESET/FRAMES is the state hash over that many frames of a scene as it is given;
-// frames/GOLDEN/PRESET/FIRST is that of single frames, shortened (frame_states.h).
+// frames/GOLDEN/PRESET is that of every frame until after the first break, shortened
+// (frame_states.h).
 #pragma once
 
 #include <map>

@@ -1,0 +1,229 @@
+// Whether goldens see what goes wrong, and say rightly whether it is the drawing or the simulation.
+// Faults are planted in what a golden is made of: its stored frame, its baseline, and how its scene
+// is set up.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/io/frame_file.h"
+#include "render/image/image.h"
+#include "scenes/file/text_file.h"
+#include "scenes/load.h"
+#include "tests/scenes/program.h"
+
+namespace sunder::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using render::Image;
+const fs::path kGoldens = fs::path(SUNDER_ROOT) / "tests/golden";
+
+/// A copy of a golden under another name in a folder, to be spoilt.
+class Copy {
+ public:
+  Copy(const Folder& folder, const std::string& golden, const std::string& name)
+      : folder_(folder), name_(name) {
+    for (const char* extension : {".frame", ".png", ".json"}) {
+      fs::copy(kGoldens / (golden + extension), file(extension));
+    }
+    std::ifstream book(kGoldens / "hashes.txt");
+    std::ofstream copy(folder / "hashes.txt", std::ios::app);
+    const std::string of_golden = "frames/" + golden + "/";
+    for (std::string line; std::getline(book, line);) {
+      if (!line.starts_with(of_golden)) continue;
+      copy << "frames/" << name << "/" << line.substr(of_golden.size()) << "\n";
+    }
+  }
+
+  void change_frame(const std::function<void(Frame&)>& change) const {
+    Frame frame = *read_frame(file(".frame"));
+    change(frame);
+    write_frame(file(".frame"), frame);
+  }
+  void change_picture(const std::function<Image(const Image&)>& change) const {
+    render::write_png(file(".png"), change(render::read_png(file(".png"))));
+  }
+  /// As --set does.
+  void change_scene(const std::vector<std::string>& set) const {
+    edit([&](Json& recipe) { recipe["set"] = set; });
+  }
+  /// More at the end of the scene's file.
+  void add_to_scene(const std::string& text) const {
+    edit([&](Json& recipe) {
+      const fs::path scene = scenes::scene_file(recipe["scene"]);
+      std::ofstream(folder_ / (name_ + ".toml")) << scenes::read_text(scene) << text;
+      recipe["scene"] = name_ + ".toml";
+    });
+  }
+
+ private:
+  std::string file(const char* extension) const { return folder_ / (name_ + extension); }
+  void edit(const std::function<void(Json&)>& change) const {
+    Json recipe = Json::parse(scenes::read_text(file(".json")));
+    change(recipe);
+    std::ofstream(file(".json")) << recipe;
+  }
+
+  const Folder& folder_;
+  std::string name_;
+};
+
+/// By golden: its verdicts by what they are about, the texts of those that failed.
+std::map<std::string, std::map<std::string, std::string>> failures_in(const Folder& folder) {
+  const Outcome outcome = sunder("golden test --json - --folder " + folder.path().string() +
+                                 " --out " + folder / "out");
+  EXPECT_LE(outcome.exit_code, 1) << outcome.err;
+  std::map<std::string, std::map<std::string, std::string>> failures;
+  const Json results = Json::parse(outcome.out);
+  for (const Json& golden : results["goldens"]) {
+    auto& of_golden = failures[golden["name"]];
+    for (const Json& verdict : golden["verdicts"]) {
+      if (!verdict["passed"]) of_golden[verdict["what"]] = verdict["text"];
+    }
+  }
+  return failures;
+}
+
+/// A piece whose bounds are wrong, and nothing of which is seen: the shadow map that has to hold it
+/// has no texel left for the others.
+void lose_shadows(Frame& frame) {
+  Mesh mesh = *(*frame.meshes)[frame.instances.front().mesh.value];
+  mesh.vertices.resize(3);
+  for (Mesh::Vertex& v : mesh.vertices) v.position = Vec3f(1e5f, 0, 0);
+  mesh.vertices.front().position = Vec3f(-1e5f, 0, 0);
+  mesh.indices = {0, 1, 2};
+  MeshStore meshes = *frame.meshes;
+  meshes.push_back(std::make_shared<const Mesh>(mesh));
+  frame.instances.push_back({MeshIndex(meshes.size() - 1), frame.instances.front().body});
+  frame.meshes = std::make_shared<const MeshStore>(std::move(meshes));
+}
+
+void swap_materials(Frame& frame) {
+  std::vector<Material> materials = *frame.materials;
+  std::vector<std::size_t> used;
+  for (const Instance& instance : frame.instances) {
+    used.push_back((*frame.meshes)[instance.mesh.value]->material.value);
+  }
+  const auto other = std::ranges::find_if(used, [&](std::size_t m) { return m != used.front(); });
+  std::swap(materials[used.front()], materials[other == used.end() ? 0 : *other]);
+  frame.materials = std::make_shared<const std::vector<Material>>(std::move(materials));
+}
+
+/// Of those that come off, the one that looks largest, but not the largest of all: that is a wall.
+void lose_piece(Frame& frame) {
+  const auto looks = [&](const Instance& instance) {
+    const FrameBody& body = frame.bodies[instance.body];
+    if (body.is_static) return 0.0;
+    const Mesh& mesh = *(*frame.meshes)[instance.mesh.value];
+    double radius = 0;
+    for (const Mesh::Vertex& v : mesh.vertices) {
+      radius =
+          std::max(radius, static_cast<double>((v.position - mesh.vertices[0].position).norm()));
+    }
+    const Vec3 at_W = body.X_WB * (mesh.X_RT * mesh.origin_T - body.com_R);
+    return radius / (at_W - frame.view.eye_W).norm();
+  };
+  const auto gone = std::ranges::max_element(frame.instances, {}, looks);
+  frame.instances.erase(gone);
+}
+
+Image shifted(const Image& image) {
+  Image moved = image;
+  std::copy(image.rgb.begin(), image.rgb.end() - 3, moved.rgb.begin() + 3);
+  return moved;
+}
+
+Image brighter(const Image& image) {
+  Image bright = image;
+  for (std::uint8_t& level : bright.rgb) {
+    level = static_cast<std::uint8_t>(std::min(255.0, std::round(1.02 * level)));
+  }
+  return bright;
+}
+
+/// Every material of the library, one percent heavier.
+std::string heavier_materials() {
+  std::string text;
+  for (const Material& material : scenes::builtin_materials()) {
+    text += "\n[[material]]\nname = \"" + material.name +
+            "\"\ndensity_kg_m3 = " + std::to_string(1.01 * material.density_kg_m3) + "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> of_shots(const std::string& golden, const std::string& assignment) {
+  std::vector<std::string> set;
+  const Json recipe = Json::parse(scenes::read_text(kGoldens / (golden + ".json")));
+  const std::string text = scenes::read_text(scenes::scene_file(recipe["scene"]));
+  for (std::size_t at = 0; (at = text.find("[[script.shot]]", at)) != std::string::npos; ++at) {
+    set.push_back("script.shot." + std::to_string(set.size()) + "." + assignment);
+  }
+  return set;
+}
+
+TEST(GoldenFaults, EveryFaultInTheDrawingIsCaughtAndNamedAsThat) {
+  const Folder folder;
+  const std::string golden = "column_row";
+  const Copy none(folder, golden, "none");
+  Copy(folder, golden, "no_shadow").change_frame(lose_shadows);
+  Copy(folder, golden, "no_dust").change_frame([](Frame& frame) { frame.dust.clear(); });
+  Copy(folder, golden, "no_debris").change_frame([](Frame& frame) { frame.debris.clear(); });
+  Copy(folder, golden, "other_material").change_frame(swap_materials);
+  Copy(folder, golden, "no_piece").change_frame(lose_piece);
+  Copy(folder, golden, "shifted").change_picture(shifted);
+  Copy(folder, golden, "brighter").change_picture(brighter);
+  const auto failures = failures_in(folder);
+  EXPECT_EQ(failures.size(), 8u);
+  for (const auto& [fault, failed] : failures) {
+    EXPECT_EQ(failed.contains("drawing"), fault != "none") << fault;
+    EXPECT_LE(failed.size(), 1u) << fault << " is taken for a fault of the simulation";
+  }
+}
+
+TEST(GoldenFaults, EveryFaultInTheSimulationIsCaughtAndNamedAsThat) {
+  const Folder folder;
+  const std::string golden = "column_row";
+  const double next_to_z = std::nextafter(8.0, 9.0);
+  std::ostringstream one_bit_off;
+  one_bit_off.precision(17);
+  one_bit_off << "from=[-3.4,1.6," << next_to_z << "]";
+  Copy(folder, golden, "gravity").change_scene({"scene.gravity=[0,-9.9081,0]"});
+  Copy(folder, golden, "density").add_to_scene(heavier_materials());
+  Copy(folder, golden, "slow_shots").change_scene(of_shots(golden, "speed_m_s=1"));
+  Copy(folder, golden, "one_bit").change_scene({"script.shot.0." + one_bit_off.str()});
+  const auto failures = failures_in(folder);
+  EXPECT_EQ(failures.size(), 4u);
+  const int first_shot = 18;  // of 60 a second, at 0.3 s
+  for (const auto& [fault, failed] : failures) {
+    EXPECT_FALSE(failed.contains("drawing")) << fault;
+    const bool from_shot = fault == "slow_shots" || fault == "one_bit";
+    const std::string differs =
+        "differs from frame " + std::to_string(from_shot ? first_shot : 1) + " on";
+    for (const char* preset : {"draft", "realtime", "accurate", "reference"}) {
+      const auto at = failed.find(std::string("simulation at ") + preset);
+      ASSERT_NE(at, failed.end()) << fault;
+      EXPECT_EQ(at->second, differs) << fault << " at " << preset;
+    }
+  }
+}
+
+TEST(GoldenFaults, OfTwoFaultsBothAreNamed) {
+  const Folder folder;
+  const Copy both(folder, "glass", "both");
+  both.change_picture(brighter);
+  both.change_scene(of_shots("glass", "speed_m_s=1"));
+  const auto failures = failures_in(folder);
+  EXPECT_EQ(failures.at("both").size(), 5u) << "the drawing, and the simulation at each preset";
+}
+
+}  // namespace
+}  // namespace sunder::tests
