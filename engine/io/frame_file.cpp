@@ -1,5 +1,6 @@
-// Layout: "SUNDERF3" (or 2: without poses of meshes; or 1: without debris and dust, either), XXH3
-// of the rest (8 bytes), size of the content (8 bytes), content in zstd.
+// Layout: "SUNDERF4" (or 3: nothing is known to be asleep; or 2: without poses of meshes, either;
+// or 1: without debris and dust, either), XXH3 of the rest (8 bytes), size of the content (8
+// bytes), content in zstd.
 #include "engine/io/frame_file.h"
 
 #include <cstring>
@@ -14,7 +15,7 @@
 namespace sunder {
 namespace {
 
-constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '3'};
+constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '4'};
 constexpr std::size_t kName = sizeof kMagic - 1;  // what precedes the version
 constexpr std::size_t kHeader = sizeof kMagic + 8;
 constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refused
@@ -22,13 +23,15 @@ constexpr int kLevel = 19;                      // written once, kept for years
 
 void put(ByteWriter& out, const FrameBody& body) {
   out.put(body.key, body.X_WB.position, body.X_WB.rotation.coeffs(), body.com_R,
-          static_cast<std::uint8_t>(body.is_static));
+          static_cast<std::uint8_t>((body.is_static ? 1 : 0) | (body.asleep ? 2 : 0)));
 }
 
 FrameBody take_body(ByteReader& in) {
   FrameBody body;
   in.take_to(body.key, body.X_WB.position, body.X_WB.rotation.coeffs(), body.com_R);
-  body.is_static = in.take<std::uint8_t>() != 0;
+  const auto flags = in.take<std::uint8_t>();
+  body.is_static = (flags & 1) != 0;
+  body.asleep = (flags & 2) != 0;
   return body;
 }
 

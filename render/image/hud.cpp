@@ -31,10 +31,11 @@ void fill(Image& image, int left, int top, int right, int bottom, std::uint8_t l
 }  // namespace
 
 std::string hud_text(const Frame& frame) {
+  const auto moves = [](const FrameBody& body) { return !body.is_static && !body.asleep; };
   std::array<char, 200> text;
-  std::snprintf(text.data(), text.size(), "frame %05llu   t %.3f s\npieces %zu   moving %u",
+  std::snprintf(text.data(), text.size(), "frame %05llu   t %.3f s\npieces %zu   moving %td",
                 static_cast<unsigned long long>(frame.index), frame.time_s, frame.instances.size(),
-                frame.report.counts.awake);
+                std::ranges::count_if(frame.bodies, moves));
   return text.data();
 }
 

@@ -265,14 +265,14 @@ Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const ch
 }
 
 void add_golden(CLI::App& program, Command& chosen) {
-  CLI::App* golden = program.add_subcommand("golden", "Guards drawing and simulation against change");
+  CLI::App* golden =
+      program.add_subcommand("golden", "Guards drawing and simulation against change");
   golden->require_subcommand(1);
   const auto add = [&](const char* name, const char* help, int (*work)(const GoldenOptions&)) {
     return add_golden(*golden, chosen, name, help, work);
   };
   for (auto& command :
-       {add("test",
-            "Draw the stored frames and simulate their scenes: both must be as they were",
+       {add("test", "Draw the stored frames and simulate their scenes: both must be as they were",
             golden_test),
         add("report", "As test, and write report.html with all pictures", golden_report)}) {
     command.app->add_option("NAME", command.options->names, "Goldens; all by default");
@@ -283,7 +283,8 @@ void add_golden(CLI::App& program, Command& chosen) {
     command.app->add_option("--out", command.options->out, "Where new files go")
         ->capture_default_str();
   }
-  const auto accept = add("accept", "Make what is drawn and simulated now what is right", golden_accept);
+  const auto accept =
+      add("accept", "Make what is drawn and simulated now what is right", golden_accept);
   accept.app->add_option("NAME", accept.options->names, "Goldens")->required();
   auto record = add("record", "Store a frame of a scene as a golden's subject", golden_record);
   record.app

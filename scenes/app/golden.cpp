@@ -4,6 +4,7 @@
 //
 // Read first: golden_test(). `accept` is the one way to change what is held to be right.
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -126,6 +127,13 @@ int exit_code(const std::vector<GoldenResult>& results) {
   return std::ranges::all_of(results, &GoldenResult::passed) ? 0 : 1;
 }
 
+/// A name is part of files' names, and of one in the book.
+void check_name(const std::string& name) {
+  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  if (!name.empty() && std::ranges::all_of(name, fits)) return;
+  throw InputError("golden record \"" + name + "\": a name is of letters, digits, _ and -");
+}
+
 /// The frame of that index of a scene.
 FramePtr simulated_frame(const GoldenOptions& options) {
   Scene scene = scenes::load_scene(options.scene, options.load);
@@ -173,7 +181,7 @@ int golden_accept(const GoldenOptions& options) {
     result.golden = read_golden(options.folder, name);
     Golden& golden = result.golden;
     std::string said = "drawing as before";
-    if (judge_drawing(drawer, result).outcome != Outcome::kPassed) {
+    if (judge_drawing(drawer, result).outcome != Outcome::kPassed || golden.hash.empty()) {
       golden.renderer = result.renderer;
       golden.cpu = cpu_name();
       golden.hash = pixel_hash(result.actual);
@@ -197,6 +205,7 @@ int golden_accept(const GoldenOptions& options) {
 // Stores a frame of a scene as the subject of a golden; its picture still has to be accepted.
 int golden_record(const GoldenOptions& options) {
   options.apply();
+  check_name(options.names.front());
   Golden golden;
   golden.folder = options.folder;
   golden.name = options.names.front();

@@ -45,6 +45,7 @@ Frame sample_frame() {
   body.key = 42;
   body.X_WB = {Vec3(0.1, 0.2, 1e4), Quat(0.5, 0.5, 0.5, 0.5)};
   body.com_R = Vec3(1, 1, 1);
+  body.asleep = true;
   frame.bodies = {body};
   frame.instances = {{MeshIndex(1), 0}};
   frame.debris = {
@@ -71,6 +72,8 @@ TEST(FrameFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(mesh.vertices.back().position, drawn.vertices.back().position);
   EXPECT_EQ(mesh.material, MaterialIndex(1));
   EXPECT_EQ(read->bodies[0].X_WB.position, frame.bodies[0].X_WB.position);
+  EXPECT_TRUE(read->bodies[0].asleep);
+  EXPECT_FALSE(read->bodies[0].is_static);
   EXPECT_EQ(read->instances[0].mesh, MeshIndex(0));
   ASSERT_EQ(read->debris.size(), 1u);
   EXPECT_LT((read->debris[0].position_W - frame.debris[0].position_W).norm(), 0.008f);

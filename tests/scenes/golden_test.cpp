@@ -1,36 +1,118 @@
-// Golden images: what the stored frames give today, and whether the comparison can tell at all.
+// Goldens: what the stored frames and their scenes give today, and whether the comparison can tell
+// at all.
+#include <algorithm>
 #include <fstream>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include "engine/io/frame_file.h"
 #include "render/image/compare.h"
+#include "scenes/file/text_file.h"
+#include "tests/engine/markup.h"
 #include "tests/scenes/program.h"
 
 namespace sunder::tests {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kGoldens[] = {"brick_wall", "glass", "house"};
+using Json = nlohmann::json;
+const fs::path kGoldens = fs::path(SUNDER_ROOT) / "tests/golden";
 
-fs::path baseline(const std::string& name) {
-  return fs::path(SUNDER_ROOT) / "tests/golden" / (name + ".png");
+/// What there is of that extension.
+std::vector<fs::path> goldens(const std::string& extension) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(kGoldens)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
 }
 
-TEST(Golden, StoredFramesLookAsTheyDid) {
+/// A copy of a golden, whole.
+void copy_golden(const std::string& name, const Folder& folder) {
+  for (const char* extension : {".frame", ".png", ".json"}) {
+    fs::copy(kGoldens / (name + extension), folder.path());
+  }
+  fs::copy(kGoldens / "hashes.txt", folder.path());
+}
+
+// Half a minute on two processors: it is what guards the whole.
+TEST(Golden, DrawingAndSimulationAreAsTheyWere) {
   const Folder folder;
   const Outcome outcome = sunder("golden test --out " + folder / "out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
 }
 
 TEST(Golden, EveryPairOfDifferentBaselinesIsToldApart) {
-  for (const std::string a : kGoldens) {
-    for (const std::string b : kGoldens) {
-      const bool same =
-          render::compare(render::read_png(baseline(a)), render::read_png(baseline(b)))
-              .passes(render::Thresholds());
-      EXPECT_EQ(same, a == b) << a << " against " << b;
+  std::vector<render::Image> pictures;
+  const std::vector<fs::path> files = goldens(".png");
+  for (const fs::path& file : files) pictures.push_back(render::read_png(file));
+  EXPECT_GE(pictures.size(), 20u);
+  for (std::size_t a = 0; a < files.size(); ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      const bool same = render::compare(pictures[a], pictures[b]).passes(render::Thresholds());
+      EXPECT_EQ(same, a == b) << files[a] << " against " << files[b];
     }
+  }
+}
+
+TEST(Golden, EveryTextureAndEveryPassIsInOne) {
+  std::set<Texture> textures;
+  std::size_t debris = 0, dust = 0;
+  for (const fs::path& file : goldens(".frame")) {
+    const FramePtr frame = read_frame(file);
+    for (const auto& mesh : *frame->meshes) {
+      const Material& material = (*frame->materials)[mesh->material.value];
+      textures.insert({material.surface.texture, material.interior.texture});
+    }
+    debris += frame->debris.size();
+    dust += frame->dust.size();
+  }
+  for (const Texture texture : {Texture::kBrick, Texture::kConcrete, Texture::kPlaster,
+                                Texture::kWood, Texture::kGlass, Texture::kMetal}) {
+    EXPECT_TRUE(textures.contains(texture)) << static_cast<int>(texture);
+  }
+  EXPECT_GT(debris, 1000u);
+  EXPECT_GT(dust, 100u);
+  const bool has_hud = std::ranges::any_of(goldens(".json"), [](const fs::path& file) {
+    return Json::parse(scenes::read_text(file))["hud"].get<bool>();
+  });
+  EXPECT_TRUE(has_hud);
+}
+
+TEST(Golden, TheCommandsThatAreSaidMakeTheSameGoldenAgain) {
+  const Folder first, second;
+  const std::string record =
+      "golden record box stack 3 --preset draft --set limits.dust=7 "
+      "--set scene.gravity=[0,-5,0] --size 64x48 --hud --folder ";
+  ASSERT_EQ(sunder(record + first.path().string()).exit_code, 0);
+  ASSERT_EQ(sunder("golden record above " + first / "box.frame" +
+                   " --set view.eye=[1,20,1] --size 64x48 --folder " + first.path().string())
+                .exit_code,
+            0);
+  ASSERT_EQ(sunder("golden accept box above --folder " + first.path().string()).exit_code, 0);
+  const Outcome outcome = sunder("golden test --json - --folder " + first.path().string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json results = Json::parse(outcome.out);
+  fs::copy(first.path(), second.path());
+  for (const Json& golden : results["goldens"]) {
+    const std::string commands = golden["remade_by"];
+    for (const char* extension : {".json", ".png", ".frame"}) {
+      fs::remove(first / (golden["name"].get<std::string>() + extension));
+    }
+    const std::size_t both = commands.find(" && sunder ");
+    ASSERT_EQ(commands.find("sunder "), 0u);
+    ASSERT_NE(both, std::string::npos) << commands;
+    EXPECT_EQ(sunder(commands.substr(7, both - 7)).exit_code, 0) << commands;
+    EXPECT_EQ(sunder(commands.substr(both + 11)).exit_code, 0) << commands;
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(second.path())) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(scenes::read_text(first / name), scenes::read_text(entry.path())) << name;
   }
 }
 
@@ -51,28 +133,72 @@ TEST(Golden, AMissingBaselineFailsUntilItIsAccepted) {
   EXPECT_TRUE(fs::exists(folder / "out/report.html"));
 }
 
-TEST(Golden, AWrongPictureFails) {
+TEST(Golden, AWrongPictureFailsAndTheSimulationDoesNot) {
   const Folder folder;
-  const fs::path goldens = fs::path(SUNDER_ROOT) / "tests/golden";
-  fs::copy(goldens / "glass.json", folder.path());
-  fs::copy(goldens / "glass.frame", folder.path());
-  fs::copy(goldens / "house.png", fs::path(folder / "glass.png"));
-  const Outcome outcome =
-      sunder("golden test --folder " + folder.path().string() + " --out " + folder / "out");
+  copy_golden("glass", folder);
+  fs::copy(kGoldens / "house.png", folder / "glass.png", fs::copy_options::overwrite_existing);
+  const Outcome outcome = sunder("golden report --folder " + folder.path().string() + " --out " +
+                                 folder / "out" + " --junit " + folder / "junit.xml");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.out.find("different"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("FAIL glass: drawing differs: "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("; simulation same\n"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(fs::exists(folder / "out/glass.png"));
+  const std::string page = scenes::read_text(folder / "out/report.html");
+  EXPECT_EQ(markup_mistake(page), "");
+  EXPECT_NE(page.find("simulation at reference"), std::string::npos);
+  const std::string xml = scenes::read_text(folder / "junit.xml");
+  EXPECT_NE(xml.find("tests=\"5\" failures=\"1\""), std::string::npos) << xml;
+}
+
+TEST(Golden, AcceptingTheSimulationLeavesTheDrawingAndTheRestOfTheBook) {
+  const Folder folder;
+  copy_golden("stack", folder);
+  const std::string book = folder / "hashes.txt";
+  const std::string right = scenes::read_text(book);
+  std::string wrong = right;
+  const std::size_t line = wrong.find("frames/stack/draft");
+  char& digit = wrong[wrong.find('\n', line) - 1];
+  digit = digit == '0' ? '1' : '0';
+  std::ofstream(book) << wrong;
+  const std::string recipe = scenes::read_text(folder / "stack.json");
+  const std::string at = " --folder " + folder.path().string();
+  const Outcome failed = sunder("golden test" + at);
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_NE(failed.out.find("drawing same; simulation at draft differs from frame 60 on"),
+            std::string::npos)
+      << failed.out;
+  EXPECT_EQ(sunder("golden accept stack" + at).exit_code, 0);
+  EXPECT_EQ(scenes::read_text(book), right);
+  EXPECT_EQ(scenes::read_text(folder / "stack.json"), recipe);
 }
 
 TEST(Golden, AFileThatAsksForAPictureOfNoSizeOrHasNoEndIsRefused) {
   const Folder folder;
-  const fs::path goldens = fs::path(SUNDER_ROOT) / "tests/golden";
-  fs::copy(goldens / "glass.frame", folder.path());
+  copy_golden("glass", folder);
+  Json recipe = Json::parse(scenes::read_text(folder / "glass.json"));
   const std::string lists(1 << 20, '[');
-  for (const std::string& text : {std::string(R"({"width": -5, "height": 360})"),
-                                  std::string(R"({"width": 2000000000, "height": 360})"), lists}) {
+  recipe["width"] = -5;
+  const std::string negative = recipe.dump();
+  recipe["width"] = 2000000000;
+  for (const std::string& text : {negative, recipe.dump(), lists}) {
     std::ofstream(folder / "glass.json") << text;
-    EXPECT_EQ(sunder("golden test --folder " + folder.path().string()).exit_code, 2)
-        << text.substr(0, 40);
+    const Outcome outcome = sunder("golden test --folder " + folder.path().string());
+    EXPECT_EQ(outcome.exit_code, 2) << text.substr(0, 40);
+    EXPECT_EQ(outcome.err.find("/width") != std::string::npos, text != lists) << outcome.err;
+  }
+}
+
+TEST(Golden, ARecordingIsOfAFrameOfASceneOrOfAStoredFrame) {
+  const Folder folder;
+  copy_golden("stack", folder);
+  const std::string at = " --folder " + folder.path().string();
+  for (const std::string& wrong : std::vector<std::string>{
+           "x stack", "x " + folder / "stack.frame" + " 3", "x stack 3 --size 5", "x stack 100000",
+           "x nowhere.frame", "'x y' stack 3", "../x stack 3",
+           "x " + folder / "stack.frame" + " --set scene.gravity=[0,0,0]"}) {
+    const Outcome outcome = sunder("golden record " + wrong + at);
+    EXPECT_EQ(outcome.exit_code, 2) << wrong;
+    EXPECT_FALSE(fs::exists(folder / "x.json")) << wrong;
   }
 }
 

@@ -1,0 +1,87 @@
+// States of single frames, and what is held against them.
+#include "bench/timing/frame_states.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+
+namespace sunder::bench {
+namespace {
+
+const std::vector<std::uint64_t> kRun = {0x1111222233334444, 0x5555666677778888,
+                                         0x99990000aaaabbbb};
+
+/// Ten boxes at rest: nothing breaks.
+const GuardedRun kStack = {"boxes", "stack", {}, 3};
+
+TEST(FrameStates, TheFirstFrameThatIsAnotherIsNamed) {
+  const std::string known = frame_digits(kRun);
+  EXPECT_EQ(known, "111155559999");
+  EXPECT_EQ(first_difference(known, kRun), std::nullopt);
+  for (std::size_t frame = 0; frame < kRun.size(); ++frame) {
+    std::vector<std::uint64_t> other = kRun;
+    for (std::size_t i = frame; i < other.size(); ++i) other[i] ^= std::uint64_t{1} << 48;
+    EXPECT_EQ(first_difference(known, other), static_cast<int>(frame));
+  }
+}
+
+TEST(FrameStates, ARunThatEndsBeforeDiffersAndOneThatGoesOnDoesNot) {
+  const std::string known = frame_digits(kRun);
+  EXPECT_EQ(first_difference(known, std::span(kRun).first(2)), 2);
+  std::vector<std::uint64_t> longer = kRun;
+  longer.push_back(7);
+  EXPECT_EQ(first_difference(known, longer), std::nullopt);
+}
+
+TEST(FrameStates, WhatIsAcceptedPassesAtEveryPreset) {
+  HashBook book;
+  accept_frames(kStack, book);
+  EXPECT_EQ(book.size(), 4u);
+  EXPECT_EQ(book.at("frames/boxes/draft").size(), 16u) << "frames 0 to 3";
+  EXPECT_EQ(parse_hashes(format_hashes(book), "hashes.txt"), book);
+  for (const Verdict& verdict : judge_frames(kStack, book, "hashes.txt", false)) {
+    EXPECT_EQ(verdict.outcome, Outcome::kPassed) << verdict.what << " " << verdict.text;
+  }
+}
+
+TEST(FrameStates, ADigitThatDiffersFailsAtItsPresetAlone) {
+  HashBook book;
+  accept_frames(kStack, book);
+  char& digit = book.at("frames/boxes/draft")[9];
+  digit = digit == '0' ? '1' : '0';
+  for (const Verdict& verdict : judge_frames(kStack, book, "hashes.txt", false)) {
+    const bool spoilt = verdict.what == "simulation at draft";
+    EXPECT_EQ(verdict.outcome, spoilt ? Outcome::kFailed : Outcome::kPassed) << verdict.what;
+    if (!spoilt) continue;
+    EXPECT_EQ(verdict.text, "differs from frame 2 on");
+  }
+}
+
+TEST(FrameStates, ARunWithoutStatesFails) {
+  const std::vector<Verdict> verdicts = judge_frames(kStack, {}, "hashes.txt", false);
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_EQ(verdicts.front().outcome, Outcome::kFailed);
+}
+
+TEST(FrameStates, WholeRunsAreHeldAgainstWhatBenchKnows) {
+  HashBook book;
+  accept_frames(kStack, book);
+  book["state/stack/draft/5"] = "0123456789abcdef";
+  const auto failed = [&](const GuardedRun& run, bool whole) {
+    const std::vector<Verdict> verdicts = judge_frames(run, book, "hashes.txt", whole);
+    return std::ranges::count(verdicts, Outcome::kFailed, &Verdict::outcome);
+  };
+  EXPECT_EQ(failed(kStack, false), 0);
+  EXPECT_EQ(failed(kStack, true), 1);
+  GuardedRun changed = kStack;
+  changed.load.set = {"limits.dust=1"};
+  EXPECT_EQ(failed(changed, true), 0) << "bench knows the scene as it is";
+  book["state/stack/draft/five"] = "0123456789abcdef";
+  book.erase("state/stack/draft/5");
+  EXPECT_THROW(judge_frames(kStack, book, "hashes.txt", true), InputError);
+}
+
+}  // namespace
+}  // namespace sunder::bench
