@@ -17,6 +17,7 @@
 #include "render/passes/tiles.h"
 #include "render/passes/viewpoint.h"
 #include "render/shaders/shader_sources.h"
+#include "render/view_mode.h"
 
 namespace sunder::render {
 namespace {
@@ -111,6 +112,7 @@ struct Renderer::Impl {
   void done(const char* pass);
 
   RenderOptions options;
+  ViewMode view_mode;
   std::unique_ptr<GlContext> context;
   const GlTable& gl;
   Programs programs;
@@ -136,6 +138,7 @@ struct Renderer::Impl {
 
 Renderer::Impl::Impl(const RenderOptions& wanted)
     : options(wanted),
+      view_mode(wanted.view_mode),
       context(make_context(wanted.gl)),
       gl(context->gl()),
       programs(make_programs(gl)),
@@ -226,9 +229,11 @@ void Renderer::Impl::draw_shadows() {
 void Renderer::Impl::draw_pieces() {
   begin(light, programs.matte);
   gl.Clear(GL_DEPTH_BUFFER_BIT);  // every pixel's colour is written by a piece, ground or sky
+  gl.PolygonMode(GL_FRONT_AND_BACK, view_mode.edges() ? GL_LINE : GL_FILL);
   pieces.draw(Pieces::Group::kMatte);
   begin(light, programs.shiny);
   pieces.draw(Pieces::Group::kShiny);
+  gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   chips.draw();
 }
 
@@ -305,7 +310,7 @@ Image Renderer::draw(const Frame& frame) {
   r.watch.lap_ms();
   r.cpu_start = std::clock();
 
-  r.upload(frame);
+  r.upload(r.view_mode.shown(frame));
   r.done("upload");
   r.draw_shadows();
   r.draw_pieces();

@@ -12,7 +12,9 @@ namespace sunder::render {
 struct RenderOptions {
   int width = 1280;
   int height = 720;
-  std::string gl = "auto";   ///< auto | egl-device:N | egl-surfaceless | osmesa
+  std::string gl = "auto";  ///< auto | egl-device:N | egl-surfaceless | osmesa
+  /// materials | convexes | compounds | asleep | wireframe | exploded
+  std::string view_mode = "materials";
   bool hud = false;          ///< Frame number, time and counts in the corner.
   bool time_passes = false;  ///< Waits for the GPU after each pass, to fill pass_times().
 };

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "render/view_mode.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
 
@@ -74,6 +75,14 @@ void add_simulate(CLI::App& program, Command& chosen) {
   command.add_changes();
 }
 
+/// What is seen of a frame.
+void add_looks(CLI::App* app, render::RenderOptions& options) {
+  app->add_flag("--hud", options.hud, "Frame number, time and counts in the corner");
+  app->add_option("--view-mode", options.view_mode,
+                  std::string("How pieces are shown: ") + render::kViewModes)
+      ->capture_default_str();
+}
+
 void add_render(CLI::App& program, Command& chosen) {
   Subcommand<RenderOptions> command(program, "render", "Off-screen video or images of a scene",
                                     render_scene, chosen);
@@ -97,7 +106,7 @@ void add_render(CLI::App& program, Command& chosen) {
   command.app
       ->add_option("--gl", options.render.gl, "auto | egl-device:N | egl-surfaceless | osmesa")
       ->capture_default_str();
-  command.app->add_flag("--hud", options.render.hud, "Frame number, time and counts in the corner");
+  add_looks(command.app, options.render);
   command.add_changes();
   command.app->get_option("--preset")->each([&options](const std::string&) {
     options.preset_given = true;
@@ -202,9 +211,9 @@ void add_solids_output(CLI::App* app, Options& options) {
   app->add_option("-o,--output", options.output,
                   "X.glb: glTF, a node a piece; X.png: a picture; DIR/: an .obj a piece");
   app->add_option("--explode", options.explode,
-                  "Move the pieces of -o apart by this times their distance from the middle")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
+                  "Move the pieces of -o apart by this times their distance from the middle; 0 but "
+                  "for a picture, where it is 0.3")
+      ->check(CLI::Range(0.0, 1000.0));
 }
 
 void add_fracture(CLI::App& program, Command& chosen) {
@@ -301,7 +310,7 @@ void add_golden(CLI::App& program, Command& chosen) {
   record.app->add_option("--size", record.options->size, "Pixels")
       ->type_name("WxH")
       ->capture_default_str();
-  record.app->add_flag("--hud", record.options->hud, "As in sunder render");
+  add_looks(record.app, record.options->render);
   record.add_changes();
 }
 

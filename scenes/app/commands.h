@@ -96,7 +96,7 @@ struct FractureOptions : CommonOptions {
   std::optional<double> radius_m;  ///< None: everything breaks.
   std::uint64_t seed = 1;
   std::string output;
-  double explode = 0;
+  std::optional<double> explode;  ///< None: a picture shows its pieces apart.
 };
 
 struct VacdOptions : CommonOptions {
@@ -104,7 +104,7 @@ struct VacdOptions : CommonOptions {
   scenes::MeshOptions solid;
   bool watch = false;
   std::string output;
-  double explode = 0;
+  std::optional<double> explode;  ///< None: a picture shows its pieces apart.
 };
 
 struct HullOptions : CommonOptions {
@@ -123,7 +123,7 @@ struct GoldenOptions : CommonOptions {
   scenes::LoadOptions load;
   int frame = -1;
   std::string size = "640x360";
-  bool hud = false;
+  render::RenderOptions render;
 };
 
 /// Each answers the program's exit code: 0 done, 1 failed; bad input is an InputError.

@@ -46,11 +46,12 @@ class Drawer {
 
  private:
   render::Renderer& renderer(const Golden& golden) {
-    auto& known = renderers_[{golden.width, golden.height, golden.hud}];
+    auto& known = renderers_[{golden.width, golden.height, golden.view_mode, golden.hud}];
     if (!known) {
       render::RenderOptions options;
       options.width = golden.width;
       options.height = golden.height;
+      options.view_mode = golden.view_mode;
       options.hud = golden.hud;
       options.gl = gl_;
       known = std::make_unique<render::Renderer>(options);
@@ -59,7 +60,7 @@ class Drawer {
   }
 
   std::string gl_;
-  std::map<std::tuple<int, int, bool>, std::unique_ptr<render::Renderer>> renderers_;
+  std::map<std::tuple<int, int, std::string, bool>, std::unique_ptr<render::Renderer>> renderers_;
 };
 
 /// Draws it and compares with the baseline.
@@ -211,7 +212,8 @@ int golden_record(const GoldenOptions& options) {
   golden.name = options.names.front();
   golden.scene = options.scene;
   golden.load = options.load;
-  golden.hud = options.hud;
+  golden.view_mode = options.render.view_mode;
+  golden.hud = options.render.hud;
   render::RenderOptions size;
   parse_size(options.size, size);
   golden.width = size.width;

@@ -86,6 +86,7 @@ std::string Golden::command() const {
   if (is_simulated()) text += " " + std::to_string(frame) + " --preset " + load.preset;
   for (const std::string& assignment : load.set) text += " --set " + quoted(assignment);
   text += " --size " + std::to_string(width) + "x" + std::to_string(height);
+  if (view_mode != Golden().view_mode) text += " --view-mode " + view_mode;
   if (hud) text += " --hud";
   if (folder != GoldenOptions().folder) text += " --folder " + quoted(folder.string());
   return text + " && " + accept_command();
@@ -110,6 +111,7 @@ Golden read_golden(const fs::path& folder, const std::string& name) {
   golden.frame = whole(figures, "/frame", file, 0, std::numeric_limits<int>::max());
   golden.width = whole(figures, "/width", file, 1, kMostPixels);
   golden.height = whole(figures, "/height", file, 1, kMostPixels);
+  golden.view_mode = value<std::string>(figures, "/view_mode", file);
   golden.hud = value<bool>(figures, "/hud", file);
   golden.thresholds.flip_mean = value<double>(figures, "/thresholds/flip_mean", file);
   golden.thresholds.window_pixels =
@@ -126,6 +128,7 @@ void write_golden(const Golden& golden) {
                      {"/frame", std::int64_t{golden.frame}},
                      {"/width", std::int64_t{golden.width}},
                      {"/height", std::int64_t{golden.height}},
+                     {"/view_mode", golden.view_mode},
                      {"/hud", golden.hud},
                      {"/thresholds/flip_mean", golden.thresholds.flip_mean},
                      {"/thresholds/window_pixels", std::int64_t{golden.thresholds.window_pixels}},

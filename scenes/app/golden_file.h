@@ -22,6 +22,7 @@ struct Golden {
   int frame = 0;  ///< Of the scene.
   int width = 640;
   int height = 360;
+  std::string view_mode = "materials";
   bool hud = false;
   render::Thresholds thresholds;
   std::string hash;      ///< Of the baseline's pixels.

@@ -65,12 +65,13 @@ void check_output(const std::string& output) {
 }
 
 void write_solids(const std::string& output, const std::vector<Compound>& solids,
-                  const std::vector<Material>& materials, double explode) {
+                  const std::vector<Material>& materials, std::optional<double> explode) {
   if (output.ends_with(".png")) {
-    draw_solids(output, solids, materials, explode);
+    constexpr double kApart = 0.3;  // that cracks are seen
+    draw_solids(output, solids, materials, explode.value_or(kApart));
     return;
   }
-  const Model model = make_model(solids, materials, explode);
+  const Model model = make_model(solids, materials, explode.value_or(0));
   if (is_folder(output)) {
     write_obj_folder(output, model);
   } else {

@@ -78,10 +78,15 @@ TEST(Golden, EveryTextureAndEveryPassIsInOne) {
   }
   EXPECT_GT(debris, 1000u);
   EXPECT_GT(dust, 100u);
-  const bool has_hud = std::ranges::any_of(goldens(".json"), [](const fs::path& file) {
-    return Json::parse(scenes::read_text(file))["hud"].get<bool>();
-  });
+  bool has_hud = false;
+  std::set<std::string> view_modes;
+  for (const fs::path& file : goldens(".json")) {
+    const Json recipe = Json::parse(scenes::read_text(file));
+    has_hud = has_hud || recipe["hud"].get<bool>();
+    view_modes.insert(recipe["view_mode"]);
+  }
   EXPECT_TRUE(has_hud);
+  EXPECT_EQ(view_modes.size(), 6u);
 }
 
 TEST(Golden, TheCommandsThatAreSaidMakeTheSameGoldenAgain) {
@@ -91,7 +96,8 @@ TEST(Golden, TheCommandsThatAreSaidMakeTheSameGoldenAgain) {
       "--set scene.gravity=[0,-5,0] --size 64x48 --hud --folder ";
   ASSERT_EQ(sunder(record + first.path().string()).exit_code, 0);
   ASSERT_EQ(sunder("golden record above " + first / "box.frame" +
-                   " --set view.eye=[1,20,1] --size 64x48 --folder " + first.path().string())
+                   " --set view.eye=[1,20,1] --view-mode compounds --size 64x48 --folder " +
+                   first.path().string())
                 .exit_code,
             0);
   ASSERT_EQ(sunder("golden accept box above --folder " + first.path().string()).exit_code, 0);
