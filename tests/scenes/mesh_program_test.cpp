@@ -8,6 +8,7 @@
 #include "engine/io/mesh/mesh_reader.h"
 #include "fracture/check/case_file.h"
 #include "fracture/solids.h"
+#include "scenes/file/text_file.h"
 #include "tests/cpu_time.h"
 #include "tests/mesh/meshes.h"
 #include "tests/scenes/program.h"
@@ -77,6 +78,18 @@ TEST(Fracture, GivesItsFigures) {
   EXPECT_NE(outcome.out.find("\"repairs\": []"), std::string::npos) << outcome.out;
   EXPECT_GT(count(json, "/untouched_convexes"), 30);
   EXPECT_LT(count(json, "/untouched_convexes"), 64);
+}
+
+TEST(MeshCommands, APictureShowsTheBreakWithoutBeingTold) {
+  const Folder folder;
+  const auto drawn = [&](const std::string& name, const std::string& more) {
+    const std::string file = folder / name;
+    EXPECT_EQ(sunder("fracture box:1,1,1 --pattern grid:2 -o " + file + more).exit_code, 0);
+    return scenes::read_text(file);
+  };
+  EXPECT_NE(drawn("a.png", ""), drawn("b.png", " --explode 0"));
+  EXPECT_EQ(drawn("a.glb", ""), drawn("b.glb", " --explode 0"))
+      << "what is built on stays together";
 }
 
 TEST(Fracture, BreaksTheWholeSolidIntoAsManyPiecesAsThePatternHasCells) {
