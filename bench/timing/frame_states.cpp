@@ -142,7 +142,7 @@ std::vector<Verdict> judge_frames(const GuardedRun& run, const HashBook& book,
   }
   if (verdicts.empty()) {
     verdicts.push_back({run.name, "simulation", Outcome::kFailed,
-                        "has no stored states: run: sunder golden accept " + run.name});
+                        "has no states in " + file + "; accepting stores them"});
   }
   return verdicts;
 }

@@ -103,7 +103,7 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
       result.verdicts.insert(result.verdicts.end(), verdicts.begin(), verdicts.end());
     }
     options.say((result.passed() ? "pass " : "FAIL ") + name + ": " + result.sentence() + "\n");
-    if (!result.passed()) failed += " " + name;
+    if (!result.passed()) failed += (failed.empty() ? "" : " ") + name;
     if (!result.drawing_passed()) {
       fs::create_directories(options.out);
       const fs::path picture = fs::path(options.out) / (name + ".png");
@@ -111,8 +111,9 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
       options.say("     what was drawn: " + picture.string() + "\n");
     }
   }
-  if (!failed.empty())
-    options.say("What is right now is accepted by: sunder golden accept" + failed + "\n");
+  if (!failed.empty()) {
+    options.say("If this is right: " + accept_command(options.folder, failed) + "\n");
+  }
   if (!options.junit.empty()) {
     std::vector<Verdict> verdicts;
     for (const GoldenResult& result : results) {

@@ -75,14 +75,15 @@ fs::path Golden::frame_file() const {
   return is_simulated() ? file(".frame") : fs::path(scene_file());
 }
 
-std::string Golden::accept_command() const {
+std::string accept_command(const fs::path& folder, const std::string& names) {
   const bool is_usual = folder == GoldenOptions().folder;
-  return "sunder golden accept " + quoted(name) +
-         (is_usual ? "" : " --folder " + quoted(folder.string()));
+  return "sunder golden accept " + names + (is_usual ? "" : " --folder " + quoted(folder.string()));
 }
 
+std::string Golden::accept_command() const { return app::accept_command(folder, name); }
+
 std::string Golden::command() const {
-  std::string text = "sunder golden record " + quoted(name) + " " + quoted(scene_file());
+  std::string text = "sunder golden record " + name + " " + quoted(scene_file());
   if (is_simulated()) text += " " + std::to_string(frame) + " --preset " + load.preset;
   for (const std::string& assignment : load.set) text += " --set " + quoted(assignment);
   text += " --size " + std::to_string(width) + "x" + std::to_string(height);

@@ -44,6 +44,9 @@ struct Golden {
   std::string accept_command() const;
 };
 
+/// That makes what there is now of these the baseline.
+std::string accept_command(const std::filesystem::path& folder, const std::string& names);
+
 /// Names of the goldens in a folder, sorted. Throws InputError if there are none.
 std::vector<std::string> golden_names(const std::filesystem::path& folder);
 /// Throws InputError if there is no such golden, naming those there are.
