@@ -191,8 +191,9 @@ std::vector<Solid> solids_of(std::vector<Piece> pieces) {
   std::vector<Solid> solids;
   for (Piece& piece : pieces) {
     const Compound whole = fracture::make_compound(std::move(piece.parts));
-    for (Compound& island : fracture::split_islands(whole)) {
-      solids.push_back({"", std::move(island), {piece.at, Quat::Identity()}});
+    for (const Compound& island : fracture::split_islands(whole)) {
+      for (const Pose& X_SM : piece.copies)
+        solids.push_back({"", island, X_SM * Pose{piece.at, Quat::Identity()}});
     }
   }
   return solids;
@@ -201,6 +202,11 @@ std::vector<Solid> solids_of(std::vector<Piece> pieces) {
 std::vector<Piece> mirrored_pieces(std::vector<Piece> pieces) {
   for (Piece& piece : pieces) {
     piece.at.x() = -piece.at.x();
+    for (Pose& copy : piece.copies) {
+      copy.position.x() = -copy.position.x();
+      copy.rotation.y() = -copy.rotation.y();
+      copy.rotation.z() = -copy.rotation.z();
+    }
     for (Part& part : piece.parts) part = mirrored(std::move(part));
   }
   return pieces;
@@ -227,9 +233,12 @@ void Loader::add_solid(const Value& table) {
   std::vector<Piece> pieces =
       read_structure(table, keys.table, head.structure, {keys.keys, placement_keys().keys},
                      {scene_.materials, folder_});
-  check_bodies(scene_.solids.size() + pieces.size() * copies.size());  // before long work
-  std::size_t parts = 0;
-  for (const Piece& piece : pieces) parts += piece.parts.size();
+  std::size_t made = 0, parts = 0;
+  for (const Piece& piece : pieces) {
+    made += piece.copies.size();
+    parts += piece.parts.size() * piece.copies.size();
+  }
+  check_bodies(scene_.solids.size() + made * copies.size());  // before long work
   check_parts(static_cast<double>(parts * copies.size()), table);
   anchor(pieces, head.anchored, table, scene_.materials);
   const bool any_mirrored =
@@ -240,7 +249,7 @@ void Loader::add_solid(const Value& table) {
   std::vector<Solid> solids;
   for (const Copy& copy : copies) {
     for (Solid solid : copy.mirrored ? twins : whole) {
-      solid.X_WR = {copy.X_FM * solid.X_WR.position, copy.X_FM.rotation};
+      solid.X_WR = copy.X_FM * solid.X_WR;
       solid.velocity_W = copy.velocity(head.velocity);
       solid.angular_velocity_W = copy.angular_velocity(head.angular_velocity);
       solids.push_back(std::move(solid));

@@ -33,10 +33,14 @@ Member read_member(const Value& table, const Site& site) {
   Member member{&table, {}};
   for (const Copy& copy : copies) {
     for (const Piece& piece : pieces) {
-      check_parts(static_cast<double>(member.parts.size() + piece.parts.size()), table);
-      for (Part part : piece.parts) {
-        part.anchored = 0;  // the solid says how it is held
-        member.parts.push_back(placed(moved(std::move(part), {piece.at, Quat::Identity()}), copy));
+      const std::size_t more = piece.parts.size() * piece.copies.size();
+      check_parts(static_cast<double>(member.parts.size() + more), table);
+      for (const Pose& X_SM : piece.copies) {
+        for (Part part : piece.parts) {
+          part.anchored = 0;  // the solid says how it is held
+          const Pose X_SP = X_SM * Pose{piece.at, Quat::Identity()};
+          member.parts.push_back(placed(moved(std::move(part), X_SP), copy));
+        }
       }
     }
   }

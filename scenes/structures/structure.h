@@ -18,10 +18,12 @@
 
 namespace sunder::scenes {
 
-/// One solid of a structure: parts that move as one, placed at `at`.
+/// One solid of a structure: parts that move as one, placed at `at`; or, turned about y, so many
+/// alike, which share their convexes.
 struct Piece {
   std::vector<fracture::Part> parts;
   Vec3 at = Vec3::Zero();
+  std::vector<Pose> copies = {Pose()};
 };
 
 /// What building needs to know of a scene.
@@ -70,6 +72,7 @@ void add_foundation(std::vector<Piece>& pieces, MaterialIndex foundation,
                     std::span<const Material> materials);
 
 StructureType arch_structure();
+StructureType arena_structure();
 StructureType box_structure();
 StructureType brick_wall_structure();
 StructureType bridge_structure();
