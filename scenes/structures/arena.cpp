@@ -58,7 +58,6 @@ class WedgeBuilder {
   WedgeBuilder(const Arena& arena, double bay_rad)
       : arena_(arena),
         chisel_{arena.detail, arena.stone.index},
-        rough_{arena.detail, arena.wall.index},
         bay_rad_(bay_rad),
         bay_(0.5 * bay_rad),
         outer_(0.5 * arena.bay_m / (bay_.flank(1))),
@@ -100,10 +99,8 @@ class WedgeBuilder {
     const double left = k == 0 ? 0 : -1, right = k == arena_.bays ? 0 : 1;
     for (int s = 0; s < arena_.storeys; ++s) add_pier(floor_of(s), left, right, parts);
     add_radial_wall(left * kRadial, right * kRadial, parts);
-    const auto pier = [&](double z) { return right * pier_x(arch_.shoulder_x(), z); };
     add_parapet_pier(left, right, parts);
     if (right == 0) return parts;  // the next wedge has what stands before and on it
-    (void)pier;
     for (int s = 0; s < arena_.storeys; ++s) add_order(floor_of(s), s == 0 ? 0.7 : 0.25, parts);
     if (arena_.storeys > 1) add_gallery_column(parts);
     if (k == arena_.bays / 2) add_stairs(left, parts);
@@ -159,21 +156,22 @@ class WedgeBuilder {
     move_to({Vec3(0, y, axis), Quat::Identity()},
             column({kColumn, under, pedestal, 3}, chisel_), parts);
     const double from = y + under, to = y + arena_.storey_m;
-    parts.push_back(moulded_block(0.36, outer_, axis + 0.36, entablature(0, from, to), arena_.stone.index));
+    constexpr double kReach = 0.14;  // m, of its cornice: it ends beside those of the wall
+    const double half = pier_x(arch_.shoulder_x(), outer_) - kReach - 0.01;
+    parts.push_back(moulded_block(half, outer_, axis + 0.36,
+                                  entablature(0, from, to, kReach), arena_.stone.index));
   }
 
   /// How far it stands out at a height: architrave, frieze and cornice.
-  std::vector<Vec2> entablature(double x, double from, double to) const {
-    const double h = to - from;
+  std::vector<Vec2> entablature(double x, double from, double to, double reach) const {
     const int n = chisel_.arc();
-    Profile p(x, from);
-    p.to(x, from + 0.16 * h).to(x + 0.02, from + 0.16 * h).to(x + 0.02, from + 0.3 * h);
-    p.curve({x + 0.05, from + 0.32 * h}, x + 0.05, from + 0.36 * h, n);
-    p.to(x + 0.015, from + 0.36 * h).to(x + 0.015, from + 0.62 * h);
-    p.curve({x + 0.03, from + 0.7 * h}, x + 0.07, from + 0.72 * h, n).to(x + 0.12, from + 0.74 * h);
-    p.to(x + 0.12, from + 0.8 * h).curve({x + 0.12, from + 0.88 * h}, x + 0.16, from + 0.9 * h, n);
-    p.curve({x + 0.2, from + 0.92 * h}, x + 0.2, to, n);
-    return p.points();
+    Profile p(0, 0);
+    p.to(0, 0.16).to(0.1, 0.16).to(0.1, 0.3).curve({0.25, 0.32}, 0.25, 0.36, n);
+    p.to(0.08, 0.36).to(0.08, 0.62).curve({0.15, 0.7}, 0.35, 0.72, n).to(0.6, 0.74);
+    p.to(0.6, 0.8).curve({0.6, 0.88}, 0.8, 0.9, n).curve({1, 0.92}, 1, 1, n);
+    std::vector<Vec2> points = p.points();
+    for (Vec2& at : points) at = Vec2(x + reach * at.x(), from + (to - from) * at.y());
+    return points;
   }
 
   /// An arch between its piers, and the entablature over it.
@@ -184,7 +182,7 @@ class WedgeBuilder {
     const double to = y + arena_.storey_m;
     for (const double side : {-1.0, 0.0})
       parts.push_back(slab({side * x, from, back_}, {(side + 1) * x, to, front_}, arena_.wall.index));
-    std::vector<Vec2> profile = entablature(0.06, from, to);
+    const std::vector<Vec2> profile = entablature(0.06, from, to, 0.2);
     std::vector<Ring> rings(2);
     double most = 0;
     for (std::size_t end = 0; end < 2; ++end) {
@@ -262,10 +260,10 @@ class WedgeBuilder {
   void add_radial_wall(double left, double right, Parts& parts) const {
     const double wall = passage_ - kInnerWall;  // which is straight from radius to radius
     const double end = (wall - kRadial * bay_.flank(bay_.cosine())) / bay_.cosine() - 0.02;
-    const double begin = (seats_ + kLap) / bay_.cosine() + 0.01;
+    // Beyond the tiers' convexes, which are straight at the back.
+    const auto edge = [&](int i) { return (tier_z(i) + kLap) / bay_.cosine() + 0.01; };
     for (int i = 0; i < arena_.tiers; ++i) {
-      const double z0 = i == 0 ? begin : tier_z(i) + kLap;
-      const double z1 = std::min(end, tier_z(i + 1) + kLap);
+      const double z0 = edge(i), z1 = std::min(end, edge(i + 1));
       const std::array plan = {Vec2(left, z0), Vec2(right, z0), Vec2(right, z1), Vec2(left, z1)};
       add_block(plan, 0, tier_y(i), parts);
     }
@@ -274,8 +272,9 @@ class WedgeBuilder {
   /// Half steps, from tier to tier.
   void add_stairs(double left, Parts& parts) const {
     constexpr double kHalf = 0.5, kDepth = 0.38;  // m
+    const double clear = kHalf * bay_.flank(1) + 0.01;  // of the tier, which turns away
     for (int i = 1; i < arena_.tiers; ++i) {
-      const double z1 = tier_z(i) - 0.06, y = tier_y(i);
+      const double z1 = tier_z(i) - clear, y = tier_y(i);
       parts.push_back(slab({left * kHalf, y, z1 - kDepth}, {kHalf, y + 0.5 * kRise, z1},
                            arena_.stone.index));
     }
@@ -316,7 +315,7 @@ class WedgeBuilder {
   }
 
   const Arena& arena_;
-  const Chisel chisel_, rough_;
+  const Chisel chisel_;
   const double bay_rad_;
   const Bay bay_;
   const double outer_;    ///< The fronts of the piers.
