@@ -116,8 +116,7 @@ struct Voussoir {
   std::vector<Vec2> back() const {
     const double outer = arch.outer_m();
     if (from_rad == 0) return {{outer, 0}, {outer, arch.shoulder_y()}, at(outer, 1)};
-    if (to_rad == std::numbers::pi)
-      return {at(outer, 0), {-outer, arch.shoulder_y()}, {-outer, 0}};
+    if (to_rad == std::numbers::pi) return {at(outer, 0), {-outer, arch.shoulder_y()}, {-outer, 0}};
     return {at(outer, 0), at(outer, 1)};
   }
   Part stone(const Chisel& chisel) const {
@@ -158,12 +157,12 @@ struct Waist {
   double y, x, z, before, folds;
 };
 constexpr Waist kFigure[] = {
-    {0, .19, .17, 0, .09},      {.02, .2, .18, 0, .09},      {.1, .175, .155, .01, .1},
-    {.25, .165, .14, .02, .1},  {.4, .17, .145, .015, .08},  {.48, .165, .14, .005, .06},
-    {.56, .14, .115, 0, .04},   {.62, .135, .11, 0, .04},    {.7, .16, .125, .005, .03},
-    {.76, .175, .12, 0, .02},   {.8, .165, .1, -.005, .01},  {.825, .12, .08, -.005, 0},
-    {.84, .06, .06, 0, 0},      {.87, .05, .055, .01, 0},    {.89, .06, .07, .015, 0},
-    {.92, .07, .085, .015, 0},  {.95, .07, .082, .012, 0},   {.975, .055, .065, .008, 0},
+    {0, .19, .17, 0, .09},      {.02, .2, .18, 0, .09},     {.1, .175, .155, .01, .1},
+    {.25, .165, .14, .02, .1},  {.4, .17, .145, .015, .08}, {.48, .165, .14, .005, .06},
+    {.56, .14, .115, 0, .04},   {.62, .135, .11, 0, .04},   {.7, .16, .125, .005, .03},
+    {.76, .175, .12, 0, .02},   {.8, .165, .1, -.005, .01}, {.825, .12, .08, -.005, 0},
+    {.84, .06, .06, 0, 0},      {.87, .05, .055, .01, 0},   {.89, .06, .07, .015, 0},
+    {.92, .07, .085, .015, 0},  {.95, .07, .082, .012, 0},  {.975, .055, .065, .008, 0},
     {.992, .032, .04, .004, 0}, {1, .01, .012, .003, 0}};
 
 }  // namespace
@@ -238,7 +237,8 @@ Part urn(double height_m, const Chisel& chisel) {
   p.to(0.2 * h, 0.05 * h).curve({0.17 * h, 0.1 * h}, 0.08 * h, 0.13 * h, n).to(0.08 * h, 0.17 * h);
   p.curve({0.34 * h, 0.26 * h}, 0.32 * h, 0.52 * h, n);
   p.curve({0.3 * h, 0.62 * h}, 0.17 * h, 0.66 * h, n).to(0.17 * h, 0.7 * h);
-  p.curve({0.27 * h, 0.74 * h}, 0.27 * h, 0.76 * h, n).curve({0.2 * h, 0.84 * h}, 0.06 * h, 0.88 * h, n);
+  p.curve({0.27 * h, 0.74 * h}, 0.27 * h, 0.76 * h, n)
+      .curve({0.2 * h, 0.84 * h}, 0.06 * h, 0.88 * h, n);
   p.curve({0.12 * h, 0.93 * h}, 0.07 * h, 0.97 * h, n).to(0.02 * h, h);
   return turned_part(circle(chisel.detail), p.points(), kBalusterSides, chisel.stone);
 }
@@ -289,6 +289,32 @@ Parts arched_wall(const ArchedWall& arch, const Chisel& chisel, MaterialIndex wa
     parts.push_back({hull_of(drawn_out(corners, arch.back, arch.front)), wall});
   }
   return parts;
+}
+
+Part Bay::bar(double z0, double z1, double bottom, double top, MaterialIndex material) const {
+  const std::array plan = {Vec2(-flank(z0), z0), Vec2(flank(z0), z0), Vec2(flank(z1), z1),
+                           Vec2(-flank(z1), z1)};
+  return {block(plan, bottom, top), material};
+}
+
+Part Bay::ring(const Profile& profile, const Chisel& chisel, bool flat_back) const {
+  double least = 1e300, most = 0, bottom = 1e300, top = -1e300;
+  for (const Vec2& p : profile.points()) {
+    least = std::min(least, p.x()), most = std::max(most, p.x());
+    bottom = std::min(bottom, p.y()), top = std::max(top, p.y());
+  }
+  const int segments = std::max(2, static_cast<int>(half_rad_ * chisel.detail / 0.8));
+  std::vector<Ring> rings;
+  for (int i = 0; i <= segments; ++i) {
+    const SinCos turn = sin_cos(half_rad_ * (2.0 * i / segments - 1));
+    Ring& ring = rings.emplace_back();
+    for (const Vec2& p : profile.points()) {
+      const double radius = flat_back && p.x() == least ? least / turn.cos : p.x();
+      ring.emplace_back(radius * turn.sin, p.y(), radius * turn.cos);
+    }
+  }
+  const double inner = flat_back ? least : least * half_.cos;
+  return lofted(rings, bar(inner, most, bottom, top, chisel.stone).polyhedron, chisel.stone);
 }
 
 }  // namespace sunder::scenes

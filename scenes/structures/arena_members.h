@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/trigonometry.h"
 #include "engine/model/compound.h"
 #include "scenes/structures/loft.h"
 
@@ -64,5 +65,25 @@ struct ArchedWall {
 };
 /// Voussoirs of `chisel.stone` with a moulding before them, under spandrels of `wall`.
 Parts arched_wall(const ArchedWall& arch, const Chisel& chisel, MaterialIndex wall);
+
+/// Between two radii of an arena, its middle at z: what runs round it there, from one to the other.
+class Bay {
+ public:
+  explicit Bay(double half_rad) : half_rad_(half_rad), half_(sin_cos(half_rad)) {}
+
+  /// How far to either side of the middle the radii are at z, less `short_m` of them.
+  double flank(double z, double short_m = 0) const { return (z * half_.sin - short_m) / half_.cos; }
+  double cosine() const { return half_.cos; }
+
+  /// Straight from radius to radius, as a wall is.
+  Part bar(double z0, double z1, double bottom, double top, MaterialIndex material) const;
+  /// Along an arc about the middle of the arena, the profile one of (radius, height), its corners
+  /// counter-clockwise; `flat_back` leaves those at the least radius straight.
+  Part ring(const Profile& profile, const Chisel& chisel, bool flat_back = false) const;
+
+ private:
+  double half_rad_;
+  SinCos half_;
+};
 
 }  // namespace sunder::scenes

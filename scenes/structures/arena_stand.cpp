@@ -1,22 +1,22 @@
 // The stand in the middle of an arena, and the round temple on it.
 //
 // Read first: stand(). All rings are of as many blocks as there are columns; none but the stand's
-// reaches the axis, and the dome is corbelled: its beds are level, so that each ring lies on the one
-// below.
+// reaches the axis, and the dome is corbelled: its beds are level, so that each ring lies on the
+// one below.
 #include <algorithm>
 #include <array>
 #include <numbers>
 #include <utility>
 
-#include "scenes/structures/arena_bay.h"
+#include "scenes/structures/arena.h"
 
 namespace sunder::scenes {
 namespace {
 
-constexpr double kHub = 1.2;    // m, radius
-constexpr double kMiddle = 0.6; // of the radius: where the stand's outer blocks end
-constexpr int kSteps = 3;
-constexpr double kStep = 0.22;  // m, height and depth
+constexpr double kHub = 1.2;     // m, radius
+constexpr double kMiddle = 0.6;  // of the radius: where the stand's outer blocks end
+constexpr int kStandSteps = 3;
+constexpr double kStandStep = 0.22;  // m, height and depth
 
 class StandBuilder {
  public:
@@ -24,12 +24,15 @@ class StandBuilder {
       : of_(of), chisel_(chisel), wall_(wall), bay_(std::numbers::pi / of.columns) {}
 
   Parts build() {
-    const double height = of_.height_m - kSteps * kStep;
+    const double height = of_.height_m - kStandSteps * kStandStep;
     add_stand(height);
     double y = height;
-    for (int i = 1; i <= kSteps; ++i, y += kStep)
-      add_layer(Profile(inner(), y).to(step(i), y).to(step(i), y + kStep).to(inner(), y + kStep), y,
-                y + kStep);
+    for (int i = 1; i <= kStandSteps; ++i, y += kStandStep)
+      add_layer(Profile(inner(), y)
+                    .to(step(i), y)
+                    .to(step(i), y + kStandStep)
+                    .to(inner(), y + kStandStep),
+                y, y + kStandStep);
     for (Part& part : parts_) part.anchored = bounds(part.polyhedron).min.y() == 0;
     add_colonnade(y);
     add_cella(y);
@@ -41,8 +44,8 @@ class StandBuilder {
 
  private:
   double inner() const { return kMiddle * of_.radius_m; }
-  double step(int i) const { return of_.radius_m - 0.2 - kStep * i; }
-  double columns_at() const { return step(kSteps) - 0.5; }
+  double step(int i) const { return of_.radius_m - 0.2 - kStandStep * i; }
+  double columns_at() const { return step(kStandSteps) - 0.5; }
   double cella_at() const { return 0.48 * of_.radius_m; }
 
   /// Once a bay.
@@ -59,7 +62,8 @@ class StandBuilder {
     add_round(bay_.bar(kHub, inner(), bottom, top, wall_));
     std::vector<Vec2> plan;
     for (int i = 0; i < of_.columns; ++i) {
-      const Vec3 corner = ray(2 * std::numbers::pi * i / of_.columns) * Vec3(0, 0, kHub / bay_.cosine());
+      const Vec3 corner =
+          ray(2 * std::numbers::pi * i / of_.columns) * Vec3(0, 0, kHub / bay_.cosine());
       plan.emplace_back(corner.x(), corner.z());
     }
     parts_.push_back({block(plan, bottom, top), wall_});
@@ -118,7 +122,9 @@ class StandBuilder {
     lining.to(wall, y).to(wall, up).to(wall - 0.45, up);
     add_round(bay_.ring(lining, {chisel_.detail, wall_}));
     Profile cornice(wall - 0.45, up);
-    cornice.to(r + 0.1, up).to(r + 0.1, up + 0.08).curve({r + 0.12, up + 0.2}, r + 0.3, up + 0.2, n);
+    cornice.to(r + 0.1, up)
+        .to(r + 0.1, up + 0.08)
+        .curve({r + 0.12, up + 0.2}, r + 0.3, up + 0.2, n);
     cornice.curve({r + 0.42, up + 0.22}, r + 0.4, up + 0.35, n).to(wall - 0.45, up + 0.35);
     add_round(bay_.ring(cornice, chisel_));
   }
@@ -161,32 +167,6 @@ class StandBuilder {
 };
 
 }  // namespace
-
-Part Bay::bar(double z0, double z1, double bottom, double top, MaterialIndex material) const {
-  const std::array plan = {Vec2(-flank(z0), z0), Vec2(flank(z0), z0), Vec2(flank(z1), z1),
-                           Vec2(-flank(z1), z1)};
-  return {block(plan, bottom, top), material};
-}
-
-Part Bay::ring(const Profile& profile, const Chisel& chisel, bool flat_back) const {
-  double least = 1e300, most = 0, bottom = 1e300, top = -1e300;
-  for (const Vec2& p : profile.points()) {
-    least = std::min(least, p.x()), most = std::max(most, p.x());
-    bottom = std::min(bottom, p.y()), top = std::max(top, p.y());
-  }
-  const int segments = std::max(2, static_cast<int>(half_rad_ * chisel.detail / 0.8));
-  std::vector<Ring> rings;
-  for (int i = 0; i <= segments; ++i) {
-    const SinCos turn = sin_cos(half_rad_ * (2.0 * i / segments - 1));
-    Ring& ring = rings.emplace_back();
-    for (const Vec2& p : profile.points()) {
-      const double radius = flat_back && p.x() == least ? least / turn.cos : p.x();
-      ring.emplace_back(radius * turn.sin, p.y(), radius * turn.cos);
-    }
-  }
-  const double inner = flat_back ? least : least * half_.cos;
-  return lofted(rings, bar(inner, most, bottom, top, chisel.stone).polyhedron, chisel.stone);
-}
 
 Parts stand(const Stand& of, const Chisel& chisel, MaterialIndex wall) {
   return StandBuilder(of, chisel, wall).build();

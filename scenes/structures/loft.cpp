@@ -18,7 +18,7 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kCircle = 2 * std::numbers::pi;
 constexpr double kCreaseCosine = 0.766;  // of 40°
 constexpr double kFlat = 1e-9;           // of the size of a face: how far it may be from flat
 
@@ -63,7 +63,8 @@ RawMesh joined(std::span<const Ring> rings) {
     mesh.vertices.insert(mesh.vertices.end(), ring.begin(), ring.end());
   }
   Corners begin, end;
-  for (std::uint32_t i = 0; i < around; ++i) begin.push_back(around - 1 - i), end.push_back(last + i);
+  for (std::uint32_t i = 0; i < around; ++i)
+    begin.push_back(around - 1 - i), end.push_back(last + i);
   add_polygon(mesh, begin);
   add_polygon(mesh, end);
   for (std::uint32_t first = 0; first < last; first += around) {
@@ -130,7 +131,7 @@ std::vector<Ring> turned(std::span<const Vec2> outline, std::span<const Vec2> pr
 std::vector<Vec2> circle(int segments) {
   std::vector<Vec2> outline;
   for (int i = 0; i < segments; ++i) {
-    const SinCos turn = sin_cos(kTurn * i / segments);
+    const SinCos turn = sin_cos(kCircle * i / segments);
     outline.emplace_back(turn.sin, turn.cos);
   }
   return outline;
@@ -143,7 +144,7 @@ std::vector<Vec2> fluted(int flutes, int segments, double depth) {
     for (int k = 0; k <= segments; ++k) {
       const double t = k / static_cast<double>(segments);
       const double radius = 1 - 4 * depth * t * (1 - t);
-      const SinCos turn = sin_cos(kTurn * (i + (1 - kFillet) * t) / flutes);
+      const SinCos turn = sin_cos(kCircle * (i + (1 - kFillet) * t) / flutes);
       outline.emplace_back(radius * turn.sin, radius * turn.cos);
     }
   }
@@ -155,10 +156,10 @@ ConvexPolyhedron prism_around(std::span<const Ring> rings, int sides) {
   for (const Ring& ring : rings) {
     for (const Vec3& p : ring) radius = std::max(radius, std::hypot(p.x(), p.z()));
   }
-  radius /= sin_cos(kTurn / (2 * sides)).cos;
+  radius /= sin_cos(kCircle / (2 * sides)).cos;
   std::vector<Vec2> plan;
   for (int i = 0; i < sides; ++i) {
-    const SinCos turn = sin_cos(kTurn * (i + 0.5) / sides);
+    const SinCos turn = sin_cos(kCircle * (i + 0.5) / sides);
     plan.emplace_back(radius * turn.sin, radius * turn.cos);
   }
   return block(plan, rings.front()[0].y(), rings.back()[0].y());

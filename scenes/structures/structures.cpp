@@ -233,10 +233,10 @@ std::vector<Piece> read_structure(const Value& table, std::string_view name,
 
 std::span<const StructureType> structures() {
   static const std::vector<StructureType> all = {
-      arch_structure(),   arena_structure(),  box_structure(),      brick_wall_structure(),
-      bridge_structure(), column_structure(), compound_structure(), hall_structure(),
-      house_structure(),  mesh_structure(),   pane_structure(),     prism_structure(),
-      reinforced_structure(), stack_structure(), temple_structure(), terrain_structure(),
+      arch_structure(),       arena_structure(),  box_structure(),      brick_wall_structure(),
+      bridge_structure(),     column_structure(), compound_structure(), hall_structure(),
+      house_structure(),      mesh_structure(),   pane_structure(),     prism_structure(),
+      reinforced_structure(), stack_structure(),  temple_structure(),   terrain_structure(),
       wheel_structure()};
   return all;
 }

@@ -151,7 +151,8 @@ constexpr Fault kFaults[] = {
     // Names
     {"[[solid]]\nstructure = \"hose\"",
      "bad.toml:4: unknown structure 'hose'; did you mean "
-     "'house'?; allowed: arch | arena | box | brick_wall | bridge | column | compound | hall | house | "
+     "'house'?; allowed: arch | arena | box | brick_wall | bridge | column | compound | hall | "
+     "house | "
      "mesh "
      "| pane | prism | reinforced | stack | temple | terrain | wheel"},
     {"[[solid]]\nstructure = \"box\"\nmaterial = \"stel\"",
