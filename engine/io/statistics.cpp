@@ -21,6 +21,7 @@ struct Statistics::Series {
   std::vector<FrameReport> reports;  ///< Of frames 1, 2, …; without penetrations.
   FrameReport first, last;
   std::vector<double> fracture_ms;
+  std::vector<std::size_t> first_fracture;  ///< Of `fracture_ms`, of every frame in `reports`.
   std::uint64_t pieces = 0;
   std::uint64_t frames = 0;
 
@@ -41,6 +42,12 @@ struct Statistics::Series {
   }
   std::vector<double> penetrations() const {
     return {last.penetrations_m.begin(), last.penetrations_m.end()};
+  }
+  /// The times of the breaks of one of `reports`.
+  std::span<const double> fractures(std::size_t report) const {
+    const std::size_t end =
+        report + 1 < first_fracture.size() ? first_fracture[report + 1] : fracture_ms.size();
+    return std::span(fracture_ms).subspan(first_fracture[report], end - first_fracture[report]);
   }
   double momentum_residual() const {
     double worst = 0;
@@ -114,7 +121,16 @@ void add_times(Json& json, const std::string& prefix, const std::vector<double>&
   json[prefix + "mean_ms"] = std::accumulate(ms.begin(), ms.end(), 0.0) / count;
 }
 
-Json frame_json(const FrameReport& report, double ms) {
+/// Of one frame; times only where something broke.
+Json fractures_json(std::span<const double> ms) {
+  Json json{{"events", ms.size()}};
+  if (ms.empty()) return json;
+  json["mean_ms"] = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
+  json["max_ms"] = *std::max_element(ms.begin(), ms.end());
+  return json;
+}
+
+Json frame_json(const FrameReport& report, double ms, std::span<const double> fracture_ms) {
   Json stages, cpu;
   for (int s = 0; s < kStages; ++s) {
     stages[kStageNames[s]] = report.stage_ms[s];
@@ -125,6 +141,7 @@ Json frame_json(const FrameReport& report, double ms) {
           {"stages_cpu_ms", cpu},
           {"counts", counts_json(report.counts)},
           {"carried_over", report.carried_over},
+          {"fractures", fractures_json(fracture_ms)},
           {"kinetic_J", report.kinetic_J},
           {"momentum_residual", report.momentum_residual},
           {"plastic_J", report.plastic_J},
@@ -163,6 +180,7 @@ void Statistics::take(const FramePtr& frame) {
   } else {
     series.reports.push_back(frame->report);
     series.reports.back().penetrations_m.clear();
+    series.first_fracture.push_back(series.fracture_ms.size());
   }
   series.last = frame->report;
   for (const BreakEvent& event : frame->breaks) {
@@ -223,7 +241,7 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   if (per_frame) {
     Json& list = json["per_frame"] = Json::array();
     for (std::size_t i = 0; i < s.reports.size(); ++i) {
-      list.push_back(frame_json(s.reports[i], frame_ms[i]));
+      list.push_back(frame_json(s.reports[i], frame_ms[i], s.fractures(i)));
     }
   }
   return json.dump(2) + "\n";

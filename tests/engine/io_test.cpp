@@ -224,6 +224,8 @@ TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
   }
   EXPECT_EQ(json["per_frame"][0]["stages_cpu_ms"]["solve"], 3.0);
   EXPECT_EQ(json["fractures"]["pieces"], 16);
+  EXPECT_EQ(json["per_frame"][0]["fractures"]["events"], 1);
+  EXPECT_EQ(json["per_frame"][0]["fractures"]["max_ms"], json["fractures"]["max_ms"]);
   EXPECT_NEAR(json["penetration_m"]["max"].get<double>(), 0.002, 1e-9);
   EXPECT_FALSE(nlohmann::json::parse(statistics.json("", false)).contains("state_hash"));
 }
