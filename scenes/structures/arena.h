@@ -14,7 +14,7 @@ struct Arena {
   int storeys = 3;
   double storey_m = 5.4;
   int tiers = 14;
-  int detail = 40;
+  int detail = 28;
   bool stand = true;
   MaterialRef stone{"marble", {}};
   MaterialRef wall{"stone", {}};

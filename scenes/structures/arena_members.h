@@ -17,7 +17,7 @@ using Parts = std::vector<Part>;
 
 /// How finely what is curved is drawn, and what of.
 struct Chisel {
-  int detail = 40;  ///< Segments of a circle.
+  int detail = 28;  ///< Segments of a circle.
   MaterialIndex stone;
 
   int arc() const { return detail < 32 ? 1 + detail / 16 : detail / 10; }  ///< Of a stroke.

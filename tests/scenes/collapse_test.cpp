@@ -43,9 +43,9 @@ double height_m(const Frame& frame) {
 
 class Standing : public testing::TestWithParam<const char*> {};
 
-TEST_P(Standing, StandsForAMinuteWhileNobodyShoots) {
+void expect_stands(const char* scene, const char* preset) {
   const auto simulation =
-      simulation_of(GetParam(), {"script.enabled=false", "scene.duration_s=60"});
+      simulation_of(scene, {"script.enabled=false", "scene.duration_s=60"}, preset);
   int frames = 0;
   while (const FramePtr frame = simulation->next()) {
     ASSERT_TRUE(frame->breaks.empty()) << frame->time_s;
@@ -55,8 +55,13 @@ TEST_P(Standing, StandsForAMinuteWhileNobodyShoots) {
   EXPECT_EQ(frames, 3601);
 }
 
+TEST_P(Standing, StandsForAMinuteWhileNobodyShoots) { expect_stands(GetParam(), "draft"); }
+
 INSTANTIATE_TEST_SUITE_P(Collapse, Standing,
-                         testing::Values("house", "bridge", "temple", "shed", "tower", "archway"));
+                         testing::Values("arena", "house", "bridge", "temple", "shed", "tower",
+                                         "archway"));
+
+TEST(Collapse, AnArenaStandsAtThePresetThatItIsShotAt) { expect_stands("arena", "realtime"); }
 
 TEST(Collapse, ABridgeFallsWithoutItsPier) {
   const auto simulation = simulation_of("bridge", {});
