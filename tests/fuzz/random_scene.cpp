@@ -253,7 +253,8 @@ RandomScene random_scene(std::uint64_t seed) {
   Writer w(seed);
   RandomScene scene{"made", "", "made.toml", w.one_of(kPresets)};
   if (w.chance(0.25)) {
-    const std::vector<scenes::CatalogEntry> shipped = scenes::catalog();
+    std::vector<scenes::CatalogEntry> shipped = scenes::catalog();
+    std::erase_if(shipped, [](const auto& entry) { return entry.name == "arena"; });  // too large
     const auto& entry = shipped[static_cast<std::size_t>(w.whole(0, int(shipped.size()) - 1))];
     scene.name = entry.name, scene.file = entry.file.string();
     scene.text = scenes::read_text(entry.file) + "\n";
