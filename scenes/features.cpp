@@ -198,7 +198,7 @@ std::string visual_state(const Scene& scene) {
 
 std::string script_state(const Scene& scene) {
   return on_or(!scene.shots.empty() || !scene.blasts.empty() || !scene.removals.empty() ||
-                   !scene.drives.empty(),
+                   !scene.drives.empty() || !scene.moves.empty(),
                "nothing happens");
 }
 

@@ -320,6 +320,7 @@ void Loader::check_references() const {
   if (!script) return;
   check(*script, "remove", {"name"});
   check(*script, "drive", {"name"});
+  check(*script, "move", {"name"});
 }
 
 void add_builtin_materials(Loader& loader) {

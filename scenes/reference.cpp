@@ -108,7 +108,8 @@ std::string key_reference() {
   BodyTable body;
   text += "### [[body]]\n\n" + rows(mesh_keys().keys, &mesh) + rows(body_keys().keys, &body);
   return text + section(s.ball) + section(joint_keys()) + section(s.script) + section(s.shot) +
-         section(s.wrecking_ball) + section(s.blast) + section(s.remove) + section(s.drive);
+         section(s.wrecking_ball) + section(s.blast) + section(s.remove) + section(s.drive) +
+         section(s.move) + section(s.move_key);
 }
 
 }  // namespace sunder::scenes

@@ -1,5 +1,7 @@
 #include "engine/base/rotation.h"
 
+#include <numbers>
+
 #include "engine/base/trigonometry.h"
 
 namespace sunder {
@@ -14,6 +16,14 @@ Quat rotation_by(const Vec3& angle_W) {
   const SinCos half = sin_cos(0.5 * angle);
   const Vec3 v = (half.sin / angle) * angle_W;
   return Quat(half.cos, v.x(), v.y(), v.z());
+}
+
+Vec3 rotation_vector(const Quat& rotation) {
+  const double sine = rotation.vec().norm();
+  if (!(sine > 0)) return Vec3::Zero();
+  double angle = 2 * arc_tangent(sine, rotation.w());
+  if (rotation.w() < 0) angle -= 2 * std::numbers::pi;  // the same the short way round
+  return angle / sine * rotation.vec();
 }
 
 }  // namespace sunder

@@ -7,5 +7,7 @@ namespace sunder {
 
 /// The rotation by a rotation vector, exact for any angle.
 Quat rotation_by(const Vec3& angle_W);
+/// Its reverse, for up to half a turn.
+Vec3 rotation_vector(const Quat& rotation);
 
 }  // namespace sunder

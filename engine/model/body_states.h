@@ -37,7 +37,8 @@ struct BodyState {
 /// What a body is to the physics.
 enum class BodyMode : std::uint8_t {
   kAbsent,  ///< A free slot.
-  kStatic,  ///< Never moves; infinite mass.
+  kStatic,     ///< Never moves; infinite mass.
+  kKinematic,  ///< Moves as it is told; infinite mass.
   kAwake,
   kAsleep,
   kFrozen,  ///< Was not finite; kept where it last was, as if static.

@@ -53,6 +53,8 @@ struct BodyDesc {
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
   bool is_static = false;
+  /// Nothing pushes it: it goes on as set_state() last said, and what it meets gives way.
+  bool is_kinematic = false;
   double mass_kg = 0;             ///< > 0 unless static.
   Mat3 inertia_B = Mat3::Zero();  ///< kg·m², about the centre of mass; unless static.
   std::vector<ShapeDesc> shapes;
@@ -148,8 +150,9 @@ struct JointFlow {
 
 /// What one solve did, for the ledger.
 struct SolveReport {
-  Vec3 external_impulse_Ns = Vec3::Zero();  ///< Gravity, static bodies, and what sleep took away.
-  /// Of all bodies that are not static.
+  /// Gravity, static and kinematic bodies, and what sleep took away.
+  Vec3 external_impulse_Ns = Vec3::Zero();
+  /// Of all bodies that are neither static nor kinematic.
   Vec3 momentum_before_Ns = Vec3::Zero(), momentum_after_Ns = Vec3::Zero();
   double mass_kg = 0;          ///< Of the same.
   std::uint32_t contacts = 0;  ///< Manifolds with a point in reach.
@@ -183,9 +186,11 @@ class Physics {
     }
     return all;
   }
-  /// Puts a body into a state of motion and wakes it; static bodies ignore it.
+  /// Puts a body into a state of motion and wakes it; static bodies ignore it. Kinematic ones keep
+  /// to it through solves, with its velocities as they are, until they are told otherwise.
   virtual void set_state(BodyId body, const BodyState& state) = 0;
-  /// Changes a body's momentum by an impulse at a point and wakes it; static bodies ignore it.
+  /// Changes a body's momentum by an impulse at a point and wakes it; static and kinematic
+  /// bodies ignore it.
   virtual void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) = 0;
   /// Bodies that stand still in the next solve and go on as they were after it: nothing pushes
   /// them, and others meet them as they meet what is asleep. What they are joined to stands as

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "engine/model/frame.h"
 #include "engine/model/joint.h"
 #include "engine/model/material.h"
+#include "engine/model/path.h"
 
 namespace sunder {
 
@@ -65,6 +67,15 @@ struct Drive {
   double force_N = 1e6;
   std::optional<Vec3> angular_velocity_W = std::nullopt;
   double torque_Nm = 1e6;
+};
+
+/// What goes its path whatever is in its way: of infinite mass, and not to be broken, until it is
+/// let go.
+struct Move {
+  std::vector<std::uint32_t> roots;  ///< Of solids; none is anchored or jointed.
+  Path path;
+  std::optional<Vec3> pivot_W;  ///< What its turns are about, where it stood; or each its own origin.
+  double release_s = std::numeric_limits<double>::infinity();
 };
 
 /// The horizontal plane y = height_m, without end.
@@ -123,6 +134,7 @@ struct Scene {
   std::vector<Blast> blasts;
   std::vector<Removal> removals;
   std::vector<Drive> drives;
+  std::vector<Move> moves;  ///< In no order.
 };
 
 }  // namespace sunder

@@ -7,6 +7,7 @@
 #include "engine/base/trace.h"
 #include "engine/model/work_log.h"
 #include "engine/world/act/act_stage.h"
+#include "engine/world/act/moves.h"
 #include "engine/world/actors/hinges.h"
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/break/break_stage.h"
@@ -87,6 +88,7 @@ Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
   for (const Joint& joint : world.scene.joints) {  // keys are indices still
     world.joints.add(*world.physics, world.actors, joint);
   }
+  take_hold(world);
   parts_->loads.prepare(world, *parts_->breaker);
 }
 

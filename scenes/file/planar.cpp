@@ -77,6 +77,13 @@ void check_planar(const Scene& scene, const std::string& where) {
         !drive.angular_velocity_W || drive.angular_velocity_W->head<2>().norm() <= kFlat,
         "a drive's spin is about another axis than z");
   }
+  for (const Move& move : scene.moves) {
+    for (const PathKey& key : move.path.keys) {
+      checker.in_plane(key.shift_W, "a move's shift");
+      checker.require(key.turn_W.head<2>().norm() <= kFlat,
+                      "a move turns about another axis than z");
+    }
+  }
 }
 
 double planar_piece_m(const Scene& scene) {

@@ -220,6 +220,36 @@ Keys<DriveTable> drive_keys() {
        key<&DriveTable::torque_Nm>("torque_Nm", "N·m", Range{0, 1e12}, "Most that spins it.")}};
 }
 
+Keys<MoveTable> move_keys() {
+  using Given = MoveTable;
+  return {"[[script.move]]",
+          {key<&Given::name>("name",
+                             "The solid or body that goes from where it stands through its keys, "
+                             "whatever is in its way; it stays at the last, and does not break.")
+               .must(),
+           table_key("key", "Where it is when."),
+           key<&Given::smooth>("smooth",
+                               "Its velocity is continuous, and that of a path that ends begins "
+                               "and ends with 0; false: straight from key to key."),
+           key<&Given::loop>("loop",
+                             "It begins again after its last key, which has it where it stood, "
+                             "but for whole turns."),
+           key<&Given::pivot>("pivot", "m", kPlace,
+                              "What it turns about, before shifts; else the middle of its foot."),
+           key<&Given::release_s>("release_s", "s", kTime,
+                                  "From when on it is free, as fast as it is.")}};
+}
+
+Keys<MoveKeyTable> move_key_keys() {
+  constexpr Range kTurns{-10000, 10000};
+  using Given = MoveKeyTable;
+  return {"[[script.move.key]]",
+          {key<&Given::time_s>("time_s", "s", kTime, "When; later than the key before.").must(),
+           key<&Given::shift>("shift", "m", kPlace, "From where it stood at the start."),
+           key<&Given::turn_rad>("turn_rad", "rad", kTurns,
+                                 "Likewise: the axis, times the angle; more than a turn is one.")}};
+}
+
 Schema make_schema() {
   Schema s;
   s.top = top_keys();
@@ -285,12 +315,15 @@ Schema make_schema() {
       {key<&Script::enabled>("enabled", "false: nothing of it happens."),
        table_key("shot", "Balls that are shot."), table_key("wrecking_ball", "Balls on chains."),
        table_key("blast", "Blasts."), table_key("remove", "Supports that go."),
-       table_key("drive", "Bodies that are driven.")}};
+       table_key("drive", "Bodies that are driven."),
+       table_key("move", "Bodies that go a path.")}};
   s.shot = shot_keys();
   s.wrecking_ball = wrecking_ball_keys();
   s.blast = blast_keys();
   s.remove = remove_keys();
   s.drive = drive_keys();
+  s.move = move_keys();
+  s.move_key = move_key_keys();
   return s;
 }
 

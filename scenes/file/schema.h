@@ -85,6 +85,20 @@ struct DriveTable {
   double torque_Nm = 1e6;
 };
 
+struct MoveTable {
+  std::string name;
+  bool smooth = true;
+  bool loop = false;
+  std::optional<Vec3> pivot;
+  std::optional<double> release_s;
+};
+
+struct MoveKeyTable {
+  double time_s = 0;
+  Vec3 shift = Vec3::Zero();
+  Vec3 turn_rad = Vec3::Zero();
+};
+
 struct WreckingBallTable {
   std::string name;
   double time_s = 0;
@@ -120,6 +134,8 @@ struct Schema {
   Keys<Blast> blast;
   Keys<RemoveTable> remove;
   Keys<DriveTable> drive;
+  Keys<MoveTable> move;
+  Keys<MoveKeyTable> move_key;
 };
 const Schema& schema();
 

@@ -1,8 +1,10 @@
 #include "scenes/file/script.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/base/check.h"
+#include "engine/base/rotation.h"
 #include "scenes/file/chain.h"
 #include "scenes/file/names.h"
 #include "scenes/file/schema.h"
@@ -69,6 +71,74 @@ void add_drive(const Value& table, Scene& scene) {
                           given.force_N, given.angular_velocity, given.torque_Nm});
 }
 
+/// Of a path; what goes faster would pass through things.
+constexpr double kFastest_m_s = 100, kFastest_rad_s = 50;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+PathKey read_path_key(const Value& table, const PathKey& before) {
+  MoveKeyTable given;
+  read(schema().move_key, table, {}, given);
+  const double takes_s = given.time_s - before.time_s;
+  if (takes_s <= 0) {
+    throw InputError(find(table, "time_s")->where + ": time_s in [[script.move.key]] is " +
+                     format(given.time_s) + ", not after " + format(before.time_s) +
+                     (before.time_s > 0 ? " of the key before; keys go by time"
+                                        : ", when it stands where it stood"));
+  }
+  const auto check = [&](double way, double fastest, const std::string& unit) {
+    if (way <= fastest * takes_s) return;
+    throw InputError(table.where + ": the way to this [[script.move.key]] takes " +
+                     format(way / takes_s) + " " + unit + "; allowed: at most " + format(fastest) +
+                     "; give it more time");
+  };
+  check((given.shift - before.shift_W).norm(), kFastest_m_s, "m/s");
+  check((given.turn_rad - before.turn_W).norm(), kFastest_rad_s, "rad/s");
+  return {given.time_s, given.shift, given.turn_rad};
+}
+
+Path read_path(const Value& table, const MoveTable& given) {
+  Path path;
+  path.smooth = given.smooth, path.loops = given.loop;
+  for (const Value* key : tables(table, "key"))
+    path.keys.push_back(read_path_key(*key, path.keys.empty() ? PathKey{} : path.keys.back()));
+  if (path.keys.empty()) {
+    throw InputError(table.where + ": [[script.move]] needs a [[script.move.key]] or more");
+  }
+  constexpr double kSame = 1e-6;
+  const PathKey& last = path.keys.back();
+  const bool returns = last.shift_W.norm() < kSame && rotation_by(last.turn_W).vec().norm() < kSame;
+  if (given.loop && !returns) {
+    throw InputError(tables(table, "key").back()->where +
+                     ": the last key of a [[script.move]] with loop = true has to be where it "
+                     "stood: shift = [0, 0, 0], and no turn or whole ones");
+  }
+  return path;
+}
+
+void add_move(const Value& table, Scene& scene) {
+  MoveTable given;
+  read(schema().move, table, {}, given);
+  const Value& name = *find(table, "name");
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(name.where + ": '" + given.name + "' in [[script.move]] " + why);
+  };
+  Move move{roots_named(scene, given.name, name), read_path(table, given), given.pivot};
+  for (const std::uint32_t root : move.roots) {
+    const auto holds = [&](const Joint& joint) { return joint.a == root || joint.b == root; };
+    const auto moves = [&](const Move& other) { return std::ranges::count(other.roots, root) > 0; };
+    if (root >= scene.solids.size()) refuse("is a ball; a [[body]] or [[solid]] can be moved");
+    if (is_anchored(scene, root)) {
+      refuse("is anchored to the world, which does not let go of it; take its anchored away");
+    }
+    if (std::ranges::any_of(scene.joints, holds)) {
+      refuse("is held by a [[joint]], which would not move with it; take that away");
+    }
+    if (std::ranges::any_of(scene.moves, moves)) refuse("is moved by another one already");
+  }
+  if (given.release_s) move.release_s = *given.release_s;
+  scene.moves.push_back(std::move(move));
+}
+
 void add_shot(const Value& table, Scene& scene) {
   ShotTable given;
   read(schema().shot, table, scene.materials, given);
@@ -96,7 +166,9 @@ void read_script(const Value& table, Scene& scene) {
   for (const Value* blast : tables(table, "blast")) add_blast(*blast, scene);
   for (const Value* removal : tables(table, "remove")) add_removal(*removal, scene);
   for (const Value* drive : tables(table, "drive")) add_drive(*drive, scene);
+  for (const Value* move : tables(table, "move")) add_move(*move, scene);
   if (!script.enabled) {
+    for (Move& move : scene.moves) move.path = {}, move.release_s = kNever;  // it is held, though
     scene.shots.clear();
     scene.blasts.clear();
     scene.removals.clear();

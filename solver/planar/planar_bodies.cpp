@@ -37,19 +37,23 @@ std::uint32_t PlanarBodies::add(const BodyDesc& desc, const MadeShapes& made) {
   body.X_WB = {desc.X_WB.position, desc.X_WB.rotation.normalized()};
   body.com_R = desc.com_R;
   b2BodyDef def;
-  def.type = desc.is_static ? b2_staticBody : b2_dynamicBody;
+  def.type = desc.is_static      ? b2_staticBody
+             : desc.is_kinematic ? b2_kinematicBody
+                                 : b2_dynamicBody;
   def.position = plane_.units(desc.X_WB.position);
   def.userData.pointer = slot;
   if (!desc.is_static) {
+    def.linearVelocity = plane_.units(desc.velocity_W);
+    def.angularVelocity = static_cast<float>(desc.angular_velocity_W.z());
+  }
+  if (def.type == b2_dynamicBody) {
     const Vec3 axis_B = body.X_WB.rotation.conjugate() * Vec3::UnitZ();
     body.mass_kg = desc.mass_kg;
     body.inertia_kg_m2 = axis_B.dot(desc.inertia_B * axis_B);
     SUNDER_CHECK(body.mass_kg > 0 && body.inertia_kg_m2 > 0);
-    def.linearVelocity = plane_.units(desc.velocity_W);
-    def.angularVelocity = static_cast<float>(desc.angular_velocity_W.z());
   }
   body.body = world_.CreateBody(&def);
-  if (!desc.is_static) {
+  if (def.type == b2_dynamicBody) {
     b2MassData mass;
     mass.mass = static_cast<float>(body.mass_kg);
     mass.center.SetZero();

@@ -19,7 +19,7 @@ struct PlanarBody {
   std::uint32_t tag = 0;
   bool reports_load = false;
   bool frozen = false;                ///< Was not finite; static since.
-  double mass_kg = 0;                 ///< 0: static.
+  double mass_kg = 0;                 ///< 0: static or kinematic.
   double inertia_kg_m2 = 0;           ///< About z.
   Pose X_WB;                          ///< When it was added: its z, and where its turns start.
   Vec3 com_R = Vec3::Zero();          ///< As in BodyDesc.
@@ -27,6 +27,7 @@ struct PlanarBody {
   std::vector<std::uint32_t> shapes;  ///< Slots.
 
   bool dynamic() const { return body && body->GetType() == b2_dynamicBody; }
+  bool kinematic() const { return body && body->GetType() == b2_kinematicBody; }
 };
 
 /// A shape of the seam: one fixture of Box2D's, or several.

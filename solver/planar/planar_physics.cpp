@@ -109,7 +109,7 @@ std::vector<BodyId> PlanarPhysics::replace(std::span<const BodyId> remove,
 
 void PlanarPhysics::edit(const BodyEdit& edit) {
   PlanarBody& body = at(edit.body);
-  SUNDER_CHECK(!body.dynamic());
+  SUNDER_CHECK(!body.dynamic() && !body.kinematic());
   check_shapes(edit.added, body.tag);
   const MadeShapes made = bodies_.make_shapes(edit.added, body.tag, body.com_R, body.X_WB);
   for (const std::uint32_t tag : edit.removed_tags) {
@@ -214,7 +214,7 @@ std::vector<Touch> PlanarPhysics::touches(std::span<const BodyId> bodies) {
 
 void PlanarPhysics::set_state(BodyId id, const BodyState& state) {
   PlanarBody& body = at(id);
-  if (!body.dynamic()) return;
+  if (!body.dynamic() && !body.kinematic()) return;
   const Quat rotation = state.X_WB.rotation * body.X_WB.rotation.conjugate();
   body.body->SetTransform(plane_.units(state.X_WB.position),
                           static_cast<float>(2 * arc_tangent(rotation.z(), rotation.w())));
@@ -263,7 +263,7 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
 int PlanarPhysics::steps_for(double dt_s, int substeps) const {
   double fastest = 0;  // units/s
   for (const PlanarBody& body : bodies_.items) {
-    if (!body.dynamic()) continue;
+    if (!body.dynamic() && !body.kinematic()) continue;
     fastest = std::max(fastest, static_cast<double>(body.body->GetLinearVelocity().Length()));
   }
   const float way = std::clamp(0.5f * bodies_.thinnest, kLeastWay, kMostWay);
@@ -315,10 +315,11 @@ void PlanarPhysics::note(std::uint32_t slot) {
   nearby_known_ = false;
   if (!body.body) return;
   const BodyState state = state_of(body);
-  const BodyMode mode = body.frozen       ? BodyMode::kFrozen
-                        : !body.dynamic() ? BodyMode::kStatic
-                        : state.asleep    ? BodyMode::kAsleep
-                                          : BodyMode::kAwake;
+  const BodyMode mode = body.frozen        ? BodyMode::kFrozen
+                        : body.kinematic() ? BodyMode::kKinematic
+                        : !body.dynamic()  ? BodyMode::kStatic
+                        : state.asleep     ? BodyMode::kAsleep
+                                           : BodyMode::kAwake;
   table_.set({slot, body.generation}, mode, state);
 }
 

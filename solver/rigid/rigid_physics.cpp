@@ -10,6 +10,7 @@
 #include "engine/model/work_log.h"
 #include "solver/base/check_bodies.h"
 #include "solver/rigid/body/bodies.h"
+#include "solver/rigid/body/motion.h"
 #include "solver/rigid/body/paused.h"
 #include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/approach.h"
@@ -166,6 +167,7 @@ void RigidPhysics::collide(double dt_s) {
   find_near();
   update_contacts();
   sleep_.wake_hit(step_, contacts_, bodies_);
+  sleep_.wake_carried(options_.gravity_W, contacts_, bodies_);
   contacts_of_bodies_.clear();
 }
 
@@ -352,6 +354,8 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   static_warm_start_.apply(step, options_.static_warm_start, bodies_, contacts_);
   std::fill(bodies_.is_new.begin(), bodies_.is_new.end(), std::uint8_t{0});
   const ContactSolveReport solved = solve_contacts(step);
+  for (const BodySlot body : bodies_.slots())
+    if (bodies_.carries(body)) carry_on(step, body, bodies_);
   last_h_s_ = step.h_s;
   report.external_impulse_Ns += solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();

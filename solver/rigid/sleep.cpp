@@ -92,6 +92,11 @@ Vec3 Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& 
     any = any || candidate_[body];
   }
   if (!any) return Vec3::Zero();
+  for (const Manifold& m : contacts.manifolds) {
+    if (m.count == 0) continue;
+    if (bodies.carries(m.body_b)) candidate_[m.body_a] = 0;
+    if (bodies.carries(m.body_a)) candidate_[m.body_b] = 0;
+  }
   keep_joined_awake(bodies, joints);
   DisjointSets groups(n);  // of what rests on each other
   anchored_.assign(n, step.gravity_W.isZero(0));
@@ -189,6 +194,20 @@ void Sleep::wake_left(std::span<const ManifoldSlot> manifolds, const Vec3& gravi
   std::sort(lowest.begin(), lowest.end());
   lowest.erase(std::unique(lowest.begin(), lowest.end()), lowest.end());
   wake_above(std::move(lowest), gravity_W, contacts, bodies);
+}
+
+void Sleep::wake_carried(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies) {
+  const auto carries = [&](BodySlot body) { return bodies.carries(body); };
+  bool any = false;
+  for (const BodySlot body : bodies.slots()) any = any || carries(body);
+  if (!any) return;
+  std::vector<BodySlot> carried;
+  for (const Manifold& m : contacts.manifolds) {
+    if (m.count == 0) continue;
+    if (carries(m.body_b) && asleep(bodies, m.body_a)) carried.push_back(m.body_a);
+    if (carries(m.body_a) && asleep(bodies, m.body_b)) carried.push_back(m.body_b);
+  }
+  wake_above(std::move(carried), gravity_W, contacts, bodies);
 }
 
 void Sleep::wake_above(std::vector<BodySlot> lowest, const Vec3& gravity_W,

@@ -18,12 +18,14 @@ namespace sunder::solver {
 class Sleep {
  public:
   /// Puts bodies to sleep that have been at rest for longer than they would take to tip, and stand
-  /// on something, by loaded contacts or joints through other sleepers, that cannot move; what is
-  /// joined, only together. The answer is the momentum that was taken away.
+  /// on something, by loaded contacts or joints through other sleepers, that cannot move, or is
+  /// kinematic and stands still; what is joined, only together. The answer is the momentum that was taken away.
   Vec3 put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
                     Contacts& contacts);
   /// Wakes sleepers that something awake is about to hit.
   void wake_hit(const StepContext& step, const Contacts& contacts, Bodies& bodies) const;
+  /// Wakes sleepers that touch a kinematic body that is on its way, and what stands on them.
+  void wake_carried(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies);
   /// Wakes sleepers on which the load has changed in the last solve, and what stood on them if it
   /// was their support that went.
   void wake_changed(const StepContext& step, const Contacts& contacts, Bodies& bodies);

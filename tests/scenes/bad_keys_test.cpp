@@ -59,6 +59,14 @@ std::vector<Sample> samples() {
        all.drive.table,
        all.drive.keys,
        {{"name", "\"x\""}, {"velocity", "[1, 0, 0]"}}},
+      {"[[script.move]]",
+       all.move.table,
+       all.move.keys,
+       {{"name", "\"x\""}, {"key", "[{ time_s = 1 }]"}}},
+      {"[[script.move]]\nname = \"x\"\n[[script.move.key]]",
+       all.move_key.table,
+       all.move_key.keys,
+       {{"time_s", "1"}}},
   };
 }
 
@@ -176,7 +184,8 @@ TEST(BadKeys, NamesOfNothingAreAnsweredWithWhatThereIs) {
     for (const Key& key : sample.keys) {
       const bool stuff = key.kind == Key::Kind::kMaterial;
       const bool refers = sample.header == "[[joint]]" || sample.header == "[[script.remove]]" ||
-                          sample.header == "[[script.drive]]";
+                          sample.header == "[[script.drive]]" ||
+                          sample.header == "[[script.move]]";
       if (!stuff && !(refers && key.kind == Key::Kind::kText)) continue;
       const Answer answer = say(sample, std::string(key.name), stuff ? &no_stuff : &nobody);
       const std::string start = "bad.toml:" + std::to_string(answer.line) +

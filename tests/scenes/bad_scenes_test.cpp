@@ -214,6 +214,46 @@ constexpr Fault kFaults[] = {
      "bad.toml:8: 'box' in [[script.drive]] is anchored to the world, which no force moves; take "
      "its "
      "anchored away"},
+    {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"",
+     "bad.toml:5: [[script.move]] needs a [[script.move.key]] or more"},
+    {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 0 }]",
+     "bad.toml:7: time_s in [[script.move.key]] is 0, not after 0, when it stands where it stood"},
+    {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\n[[script.move.key]]\ntime_s "
+     "= 2\n[[script.move.key]]\ntime_s = 1.5",
+     "bad.toml:10: time_s in [[script.move.key]] is 1.5, not after 2 of the key before; keys go by "
+     "time"},
+    {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\n[[script.move.key]]\ntime_s "
+     "= 0.1\nshift = [0, 50, 0]",
+     "bad.toml:7: the way to this [[script.move.key]] takes 500 m/s; allowed: at most 100; give it "
+     "more time"},
+    {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\n[[script.move.key]]\ntime_s "
+     "= 0.1\nturn_rad = [0, 20, 0]",
+     "bad.toml:7: the way to this [[script.move.key]] takes 200 rad/s; allowed: at most 50; give "
+     "it more time"},
+    {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nloop = "
+     "true\n[[script.move.key]]\ntime_s = 1\nturn_deg = [0, 180, 0]",
+     "bad.toml:8: the last key of a [[script.move]] with loop = true has to be where it stood"},
+    {"[[solid]]\nstructure = \"box\"\nanchored = \"all\"\n[[script.move]]\nname = \"box\"\nkey = "
+     "[{ time_s = 1 }]",
+     "bad.toml:7: 'box' in [[script.move]] is anchored to the world, which does not let go of it; "
+     "take its anchored away"},
+    {"[[ball]]\nname = \"b\"\n[[script.move]]\nname = \"b\"\nkey = [{ time_s = 1 }]",
+     "bad.toml:6: 'b' in [[script.move]] is a ball; a [[body]] or [[solid]] can be moved"},
+    {"[[solid]]\nstructure = \"box\"\n[[joint]]\nkind = \"ball\"\na = \"box\"\nat = [0, 1, "
+     "0]\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1 }]",
+     "bad.toml:10: 'box' in [[script.move]] is held by a [[joint]], which would not move with it; "
+     "take that away"},
+    {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1 "
+     "}]\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1 }]",
+     "bad.toml:9: 'box' in [[script.move]] is moved by another one already"},
+    {"planar = true\n[[material]]\nname = \"concrete\"\npattern = { kind = \"none\" "
+     "}\n[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1, "
+     "shift = [0, 0, 1] }]",
+     "bad.toml:3: planar = true in [scene], but a move's shift has a z of its own; make it 0"},
+    {"planar = true\n[[material]]\nname = \"concrete\"\npattern = { kind = \"none\" "
+     "}\n[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1, "
+     "turn_rad = [1, 0, 0] }]",
+     "bad.toml:3: planar = true in [scene], but a move turns about another axis than z"},
     {"[view]\nfov_rad = 1\nfov_deg = 50",
      "bad.toml:5: fov_deg in [view] is given beside fov_rad; "
      "keep one"},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/world/act/moves.h"
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/actors/replace.h"
 
@@ -180,6 +181,7 @@ std::vector<Impact> ActStage::run(World& world) {
     const std::vector<Impact> of_burst = blows_of(world, burst);
     impacts.insert(impacts.end(), of_burst.begin(), of_burst.end());
   }
+  move_on(world);
   age(world);
   return impacts;
 }

@@ -17,7 +17,7 @@ namespace sunder {
 
 class ActStage {
  public:
-  /// Brings in, takes away and lights what is due; when bodies are too many, the smallest at rest
+  /// Brings in, takes away, moves on and lights what is due; when bodies are too many, the smallest at rest
   /// become debris. The answer is what blasts do to what they might break now.
   std::vector<Impact> run(World& world);
   /// After breaks: what blasts and drives push.

@@ -156,6 +156,7 @@ std::vector<Impact> blows_of(const World& world, Burst& burst) {
   const Cover cover(world, burst.blast);
   std::vector<Impact> impacts;
   for (const Actor& actor : world.actors) {
+    if (actor.is_kinematic) continue;
     const Impact impact = impact_of(world, burst, cover, actor, states[actor.body].X_WB);
     if (impact.energy_J <= 0) continue;
     impacts.push_back(impact);

@@ -48,7 +48,8 @@ struct Actor {
   std::uint32_t key = 0;       ///< Unique in a run, ascending with age; the tag of its body.
   std::uint32_t root_key = 0;  ///< Of what it came off in the end: a solid or ball of the scene.
   BodyId body;
-  bool is_static = false;
+  bool is_static = false;     ///< Nothing pushes it: it stands, or
+  bool is_kinematic = false;  ///< goes its path.
   Structure structure;      ///< Without convexes for a ball.
   std::uint32_t edits = 0;  ///< Of its structure, since it was made.
   /// Of what stands, the centre is where it was when its body was made: there B has its origin.

@@ -67,6 +67,8 @@ constexpr std::size_t kMostBondsStruck = 40000;
 
 void set_least(const World& world, Actor& actor) {
   actor.least_J = actor.least_Ns = std::numeric_limits<double>::infinity();
+  actor.stress.least_J = std::numeric_limits<double>::infinity();
+  if (actor.is_kinematic) return;
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
     if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) continue;
@@ -76,7 +78,6 @@ void set_least(const World& world, Actor& actor) {
     actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);
     actor.least_Ns = std::min(actor.least_Ns, material.strength_Ns);
   }
-  actor.stress.least_J = std::numeric_limits<double>::infinity();
   if (!feels_pushes(world, actor)) return;
   const double convex_m3 = actor.volume_m3 / static_cast<double>(actor.structure.size());
   for (const MaterialIndex index : actor.materials) {
@@ -99,12 +100,17 @@ Actor make_actor(World& world, const Compound& compound) {
   actor.volume_m3 = volume(compound);
   actor.materials = materials_of(compound);
   actor.born_step = world.clock.step;
-  actor.stress.breakable = breaks_by_load(world, actor);
+  set_strength(world, actor);
+  return actor;
+}
+
+void set_strength(const World& world, Actor& actor) {
+  actor.stress = {};
+  actor.stress.breakable = !actor.is_kinematic && breaks_by_load(world, actor);
   actor.stress.since_step = world.clock.step;
   if (actor.stress.breakable && !actor.is_static)
     actor.stress.bursts_s2 = bursting_s2(world, actor);
   set_least(world, actor);
-  return actor;
 }
 
 ShapeDesc shape_of(const World& world, const Actor& actor, ConvexSlot slot) {
@@ -123,10 +129,11 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
   BodyDesc body;
   body.com_R = actor.weight.com_R;
   body.X_WB = {motion.X_WR * actor.weight.com_R, motion.X_WR.rotation};
-  body.is_static = actor.is_static;
+  body.is_static = actor.is_static && !actor.is_kinematic;
+  body.is_kinematic = actor.is_kinematic;
   body.mass_kg = actor.weight.mass_kg;
   body.inertia_B = actor.weight.inertia_R;
-  if (!actor.is_static) {
+  if (!body.is_static) {
     body.angular_velocity_W = motion.field.angular_velocity_W;
     body.velocity_W = motion.field(body.X_WB.position);
   }

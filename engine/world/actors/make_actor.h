@@ -15,6 +15,8 @@ Actor make_actor(World& world, const Compound& compound);
 BodyDesc describe(const World& world, const Actor& actor, const Motion& motion);
 /// The shape of one of its convexes; its tag is the slot.
 ShapeDesc shape_of(const World& world, const Actor& actor, ConvexSlot slot);
+/// What it takes to break it, and that nothing presses on it yet. What is kinematic does not break.
+void set_strength(const World& world, Actor& actor);
 /// The least energy and impulse that could break it, by pattern or by stress.
 void set_least(const World& world, Actor& actor);
 

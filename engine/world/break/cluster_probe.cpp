@@ -55,12 +55,12 @@ class Described {
     body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
     const BodyState state = states_[actor->body];
     body.position_W = state.X_WB.position;
+    body.velocity_W = state.velocity_W;
+    body.angular_velocity_W = state.angular_velocity_W;
     if (actor->is_static) return body;
     const Mat3 rotation = state.X_WB.rotation.toRotationMatrix();
     body.inverse_mass = 1 / actor->weight.mass_kg;
     body.inverse_inertia_W = rotation * actor->weight.inertia_R.inverse() * rotation.transpose();
-    body.velocity_W = state.velocity_W;
-    body.angular_velocity_W = state.angular_velocity_W;
     return body;
   }
 

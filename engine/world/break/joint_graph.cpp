@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "engine/base/disjoint_sets.h"
@@ -40,6 +41,7 @@ std::span<const JointGraph::End> JointGraph::of(std::uint32_t key) const {
 
 JointGraph::Whole JointGraph::alone(std::uint32_t key) const {
   const Actor* actor = world_.actors.find(key);
+  if (actor && actor->is_kinematic) return {0, std::numeric_limits<double>::infinity(), true};
   if (!actor || actor->is_static) return {0, 0, true};
   const BodyState state = states_[actor->body];
   const Vec3 w_B = state.X_WB.rotation.conjugate() * state.angular_velocity_W;

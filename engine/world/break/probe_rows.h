@@ -14,7 +14,7 @@ namespace sunder {
 /// A body of the cluster, as it moves at the start of the step.
 struct ProbeBody {
   std::uint32_t key = 0;
-  double inverse_mass = 0;                ///< 0: static.
+  double inverse_mass = 0;                ///< 0: static or kinematic.
   Mat3 inverse_inertia_W = Mat3::Zero();  ///< About the centre of mass.
   Vec3 position_W = Vec3::Zero();         ///< Of that.
   Vec3 velocity_W = Vec3::Zero();

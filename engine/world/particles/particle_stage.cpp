@@ -83,7 +83,7 @@ Surroundings surroundings(const World& world) {
                        actor.weight.com_R,
                        state.velocity_W,
                        state.angular_velocity_W,
-                       !actor.is_static && !state.asleep};
+                       (!actor.is_static || actor.is_kinematic) && !state.asleep};
       const auto body = static_cast<std::uint32_t>(i);
       ObstacleShape* shape = &all.shapes[first[i]];
       actor.structure.for_each([&](ConvexSlot, const Convex& convex) {

@@ -88,7 +88,9 @@ BodySlot Bodies::add(const BodyDesc& desc) {
   }
   const BodySlot body = free_slots.back();
   free_slots.pop_back();
-  motion[body] = desc.is_static ? Motion::kStatic : Motion::kAwake;
+  motion[body] = desc.is_static      ? Motion::kStatic
+                 : desc.is_kinematic ? Motion::kKinematic
+                                     : Motion::kAwake;
   com_R[body] = desc.com_R;
   place(body, desc.X_WB.position, desc.X_WB.rotation);
   velocity[body] = desc.is_static ? Vec3::Zero() : desc.velocity_W;
@@ -98,7 +100,7 @@ BodySlot Bodies::add(const BodyDesc& desc) {
   inverse_mass[body] = 0;
   root_B[body].setZero();
   spins_freely[body] = 0;
-  if (!desc.is_static) {
+  if (awake(body)) {
     SUNDER_CHECK(desc.mass_kg > 0 && desc.inertia_B.allFinite());
     const InertiaRoot root = inertia_root(desc.inertia_B);
     inertia_B[body] = root.inertia;
@@ -153,7 +155,7 @@ Vec3 Bodies::freeze(BodySlot body) {
 Momentum Bodies::momentum() const {
   Momentum sum;
   for (const BodySlot body : slots()) {
-    if (motion[body] == Motion::kAbsent || motion[body] == Motion::kStatic) continue;
+    if (!dynamic(body) && motion[body] != Motion::kFrozen) continue;
     sum.mass_kg += mass_kg[body];
     sum.momentum_Ns += mass_kg[body] * velocity[body];
   }
@@ -161,7 +163,7 @@ Momentum Bodies::momentum() const {
 }
 
 void Bodies::set_state(BodySlot body, const BodyState& state) {
-  if (!dynamic(body)) return;
+  if (!mobile(body)) return;
   wake(body);
   const Quat turn = rotation[body].conjugate() * state.X_WB.rotation;
   turned_m[body] += 3.2 * turn.vec().norm() * reach_m[body];  // angle <= pi * sine

@@ -32,7 +32,7 @@ struct Bodies {
   ByBody<Mat3f> rotation_f;
   ByBody<Vec3> velocity;
   ByBody<Vec3> angular_velocity;
-  ByBody<double> mass_kg;  ///< Meaningless for static ones.
+  ByBody<double> mass_kg;  ///< Meaningless unless dynamic.
   ByBody<Mat3> inertia_B;
   ByBody<float> inverse_mass;  ///< 0 unless dynamic.
   /// G with G·Gᵀ = inverse inertia in B: the columns turn angular impulses into root space, where
@@ -58,6 +58,15 @@ struct Bodies {
   bool dynamic(BodySlot body) const {
     return motion[body] == Motion::kAwake || motion[body] == Motion::kAsleep;
   }
+  /// May be elsewhere after a step.
+  bool mobile(BodySlot body) const {
+    return dynamic(body) || motion[body] == Motion::kKinematic;
+  }
+  /// Is kinematic, and on its way.
+  bool carries(BodySlot body) const {
+    return motion[body] == Motion::kKinematic &&
+           !(velocity[body].isZero(0) && angular_velocity[body].isZero(0));
+  }
   bool contains(BodyId id) const {
     const BodySlot body(id.slot);
     return id.slot < size() && generation[body] == id.generation && motion[body] != Motion::kAbsent;
@@ -75,7 +84,7 @@ struct Bodies {
   BodyStates states() const {
     return {generation, motion, position, rotation, velocity, angular_velocity};
   }
-  /// Of all that are not static, in order of slots.
+  /// Of all that are neither static nor kinematic, in order of slots.
   Momentum momentum() const;
 
   BodySlot add(const BodyDesc& desc);
@@ -85,9 +94,9 @@ struct Bodies {
   bool finite(BodySlot body) const;
   /// Stops a body for good; the answer is the momentum that went with it.
   Vec3 freeze(BodySlot body);
-  /// Puts a body that can move into a state of motion and wakes it; others stay as they are.
+  /// Puts a mobile body into a state of motion and wakes it; others stay as they are.
   void set_state(BodySlot body, const BodyState& state);
-  /// Likewise changes its momentum by an impulse at a point.
+  /// Changes the momentum of a dynamic one by an impulse at a point, and wakes it.
   void apply_impulse(BodySlot body, const Vec3& impulse_W, const Vec3& point_W);
   /// Wakes a sleeper; others are left as they are.
   void wake(BodySlot body);

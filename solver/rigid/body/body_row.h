@@ -17,7 +17,8 @@ struct alignas(64) BodyRow {
   Wide start;     ///< Velocity when the step began.
 };
 
-/// Of a body that moves; row 0 stays still.
+/// Of a dynamic body. Row 0 stays still; before it lie those of kinematic bodies on their way,
+/// counted down from -1: all read them, and nobody writes.
 inline std::uint32_t row_of(BodySlot body) { return body.value + 1; }
 
 inline Vec3f linear(const Wide& of_row) { return {of_row[0], of_row[1], of_row[2]}; }

@@ -74,6 +74,14 @@ void fly(const StepContext& step, BodySlot body, Bodies& bodies) {
   bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
 }
 
+void carry_on(const StepContext& step, BodySlot body, Bodies& bodies) {
+  const Vec3 angle_W = step.dt_s * bodies.angular_velocity[body];
+  bodies.place(body, bodies.position[body] + step.dt_s * bodies.velocity[body],
+               rotation_by(angle_W) * bodies.rotation[body]);
+  bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
+  bodies.changed[body] = 1;
+}
+
 Turning free_turning(const Bodies& bodies, BodySlot body, double dt_s) {
   const Spin spin = spun_freely(bodies, body, dt_s);
   return {spin.rotation, bodies.rotation[body] * spin.w_B};

@@ -10,6 +10,9 @@ namespace sunder::solver {
 /// angular momentum (implicit midpoint on the group; both are quadratic invariants of it).
 void fly(const StepContext& step, BodySlot body, Bodies& bodies);
 
+/// Moves a kinematic body on, by its velocities as they are.
+void carry_on(const StepContext& step, BodySlot body, Bodies& bodies);
+
 /// Which way a body lies, and how it turns (W).
 struct Turning {
   Quat R_WB;

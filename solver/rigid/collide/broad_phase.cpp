@@ -41,7 +41,7 @@ FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bo
     box = {center.array() - shape.radius_m, center.array() + shape.radius_m};
   }
   float grow = kMargin * shape.inner_radius_m;
-  if (bodies.awake(body)) {
+  if (bodies.awake(body) || bodies.carries(body)) {
     const double dt_s = step.dt_s;
     const Vec3f shift =
         (bodies.velocity[body] * dt_s + step.gravity_W * (dt_s * dt_s)).cast<float>();
@@ -59,7 +59,7 @@ FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bo
 FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& shape,
                   const Bodies& bodies) {
   FloatBox box = swept;
-  if (!bodies.dynamic(shape.body)) return box;
+  if (!bodies.mobile(shape.body)) return box;
   const Vec3f shift = (2 * step.dt_s * bodies.velocity[shape.body]).cast<float>();
   const Vec3f grow = Vec3f::Constant(3 * kMargin * shape.inner_radius_m);
   box.min += shift.cwiseMin(0.f) - grow;
@@ -89,7 +89,7 @@ void BroadPhase::add(std::span<const ShapeSlot> added, const Shapes& shapes, con
     fat_[s] = FloatBox();
     if (shapes[s].kind == ShapeDesc::Kind::kHalfSpace) {
       add_half_space(s, shapes, bodies);
-    } else if (bodies.dynamic(shapes[s].body)) {
+    } else if (bodies.mobile(shapes[s].body)) {
       role_[s] = Role::kMover;
       movers_changed_ = true;
     } else {

@@ -61,7 +61,7 @@ struct RollLanes {
 /// out, or it would follow the instruction set that a file is compiled for.
 template <std::uint32_t lanes>
 struct alignas(64) ConstraintBlock {
-  std::int32_t row_a[lanes] = {};  ///< 0: immovable.
+  std::int32_t row_a[lanes] = {};  ///< 0: immovable; less: kinematic, which takes no impulse.
   std::int32_t row_b[lanes] = {};
   std::uint32_t first = 0;   ///< Of the manifolds in lanes, in the list of those to solve.
   std::uint32_t count = 0;   ///< Lanes in use.

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
+constexpr float kKinematicRoot = 0x1p-40f;  // of an inverse inertia that no other is as small as
 constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
 
 }  // namespace
@@ -28,7 +29,7 @@ class ContactSolver::Stages {
         step_(step),
         bodies_(bodies),
         joints_(joints),
-        rows_(solver.rows_.data()),
+        rows_(solver.rows_.data() + solver.kinematic_.size()),
         accelerated_(!solver.energy_.empty()),
         guarded_(solver.energy_guard_.watches()),
         gravity_{step.kick_W.x(), step.kick_W.y(), step.kick_W.z(), 0, 0, 0, 0, 0},
@@ -44,7 +45,8 @@ class ContactSolver::Stages {
                       soft_step(step),
                       static_cast<float>(kSlowFalls * step.fall_m_s / step.substeps),
                       solver.order_.deep_contacts(),
-                      solver.order_.loaded_contacts()} {}
+                      solver.order_.loaded_contacts(),
+                      solver.kinematic_rows_} {}
 
   void run() {
     plan();
@@ -151,6 +153,10 @@ class ContactSolver::Stages {
     const bool flies = linear(pushed).isZero(0) && angular(pushed).isZero(0);
     if (flies || (guarded_ && solver_.energy_guard_.falls(body))) r.position -= half_fall_;
     r.position += static_cast<float>(step_.h_s) * r.velocity;
+  }
+  void carry_on(std::uint32_t, std::uint32_t) {
+    for (BodyRow* r = solver_.rows_.data(); r < rows_; ++r)
+      r->position += static_cast<float>(step_.h_s) * r->velocity;
   }
   void turn(BodySlot body);
   void finish(BodySlot body);
@@ -290,6 +296,7 @@ void ContactSolver::Stages::plan() {
     if (impacts) once(&Stages::pass_impacts);
     sweeps<&Stages::push_joints>(&Stages::sweep_biased, &Stages::sweep_biased);
     all_bodies<&Stages::join_and_move>();
+    if (!solver_.kinematic_.empty()) once(&Stages::carry_on);
     if (solver_.moving_) all_blocks(&Stages::follow);
     each_joint_color<&Stages::refresh_joints>();
     sweeps<&Stages::relax_joints>(&Stages::sweep_relaxed, &Stages::sweep_last);
@@ -351,11 +358,11 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   energy_.resize(accelerated ? order_.manifolds().size() : 0);
   joint_solver_.collect(bodies, joints, order_.in_contact());
   collect_bodies(bodies);
-  moving_ = std::ranges::any_of(active_, [&](BodySlot body) {
+  moving_ = !kinematic_.empty() || std::ranges::any_of(active_, [&](BodySlot body) {
     return bodies.velocity[body].norm() * step.dt_s > double{kStill} * bodies.reach_m[body];
   });
   blocks_->follow_bodies(moving_);
-  impact_pass_.begin(order_.impacts(), active_, rows_.size(), *blocks_);
+  impact_pass_.begin(order_.impacts(), active_, rows_.size(), kinematic_.size(), *blocks_);
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(), bodies,
                         contacts);
   Stages(*this, step, bodies, contacts, joints).run();
@@ -381,14 +388,33 @@ void ContactSolver::make_blocks() {
 }
 
 void ContactSolver::collect_bodies(const Bodies& bodies) {
-  rows_.resize(bodies.size() + 1);
-  rows_[0] = BodyRow{};
-  root_W_.resize(bodies.size());
+  find_kinematic(bodies);
   spins_.resize(static_cast<std::uint32_t>(bodies.size()));
   active_.clear();
   flying_.clear();
   for (const BodySlot body : bodies.slots())
     if (bodies.awake(body)) (order_.in_contact()[body] ? active_ : flying_).push_back(body);
+}
+
+/// In a root space in which hardly any angular impulse turns them: as good as none, and all of their
+/// spin is seen.
+void ContactSolver::find_kinematic(const Bodies& bodies) {
+  kinematic_.clear();
+  for (const BodySlot body : bodies.slots())
+    if (bodies.carries(body)) kinematic_.push_back(body);
+  kinematic_rows_.assign(kinematic_.empty() ? 0 : bodies.size(), 0);
+  rows_.resize(kinematic_.size() + bodies.size() + 1);
+  std::fill_n(rows_.begin(), kinematic_.size() + 1, BodyRow{});
+  root_W_.resize(bodies.size());
+  for (std::size_t i = 0; i < kinematic_.size(); ++i) {
+    const BodySlot body = kinematic_[i];
+    root_W_[body] = kKinematicRoot * Mat3f::Identity();
+    const Vec3f v = bodies.velocity[body].cast<float>(),
+                w = bodies.angular_velocity[body].cast<float>() / kKinematicRoot;
+    BodyRow& row = rows_[kinematic_.size() - 1 - i];
+    row.velocity = row.base = row.start = Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
+    kinematic_rows_[body] = -1 - static_cast<std::int32_t>(i);
+  }
 }
 
 }  // namespace sunder::solver

@@ -48,6 +48,7 @@ class ContactSolver {
   class Stages;
   void make_blocks();
   void collect_bodies(const Bodies& bodies);
+  void find_kinematic(const Bodies& bodies);
 
   ContactSolverOptions options_;
   SweepOrder order_;
@@ -59,7 +60,9 @@ class ContactSolver {
   std::vector<StageItems> colors_;  ///< Where each colour's blocks are; what is split last.
   std::vector<BodySlot> active_;    ///< Awake bodies in contact, or held by a joint.
   std::vector<BodySlot> flying_;    ///< Awake bodies that touch nothing.
-  std::vector<BodyRow> rows_;       ///< As row_of().
+  std::vector<BodySlot> kinematic_;  ///< Those on their way.
+  std::vector<BodyRow> rows_;        ///< From that of the last of these on: see row_of().
+  ByBody<std::int32_t> kinematic_rows_;
   ByBody<Mat3f> root_W_;
   Spins spins_;
   bool moving_ = false;        ///< Some body in contact moves: arms follow.

@@ -43,13 +43,31 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
   for (const auto& [a, b] : joined) join(a, b);
   group_.resize(bodies.size());
   for (const BodySlot body : bodies.slots()) group_[body] = BodySlot(groups.root(body.value));
+  leave_alone_what_is_carried(manifolds, active, bodies, contacts);
   for (const BodySlot body : active)
-    if (!falls_[body]) falls_[group_[body]] = 0;
-  for (const BodySlot body : active) falls_[body] = falls_[group_[body]];
+    if (!falls_[body] && !group_[body].none()) falls_[group_[body]] = 0;
+  for (const BodySlot body : active)
+    if (!group_[body].none()) falls_[body] = falls_[group_[body]];
   if (!joined.empty()) leave_alone_what_swings_free(manifolds, active, joined, contacts);
   of_body_.assign(bodies.size(), {});
   of_group_.assign(bodies.size(), {});
   share_.assign(bodies.size() + 1, 1);
+}
+
+/// Kinematic bodies do work on what they touch.
+void EnergyGuard::leave_alone_what_is_carried(std::span<const ManifoldSlot> manifolds,
+                                              std::span<const BodySlot> active,
+                                              const Bodies& bodies, const Contacts& contacts) {
+  ByBody<std::uint8_t> carried(bodies.size());
+  bool any = false;
+  for (const ManifoldSlot i : manifolds) {
+    const Manifold& m = contacts.manifolds[i];
+    if (bodies.carries(m.body_a)) carried[group_[m.body_b]] = any = true;
+    if (bodies.carries(m.body_b)) carried[group_[m.body_a]] = any = true;
+  }
+  if (!any) return;
+  for (const BodySlot body : active)
+    if (carried[group_[body]]) group_[body] = {};
 }
 
 /// Joints alone keep energy as well as their substeps do, and would only lose by this.
@@ -66,7 +84,7 @@ void EnergyGuard::leave_alone_what_swings_free(std::span<const ManifoldSlot> man
     mark(contacts.manifolds[i].body_a, false), mark(contacts.manifolds[i].body_b, false);
   }
   for (const BodySlot body : active)
-    if (free[group_[body]]) group_[body] = {};
+    if (!group_[body].none() && free[group_[body]]) group_[body] = {};
 }
 
 void EnergyGuard::weigh_base(BodySlot body, float inverse_mass, const BodyRow& row) {

@@ -57,6 +57,9 @@ class EnergyGuard {
     double asked_J = 0;   ///< Infinite: too much.
   };
 
+  void leave_alone_what_is_carried(std::span<const ManifoldSlot> manifolds,
+                                   std::span<const BodySlot> active, const Bodies& bodies,
+                                   const Contacts& contacts);
   void leave_alone_what_swings_free(std::span<const ManifoldSlot> manifolds,
                                     std::span<const BodySlot> active, std::span<const Pair> joined,
                                     const Contacts& contacts);

@@ -22,13 +22,14 @@ void ImpactPass::add(std::uint32_t first, std::uint32_t end, std::uint32_t manif
 }
 
 void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active, std::size_t rows,
-                       ContactBlocks& blocks) {
+                       std::size_t kinematic, ContactBlocks& blocks) {
   if (empty()) return;
   blocks.expect_impacts();
   for (const BodySlot body : active)
     if (impacts.moves(body)) bodies_.push_back(body);
   velocity_.resize(bodies_.size());
   moved_.resize(rows);
+  kinematic_ = kinematic;
 }
 
 void ImpactPass::prepare(const ContactStep& step, ContactBlocks& blocks) const {
@@ -49,7 +50,7 @@ void ImpactPass::run(const ContactStep& step, ContactBlocks& blocks) {
 
 void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
   std::ranges::fill(moved_, std::uint8_t{0});
-  ImpactSweep sweep{moved_.data()};
+  ImpactSweep sweep{moved_.data() + kinematic_};
   const auto once = [&](const ContactStep& with) {
     ++sweep.now;
     return any_block([&](auto first, auto end) { return blocks.pass_on(first, end, with, sweep); });

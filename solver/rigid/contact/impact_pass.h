@@ -25,7 +25,7 @@ class ImpactPass {
   /// Once all blocks are added; `active` are the awake bodies in contact, of so
   /// many rows.
   void begin(const Impacts& impacts, std::span<const BodySlot> active, std::size_t rows,
-             ContactBlocks& blocks);
+             std::size_t kinematic, ContactBlocks& blocks);
   /// Once all blocks are prepared.
   void prepare(const ContactStep& step, ContactBlocks& blocks) const;
   /// Lets nothing close any more as fast as impacts do. Changes BodyRow::base, and `velocity` by as
@@ -54,6 +54,7 @@ class ImpactPass {
   std::vector<BodySlot> bodies_;                                 ///< That they may move.
   std::vector<Wide> velocity_;                                   ///< Of these, with all impulses.
   std::vector<std::uint8_t> moved_;                              ///< See ImpactSweep.
+  std::size_t kinematic_ = 0;                                    ///< Rows below 0.
   int manifolds_ = 0;
 };
 

@@ -26,18 +26,19 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
                    ConstraintBlock<lanes>& c, GatheredBlock<lanes>& g) {
   const Bodies& bodies = step.bodies;
   const bool a = bodies.awake(m.body_a), b = bodies.awake(m.body_b);
-  c.row_a[lane] = a ? static_cast<std::int32_t>(row_of(m.body_a)) : 0;
-  c.row_b[lane] = b ? static_cast<std::int32_t>(row_of(m.body_b)) : 0;
+  c.row_a[lane] = step.row(m.body_a);
+  c.row_b[lane] = step.row(m.body_b);
+  const bool goes_a = c.row_a[lane] != 0, goes_b = c.row_b[lane] != 0;
   c.inverse_mass_a[lane] = bodies.inverse_mass[m.body_a];
   c.inverse_mass_b[lane] = bodies.inverse_mass[m.body_b];
   // A sleeper has its mass until derive() takes it out: see sleep.h.
   const bool sleeps_a = !a && bodies.dynamic(m.body_a), sleeps_b = !b && bodies.dynamic(m.body_b);
   g.sleepers = g.sleepers || sleeps_a || sleeps_b;
-  g.awake_a[lane] = a ? 1 : 0, g.awake_b[lane] = b ? 1 : 0;
-  if (a || sleeps_a)
-    set_columns(g.root_a, lane, a ? step.root_W[m.body_a] : root_now(bodies, m.body_a));
-  if (b || sleeps_b)
-    set_columns(g.root_b, lane, b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
+  g.awake_a[lane] = goes_a ? 1 : 0, g.awake_b[lane] = goes_b ? 1 : 0;
+  if (goes_a || sleeps_a)
+    set_columns(g.root_a, lane, goes_a ? step.root_W[m.body_a] : root_now(bodies, m.body_a));
+  if (goes_b || sleeps_b)
+    set_columns(g.root_b, lane, goes_b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
   c.summed = c.summed || !a || !b || bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b];
   c.outside_sign[lane] = (a ? 0.f : 1.f) - (b ? 0.f : 1.f);
   set_lane(g.offset, lane,

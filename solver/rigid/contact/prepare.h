@@ -21,12 +21,19 @@ struct ContactStep {
   std::span<const ManifoldSlot> manifolds;  ///< To solve, in the order of blocks.
   std::uint32_t first_split;                ///< Manifolds from here on are split,
   std::span<const SplitSides> split;        ///< as this says of each.
-  SpanByBody<const Mat3f> root_W;           ///< Of those awake.
+  SpanByBody<const Mat3f> root_W;           ///< Of those awake, and of kinematic ones.
   SolverRows rows;
   SoftStep soft;
   float rebound_m_s;                                    ///< Slower impacts do not rebound.
   SpanByBody<const std::uint32_t> deep_contacts = {};   ///< Empty: there are none.
   SpanByBody<const std::uint8_t> loaded_contacts = {};  ///< Loaded manifolds, up to kPinched.
+  /// Of kinematic bodies on their way, below 0; of others 0. Empty: there are none.
+  SpanByBody<const std::int32_t> kinematic_rows = {};
+
+  std::int32_t row(BodySlot body) const {
+    if (bodies.awake(body)) return static_cast<std::int32_t>(row_of(body));
+    return kinematic_rows.empty() ? 0 : kinematic_rows[body];
+  }
 };
 
 /// Fills everything but `first`, `count` and `split`, which say what goes in; and `arms`,

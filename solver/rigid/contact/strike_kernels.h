@@ -295,7 +295,7 @@ bool pass_on(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact, const 
   for (std::uint32_t set = bits(noticed(c, impact, was) > zero); set != 0; set &= set - 1) {
     const int lane = __builtin_ctz(set);
     for (const std::int32_t row : {c.row_a[lane], c.row_b[lane]})
-      if (row != 0) sweep.moved[row] = sweep.now;
+      if (row > 0) sweep.moved[row] = sweep.now;
   }
   return any((on > zero ? fastest : zero) > zero);
 }

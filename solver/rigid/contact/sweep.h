@@ -50,7 +50,7 @@ struct alignas(64) GatheredBlock {
   WideOf<lanes> press_mass = {};  ///< Scales of the spring that presses.
   WideOf<lanes> press_give = {};
   WideOf<lanes> compliance_scale = {};  ///< Of the springs that press.
-  WideOf<lanes> awake_a = {}, awake_b = {};
+  WideOf<lanes> awake_a = {}, awake_b = {};  ///< Kinematic bodies count.
   WideOf<lanes> parts_a = {}, parts_b = {};  ///< Into which a split block cuts its bodies.
   bool sleepers = false;
 };
@@ -122,7 +122,7 @@ struct alignas(64) ImpactLanes {
 };
 /// A sweep of what is near an impact.
 struct ImpactSweep {
-  std::uint8_t* moved = nullptr;  ///< By row: the last sweep that changed it; 0: none. Row 0 never.
+  std::uint8_t* moved = nullptr;  ///< By row: the last sweep that changed it; 0: none.
   std::uint8_t now = 0;
   std::uint8_t since = 0;  ///< Manifolds are swept that have a body that moved since then.
 };

@@ -62,7 +62,7 @@ SUNDER_INLINE void store_side(const Motion6<WideOf<lanes>>& v, const std::int32_
   float* row[lanes];
   NoRow none;
   for (std::uint32_t i = 0; i < lanes; ++i)
-    row[i] = index[i] != 0 ? reinterpret_cast<float*>(&(rows[index[i]].*member)) : none.lane;
+    row[i] = index[i] > 0 ? reinterpret_cast<float*>(&(rows[index[i]].*member)) : none.lane;
   store_rows(v, row);
 }
 
@@ -76,7 +76,7 @@ SUNDER_INLINE void store_part(const Motion6<WideOf<lanes>>& v, const Motion6<Wid
   float* row[lanes];
   NoRow none;
   for (std::uint32_t i = 0; i < lanes; ++i)
-    row[i] = index[i] != 0 ? reinterpret_cast<float*>(&parts[part[i]]) : none.lane;
+    row[i] = index[i] > 0 ? reinterpret_cast<float*>(&parts[part[i]]) : none.lane;
   store_rows(change, row);
 }
 
@@ -275,7 +275,7 @@ template <std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> share_of(const ConstraintBlock<lanes>& c, const float* share_of_row) {
   WideOf<lanes> share = {};
   for (std::uint32_t lane = 0; lane < lanes; ++lane)
-    share[lane] = share_of_row[c.row_a[lane] != 0 ? c.row_a[lane] : c.row_b[lane]];
+    share[lane] = share_of_row[c.row_a[lane] > 0 ? c.row_a[lane] : c.row_b[lane]];
   return share;
 }
 
@@ -310,7 +310,7 @@ void note_spin(const ConstraintBlock<lanes>& c, const ArmLanes<lanes>& arms,
   const auto add = [&](const std::int32_t* row, const Wide3Of<lanes>& by, const V& share) {
     const V x = by.x * share, y = by.y * share, z = by.z * share;
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-      if (row[lane] == 0) continue;
+      if (row[lane] <= 0) continue;
       Wide& to = bodies.spins[row[lane]];
       to[3] += x[lane], to[4] += y[lane], to[5] += z[lane];
     }

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "engine/base/rotation.h"
-#include "engine/base/trigonometry.h"
 
 namespace sunder::solver {
 namespace {
@@ -18,13 +17,6 @@ constexpr double kDirection = 0.25;  // of it, at least, to have a direction
 /// By Householder's reflection, which is its own inverse.
 Vec6 mirrored(const PlasticWork& plastic, const Vec6& x) {
   return x - plastic.mirror.dot(x) * plastic.mirror;
-}
-
-/// The reverse of rotation_by(), for less than half a turn.
-Vec3 rotation_vector(const Quat& rotation) {
-  const double sine = rotation.vec().norm();
-  const double angle = 2 * arc_tangent(sine, rotation.w());
-  return sine > 0 ? Vec3(angle / sine * rotation.vec()) : Vec3(Vec3::Zero());
 }
 
 Vec6 impulse(const JointWork& work) { return Vec6(work.impulse.data()); }

@@ -1,0 +1,60 @@
+// Hermite's cubics with the slopes of Fritsch and Butland (1984), which make them monotone.
+#include "engine/model/path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace sunder {
+namespace {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+Vec6 pose_of(const PathKey& key) {
+  Vec6 pose;
+  pose << key.shift_W, key.turn_W;
+  return pose;
+}
+
+/// Of a cubic where lines of these slopes meet, that long.
+Vec6 slope_between(const Vec6& before, double before_s, const Vec6& after, double after_s) {
+  const double weight = (before_s + 2 * after_s) / (3 * (before_s + after_s));
+  Vec6 slope;
+  for (int i = 0; i < 6; ++i) {
+    const double product = before[i] * after[i];
+    slope[i] = product > 0 ? product / (weight * after[i] + (1 - weight) * before[i]) : 0;
+  }
+  return slope;
+}
+
+}  // namespace
+
+PathKey Path::at(double time_s) const {
+  if (keys.empty()) return {time_s};
+  const double end_s = keys.back().time_s;
+  const double now_s = loops ? std::fmod(time_s, end_s) : std::clamp(time_s, 0.0, end_s);
+  const auto next = std::ranges::find_if(keys, [&](const PathKey& k) { return k.time_s >= now_s; });
+  const auto count = static_cast<std::ptrdiff_t>(keys.size());
+  const std::ptrdiff_t n = next - keys.begin();
+  const auto key = [&](std::ptrdiff_t i) {
+    return i < 0 ? PathKey{} : keys[static_cast<std::size_t>(i)];
+  };
+  const auto length_s = [&](std::ptrdiff_t i) { return key(i).time_s - key(i - 1).time_s; };
+  const auto line = [&](std::ptrdiff_t i) -> Vec6 {  // to key i
+    return (pose_of(key(i)) - pose_of(key(i - 1))) / length_s(i);
+  };
+  const auto slope = [&](std::ptrdiff_t i) -> Vec6 {  // at key i
+    const std::ptrdiff_t before = i < 0 ? count - 1 : i, after = i + 1 == count ? 0 : i + 1;
+    if (!loops && (i < 0 || i + 1 == count)) return Vec6::Zero();
+    return slope_between(line(before), length_s(before), line(after), length_s(after));
+  };
+  const double h = length_s(n), s = (now_s - key(n - 1).time_s) / h;
+  Vec6 pose = pose_of(key(n - 1)) + h * s * line(n);
+  if (smooth) {
+    pose += h * s * (1 - s) *
+            ((1 - s) * (slope(n - 1) - line(n)) - s * (slope(n) - line(n)));
+  }
+  return {time_s, pose.head<3>(), pose.tail<3>()};
+}
+
+}  // namespace sunder

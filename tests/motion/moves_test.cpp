@@ -1,0 +1,127 @@
+// What the script moves by keyframes breaks what is in its way, and is let go in time.
+#include <gtest/gtest.h>
+
+#include "engine/base/hash.h"
+#include "engine/base/parallel.h"
+#include "engine/io/state_hash.h"
+#include "tests/motion/run.h"
+
+namespace sunder::tests {
+namespace {
+
+constexpr double kDt_s = 1.0 / 120;
+
+/// One path for the first solid.
+Scene moved(Scene scene, const Path& path) {
+  scene.moves = {{{0}, path}};
+  return scene;
+}
+
+/// From rest to that shift, on a straight line.
+Path straight(double time_s, const Vec3& shift_W) {
+  Path path;
+  path.keys = {{time_s, shift_W}};
+  path.smooth = false;
+  return path;
+}
+
+TEST(Moves, ItIsAlwaysWhereItsPathIs) {
+  Scene scene = bare_scene(kDt_s, 1, 2000);
+  scene.gravity_W = Vec3(0, -9.81, 0);
+  scene.solids = {box_solid(Vec3(1, 2, 3), Vec3(1, 2, 1))};
+  Path path;
+  path.keys = {{0.5, Vec3(1, 0, 0), Vec3(0, 2, 0)}, {2, Vec3(1, 3, 0), Vec3(1, 9, 0)}};
+  scene.moves = {{{0}, path, Vec3(0, 2, 0)}};
+  Trial trial(scene);
+  while (trial.frame->time_s < 2.5) {
+    trial.step();
+    const PathKey key = path.at(trial.frame->time_s);
+    const Quat turn(Eigen::AngleAxisd(key.turn_W.norm(), key.turn_W.normalized()));
+    const Vec3 at_W = Vec3(0, 2, 0) + key.shift_W + turn * Vec3(1, 0, 3);
+    EXPECT_LT((trial.body(0).X_WB.position - at_W).norm(), 1e-9) << trial.frame->time_s;
+    EXPECT_LT(trial.body(0).X_WB.rotation.angularDistance(turn), 1e-6);
+  }
+  EXPECT_TRUE(trial.body(0).velocity_W.isZero(0)) << "it stands at its last key";
+}
+
+TEST(Moves, ARamBreaksWhatItHitsAndNotItself) {
+  Scene scene = bare_scene(kDt_s, 20, 1000);
+  scene.solids = {box_solid(Vec3(-2, 0, 0), Vec3(1, 1, 1)), box_solid(Vec3(1, 0, 0), Vec3(1, 1, 1))};
+  Trial trial(moved(scene, straight(0.5, Vec3(5, 0, 0))));
+  while (trial.frame->time_s < 0.4) trial.step();
+  EXPECT_FALSE(trial.breaks.empty());
+  for (const BreakEvent& event : trial.breaks) EXPECT_NE(event.body_key, 0u);
+  EXPECT_NEAR(trial.body(0).velocity_W.x(), 10, 1e-9) << "whatever it broke";
+  double slowest_m_s = 1e9;
+  for (const FrameBody& body : trial.frame->bodies) {
+    if (body.key != 0 && body.X_WB.position.x() < trial.body(0).X_WB.position.x() + 0.4)
+      slowest_m_s = std::min(slowest_m_s, body.velocity_W.x());
+  }
+  EXPECT_GT(slowest_m_s, 9) << "what is before it is pushed as fast as it goes";
+}
+
+TEST(Moves, OneThatIsTooSlowToBreakAnythingPushes) {
+  Scene scene = bare_scene(kDt_s, 1e7, 1000);
+  scene.solids = {box_solid(Vec3(-1.2, 0, 0), Vec3(1, 1, 1)), box_solid(Vec3(0, 0, 0), Vec3(1, 1, 1))};
+  Trial trial(moved(scene, straight(1, Vec3(1, 0, 0))));
+  while (trial.frame->time_s < 0.9) trial.step();
+  EXPECT_TRUE(trial.breaks.empty());
+  EXPECT_NEAR(trial.body(1).velocity_W.x(), 1, 1e-3);
+}
+
+TEST(Moves, WhatIsLetGoFliesOnAsFastAsItWasAndBreaksAsAnyOther) {
+  Scene scene = bare_scene(kDt_s, 20, 1000);
+  scene.gravity_W = Vec3(0, -9.81, 0);
+  scene.solids = {box_solid(Vec3::Zero(), Vec3(0.5, 0.5, 0.5)),
+                  box_solid(Vec3(12, -3, 0), Vec3(1, 12, 6), 1, kSteel)};
+  scene.moves = {{{0}, straight(2, Vec3(20, 0, 0)), std::nullopt, 0.5}};
+  Trial trial(scene);
+  while (trial.frame->time_s < 1) trial.step();
+  const double flown_s = trial.frame->time_s - 0.5;
+  EXPECT_NEAR(trial.body(0).X_WB.position.x(), 10, 1e-6);
+  EXPECT_NEAR(trial.body(0).X_WB.position.y(), -0.5 * 9.81 * flown_s * flown_s, 1e-3);
+  while (trial.frame->time_s < 1.4) trial.step();
+  ASSERT_FALSE(trial.breaks.empty());
+  EXPECT_EQ(trial.breaks[0].body_key, 0u);
+}
+
+TEST(Moves, ABlastNeitherBreaksNorMovesIt) {
+  Scene scene = bare_scene(kDt_s, 20, 1000);
+  scene.solids = {box_solid(Vec3::Zero(), Vec3(1, 1, 1)), box_solid(Vec3(3, 0, 0), Vec3(1, 1, 1))};
+  scene.blasts = {{0.1, Vec3(1.5, 0, 0), 4, 20000}};
+  Trial trial(moved(scene, straight(1, Vec3(0, 1, 0))));
+  while (trial.frame->time_s < 0.5) trial.step();
+  ASSERT_FALSE(trial.breaks.empty());
+  for (const BreakEvent& event : trial.breaks) EXPECT_NE(event.body_key, 0u);
+  EXPECT_NEAR(trial.body(0).X_WB.position.y(), trial.frame->time_s, 1e-9);
+}
+
+TEST(Moves, TheSameBitsForAnyThreads) {
+  const auto run = [](int threads) {
+    set_threads(threads);
+    Scene scene = bare_scene(kDt_s, 30, 1000);
+    scene.gravity_W = Vec3(0, -9.81, 0);
+    scene.ground.height_m = -0.5;
+    scene.solids = {box_solid(Vec3(-3, 0.8, 0), Vec3(1, 2, 4), 0, kSteel)};
+    for (int i = 0; i < 12; ++i)
+      scene.solids.push_back(box_solid(Vec3(i % 3, 0.5 * (i / 3), 0.1 * i), Vec3(0.9, 0.5, 0.9)));
+    Path path;
+    path.loops = true;
+    path.keys = {{0.4, Vec3(4, 0, 0), Vec3(0, 0.5, 0)}, {1.2, Vec3::Zero()}};
+    Trial trial(moved(scene, path));
+    std::uint64_t hash = 0;
+    while (trial.frame->time_s < 1.3) {
+      trial.step();
+      hash = combine(hash, hash_state(*trial.frame));
+    }
+    EXPECT_FALSE(trial.breaks.empty());
+    set_threads(0);
+    return hash;
+  };
+  const std::uint64_t one = run(1);
+  EXPECT_EQ(run(2), one);
+  EXPECT_EQ(run(4), one);
+}
+
+}  // namespace
+}  // namespace sunder::tests
