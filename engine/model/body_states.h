@@ -36,7 +36,7 @@ struct BodyState {
 
 /// What a body is to the physics.
 enum class BodyMode : std::uint8_t {
-  kAbsent,  ///< A free slot.
+  kAbsent,     ///< A free slot.
   kStatic,     ///< Never moves; infinite mass.
   kKinematic,  ///< Moves as it is told; infinite mass.
   kAwake,

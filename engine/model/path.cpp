@@ -51,8 +51,7 @@ PathKey Path::at(double time_s) const {
   const double h = length_s(n), s = (now_s - key(n - 1).time_s) / h;
   Vec6 pose = pose_of(key(n - 1)) + h * s * line(n);
   if (smooth) {
-    pose += h * s * (1 - s) *
-            ((1 - s) * (slope(n - 1) - line(n)) - s * (slope(n) - line(n)));
+    pose += h * s * (1 - s) * ((1 - s) * (slope(n - 1) - line(n)) - s * (slope(n) - line(n)));
   }
   return {time_s, pose.head<3>(), pose.tail<3>()};
 }

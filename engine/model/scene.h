@@ -74,7 +74,8 @@ struct Drive {
 struct Move {
   std::vector<std::uint32_t> roots;  ///< Of solids; none is anchored or jointed.
   Path path;
-  std::optional<Vec3> pivot_W;  ///< What its turns are about, where it stood; or each its own origin.
+  std::optional<Vec3>
+      pivot_W;  ///< What its turns are about, where it stood; or each its own origin.
   double release_s = std::numeric_limits<double>::infinity();
 };
 

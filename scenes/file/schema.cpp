@@ -315,8 +315,7 @@ Schema make_schema() {
       {key<&Script::enabled>("enabled", "false: nothing of it happens."),
        table_key("shot", "Balls that are shot."), table_key("wrecking_ball", "Balls on chains."),
        table_key("blast", "Blasts."), table_key("remove", "Supports that go."),
-       table_key("drive", "Bodies that are driven."),
-       table_key("move", "Bodies that go a path.")}};
+       table_key("drive", "Bodies that are driven."), table_key("move", "Bodies that go a path.")}};
   s.shot = shot_keys();
   s.wrecking_ball = wrecking_ball_keys();
   s.blast = blast_keys();

@@ -37,9 +37,7 @@ std::uint32_t PlanarBodies::add(const BodyDesc& desc, const MadeShapes& made) {
   body.X_WB = {desc.X_WB.position, desc.X_WB.rotation.normalized()};
   body.com_R = desc.com_R;
   b2BodyDef def;
-  def.type = desc.is_static      ? b2_staticBody
-             : desc.is_kinematic ? b2_kinematicBody
-                                 : b2_dynamicBody;
+  def.type = desc.is_static ? b2_staticBody : desc.is_kinematic ? b2_kinematicBody : b2_dynamicBody;
   def.position = plane_.units(desc.X_WB.position);
   def.userData.pointer = slot;
   if (!desc.is_static) {

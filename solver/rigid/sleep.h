@@ -19,7 +19,8 @@ class Sleep {
  public:
   /// Puts bodies to sleep that have been at rest for longer than they would take to tip, and stand
   /// on something, by loaded contacts or joints through other sleepers, that cannot move, or is
-  /// kinematic and stands still; what is joined, only together. The answer is the momentum that was taken away.
+  /// kinematic and stands still; what is joined, only together. The answer is the momentum that was
+  /// taken away.
   Vec3 put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
                     Contacts& contacts);
   /// Wakes sleepers that something awake is about to hit.

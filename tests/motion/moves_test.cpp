@@ -46,7 +46,8 @@ TEST(Moves, ItIsAlwaysWhereItsPathIs) {
 
 TEST(Moves, ARamBreaksWhatItHitsAndNotItself) {
   Scene scene = bare_scene(kDt_s, 20, 1000);
-  scene.solids = {box_solid(Vec3(-2, 0, 0), Vec3(1, 1, 1)), box_solid(Vec3(1, 0, 0), Vec3(1, 1, 1))};
+  scene.solids = {box_solid(Vec3(-2, 0, 0), Vec3(1, 1, 1)),
+                  box_solid(Vec3(1, 0, 0), Vec3(1, 1, 1))};
   Trial trial(moved(scene, straight(0.5, Vec3(5, 0, 0))));
   while (trial.frame->time_s < 0.4) trial.step();
   EXPECT_FALSE(trial.breaks.empty());
@@ -59,7 +60,8 @@ TEST(Moves, ARamBreaksWhatItHitsAndNotItself) {
 
 TEST(Moves, OneThatIsTooSlowToBreakAnythingPushes) {
   Scene scene = bare_scene(kDt_s, 1e7, 1000);
-  scene.solids = {box_solid(Vec3(-1.2, 0, 0), Vec3(1, 1, 1)), box_solid(Vec3(0, 0, 0), Vec3(1, 1, 1))};
+  scene.solids = {box_solid(Vec3(-1.2, 0, 0), Vec3(1, 1, 1)),
+                  box_solid(Vec3(0, 0, 0), Vec3(1, 1, 1))};
   Trial trial(moved(scene, straight(1, Vec3(1, 0, 0))));
   while (trial.frame->time_s < 0.9) trial.step();
   EXPECT_TRUE(trial.breaks.empty());

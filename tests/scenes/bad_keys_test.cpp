@@ -184,8 +184,7 @@ TEST(BadKeys, NamesOfNothingAreAnsweredWithWhatThereIs) {
     for (const Key& key : sample.keys) {
       const bool stuff = key.kind == Key::Kind::kMaterial;
       const bool refers = sample.header == "[[joint]]" || sample.header == "[[script.remove]]" ||
-                          sample.header == "[[script.drive]]" ||
-                          sample.header == "[[script.move]]";
+                          sample.header == "[[script.drive]]" || sample.header == "[[script.move]]";
       if (!stuff && !(refers && key.kind == Key::Kind::kText)) continue;
       const Answer answer = say(sample, std::string(key.name), stuff ? &no_stuff : &nobody);
       const std::string start = "bad.toml:" + std::to_string(answer.line) +

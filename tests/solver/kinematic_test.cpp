@@ -25,14 +25,13 @@ class Kinematic : public testing::TestWithParam<bool> {
     return GetParam() ? RigidWorld(make_planar_physics({})) : RigidWorld();
   }
 };
-INSTANTIATE_TEST_SUITE_P(Both, Kinematic, testing::Bool(), [](const auto& planar) {
-  return planar.param ? "Planar" : "Rigid";
-});
+INSTANTIATE_TEST_SUITE_P(Both, Kinematic, testing::Bool(),
+                         [](const auto& planar) { return planar.param ? "Planar" : "Rigid"; });
 
 TEST_P(Kinematic, ItMovesAsToldHoweverHeavyWhatItMeetsIs) {
   RigidWorld world = make();
-  const BodyId wall = world.add(kinematic(W::box(Vec3(1, 1, 1), Vec3::Zero()), Vec3(2, 1, 0),
-                                          Vec3(0, 0, 0.5)));
+  const BodyId wall =
+      world.add(kinematic(W::box(Vec3(1, 1, 1), Vec3::Zero()), Vec3(2, 1, 0), Vec3(0, 0, 0.5)));
   const BodyId block = world.add(W::box(Vec3(4, 4, 4), Vec3(3.5, 0, 0), 8000));
   world.run(1, kDt_s, kSubsteps);
   EXPECT_LT((world.state(wall).X_WB.position - Vec3(2, 1, 0)).norm(), 1e-4) << "Box2D has floats";
@@ -55,8 +54,8 @@ TEST_P(Kinematic, ABoxOnALiftPressesByWeightAndAcceleration) {
     state.velocity_W.y() += a_m_s2 * kDt_s;
     world.physics().set_state(lift, state);
     const SolveReport report = world.step(kDt_s, kSubsteps);
-    const Vec3 error_Ns = report.momentum_after_Ns - report.momentum_before_Ns -
-                          report.external_impulse_Ns;
+    const Vec3 error_Ns =
+        report.momentum_after_Ns - report.momentum_before_Ns - report.external_impulse_Ns;
     EXPECT_LT(error_Ns.norm(), 1e-4 * 1000 * kG * kDt_s) << "its work is from outside";
   }
   double force_N = 0;
@@ -73,7 +72,8 @@ TEST_P(Kinematic, ABoxOnAConveyorSlipsUntilItIsAsFastAndNoLonger) {
   const double friction = 0.5, v_m_s = 3;
   world.add(kinematic(W::with_friction(W::box(Vec3(40, 1, 1), Vec3(0, -0.5, 0)), friction),
                       Vec3(v_m_s, 0, 0)));
-  const BodyId box = world.add(W::with_friction(W::box(Vec3(1, 0.2, 1), Vec3(0, 0.1, 0)), friction));
+  const BodyId box =
+      world.add(W::with_friction(W::box(Vec3(1, 0.2, 1), Vec3(0, 0.1, 0)), friction));
   const double slips_s = v_m_s / (friction * kG);
   world.run(0.5 * slips_s, kDt_s, kSubsteps);
   EXPECT_NEAR(world.state(box).velocity_W.x(), 0.5 * v_m_s, 0.05);
@@ -85,9 +85,8 @@ TEST_P(Kinematic, ABoxOnAConveyorSlipsUntilItIsAsFastAndNoLonger) {
 
 TEST_P(Kinematic, ABallLeavesAWallThatMeetsItFasterByTheWallsSpeed) {
   for (const double restitution : {0.0, 0.5, 1.0}) {
-    RigidWorld world = GetParam()
-                           ? RigidWorld(make_planar_physics({.gravity_W = Vec3::Zero()}))
-                           : RigidWorld(RigidOptions{.gravity_W = Vec3::Zero()});
+    RigidWorld world = GetParam() ? RigidWorld(make_planar_physics({.gravity_W = Vec3::Zero()}))
+                                  : RigidWorld(RigidOptions{.gravity_W = Vec3::Zero()});
     world.add(kinematic(W::with_friction(W::box(Vec3(1, 4, 4), Vec3(-0.5, 0, 0)), 0, restitution),
                         Vec3(3, 0, 0)));
     BodyDesc ball = W::with_friction(W::sphere(0.5, Vec3(2, 0, 0)), 0, restitution);
@@ -102,7 +101,8 @@ TEST_P(Kinematic, WhatSleptOnItWakesWhenItGoesAndRidesAlong) {
   RigidWorld world = make();
   const BodyId lift = world.add(kinematic(W::box(Vec3(4, 1, 1), Vec3(0, -0.5, 0))));
   std::vector<BodyId> boxes;
-  for (int i = 0; i < 3; ++i) boxes.push_back(world.add(W::box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0))));
+  for (int i = 0; i < 3; ++i)
+    boxes.push_back(world.add(W::box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0))));
   world.run(4, kDt_s, kSubsteps);
   for (const BodyId box : boxes) EXPECT_TRUE(world.state(box).asleep);
   BodyState state = world.state(lift);

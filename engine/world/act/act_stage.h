@@ -17,8 +17,8 @@ namespace sunder {
 
 class ActStage {
  public:
-  /// Brings in, takes away, moves on and lights what is due; when bodies are too many, the smallest at rest
-  /// become debris. The answer is what blasts do to what they might break now.
+  /// Brings in, takes away, moves on and lights what is due; when bodies are too many, the smallest
+  /// at rest become debris. The answer is what blasts do to what they might break now.
   std::vector<Impact> run(World& world);
   /// After breaks: what blasts and drives push.
   void push(World& world);

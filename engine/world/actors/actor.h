@@ -50,8 +50,8 @@ struct Actor {
   BodyId body;
   bool is_static = false;     ///< Nothing pushes it: it stands, or
   bool is_kinematic = false;  ///< goes its path.
-  Structure structure;      ///< Without convexes for a ball.
-  std::uint32_t edits = 0;  ///< Of its structure, since it was made.
+  Structure structure;        ///< Without convexes for a ball.
+  std::uint32_t edits = 0;    ///< Of its structure, since it was made.
   /// Of what stands, the centre is where it was when its body was made: there B has its origin.
   Weight weight;
   double volume_m3 = 0;

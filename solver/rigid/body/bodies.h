@@ -59,9 +59,7 @@ struct Bodies {
     return motion[body] == Motion::kAwake || motion[body] == Motion::kAsleep;
   }
   /// May be elsewhere after a step.
-  bool mobile(BodySlot body) const {
-    return dynamic(body) || motion[body] == Motion::kKinematic;
-  }
+  bool mobile(BodySlot body) const { return dynamic(body) || motion[body] == Motion::kKinematic; }
   /// Is kinematic, and on its way.
   bool carries(BodySlot body) const {
     return motion[body] == Motion::kKinematic &&

@@ -1,5 +1,7 @@
 #include "solver/rigid/body/row_exchange.h"
 
+#include <algorithm>
+
 namespace sunder::solver {
 
 void take_row(const Bodies& bodies, BodySlot body, BodyRow& row, Mat3f& root_W) {
@@ -17,6 +19,29 @@ void give_row(const BodyRow& row, const Mat3f& root_W, BodySlot body, Bodies& bo
   const Wide change = row.velocity - row.start;
   bodies.velocity[body] += linear(change).cast<double>();
   bodies.angular_velocity[body] += (root_W * angular(change)).cast<double>();
+}
+
+void take_kinematic(const Bodies& bodies, const KinematicRows& to) {
+  // Of an inverse inertia that no other is as small as: hardly any angular impulse turns them, and
+  // all of their spin is seen.
+  constexpr float kKinematicRoot = 0x1p-40f;
+  to.bodies.clear();
+  for (const BodySlot body : bodies.slots())
+    if (bodies.carries(body)) to.bodies.push_back(body);
+  const std::size_t count = to.bodies.size();
+  to.row.assign(count == 0 ? 0 : bodies.size(), 0);
+  to.rows.resize(count + bodies.size() + 1);
+  std::fill_n(to.rows.begin(), count + 1, BodyRow{});
+  to.root_W.resize(bodies.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const BodySlot body = to.bodies[i];
+    to.root_W[body] = kKinematicRoot * Mat3f::Identity();
+    const Vec3f v = bodies.velocity[body].cast<float>(),
+                w = bodies.angular_velocity[body].cast<float>() / kKinematicRoot;
+    BodyRow& row = to.rows[count - 1 - i];
+    row.velocity = row.base = row.start = Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
+    to.row[body] = -1 - static_cast<std::int32_t>(i);
+  }
 }
 
 }  // namespace sunder::solver

@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
-constexpr float kKinematicRoot = 0x1p-40f;  // of an inverse inertia that no other is as small as
 constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
 
 }  // namespace
@@ -388,33 +387,12 @@ void ContactSolver::make_blocks() {
 }
 
 void ContactSolver::collect_bodies(const Bodies& bodies) {
-  find_kinematic(bodies);
+  take_kinematic(bodies, {kinematic_, kinematic_rows_, rows_, root_W_});
   spins_.resize(static_cast<std::uint32_t>(bodies.size()));
   active_.clear();
   flying_.clear();
   for (const BodySlot body : bodies.slots())
     if (bodies.awake(body)) (order_.in_contact()[body] ? active_ : flying_).push_back(body);
-}
-
-/// In a root space in which hardly any angular impulse turns them: as good as none, and all of their
-/// spin is seen.
-void ContactSolver::find_kinematic(const Bodies& bodies) {
-  kinematic_.clear();
-  for (const BodySlot body : bodies.slots())
-    if (bodies.carries(body)) kinematic_.push_back(body);
-  kinematic_rows_.assign(kinematic_.empty() ? 0 : bodies.size(), 0);
-  rows_.resize(kinematic_.size() + bodies.size() + 1);
-  std::fill_n(rows_.begin(), kinematic_.size() + 1, BodyRow{});
-  root_W_.resize(bodies.size());
-  for (std::size_t i = 0; i < kinematic_.size(); ++i) {
-    const BodySlot body = kinematic_[i];
-    root_W_[body] = kKinematicRoot * Mat3f::Identity();
-    const Vec3f v = bodies.velocity[body].cast<float>(),
-                w = bodies.angular_velocity[body].cast<float>() / kKinematicRoot;
-    BodyRow& row = rows_[kinematic_.size() - 1 - i];
-    row.velocity = row.base = row.start = Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
-    kinematic_rows_[body] = -1 - static_cast<std::int32_t>(i);
-  }
 }
 
 }  // namespace sunder::solver

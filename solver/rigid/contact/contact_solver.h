@@ -48,7 +48,6 @@ class ContactSolver {
   class Stages;
   void make_blocks();
   void collect_bodies(const Bodies& bodies);
-  void find_kinematic(const Bodies& bodies);
 
   ContactSolverOptions options_;
   SweepOrder order_;
@@ -57,9 +56,9 @@ class ContactSolver {
   EnergyGuard energy_guard_;
   ImpactPass impact_pass_;
   std::unique_ptr<ContactBlocks> blocks_;
-  std::vector<StageItems> colors_;  ///< Where each colour's blocks are; what is split last.
-  std::vector<BodySlot> active_;    ///< Awake bodies in contact, or held by a joint.
-  std::vector<BodySlot> flying_;    ///< Awake bodies that touch nothing.
+  std::vector<StageItems> colors_;   ///< Where each colour's blocks are; what is split last.
+  std::vector<BodySlot> active_;     ///< Awake bodies in contact, or held by a joint.
+  std::vector<BodySlot> flying_;     ///< Awake bodies that touch nothing.
   std::vector<BodySlot> kinematic_;  ///< Those on their way.
   std::vector<BodyRow> rows_;        ///< From that of the last of these on: see row_of().
   ByBody<std::int32_t> kinematic_rows_;

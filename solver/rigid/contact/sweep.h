@@ -49,7 +49,7 @@ struct alignas(64) GatheredBlock {
   WideOf<lanes> has[4] = {};      ///< 1: the manifold has such a point.
   WideOf<lanes> press_mass = {};  ///< Scales of the spring that presses.
   WideOf<lanes> press_give = {};
-  WideOf<lanes> compliance_scale = {};  ///< Of the springs that press.
+  WideOf<lanes> compliance_scale = {};       ///< Of the springs that press.
   WideOf<lanes> awake_a = {}, awake_b = {};  ///< Kinematic bodies count.
   WideOf<lanes> parts_a = {}, parts_b = {};  ///< Into which a split block cuts its bodies.
   bool sleepers = false;
