@@ -89,6 +89,22 @@ TEST(Golden, EveryTextureAndEveryPassIsInOne) {
   EXPECT_EQ(view_modes.size(), 6u);
 }
 
+TEST(Golden, TheBookHasStatesOfEveryPresetOfEveryGoldenThatIsSimulatedAndOfNoOther) {
+  std::set<std::string> expected, found;
+  for (const fs::path& file : goldens(".json")) {
+    const std::string scene = Json::parse(scenes::read_text(file))["scene"];
+    if (scene.ends_with(".frame")) continue;
+    for (const char* preset : {"draft", "realtime", "accurate", "reference"}) {
+      expected.insert("frames/" + file.stem().string() + "/" + preset);
+    }
+  }
+  std::ifstream book(kGoldens / "hashes.txt");
+  for (std::string line; std::getline(book, line);) {
+    if (line.starts_with("frames/")) found.insert(line.substr(0, line.find(' ')));
+  }
+  EXPECT_EQ(found, expected);
+}
+
 TEST(Golden, TheCommandsThatAreSaidMakeTheSameGoldenAgain) {
   const Folder first, second;
   const std::string record =
