@@ -13,6 +13,7 @@ set(public_headers
   engine/model/frame.h
   engine/model/joint.h
   engine/model/material.h
+  engine/model/path.h
   engine/model/scene.h
   engine/model/work.h
   render/sinks.h
