@@ -1,7 +1,9 @@
 #include "solver/rigid/joint/pinned_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace sunder::solver {
 namespace {
@@ -9,19 +11,23 @@ namespace {
 constexpr int kPinRounds = 32;
 constexpr double kAtBound = 1e-9;  // of it: rounding
 
+/// In eight sums, which go side by side, and are the same on any processor.
 double dot(std::span<const double> a, std::span<const double> b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+  std::array<double, 8> sums{};
+  const std::size_t whole = a.size() / 8 * 8;
+  for (std::size_t i = 0; i < whole; i += 8)
+    for (std::size_t k = 0; k < 8; ++k) sums[k] += a[i + k] * b[i + k];
+  for (std::size_t i = whole; i < a.size(); ++i) sums[i - whole] += a[i] * b[i];
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
 }
 
 }  // namespace
 
-void Envelope::factor() {
-  for (std::uint32_t i = 0; i < rows(); ++i) {
+void Envelope::factor(std::uint32_t from) {
+  for (std::uint32_t i = from; i < rows(); ++i) {
     for (std::uint32_t j = first[i]; j <= i; ++j) {
-      double sum = at(i, j);
-      for (std::uint32_t k = std::max(first[i], first[j]); k < j; ++k) sum -= at(i, k) * at(j, k);
+      const std::uint32_t both = std::min(j, std::max(first[i], first[j]));
+      const double sum = at(i, j) - dot(row(i, both, j), row(j, both, j));
       at(i, j) = j < i ? sum / at(j, j) : std::sqrt(std::max(sum, 1e-12 * at(i, i)));
     }
   }
@@ -29,8 +35,7 @@ void Envelope::factor() {
 
 void Envelope::solve(std::span<double> x) const {
   for (std::uint32_t i = 0; i < rows(); ++i) {
-    for (std::uint32_t k = first[i]; k < i; ++k) x[i] -= at(i, k) * x[k];
-    x[i] /= at(i, i);
+    x[i] = (x[i] - dot(row(i, first[i], i), x.subspan(first[i], i - first[i]))) / at(i, i);
   }
   for (std::uint32_t i = rows(); i-- > 0;) {
     x[i] /= at(i, i);
@@ -41,11 +46,8 @@ void Envelope::solve(std::span<double> x) const {
 std::vector<double> Envelope::times(std::span<const double> x) const {
   std::vector<double> product(rows(), 0);
   for (std::uint32_t i = 0; i < rows(); ++i) {
-    for (std::uint32_t k = first[i]; k < i; ++k) {
-      product[i] += at(i, k) * x[k];
-      product[k] += at(i, k) * x[i];
-    }
-    product[i] += at(i, i) * x[i];
+    for (std::uint32_t k = first[i]; k < i; ++k) product[k] += at(i, k) * x[i];
+    product[i] += dot(row(i, first[i], i + 1), x.subspan(first[i], i + 1 - first[i]));
   }
   return product;
 }
@@ -79,19 +81,25 @@ void PinnedRows::find_excess(const Envelope& response) {
   for (std::size_t i = 0; i < bounds.size(); ++i) excess_[i] -= asked_[i];
 }
 
-/// Of the rows that are free, if they are others than last time.
+/// Of the rows that are free, if they are others than last time: from the first of these on, as
+/// rows hang on those before them alone.
 void PinnedRows::factor(const Envelope& response) {
-  const auto same = [](const RowBounds& row, std::uint8_t free) { return free == (row.pin == 0); };
-  if (!stale_ && std::ranges::equal(bounds, factored_free_, same)) return;
-  stale_ = false;
+  std::uint32_t from = 0;
+  if (!std::exchange(stale_, false)) {
+    while (from < response.rows() && (bounds[from].pin == 0) == (factored_free_[from] != 0)) ++from;
+    if (from == response.rows()) return;
+    std::copy(response.entries.begin() + response.start[from], response.entries.end(),
+              factored_.entries.begin() + response.start[from]);
+  } else {
+    factored_ = response;
+  }
   factored_free_.clear();
   for (const RowBounds& row : bounds) factored_free_.push_back(row.pin == 0);
-  factored_ = response;
-  for (std::uint32_t i = 0; i < response.rows(); ++i) {
+  for (std::uint32_t i = from; i < response.rows(); ++i) {
     for (std::uint32_t k = response.first[i]; k <= i; ++k)
       if (!factored_free_[i] || !factored_free_[k]) factored_.at(i, k) = i == k;
   }
-  factored_.factor();
+  factored_.factor(from);
 }
 
 /// Goes the way of the free rows up to the first bound, and pins what meets it; whether none does.

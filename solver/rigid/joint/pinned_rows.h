@@ -23,8 +23,13 @@ struct Envelope {
   double at(std::uint32_t row, std::uint32_t column) const {
     return entries[start[row] + column - first[row]];
   }
-  /// Cholesky, in place. Pivots must be positive.
-  void factor();
+  /// Entries of a row, from a column on, and to before another.
+  std::span<const double> row(std::uint32_t row, std::uint32_t from, std::uint32_t to) const {
+    return std::span(entries).subspan(start[row] + from - first[row], to - from);
+  }
+  /// Cholesky, in place, of the rows from one on: those before it are factored. Pivots must be
+  /// positive.
+  void factor(std::uint32_t from = 0);
   /// Solves for the right side, in place.
   void solve(std::span<double> right) const;
   /// The product, before it is factored.
