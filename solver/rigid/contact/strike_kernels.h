@@ -10,7 +10,7 @@
 namespace sunder::solver {
 
 /// Of the speed of the slowest impact: a change that is passed on.
-inline constexpr float kNoticed = 0.1f;
+inline constexpr float kNoticed = 0.25f;
 
 /// The rows of those lanes that take part, 1; of others none.
 template <std::uint32_t lanes>
@@ -297,6 +297,7 @@ bool pass_on(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact, const 
     for (const std::int32_t row : {c.row_a[lane], c.row_b[lane]})
       if (row > 0) sweep.moved[row] = sweep.now;
   }
+
   return any((on > zero ? fastest : zero) > zero);
 }
 
