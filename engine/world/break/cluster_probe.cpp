@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "engine/base/froude.h"
@@ -15,6 +16,7 @@ namespace sunder {
 namespace {
 
 constexpr std::uint32_t kOutside = 0xffffffff;
+constexpr std::size_t kManyPlaces = 4;  // pairs of convexes by which two bodies touch
 
 /// A cluster on its way to a probe.
 class Described {
@@ -81,6 +83,40 @@ class Described {
       contacts_.push_back({a, b, touch.shape_tag_a, touch.shape_tag_b, touch.arm_a_W, touch.arm_b_W,
                            touch.normal_W, touch.separation_m});
     }
+    merge_patches();
+  }
+
+  /// Where two bodies touch in many places, each place counts as one point, its middle: theirs are
+  /// enough to say how the two bear on each other.
+  void merge_patches() {
+    std::vector<ProbeContact> merged;
+    merged.reserve(contacts_.size());
+    const auto bodies = [](const ProbeContact& c) { return std::pair(c.a, c.b); };
+    const auto place = [](const ProbeContact& c) {
+      return std::tuple(c.a, c.b, c.shape_a, c.shape_b);
+    };
+    std::ranges::stable_sort(contacts_, {}, bodies);
+    for (std::size_t i = 0, end = 0; i < contacts_.size(); i = end) {
+      std::size_t places = 0;
+      for (end = i; end < contacts_.size() && bodies(contacts_[end]) == bodies(contacts_[i]); ++end)
+        places += end == i || place(contacts_[end]) != place(contacts_[end - 1]);
+      if (places < kManyPlaces) {
+        merged.insert(merged.end(), &contacts_[i], &contacts_[i] + (end - i));
+        continue;
+      }
+      for (std::size_t k = i, next = i; k < end; k = next) {
+        ProbeContact middle = contacts_[k];
+        for (next = k + 1; next < end && place(contacts_[next]) == place(middle); ++next) {
+          middle.arm_a_W += contacts_[next].arm_a_W;
+          middle.arm_b_W += contacts_[next].arm_b_W;
+          middle.separation_m += contacts_[next].separation_m;
+        }
+        const double share = 1 / static_cast<double>(next - k);
+        middle.arm_a_W *= share, middle.arm_b_W *= share, middle.separation_m *= share;
+        merged.push_back(middle);
+      }
+    }
+    contacts_ = std::move(merged);
   }
 
   /// By place in Joints::live(), ascending.
