@@ -375,6 +375,7 @@ void ContactSolver::make_blocks() {
   colors_.clear();
   impact_pass_.clear();
   const std::uint32_t grain = kManifoldGrain / blocks_->lanes();
+  bool was_narrow = false;
   for (std::uint32_t color = 0; color < order_.colors(); ++color) {
     const bool split = color + 1 == order_.colors();
     const std::uint32_t first = blocks_->size();
@@ -382,7 +383,15 @@ void ContactSolver::make_blocks() {
     impact_pass_.add(first, blocks_->size(), order_.count(color, true));
     blocks_->add(order_.begin(color, false), order_.count(color, false), split);
     const std::uint32_t count = blocks_->size() - first;
-    if (count > 0) colors_.push_back({first, count, grain});
+    if (count == 0) continue;
+    // Colours of a grain each are one thread's, one after the other.
+    const bool narrow = count <= grain && !split;
+    if (narrow && was_narrow) {
+      colors_.back().grain = colors_.back().count += count;
+    } else {
+      colors_.push_back({first, count, grain});
+    }
+    was_narrow = narrow;
   }
 }
 
