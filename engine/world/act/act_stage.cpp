@@ -174,12 +174,11 @@ std::vector<Impact> ActStage::run(World& world) {
     remove(world, removal);
   }
   for (const Blast& blast : take_due(world.clock, world.scene.blasts, next_blast_)) {
-    bursts_.push_back(light(blast, world.clock));
+    bursts_.push_back(light(world, blast));
   }
   std::vector<Impact> impacts;
   for (Burst& burst : bursts_) {
-    const std::vector<Impact> of_burst = blows_of(world, burst);
-    impacts.insert(impacts.end(), of_burst.begin(), of_burst.end());
+    for (Impact& impact : blows_of(world, burst)) impacts.push_back(impact);
   }
   move_on(world);
   age(world);

@@ -147,8 +147,9 @@ void push_away(const World& world, const Blast& blast, const Cover& cover, Chip&
 
 }  // namespace
 
-Burst light(const Blast& blast, const Clock& clock) {
-  return {blast, clock.time_s() + kBreaking_s, {}};
+Burst light(const World& world, const Blast& blast) {
+  const auto number = static_cast<std::uint32_t>(&blast - world.scene.blasts.data());
+  return {blast, world.clock.time_s() + kBreaking_s, {}, number};
 }
 
 std::vector<Impact> blows_of(const World& world, Burst& burst) {
@@ -157,8 +158,9 @@ std::vector<Impact> blows_of(const World& world, Burst& burst) {
   std::vector<Impact> impacts;
   for (const Actor& actor : world.actors) {
     if (actor.is_kinematic) continue;
-    const Impact impact = impact_of(world, burst, cover, actor, states[actor.body].X_WB);
+    Impact impact = impact_of(world, burst, cover, actor, states[actor.body].X_WB);
     if (impact.energy_J <= 0) continue;
+    impact.blast = burst.number;
     impacts.push_back(impact);
   }
   for (const Impact& impact : impacts) burst.tried_W.push_back(impact.point_W);

@@ -7,6 +7,7 @@
 // what they hid when it broke them stays hidden as long as they are in the way.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/world/actors/impact.h"
@@ -19,9 +20,11 @@ struct Burst {
   Blast blast;
   double pushes_at_s = 0;
   std::vector<Vec3> tried_W;  ///< Where it has broken something, or failed to.
+  std::uint32_t number = 0;   ///< Of the scene's.
 };
 
-Burst light(const Blast& blast, const Clock& clock);
+/// One of the scene's.
+Burst light(const World& world, const Blast& blast);
 /// What it does to each actor where it presses hardest and has not been tried, which is noted.
 std::vector<Impact> blows_of(const World& world, Burst& burst);
 /// Pushes all that is loose, chips that have just come off with it.

@@ -15,6 +15,7 @@ struct Impact {
   Vec3 point_W = Vec3::Zero();
   Vec3 direction_W = Vec3::UnitY();  ///< Unit, into the actor.
   double energy_J = 0;               ///< The work it would do.
+  std::uint32_t blast = 0;           ///< Of one: which of the scene's.
 };
 
 }  // namespace sunder

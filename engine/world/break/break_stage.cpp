@@ -1,6 +1,8 @@
 #include "engine/world/break/break_stage.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -172,6 +174,25 @@ std::vector<PlannedBreak*> planned_in(std::vector<Trial>& trials) {
   return all;
 }
 
+/// After another blast has broken the solid that an impact was to break: puts it on the nearest of
+/// what came of that; false if nothing did.
+bool find_again(const World& world, std::uint32_t root_key, Impact& impact) {
+  const Actor* known = world.actors.find(impact.key);
+  if (known && known->structure.has(impact.convex)) return true;
+  const BodyStates states = world.physics->states();
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Actor& actor : world.actors) {
+    if (actor.root_key != root_key || actor.structure.empty()) continue;
+    const Vec3 point_R = rest_pose(actor, states[actor.body].X_WB).inverse() * impact.point_W;
+    const double distance_m = distance_outside(actor.structure, point_R);
+    if (distance_m >= least_m) continue;
+    least_m = distance_m;
+    impact.key = actor.key;
+    impact.convex = nearest(actor.structure, point_R);
+  }
+  return std::isfinite(least_m);
+}
+
 }  // namespace
 
 bool BreakBudget::try_spend(std::uint32_t parts) {
@@ -197,31 +218,45 @@ bool BreakStage::take_on(World& world, const Breaker& breaker, std::span<Planned
 bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
                                  std::span<const Impact> impacts) {
   for (const Impact& impact : impacts) {
-    const auto same = [&](const Impact& known) { return known.key == impact.key; };
+    const auto same = [&](const Impact& known) {
+      return known.key == impact.key && known.blast == impact.blast;
+    };
     if (std::ranges::none_of(impacts_waiting_, same)) impacts_waiting_.push_back(impact);
   }
-  std::vector<PlannedBreak> all;
-  for (const Impact& impact : std::exchange(impacts_waiting_, {})) {
-    const Actor* actor = world.actors.find(impact.key);
-    if (!actor || !actor->structure.has(impact.convex)) continue;
-    PlannedBreak planned;
-    planned.impact = impact;
-    if (take_on(world, breaker, std::span(&planned, 1))) {
-      all.push_back(std::move(planned));
-    } else {
-      impacts_waiting_.push_back(impact);
-    }
-  }
-  std::vector<PlannedBreak*> pointers;
-  for (PlannedBreak& planned : all) pointers.push_back(&planned);
-  plan(world, breaker, pointers);
   bool broke = false;
-  for (PlannedBreak& planned : all) {
-    const Verdict verdict = verdict_on(world, planned);
-    note_verdict(world, planned, verdict);
-    if (verdict != Verdict::kBreaks) continue;
-    break_actor(world, planned);
-    broke = true;
+  for (std::vector<Impact> due = std::exchange(impacts_waiting_, {}); !due.empty();) {
+    std::vector<PlannedBreak> all;
+    // Of a solid that several blasts break, the next breaks what the one before has left.
+    std::vector<std::pair<std::uint32_t, Impact>> later;  // by root
+    for (const Impact& impact : due) {
+      const Actor* actor = world.actors.find(impact.key);
+      if (!actor || !actor->structure.has(impact.convex)) continue;
+      const auto same = [&](const PlannedBreak& other) { return other.impact.key == impact.key; };
+      if (std::ranges::any_of(all, same)) {
+        later.emplace_back(actor->root_key, impact);
+        continue;
+      }
+      PlannedBreak planned;
+      planned.impact = impact;
+      if (take_on(world, breaker, std::span(&planned, 1))) {
+        all.push_back(std::move(planned));
+      } else {
+        impacts_waiting_.push_back(impact);
+      }
+    }
+    std::vector<PlannedBreak*> pointers;
+    for (PlannedBreak& planned : all) pointers.push_back(&planned);
+    plan(world, breaker, pointers);
+    for (PlannedBreak& planned : all) {
+      const Verdict verdict = verdict_on(world, planned);
+      note_verdict(world, planned, verdict);
+      if (verdict != Verdict::kBreaks) continue;
+      break_actor(world, planned);
+      broke = true;
+    }
+    due.clear();
+    for (auto& [root_key, impact] : later)
+      if (find_again(world, root_key, impact)) due.push_back(impact);
   }
   return broke;
 }
