@@ -64,7 +64,7 @@ MeshIndex ViewMode::colored(const std::shared_ptr<const Mesh>& mesh, MaterialInd
   return entry->second;
 }
 
-/// Every piece in one colour, outside and inside.
+/// Every piece in one colour, outside and inside; the ground as it is.
 void ViewMode::color(const Frame& frame) {
   if (frame.materials != given_materials_) {
     given_materials_ = frame.materials;
@@ -76,9 +76,10 @@ void ViewMode::color(const Frame& frame) {
     materials_ = std::make_shared<const std::vector<Material>>(std::move(materials));
   }
   for (Instance& instance : shown_.instances) {
-    const std::uint32_t color = color_of(instance, frame.bodies[instance.body]);
-    instance.mesh = colored((*frame.meshes)[instance.mesh.value],
-                            MaterialIndex(given_materials_->size() + color));
+    const FrameBody& body = frame.bodies[instance.body];
+    const std::shared_ptr<const Mesh>& mesh = (*frame.meshes)[instance.mesh.value];
+    const MaterialIndex plain(given_materials_->size() + color_of(instance, body));
+    instance.mesh = colored(mesh, body.key == kGroundKey ? mesh->material : plain);
   }
   shown_.meshes = std::make_shared<const MeshStore>(meshes_);
   shown_.materials = materials_;
@@ -87,11 +88,13 @@ void ViewMode::color(const Frame& frame) {
 /// From the middle of all on the ground, so that nothing is moved into it.
 void ViewMode::move_apart() {
   Box box;
-  for (const FrameBody& body : shown_.bodies) box.extend(body.X_WB.position);
+  for (const FrameBody& body : shown_.bodies)
+    if (body.key != kGroundKey) box.extend(body.X_WB.position);
   if (box.empty()) return;
   Vec3 middle = box.center();
   middle.y() = shown_.view.ground_m;
   for (FrameBody& body : shown_.bodies) {
+    if (body.key == kGroundKey) continue;
     body.X_WB.position += kApart * (body.X_WB.position - middle);
   }
 }

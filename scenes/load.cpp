@@ -11,6 +11,7 @@
 #include "engine/model/scene_accuracy.h"
 #include "scenes/file/body.h"
 #include "scenes/file/builtin_materials.h"
+#include "scenes/file/ground_mesh.h"
 #include "scenes/file/joint.h"
 #include "scenes/file/moved_part.h"
 #include "scenes/file/names.h"
@@ -92,6 +93,8 @@ Scene Loader::load(const LoadOptions& options) {
   read_table(s.view, "view", scene_.view);
   check_view(scene_.view, document_.where);
   add_materials(document_, folder_);
+  if (const Value* ground = find(document_, "ground"))
+    for (const Value* table : tables(*ground, "mesh")) read_ground_mesh(*table, folder_, scene_);
   for (const Value* table : tables(document_, "solid")) add_solid(*table);
   for (const Value* table : tables(document_, "body")) add_body(*table);
   for (const Value* table : tables(document_, "ball")) add_ball(*table);

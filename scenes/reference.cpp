@@ -1,6 +1,7 @@
 // The reference of scene files, written by the reader's own tables.
 #include "engine/geometry/approximate_hull.h"
 #include "scenes/file/body.h"
+#include "scenes/file/ground_mesh.h"
 #include "scenes/file/joint.h"
 #include "scenes/file/placement.h"
 #include "scenes/file/schema.h"
@@ -94,11 +95,11 @@ std::string preset_list() {
 std::string key_reference() {
   const Schema& s = schema();
   std::string text = section(s.scene) + section(s.accuracy) + preset_list() + section(s.solver) +
-                     section(s.limits) + section(s.ground) + section(s.view) +
-                     section(s.material_head) + section(s.material) + section(s.pattern) +
-                     section(s.stronger) + section(s.crumbling) + section(s.look) +
-                     section(s.solid) + section(s.part) + section(placement_keys()) +
-                     section(repeat_keys());
+                     section(s.limits) + section(s.ground) + section(ground_mesh_keys()) +
+                     section(s.view) + section(s.material_head) + section(s.material) +
+                     section(s.pattern) + section(s.stronger) + section(s.crumbling) +
+                     section(s.look) + section(s.solid) + section(s.part) +
+                     section(placement_keys()) + section(repeat_keys());
   for (const StructureType& structure : structures()) {
     text += "#### structure = \"" + std::string(structure.name) + "\"\n\n" +
             std::string(structure.help) + "\n\n" +

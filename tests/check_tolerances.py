@@ -16,6 +16,7 @@ MATHEMATICS = {
     "body/motion.cpp": {"kEnergyStep", "kMostTurn", "1.1"},
     "body/row_exchange.cpp": {"kKinematicRoot"},
     "collide/box_tree.cpp": {"1023.f"},  # ten bits a coordinate
+    "collide/facet.cpp": {"kSame"},  # of directions: rounding
     "collide/narrow_phase.cpp": {"kRounding", "kNoPoint"},
     "collide/separation.cpp": {"kTried"},  # less than any
     "contact/contact_solver.cpp": {"1.1"},

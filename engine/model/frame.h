@@ -45,6 +45,9 @@ struct View {
   double ground_m = 0;                              ///< Height of the ground plane.
 };
 
+/// The key of the body that the ground's meshes are, if it has any; it comes last.
+inline constexpr std::uint32_t kGroundKey = 0xffffffff;
+
 /// A body at one instant. `key` is unique for a run and never reused.
 struct FrameBody {
   std::uint64_t key = 0;

@@ -62,6 +62,7 @@ struct ObstacleShape {
   Box box_R;             ///< Of the hull.
   double volume_m3 = 0;  ///< Of the hull.
   double radius_m = 0;   ///< Of the ball.
+  bool facet = false;    ///< It is met from its first face alone, as part of a surface.
 };
 
 /// All that is in the particles' way.

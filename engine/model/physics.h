@@ -17,8 +17,10 @@
 // And at the end of a frame penetrations(). states() may be asked for at any time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,14 +34,23 @@
 
 namespace sunder {
 
+/// How a surface goes on beyond each edge of one of its triangles: cosine and sine of the angle by
+/// which it bends away there, up to a right angle; (1, 0) where it goes on straight or rises, (0,
+/// 1) where it ends.
+using FacetBends = std::array<Vec2, 3>;
+
 /// One convex shape of a body. `hull` must outlive the call only.
 struct ShapeDesc {
   enum class Kind : std::uint8_t { kHull, kSphere, kHalfSpace };
   Kind kind = Kind::kHull;
   const ConvexPolyhedron* hull = nullptr;  ///< kHull: in the rest frame R of the body.
-  Vec3 center_R = Vec3::Zero();            ///< kSphere: centre; kHalfSpace: a point of the surface.
-  double radius_m = 0;                     ///< kSphere.
-  Vec3 normal_R = Vec3::UnitY();           ///< kHalfSpace: out of the solid.
+  /// kHull of a static body: it is a facet, a triangle that is met from its front alone, as part of
+  /// a surface. The hull is a prism: the triangle, what is behind its edges, in their order, and
+  /// the back. What gets in no farther than that is pushed out by the front.
+  std::optional<FacetBends> bends;
+  Vec3 center_R = Vec3::Zero();   ///< kSphere: centre; kHalfSpace: a point of the surface.
+  double radius_m = 0;            ///< kSphere.
+  Vec3 normal_R = Vec3::UnitY();  ///< kHalfSpace: out of the solid.
   double friction = 0.6;
   double restitution = 0;
   double rolling = 0;     ///< Of resistance to rolling: its torque over load and radius.

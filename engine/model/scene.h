@@ -1,6 +1,7 @@
 // A scene: everything a run starts from. Made by scenes/ from a file, or by hand in code.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -72,18 +73,28 @@ struct Drive {
 /// What goes its path whatever is in its way: of infinite mass, and not to be broken, until it is
 /// let go.
 struct Move {
-  std::vector<std::uint32_t> roots;  ///< Of solids; none is anchored or jointed.
+  std::vector<std::uint32_t>
+      roots;  ///< Of solids; none is anchored, or jointed to what is not free.
   Path path;
   std::optional<Vec3>
       pivot_W;  ///< What its turns are about, where it stood; or each its own origin.
   double release_s = std::numeric_limits<double>::infinity();
 };
 
-/// The horizontal plane y = height_m, without end.
+/// Triangles that stand for good: hills, rocks, walls. They are met from the front, seen from which
+/// they run counter-clockwise, and seen from there; the surface may be open.
+struct GroundMesh {
+  std::vector<Vec3> vertices_W;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  MaterialIndex material;  ///< Its friction, its bounce and its look.
+};
+
+/// The horizontal plane y = height_m, without end, and what stands on it.
 struct Ground {
   double height_m = 0;
   double friction = 0.8;
   double restitution = 0;
+  std::vector<GroundMesh> meshes;
 };
 
 /// Speed against accuracy.

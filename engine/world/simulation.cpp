@@ -9,6 +9,7 @@
 #include "engine/world/act/act_stage.h"
 #include "engine/world/act/moves.h"
 #include "engine/world/actors/hinges.h"
+#include "engine/world/actors/landscape.h"
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/break/break_stage.h"
 #include "engine/world/load/load_stage.h"
@@ -17,19 +18,6 @@
 
 namespace sunder {
 namespace {
-
-void add_ground(const Ground& ground, Physics& physics) {
-  ShapeDesc plane;
-  plane.kind = ShapeDesc::Kind::kHalfSpace;
-  plane.friction = ground.friction;
-  plane.restitution = ground.restitution;
-  BodyDesc body;
-  body.X_WB.position = Vec3(0, ground.height_m, 0);
-  body.is_static = true;
-  body.shapes = {plane};
-  body.tag = kGroundKey;
-  physics.replace({}, std::span(&body, 1));
-}
 
 /// Tells stages of a frame apart, each from where the last one ended.
 class StageClock {
@@ -82,7 +70,7 @@ Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
     : parts_(std::make_unique<Parts>(std::move(scene), std::move(physics), std::move(breaker),
                                      std::move(particles))) {
   World& world = parts_->world;
-  add_ground(world.scene.ground, *world.physics);
+  add_ground(world);
   add_compounds(world, world.scene.solids);
   for (const Ball& ball : world.scene.balls) add_ball(world, ball);
   for (const Joint& joint : world.scene.joints) {  // keys are indices still

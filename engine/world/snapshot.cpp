@@ -70,6 +70,16 @@ void add_bodies(const World& world, Frame& frame) {
   for (const Part& part : parts) add(part, frame);
 }
 
+/// The last body, where there are meshes of the ground.
+void add_landscape(const World& world, Frame& frame) {
+  if (world.landscape.meshes.empty()) return;
+  const auto index = static_cast<std::uint32_t>(frame.bodies.size());
+  FrameBody& body = frame.bodies.emplace_back();
+  body.key = kGroundKey;
+  body.is_static = true;
+  for (const MeshIndex mesh : world.landscape.meshes) frame.instances.push_back({mesh, index});
+}
+
 }  // namespace
 
 std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
@@ -87,6 +97,7 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   frame->report = std::exchange(ledger.report, {});
   FrameReport& report = frame->report;
   add_bodies(world, *frame);
+  add_landscape(world, *frame);
   particles.show(*frame);
   report.mass_kg += ledger.debris_mass_kg + ledger.removed_mass_kg;
   for (const Shot& shot : shots_to_come) {

@@ -62,6 +62,8 @@ double extent_m(const Convex& convex, const Quat& rotation) {
 void check_planar(const Scene& scene, const std::string& where) {
   const Checker checker{scene, where};
   checker.in_plane(scene.gravity_W, "gravity");
+  checker.require(scene.ground.meshes.empty(),
+                  "it has a [[ground.mesh]], which planar scenes do not have; build it of prisms");
   for (const Solid& solid : scene.solids) checker.check(solid);
   for (const Ball& ball : scene.balls) checker.check(ball, "ball '" + ball.name + "' ");
   checker.require(scene.joints.empty(), "it has a [[joint]], which planar scenes do not have");

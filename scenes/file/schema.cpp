@@ -282,7 +282,8 @@ Schema make_schema() {
   s.ground = {"[ground]",
               {key<&Ground::height_m>("height_m", "m", kPlace, "Height of the plane."),
                key<&Ground::friction>("friction", "", Range{0, 10}, "Coefficient of friction."),
-               key<&Ground::restitution>("restitution", "", kFraction, "Bounce.")}};
+               key<&Ground::restitution>("restitution", "", kFraction, "Bounce."),
+               table_key("mesh", "Ground that is no plane.")}};
   s.view = {"[view]",
             {key<&View::eye_W>("eye", "m", kPlace, "Where the camera is."),
              key<&View::target_W>("target", "m", kPlace, "What it looks at."),

@@ -40,6 +40,8 @@ void check_shape(const ShapeDesc& shape, const Subject& subject) {
       subject.require(std::all_of(shape.hull->vertices.begin(), shape.hull->vertices.end(), finite),
                       "is a hull with a corner that is not finite");
       subject.require((bounds(*shape.hull).extent().array() > 0).all(), "is a hull without size");
+      subject.require(!shape.bends || shape.hull->faces.size() == 5,
+                      "is a facet, but no prism on a triangle");
       break;
   }
 }

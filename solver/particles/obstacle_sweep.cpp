@@ -111,14 +111,19 @@ void meet(const PlacedObstacles& all, const PlacedObstacle& placed, const WideWa
           std::span<std::optional<ObstacleTouch>> touches) {
   const ObstacleShape& shape = all.obstacles.shapes[placed.shape];
   Clip clip;
+  Wide front_m = splat(0);  // of the first face, at the end
   std::uint32_t left = seen.meet;
   if (!placed.faces.empty()) {
     const Vec3 center_R = shape.box_R.center();
     std::int32_t number = 0;
     for (const auto& face : placed.faces) {
       const Wide3 normal = wide3(face.plane.normal.cast<float>());
-      const Wide reach = static_cast<float>(-face.plane.distance(center_R)) + wide.radius_m;
-      clip.add(number++, dot(normal, seen.start) - reach, dot(normal, seen.end) - reach);
+      // Beside a facet others go on.
+      const Wide radius_m = shape.facet && number > 0 ? splat(0) : wide.radius_m;
+      const Wide reach = static_cast<float>(-face.plane.distance(center_R)) + radius_m;
+      const Wide end_m = dot(normal, seen.end) - reach;
+      if (number == 0) front_m = end_m;
+      clip.add(number++, dot(normal, seen.start) - reach, end_m);
       left &= ~bits(clip.misses);
       if (left == 0) return;
     }
@@ -134,15 +139,17 @@ void meet(const PlacedObstacles& all, const PlacedObstacle& placed, const WideWa
     const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
     ObstacleTouch touch;
     touch.time = std::max(double{clip.enter[i]}, 0.0);
-    if (clip.enter[i] < 0) {
-      touch.depth_m = -double{clip.shallowest_m[i]};
+    std::int32_t face = clip.enter[i] >= 0 ? clip.enter_face[i] : clip.shallowest_face[i];
+    const bool beside = shape.facet && face != 0;  // it comes from that of a neighbour
+    if (beside) face = 0;
+    if (clip.enter[i] < 0 || beside) {
+      touch.depth_m = -double{beside ? front_m[i] : clip.shallowest_m[i]};
       if (touch.depth_m <= 0) continue;  // it leaves by itself
     }
     std::optional<ObstacleTouch>& first = touches[i];
     if (first && first->time <= touch.time) continue;
     const ObstacleBody& body = all.obstacles.bodies[shape.body];
     if (!placed.faces.empty()) {
-      const std::int32_t face = clip.enter[i] >= 0 ? clip.enter_face[i] : clip.shallowest_face[i];
       touch.normal_W =
           all.rotations_WB[shape.body] * placed.faces[static_cast<std::size_t>(face)].plane.normal;
     } else {

@@ -69,9 +69,7 @@ struct Actor {
   std::vector<std::vector<std::uint8_t>> hidden;  ///< Per slot, a flag for each face.
 };
 
-/// The body tag of the ground, which is no actor.
-inline constexpr std::uint32_t kGroundKey = 0xffffffff;
-/// In place of an actor where there is none.
+/// In place of an actor where there is none; kGroundKey is the body tag of the ground.
 inline constexpr std::uint32_t kNobodyKey = 0xfffffffe;
 
 inline double ball_volume_m3(double radius_m) {

@@ -15,6 +15,7 @@
 #include "engine/world/actors/clock.h"
 #include "engine/world/actors/exposed.h"
 #include "engine/world/actors/joints.h"
+#include "engine/world/actors/landscape.h"
 #include "engine/world/actors/ledger.h"
 #include "engine/world/actors/meshes.h"
 
@@ -28,6 +29,7 @@ struct World {
   Actors actors;
   Joints joints;
   Meshes meshes;
+  Landscape landscape;
   Ledger ledger;
   std::uint64_t next_event = 1;    ///< Names the planes that breaks and bends make.
   std::optional<Exposed> exposed;  ///< None where nobody wants to know: without particles.

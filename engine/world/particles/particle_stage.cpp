@@ -64,6 +64,19 @@ struct Surroundings {
   std::vector<ObstacleShape> shapes;
 };
 
+/// The ground's meshes, as the last body.
+void add_landscape(const World& world, Surroundings& all) {
+  const std::vector<ObstacleShape>& obstacles = world.landscape.obstacles;
+  if (obstacles.empty()) return;
+  const std::size_t first = all.shapes.size() - obstacles.size();
+  const auto body = static_cast<std::uint32_t>(all.bodies.size());
+  all.bodies.emplace_back().key = kGroundKey;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    all.shapes[first + i] = obstacles[i];
+    all.shapes[first + i].body = body;
+  }
+}
+
 /// By several threads, as it is mostly waiting for memory.
 Surroundings surroundings(const World& world) {
   const BodyStates states = world.physics->states();
@@ -72,7 +85,8 @@ Surroundings surroundings(const World& world) {
   for (std::size_t i = 0; i < count; ++i) {
     first[i + 1] = first[i] + std::max(1u, world.actors[i].structure.size());
   }
-  Surroundings all{std::vector<ObstacleBody>(count), std::vector<ObstacleShape>(first[count])};
+  Surroundings all{std::vector<ObstacleBody>(count),
+                   std::vector<ObstacleShape>(first[count] + world.landscape.obstacles.size())};
   for_chunks(count, kBodiesInChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       const Actor& actor = world.actors[i];
@@ -87,13 +101,14 @@ Surroundings surroundings(const World& world) {
       const auto body = static_cast<std::uint32_t>(i);
       ObstacleShape* shape = &all.shapes[first[i]];
       actor.structure.for_each([&](ConvexSlot, const Convex& convex) {
-        *shape++ = {body, &convex.polyhedron, convex.box, convex.solid.volume_m3, 0};
+        *shape++ = {body, &convex.polyhedron, convex.box, convex.solid.volume_m3};
       });
       if (actor.structure.empty()) {
         *shape = {body, nullptr, {}, 0, ball_radius_m(actor.volume_m3)};
       }
     }
   });
+  add_landscape(world, all);
   return all;
 }
 

@@ -44,6 +44,9 @@ Shape make_shape(const ShapeDesc& desc, const Vec3& com_R) {
     shape.center = shape.hull.center();
     shape.inner_radius_m = shape.hull.inner_radius_m();
     shape.reach_m = shape.hull.reach_m();
+    shape.facet = desc.bends.has_value();
+    for (std::size_t i = 0; shape.facet && i < shape.bends.size(); ++i)
+      shape.bends[i] = (*desc.bends)[i].cast<float>();
   } else if (desc.kind == ShapeDesc::Kind::kSphere) {
     shape.inner_radius_m = shape.radius_m;
     shape.reach_m = shape.center.norm() + shape.radius_m;

@@ -1,6 +1,7 @@
 // Bodies and shapes: structure of arrays by slot. Slots are reused, generations tell old ids apart.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -118,6 +119,8 @@ struct Shape {
   float reach_m = 0;  ///< About the body's centre of mass.
   Vec3f center = Vec3f::Zero();
   Vec3f normal = Vec3f::UnitY();
+  bool facet = false;  ///< The hull is one, with these bends.
+  std::array<Eigen::Vector2f, 3> bends = {};
   Hull hull;
 };
 

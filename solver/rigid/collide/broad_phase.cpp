@@ -67,12 +67,13 @@ FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& s
   return box;
 }
 
-/// The pair of two shapes: a is the half-space, or the hull, or the lesser slot.
+/// The pair of two shapes: a is the half-space, or the hull, or the facet, or the lesser slot.
 FoundPair pair_of(ShapeSlot s, ShapeSlot t, const Shapes& shapes) {
   const Shape &first = shapes[s], &second = shapes[t];
   const bool swap = first.kind != second.kind ? first.kind == ShapeDesc::Kind::kSphere ||
                                                     second.kind == ShapeDesc::Kind::kHalfSpace
-                                              : t < s;
+                    : first.facet != second.facet ? second.facet
+                                                  : t < s;
   return {swap ? t : s, swap ? s : t};
 }
 

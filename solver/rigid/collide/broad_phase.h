@@ -14,7 +14,8 @@
 
 namespace sunder::solver {
 
-/// Two shapes that came near: as in Pair, a is the half-space, or the hull, or the lesser slot.
+/// Two shapes that came near: as in Pair, a is the half-space, or the hull, or the facet, or the
+/// lesser slot.
 struct FoundPair {
   ShapeSlot shape_a, shape_b;
 

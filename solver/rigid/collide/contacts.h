@@ -19,7 +19,8 @@ inline std::uint64_t pair_key(ShapeSlot shape_a, ShapeSlot shape_b) {
   return std::uint64_t{shape_a.value} << 32 | shape_b.value;
 }
 
-/// Two shapes whose fat boxes overlap. If their kinds differ, a is the half-space, or the hull.
+/// Two shapes whose fat boxes overlap. If their kinds differ, a is the half-space, or the hull; a
+/// facet is a.
 struct Pair {
   ShapeSlot shape_a, shape_b;  ///< None: a free slot.
   BodySlot body_a, body_b;

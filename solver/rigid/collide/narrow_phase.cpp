@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/base/prefetch.h"
+#include "solver/rigid/collide/facet.h"
 #include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
@@ -119,6 +120,40 @@ Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& b
           dt * motion.velocity_W.norm()};
 }
 
+/// How two shapes meet.
+struct Meeting {
+  SeparatingAxis axis;
+  float time_s = 0;  ///< Of the impact, if they are looked at there; negative: there is none.
+};
+
+/// Where a facet is met, if it is where its surface goes on: by its front, as the plane that it is,
+/// so that edges within the surface are none. What is behind its back is let be.
+Meeting meet_front(const Shape& a, const Shape& b, const RelativePose& start,
+                   const Vec3f& velocity_A, float margin_m, float dt_s) {
+  const Vec3f center_A = start.R * b.center + start.p;
+  if (!before_back(a.hull, center_A)) return {{}, -1};
+  const Vec3f normal = a.hull.normal(0);
+  const float separation_m = b.kind == Kind::kHull
+                                 ? separation_along(normal, a.hull, b.hull, start)
+                                 : normal.dot(center_A) + a.hull.plane_d(0) - b.radius_m;
+  const float closing = -normal.dot(velocity_A);
+  Meeting meeting{front_axis(a.hull, separation_m)};
+  if (separation_m <= margin_m) return meeting;
+  meeting.time_s = closing > 0 ? (separation_m - 0.5f * margin_m) / closing : dt_s;
+  if (!(meeting.time_s < dt_s)) return {{}, -1};
+  meeting.axis.separation_m -= meeting.time_s * closing;
+  return meeting;
+}
+
+/// Of the points where something meets a facet's front, those that are on it. What is fast may be
+/// led onto it within the step, by a neighbour that it touches first.
+void keep_on_front(const Shape& facet, float size_m, bool fast, std::vector<PatchPoint>& points) {
+  const float tolerance_m = kSliver * size_m, deepest_m = -depth_m(facet.hull);
+  std::erase_if(points, [&](const PatchPoint& point) {
+    return point.separation_m < deepest_m || !over_triangle(facet, point.on_a, tolerance_m, fast);
+  });
+}
+
 void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const PairMotion& motion,
                   const Reach& reach, double dt_s, Pair& pair, Manifold& m,
                   NarrowScratch& scratch) {
@@ -143,10 +178,20 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
       if (more > 0) axis = touching, time += more, pose.p += more * velocity_A;
     }
   }
+  const bool by_front = meet && a.facet && time >= 0 && !normal_to_surface(a, axis.normal_A);
+  if (by_front) {
+    const Meeting front =
+        meet_front(a, b, motion.pose, velocity_A, reach.margin_m + reach.spin_m, dt);
+    axis = front.axis, time = front.time_s;
+    pose.p = motion.pose.p + std::max(0.f, time) * velocity_A;
+    if (time >= 0 && b.kind == Kind::kHull) place_in_A(b.hull, pose, scratch.hulls);
+  }
   const float limit = axis_reach.along(axis.normal_A);
   scratch.points.clear();
-  if (time >= 0 && axis.separation_m <= limit)
+  if (time >= 0 && axis.separation_m <= limit) {
     probe.points(pose, axis, limit, kLayer * m.size_m + reach.spin_m);
+    if (by_front) keep_on_front(a, m.size_m, time > 0, scratch.points);
+  }
   pair.clearance_m = time == 0 && scratch.points.empty() ? axis.separation_m : -1;
   pair.axis_A = pair.clearance_m > 0 ? axis.normal_A : Vec3f(Vec3f::Zero());
   m.normal_on_b = axis.kind == SeparatingAxis::Kind::kFaceB;
@@ -223,7 +268,8 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
                     Manifold& m, NarrowScratch& scratch) {
   const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
   const PairMotion motion = pair_motion(pair, bodies);
-  const float size_m = std::min(a.inner_radius_m, b.inner_radius_m);
+  // Facets may be slivers, yet are as large as the surface that they are part of.
+  const float size_m = a.facet ? b.inner_radius_m : std::min(a.inner_radius_m, b.inner_radius_m);
   pair.turned_m = bodies.turned_m[pair.body_a] + bodies.turned_m[pair.body_b];
   pair.offset_W = motion.offset_W;
   if (m.count > 0 && m.reusable && barely_moved(m, bodies, motion)) {
@@ -239,7 +285,7 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
   if (m.count == 0 && edges_at_rest(a, b, motion, reach, size_m, pair, scratch)) return;
   m.size_m = size_m;
   m.friction = std::sqrt(a.friction * b.friction);
-  m.rolling_m = std::max(a.rolling, b.rolling) * std::min(a.inner_radius_m, b.inner_radius_m);
+  m.rolling_m = std::max(a.rolling, b.rolling) * size_m;
   m.restitution = std::max(a.restitution, b.restitution);
   if (a.kind == Kind::kHalfSpace) {
     m.normal_on_b = false;
