@@ -130,10 +130,20 @@ void add_move(const Value& table, Scene& scene) {
     if (is_anchored(scene, root)) {
       refuse("is anchored to the world, which does not let go of it; take its anchored away");
     }
-    if (std::ranges::any_of(scene.joints, holds)) {
-      refuse("is held by a [[joint]], which would not move with it; take that away");
-    }
     if (std::ranges::any_of(scene.moves, moves)) refuse("is moved by another one already");
+    const auto stays = [&](std::optional<std::uint32_t> end) {
+      const auto moved = [&](const Move& other) {
+        return std::ranges::count(other.roots, *end) > 0;
+      };
+      return !end || is_anchored(scene, *end) || moved(move) ||
+             std::ranges::any_of(scene.moves, moved);
+    };
+    for (const Joint& joint : scene.joints) {
+      if (!holds(joint) || !stays(joint.a == root ? joint.b : joint.a)) continue;
+      refuse(
+          "is held by a [[joint]] to the world, or to what is anchored or moved as well; of the "
+          "two ends of a joint one has to be free");
+    }
   }
   if (given.release_s) move.release_s = *given.release_s;
   scene.moves.push_back(std::move(move));

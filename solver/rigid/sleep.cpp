@@ -57,7 +57,8 @@ void Sleep::keep_joined_awake(const Bodies& bodies, const Joints& joints) {
       if (!joint.holds() || joint.body_a.none() || joint.body_b.none()) continue;
       for (const auto& [one, other] :
            {std::pair(joint.body_a, joint.body_b), {joint.body_b, joint.body_a}}) {
-        if (!candidate_[one] || candidate_[other] || !bodies.awake(other)) continue;
+        const bool moves = bodies.awake(other) || bodies.carries(other);
+        if (!candidate_[one] || candidate_[other] || !moves) continue;
         candidate_[one] = 0;
         again = true;
       }

@@ -84,6 +84,51 @@ TEST(Moves, WhatIsLetGoFliesOnAsFastAsItWasAndBreaksAsAnyOther) {
   EXPECT_EQ(trial.breaks[0].body_key, 0u);
 }
 
+TEST(Moves, AChainHangsFromACraneUntilTheCraneIsLetGoAndThenStill) {
+  Scene scene = bare_scene(kDt_s, 1e7, 1000);
+  scene.gravity_W = Vec3(0, -9.81, 0);
+  scene.solids = {box_solid(Vec3(0, 0.2, 0), Vec3(1, 0.4, 1), 0, kSteel)};
+  constexpr int kLinks = 8;
+  for (int i = 0; i < kLinks; ++i) {
+    scene.solids.push_back(box_solid(Vec3(0, -0.15 - 0.3 * i, 0), Vec3(0.1, 0.3, 0.1), 0, kSteel));
+    Joint joint;
+    joint.kind = JointKind::kBall;
+    joint.a = static_cast<std::uint32_t>(i);
+    joint.b = static_cast<std::uint32_t>(i + 1);
+    joint.at_W = Vec3(0, -0.3 * i, 0);
+    scene.joints.push_back(joint);
+  }
+  Path path;
+  path.keys = {{2, Vec3(4, 1, 0)}, {4, Vec3(0, 0, 2), Vec3(0, 1, 0)}};
+  scene.moves = {{{0}, path, std::nullopt, 3}};
+  Trial trial(scene);
+  /// Of the joints: from the foot of one to the head of the next.
+  const auto most_apart_m = [&] {
+    double most_m = 0;
+    for (int i = 0; i < kLinks; ++i) {
+      const Pose above = trial.body(static_cast<std::uint64_t>(i)).X_WB,
+                 below = trial.body(static_cast<std::uint64_t>(i + 1)).X_WB;
+      const Vec3 foot(0, i == 0 ? -0.2 : -0.15, 0);
+      most_m = std::max(most_m, (above * foot - below * Vec3(0, 0.15, 0)).norm());
+    }
+    return most_m;
+  };
+  std::uint32_t lost = 0;
+  while (trial.frame->time_s < 2.9) {
+    trial.step();
+    lost += trial.frame->report.joints_lost;
+    EXPECT_LT(most_apart_m(), 0.01) << trial.frame->time_s;
+    const PathKey key = path.at(trial.frame->time_s);
+    const Vec3 at_W = Vec3(0, 0.2, 0) + key.shift_W;
+    EXPECT_LT((trial.body(0).X_WB.position - at_W).norm(), 1e-6) << "whatever hangs on it";
+  }
+  EXPECT_GT(trial.body(kLinks).X_WB.position.x(), 0.5) << "it is taken along";
+  while (trial.frame->time_s < 4) trial.step();
+  EXPECT_LT(trial.body(0).X_WB.position.y(), -2) << "all falls";
+  EXPECT_LT(most_apart_m(), 0.01);
+  EXPECT_EQ(lost + trial.frame->report.joints_lost, 0u);
+}
+
 TEST(Moves, ABlastNeitherBreaksNorMovesIt) {
   Scene scene = bare_scene(kDt_s, 20, 1000);
   scene.solids = {box_solid(Vec3::Zero(), Vec3(1, 1, 1)), box_solid(Vec3(3, 0, 0), Vec3(1, 1, 1))};

@@ -241,8 +241,8 @@ constexpr Fault kFaults[] = {
      "bad.toml:6: 'b' in [[script.move]] is a ball; a [[body]] or [[solid]] can be moved"},
     {"[[solid]]\nstructure = \"box\"\n[[joint]]\nkind = \"ball\"\na = \"box\"\nat = [0, 1, "
      "0]\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1 }]",
-     "bad.toml:10: 'box' in [[script.move]] is held by a [[joint]], which would not move with it; "
-     "take that away"},
+     "bad.toml:10: 'box' in [[script.move]] is held by a [[joint]] to the world, or to what is "
+     "anchored or moved as well; of the two ends of a joint one has to be free"},
     {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1 "
      "}]\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1 }]",
      "bad.toml:9: 'box' in [[script.move]] is moved by another one already"},

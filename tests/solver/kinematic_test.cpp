@@ -142,6 +142,83 @@ TEST(Turntable, CarriesAsFarAsFrictionHolds) {
   EXPECT_GT(world.state(outer).X_WB.position.norm(), 1.5 * most_m);
 }
 
+/// How far the ends of a joint are apart.
+double gap_m(const RigidWorld& world, const JointDesc& joint) {
+  return (world.state(joint.b).X_WB * joint.anchor_b_R -
+          world.state(joint.a).X_WB * joint.anchor_a_R)
+      .norm();
+}
+
+TEST(Crane, WhatHangsStraightFromOneThatGoesEvenlyHangsStraight) {
+  RigidWorld world;
+  const Vec3 v_m_s(3, 0.5, -1);
+  const BodyId crane = world.add(kinematic(W::box(Vec3(1, 0.2, 1), Vec3(0, 10, 0)), v_m_s));
+  BodyId above = crane;
+  std::vector<BodyId> links;
+  std::vector<JointDesc> joints;
+  for (int i = 0; i < 12; ++i) {
+    BodyDesc link = i == 11 ? W::sphere(0.3, Vec3(0, 7.3, 0), 8000)
+                            : W::box(Vec3(0.05, 0.2, 0.05), Vec3(0, 9.7 - 0.2 * i, 0), 4000);
+    links.push_back(world.add(W::moving(link, v_m_s)));
+    const Vec3 at_W(0, 9.8 - 0.2 * i, 0);
+    joints.push_back(joint_at(world, JointKind::kBall, above, links.back(), at_W));
+    world.physics().join(joints.back());
+    above = links.back();
+  }
+  for (int i = 0; i < 360; ++i) {
+    const SolveReport report = world.step(kDt_s, kSubsteps);
+    const Vec3 error_Ns =
+        report.momentum_after_Ns - report.momentum_before_Ns - report.external_impulse_Ns;
+    EXPECT_LT(error_Ns.norm(), 1e-4 * report.mass_kg * kG * kDt_s);
+  }
+  const Vec3 below = world.state(links.back()).X_WB.position - world.state(crane).X_WB.position;
+  EXPECT_LT((below - Vec3(0, -2.7, 0)).norm(), 0.005);
+  EXPECT_LT((world.state(links.back()).velocity_W - v_m_s).norm(), 0.005);
+  for (const JointDesc& joint : joints) EXPECT_LT(gap_m(world, joint), 0.001);
+}
+
+TEST(Crane, LiftsByWeightAndAcceleration) {
+  RigidWorld world;
+  const BodyId crane = world.add(kinematic(W::box(Vec3(1, 0.2, 1), Vec3(0, 10, 0))));
+  BodyDesc load = W::box(Vec3(1, 1, 1), Vec3(0, 7, 0));
+  load.reports_load = true;
+  const BodyId id = world.add(load);
+  JointDesc rope = joint_at(world, JointKind::kRope, crane, id, Vec3(0, 7.5, 0));
+  rope.anchor_a_R = Vec3(0, -0.1, 0);
+  rope.length_m = 2.4;
+  world.physics().join(rope);
+  world.run(4, kDt_s, kSubsteps);
+  EXPECT_TRUE(world.state(id).asleep) << "while it stands";
+  const double a_m_s2 = 2;
+  double force_N = 0;
+  for (int i = 0; i < 240; ++i) {
+    BodyState state = world.state(crane);
+    state.velocity_W.y() += a_m_s2 * kDt_s;
+    world.physics().set_state(crane, state);
+    world.step(kDt_s, kSubsteps);
+    force_N = 0;
+    for (const JointLoad& by : world.physics().joint_loads()) force_N += by.impulse_W.y() / kDt_s;
+  }
+  EXPECT_NEAR(force_N / (1000 * (kG + a_m_s2)), 1, 0.01);
+  EXPECT_NEAR(world.state(id).velocity_W.y(), 4, 0.03);
+}
+
+TEST(Crane, TurnsWhatIsFixedToIt) {
+  RigidWorld world(RigidOptions{.gravity_W = Vec3::Zero()});
+  const Vec3 spin(0, 1.5, 0);
+  const BodyId crane =
+      world.add(kinematic(W::box(Vec3(1, 1, 1), Vec3::Zero()), Vec3::Zero(), spin));
+  const BodyDesc box = W::box(Vec3(1, 0.5, 0.5), Vec3(2, 0, 0));
+  const BodyId id = world.add(W::moving(box, spin.cross(box.X_WB.position), spin));
+  const JointDesc joint = joint_at(world, JointKind::kFixed, crane, id, Vec3(1, 0, 0));
+  world.physics().join(joint);
+  world.run(3, kDt_s, kSubsteps);
+  const BodyState state = world.state(id);
+  EXPECT_LT((state.X_WB.position - world.state(crane).X_WB * Vec3(2, 0, 0)).norm(), 0.005);
+  EXPECT_LT((state.velocity_W - spin.cross(state.X_WB.position)).norm(), 0.01);
+  EXPECT_LT((state.angular_velocity_W - spin).norm(), 0.005);
+}
+
 /// A tub of balls and boxes, swept by an arm that turns, shaken on a plate.
 std::uint64_t shaken(int threads, int lanes) {
   set_threads(threads);

@@ -13,6 +13,7 @@ void set_kinematic(World& world, Actor& actor, bool is_kinematic) {
   set_strength(world, actor);
   const BodyDesc body = describe(world, actor, motion);
   actor.body = world.physics->replace(std::span(&actor.body, 1), std::span(&body, 1))[0];
+  world.joints.hold_on(*world.physics, actor);
 }
 
 Pose pose_at(const Move& move, const Pose& start, double time_s) {

@@ -159,6 +159,17 @@ Joints::Live Joints::moved(Physics& physics, const Actors& actors, Live joint, b
   return joint;
 }
 
+void Joints::hold_on(Physics& physics, const Actor& actor) {
+  for (const Live& joint : live_) {
+    for (const bool is_a : {true, false}) {
+      if ((is_a ? joint.a : joint.b).key != actor.key) continue;
+      const HingeSide* side = !joint.hinge ? nullptr : is_a ? &joint.hinge->a : &joint.hinge->b;
+      physics.attach(joint.id, is_a, actor.body,
+                     side ? side->slots : std::span<const std::uint32_t>());
+    }
+  }
+}
+
 void Joints::move(Physics& physics, const Actors& actors, std::uint32_t from, const Actor& into,
                   const Pose& X_IF, std::span<const ConvexSlot> slot_of) {
   std::vector<JointId> inner;

@@ -77,6 +77,8 @@ class Joints {
   void add(Physics& physics, const Actors& actors, const Joint& joint);
   /// Holds two actors together, as they lie, by a section.
   void add(Physics& physics, const Actor& a, const Actor& b, Hinge hinge);
+  /// After an actor's body was made anew: its joints hold that.
+  void hold_on(Physics& physics, const Actor& actor);
   /// Before actor `from` goes, which `into` has taken in: its joints hold that. X_IF is where its
   /// rest frame is in that of `into`, `slot_of` where its convexes are there, by slot.
   void move(Physics& physics, const Actors& actors, std::uint32_t from, const Actor& into,

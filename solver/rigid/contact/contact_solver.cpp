@@ -200,11 +200,12 @@ class ContactSolver::Stages {
   }
 
   // Groups of joints.
+  JointStep at_hand() const { return {solver_.root_W_, solver_.kinematic_rows_}; }
   void begin_joints(std::uint32_t i) {
-    solver_.joint_solver_.begin(i, step_, bodies_, joints_, solver_.root_W_, rows_);
+    solver_.joint_solver_.begin(i, step_, bodies_, joints_, at_hand(), rows_);
   }
   void settle_joints(std::uint32_t i) {
-    solver_.joint_solver_.settle(i, step_, bodies_, joints_, solver_.root_W_, rows_);
+    solver_.joint_solver_.settle(i, step_, bodies_, joints_, at_hand(), rows_);
   }
   void warm_start_joints(std::uint32_t i) { solver_.joint_solver_.warm_start(i, step_, rows_); }
   void push_joints(std::uint32_t i) { solver_.joint_solver_.push(i, step_, rows_); }
@@ -362,8 +363,8 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   });
   blocks_->follow_bodies(moving_);
   impact_pass_.begin(order_.impacts(), active_, rows_.size(), kinematic_.size(), *blocks_);
-  energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(), bodies,
-                        contacts);
+  energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(),
+                        joint_solver_.carried(), bodies, contacts);
   Stages(*this, step, bodies, contacts, joints).run();
   const Vec3 from_joints_Ns = joint_solver_.finish(bodies, joints);
   return {blocks_->outside_impulse_Ns() + from_joints_Ns,

@@ -24,7 +24,8 @@ double lanes_sum(const Wide& a, const Wide& b, double linear) {
 
 void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot> manifolds,
                           std::span<const BodySlot> active, std::span<const Pair> joined,
-                          const Bodies& bodies, const Contacts& contacts) {
+                          std::span<const BodySlot> carried, const Bodies& bodies,
+                          const Contacts& contacts) {
   const double slow_m_s = 2 * kSlowFalls * step.fall_m_s;
   watches_ = kGuards && std::ranges::any_of(active, [&](BodySlot body) {
                return bodies.fastest_m_s(body) > slow_m_s;
@@ -43,7 +44,7 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
   for (const auto& [a, b] : joined) join(a, b);
   group_.resize(bodies.size());
   for (const BodySlot body : bodies.slots()) group_[body] = BodySlot(groups.root(body.value));
-  leave_alone_what_is_carried(manifolds, active, bodies, contacts);
+  leave_alone_what_is_carried(manifolds, carried, active, bodies, contacts);
   for (const BodySlot body : active)
     if (!falls_[body] && !group_[body].none()) falls_[group_[body]] = 0;
   for (const BodySlot body : active)
@@ -54,12 +55,14 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
   share_.assign(bodies.size() + 1, 1);
 }
 
-/// Kinematic bodies do work on what they touch.
+/// Kinematic bodies do work on what they touch, and on what hangs on them.
 void EnergyGuard::leave_alone_what_is_carried(std::span<const ManifoldSlot> manifolds,
+                                              std::span<const BodySlot> by_joints,
                                               std::span<const BodySlot> active,
                                               const Bodies& bodies, const Contacts& contacts) {
   ByBody<std::uint8_t> carried(bodies.size());
   bool any = false;
+  for (const BodySlot body : by_joints) carried[group_[body]] = any = true;
   for (const ManifoldSlot i : manifolds) {
     const Manifold& m = contacts.manifolds[i];
     if (bodies.carries(m.body_a)) carried[group_[m.body_b]] = any = true;

@@ -19,10 +19,11 @@ class EnergyGuard {
   using Pair = std::pair<BodySlot, BodySlot>;
 
   /// Groups the awake bodies of these manifolds, and of these pairs in joints. What hangs in joints
-  /// and touches nothing is left alone; where nothing moves fast, all are.
+  /// and touches nothing is left alone, and so is what kinematic bodies do work on, by contacts or,
+  /// if it is `carried`, by joints; where nothing moves fast, all are.
   void collect(const StepContext& step, std::span<const ManifoldSlot> manifolds,
-               std::span<const BodySlot> active, std::span<const Pair> joined, const Bodies& bodies,
-               const Contacts& contacts);
+               std::span<const BodySlot> active, std::span<const Pair> joined,
+               std::span<const BodySlot> carried, const Bodies& bodies, const Contacts& contacts);
   /// Whether any group is watched in this step.
   bool watches() const { return watches_; }
 
@@ -58,6 +59,7 @@ class EnergyGuard {
   };
 
   void leave_alone_what_is_carried(std::span<const ManifoldSlot> manifolds,
+                                   std::span<const BodySlot> by_joints,
                                    std::span<const BodySlot> active, const Bodies& bodies,
                                    const Contacts& contacts);
   void leave_alone_what_swings_free(std::span<const ManifoldSlot> manifolds,

@@ -125,8 +125,9 @@ void Joints::wake(Bodies& bodies) const {
     const auto pass_on = [&](const Joint& joint) {
       if (!joint.holds() || joint.body_a.none() || joint.body_b.none()) return;
       const BodySlot a = joint.body_a, b = joint.body_b;
-      const BodySlot sleeper = bodies.awake(a) ? b : a;
-      if (!bodies.awake(a) && !bodies.awake(b)) return;
+      const auto moves = [&](BodySlot body) { return bodies.awake(body) || bodies.carries(body); };
+      const BodySlot sleeper = moves(a) ? b : a;
+      if (!moves(a) && !moves(b)) return;
       if (bodies.motion[sleeper] != Motion::kAsleep) return;
       bodies.wake(sleeper);
       again = true;

@@ -58,7 +58,7 @@ class Joints {
   void cut(JointId id, Bodies& bodies);
   /// Before a body goes: its ends are lost, and what they held wakes.
   void lose(BodySlot body, Bodies& bodies);
-  /// Wakes every sleeper that is joined to something awake, through others.
+  /// Wakes every sleeper that is joined to something on the move, through others.
   void wake(Bodies& bodies) const;
   /// Whether two shapes ignore each other because their bodies are joined.
   bool apart(const Pair& pair, const Shapes& shapes, const Bodies& bodies) const;

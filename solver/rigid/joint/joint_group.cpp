@@ -17,20 +17,20 @@ constexpr double kSoftness = 1e-6;  // of a row's response: two hinges of a door
 double response(const JointWork& m, const JointRow& i, const JointWork& n, const JointRow& j) {
   const double pushes = double{i.push.dot(j.push)};
   double sum = 0;
-  if (m.row_a != 0 && m.row_a == n.row_a)
+  if (m.row_a > 0 && m.row_a == n.row_a)
     sum += double{m.inverse_mass_a} * pushes + double{i.angular_a.dot(j.angular_a)};
-  if (m.row_b != 0 && m.row_b == n.row_b)
+  if (m.row_b > 0 && m.row_b == n.row_b)
     sum += double{m.inverse_mass_b} * pushes + double{i.angular_b.dot(j.angular_b)};
-  if (m.row_a != 0 && m.row_a == n.row_b)
+  if (m.row_a > 0 && m.row_a == n.row_b)
     sum -= double{m.inverse_mass_a} * pushes + double{i.angular_a.dot(j.angular_b)};
-  if (m.row_b != 0 && m.row_b == n.row_a)
+  if (m.row_b > 0 && m.row_b == n.row_a)
     sum -= double{m.inverse_mass_b} * pushes + double{i.angular_b.dot(j.angular_a)};
   return sum;
 }
 
 bool share(const JointWork& m, const JointWork& n) {
-  const auto meets = [&](std::uint32_t row) {
-    return row != 0 && (row == n.row_a || row == n.row_b);
+  const auto meets = [&](std::int32_t row) {
+    return row > 0 && (row == n.row_a || row == n.row_b);
   };
   return meets(m.row_a) || meets(m.row_b);
 }
@@ -270,7 +270,7 @@ void settle_group(JointGroup& group, std::span<JointWork> works, const StepConte
 void scale_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  const float* share_of_row, BodyRow* rows) {
   const auto share_of = [&](const JointWork& work) {
-    return share_of_row[work.row_b != 0 ? work.row_b : work.row_a];
+    return share_of_row[work.row_b > 0 ? work.row_b : work.row_a];
   };
   if (std::ranges::all_of(works, [&](const JointWork& work) { return share_of(work) == 1; }))
     return;

@@ -123,21 +123,23 @@ void JointWork::apply(const JointPush& p, BodyRow* body_rows) const {
   const auto add = [](const Vec3f& v, const Vec3f& w, Wide& velocity) {
     velocity += Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
   };
-  if (row_a != 0) add(-inverse_mass_a * p.push, -p.angular_a, body_rows[row_a].velocity);
-  if (row_b != 0) add(inverse_mass_b * p.push, p.angular_b, body_rows[row_b].velocity);
+  if (row_a > 0) add(-inverse_mass_a * p.push, -p.angular_a, body_rows[row_a].velocity);
+  if (row_b > 0) add(inverse_mass_b * p.push, p.angular_b, body_rows[row_b].velocity);
 }
 
 JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bodies,
-                      SpanByBody<const Mat3f> root_W) {
+                      const JointStep& at) {
   const JointDesc& desc = joint.desc;
   JointWork w;
   w.joint = index;
   w.kind = desc.kind;
-  const auto take = [&](BodySlot body, std::uint32_t& row, float& inverse_mass, Mat3f& root) {
-    if (body.none() || !bodies.awake(body)) return;
-    row = row_of(body);
+  const auto take = [&](BodySlot body, std::int32_t& row, float& inverse_mass, Mat3f& root) {
+    if (body.none()) return;
+    if (bodies.carries(body)) row = at.kinematic_row[body], root = at.root_W[body];
+    if (!bodies.awake(body)) return;
+    row = static_cast<std::int32_t>(row_of(body));
     inverse_mass = bodies.inverse_mass[body];
-    root = root_W[body];
+    root = at.root_W[body];
     w.reach_m = w.reach_m > 0 ? std::min(w.reach_m, bodies.reach_m[body]) : bodies.reach_m[body];
   };
   take(joint.body_a, w.row_a, w.inverse_mass_a, w.root_a);

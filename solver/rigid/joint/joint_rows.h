@@ -52,9 +52,9 @@ struct JointWork {
   JointDesc::Kind kind = JointDesc::Kind::kBall;
   bool broken = false;
   int rows = 0;
-  int place_rows = 0;                  ///< The first of them; the others are angular.
-  int held_rows = 0;                   ///< Those that hold; what comes after them damps.
-  std::uint32_t row_a = 0, row_b = 0;  ///< In BodyRow; 0: immovable.
+  int place_rows = 0;                 ///< The first of them; the others are angular.
+  int held_rows = 0;                  ///< Those that hold; what comes after them damps.
+  std::int32_t row_a = 0, row_b = 0;  ///< In BodyRow; 0: immovable; less: kinematic.
   float inverse_mass_a = 0, inverse_mass_b = 0;
   Mat3f root_a = Mat3f::Zero(), root_b = Mat3f::Zero();  ///< In W, frozen for the step.
   Vec3 gap = Vec3::Zero();  ///< From anchor a to anchor b when the step began.
@@ -85,9 +85,15 @@ struct JointWork {
 
 /// How far a body has turned since the step began.
 Quat rotation_of(const Mat3f& root, const BodyRow& row);
+/// Where the bodies of a step are: roots in W, and rows of kinematic bodies on their way, none if
+/// there are none.
+struct JointStep {
+  SpanByBody<const Mat3f> root_W;
+  SpanByBody<const std::int32_t> kinematic_row;
+};
 /// A joint as the step begins.
 JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bodies,
-                      SpanByBody<const Mat3f> root_W);
+                      const JointStep& at);
 /// Rows and errors as the bodies lie and move now, for a substep of h_s.
 void refresh_rows(JointWork& work, double h_s, const BodyRow* rows);
 

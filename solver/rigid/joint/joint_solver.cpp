@@ -36,6 +36,7 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
   groups_.clear();
   colors_.clear();
   joined_.clear();
+  carried_.clear();
   is_first_.clear();
   for (std::uint32_t i = 0; i < joints.size(); ++i) {
     if (!joints[i].holds()) continue;
@@ -47,6 +48,8 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
     if (first.none()) continue;
     active_.push_back(i);
     joined_.emplace_back(first, last);
+    const auto carries = [&](BodySlot body) { return !body.none() && bodies.carries(body); };
+    if (carries(joints[i].body_a) || carries(joints[i].body_b)) carried_.push_back(first);
   }
   works_.resize(active_.size());
   if (active_.empty()) return;
@@ -152,20 +155,20 @@ void JointSolver::color_groups(const Bodies& bodies, const Joints& joints) {
 }
 
 void JointSolver::begin(std::uint32_t i, const StepContext& step, const Bodies& bodies,
-                        const Joints& joints, SpanByBody<const Mat3f> root_W, const BodyRow* rows) {
+                        const Joints& joints, const JointStep& at_hand, const BodyRow* rows) {
   JointGroup& group = groups_[i];
   for (std::uint32_t at = group.first; at < group.first + group.count; ++at)
-    works_[at] = begin_joint(joints[active_[at]], active_[at], bodies, root_W);
+    works_[at] = begin_joint(joints[active_[at]], active_[at], bodies, at_hand);
   begin_group(group, works(group), step, rows);
 }
 
 void JointSolver::settle(std::uint32_t i, const StepContext& step, const Bodies& bodies,
-                         Joints& joints, SpanByBody<const Mat3f> root_W, BodyRow* rows) {
+                         Joints& joints, const JointStep& at_hand, BodyRow* rows) {
   for (JointWork& work : works(groups_[i])) {
     if (work.broken) continue;
     if (work.kind == JointKind::kPlastic) keep_flow(work, joints[work.joint]);
     const JointWork solved =
-        std::exchange(work, begin_joint(joints[work.joint], work.joint, bodies, root_W));
+        std::exchange(work, begin_joint(joints[work.joint], work.joint, bodies, at_hand));
     work.impulse = solved.impulse;
     work.total = solved.total;
     work.bounds = solved.bounds;
@@ -177,8 +180,8 @@ void JointSolver::settle(std::uint32_t i, const StepContext& step, const Bodies&
 Vec3 JointSolver::finish(Bodies& bodies, Joints& joints) {
   Vec3 outside = Vec3::Zero();
   for (const JointWork& work : works_) {
-    if (work.row_a == 0) outside += work.total.linear_W;
-    if (work.row_b == 0) outside -= work.total.linear_W;
+    if (work.row_a <= 0) outside += work.total.linear_W;
+    if (work.row_b <= 0) outside -= work.total.linear_W;
     joints[work.joint].impulse = work.impulse;
     joints[work.joint].total = work.total;
   }

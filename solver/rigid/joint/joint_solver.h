@@ -23,9 +23,9 @@ class JointSolver {
   bool empty() const { return groups_.empty(); }
   /// The groups of each colour: one after another, those of one in parallel.
   const std::vector<StageItems>& colors() const { return colors_; }
-  /// The work on group i; `rows` and `root_W` are those of the step.
+  /// The work on group i; `rows` and `at_hand` are those of the step.
   void begin(std::uint32_t i, const StepContext& step, const Bodies& bodies, const Joints& joints,
-             SpanByBody<const Mat3f> root_W, const BodyRow* rows);
+             const JointStep& at_hand, const BodyRow* rows);
   void warm_start(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     warm_start_group(works(groups_[i]), step, rows);
   }
@@ -52,9 +52,11 @@ class JointSolver {
   bool swings_free(BodySlot body) const { return !groups_.empty() && swings_free_[body]; }
   /// As the bodies lie and move when the step is over; what flowed goes into the joints.
   void settle(std::uint32_t i, const StepContext& step, const Bodies& bodies, Joints& joints,
-              SpanByBody<const Mat3f> root_W, BodyRow* rows);
+              const JointStep& at_hand, BodyRow* rows);
   /// What hangs together and may move, a joint at a time: a joint to the world twice the same body.
   const std::vector<std::pair<BodySlot, BodySlot>>& joined() const { return joined_; }
+  /// Of that, what hangs on something kinematic on its way, which does work on it.
+  const std::vector<BodySlot>& carried() const { return carried_; }
   /// Hands impulses back; joints that bore too much go. The answer is the impulse on bodies from
   /// what cannot move.
   Vec3 finish(Bodies& bodies, Joints& joints);
@@ -69,6 +71,7 @@ class JointSolver {
   }
 
   std::vector<std::pair<BodySlot, BodySlot>> joined_;
+  std::vector<BodySlot> carried_;
   std::vector<std::uint32_t> active_;   ///< Joints that hang together one after another.
   std::vector<std::uint8_t> is_first_;  ///< Of those that hang together; as `active_`.
   std::vector<JointGroup> groups_;      ///< By colour.
