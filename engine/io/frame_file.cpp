@@ -32,6 +32,7 @@ FrameBody take_body(ByteReader& in) {
   const auto flags = in.take<std::uint8_t>();
   body.is_static = (flags & 1) != 0;
   body.asleep = (flags & 2) != 0;
+  body.before_key = body.key;
   return body;
 }
 

@@ -56,4 +56,15 @@ std::vector<Material> take_materials(ByteReader& in) {
   return materials;
 }
 
+void put_names(ByteWriter& out, const std::vector<std::string>& names) {
+  out.put(static_cast<std::uint32_t>(names.size()));
+  for (const std::string& name : names) out.put(name);
+}
+
+std::vector<std::string> take_names(ByteReader& in) {
+  std::vector<std::string> names(in.take_count(4));
+  for (std::string& name : names) in.take_to(name);
+  return names;
+}
+
 }  // namespace sunder

@@ -13,6 +13,10 @@ View take_view(ByteReader& in);
 void put(ByteWriter& out, const std::vector<Material>& materials);
 std::vector<Material> take_materials(ByteReader& in);
 
+/// Frame::names.
+void put_names(ByteWriter& out, const std::vector<std::string>& names);
+std::vector<std::string> take_names(ByteReader& in);
+
 void put(ByteWriter& out, const Mesh& mesh);
 /// Throws InputError, naming `file`, if the mesh does not fit together or its material is none of
 /// `materials`.

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -48,6 +50,16 @@ struct View {
 /// The key of the body that the ground's meshes are, if it has any; it comes last.
 inline constexpr std::uint32_t kGroundKey = 0xffffffff;
 
+/// Where the camera is at a time; what is not said is as in the key before (view_path.h).
+struct ViewKey {
+  double time_s = 0;
+  std::optional<Vec3> eye_W, target_W;
+  std::optional<double> fov_rad;
+};
+
+/// In place of the name of what has none.
+inline constexpr std::uint32_t kUnnamed = 0xffffffff;
+
 /// A body at one instant. `key` is unique for a run and never reused.
 struct FrameBody {
   std::uint64_t key = 0;
@@ -57,6 +69,10 @@ struct FrameBody {
   Vec3 angular_velocity_W = Vec3::Zero();
   bool is_static = false;
   bool asleep = false;
+  /// Of what it was part of in the frame before, in whose rest frame it lies; its own where nothing
+  /// broke.
+  std::uint64_t before_key = 0;
+  std::uint32_t name = kUnnamed;  ///< In Frame::names, of what it came off in the end.
 };
 
 /// A mesh drawn on a body: world = X_WB * (X_RT * (origin_T + position) − com_R).
@@ -132,6 +148,8 @@ struct Frame {
   View view;
   std::shared_ptr<const std::vector<Material>> materials;
   std::shared_ptr<const MeshStore> meshes;
+  /// Of the scene's solids, balls and shots; the same in all frames. Null where nobody knows.
+  std::shared_ptr<const std::vector<std::string>> names;
   std::vector<FrameBody> bodies;  ///< Ascending by key.
   std::vector<Instance> instances;
   std::vector<FrameDebris> debris;

@@ -1,9 +1,10 @@
-// Hermite's cubics with the slopes of Fritsch and Butland (1984), which make them monotone.
 #include "engine/model/path.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "engine/model/cubic.h"
 
 namespace sunder {
 namespace {
@@ -14,17 +15,6 @@ Vec6 pose_of(const PathKey& key) {
   Vec6 pose;
   pose << key.shift_W, key.turn_W;
   return pose;
-}
-
-/// Of a cubic where lines of these slopes meet, that long.
-Vec6 slope_between(const Vec6& before, double before_s, const Vec6& after, double after_s) {
-  const double weight = (before_s + 2 * after_s) / (3 * (before_s + after_s));
-  Vec6 slope;
-  for (int i = 0; i < 6; ++i) {
-    const double product = before[i] * after[i];
-    slope[i] = product > 0 ? product / (weight * after[i] + (1 - weight) * before[i]) : 0;
-  }
-  return slope;
 }
 
 }  // namespace
@@ -51,7 +41,7 @@ PathKey Path::at(double time_s) const {
   const double h = length_s(n), s = (now_s - key(n - 1).time_s) / h;
   Vec6 pose = pose_of(key(n - 1)) + h * s * line(n);
   if (smooth) {
-    pose += h * s * (1 - s) * ((1 - s) * (slope(n - 1) - line(n)) - s * (slope(n) - line(n)));
+    pose += h * bow<Vec6>(s, line(n), slope(n - 1), slope(n));
   }
   return {time_s, pose.head<3>(), pose.tail<3>()};
 }

@@ -137,6 +137,7 @@ struct Scene {
   Limits limits;
   Ground ground;
   View view;
+  std::vector<ViewKey> view_keys;  ///< Where its camera goes; none: it stays.
   std::vector<Material> materials;
   std::vector<Solid> solids;
   std::vector<Ball> balls;
@@ -148,5 +149,14 @@ struct Scene {
   std::vector<Drive> drives;
   std::vector<Move> moves;  ///< In no order.
 };
+
+/// Of its solids, balls and shots, in this order; a chain goes by the name of its ball.
+inline std::vector<std::string> names_in(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Solid& solid : scene.solids) names.push_back(solid.name);
+  for (const Ball& ball : scene.balls) names.push_back(ball.name);
+  for (const Shot& shot : scene.shots) names.push_back(shot.ball.name);
+  return names;
+}
 
 }  // namespace sunder

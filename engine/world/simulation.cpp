@@ -73,6 +73,7 @@ Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
   add_ground(world);
   add_compounds(world, world.scene.solids);
   for (const Ball& ball : world.scene.balls) add_ball(world, ball);
+  for (Actor& actor : world.actors) actor.name = actor.key;
   for (const Joint& joint : world.scene.joints) {  // keys are indices still
     world.joints.add(*world.physics, world.actors, joint);
   }

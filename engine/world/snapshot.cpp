@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/model/view_path.h"
 #include "engine/world/actors/draw_bends.h"
 #include "engine/world/actors/make_actor.h"
 
@@ -15,8 +16,8 @@ constexpr std::size_t kBodiesAChunk = 64;
 
 FrameBody body_of(const Actor& actor, const BodyState& state) {
   return {
-      actor.key,       state.X_WB,  actor.weight.com_R, state.velocity_W, state.angular_velocity_W,
-      actor.is_static, state.asleep};
+      actor.key,       state.X_WB,   actor.weight.com_R, state.velocity_W, state.angular_velocity_W,
+      actor.is_static, state.asleep, actor.shown_key,    actor.name};
 }
 
 void count(const World& world, const Actor& actor, const FrameBody& body, FrameReport& report) {
@@ -90,14 +91,16 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   auto frame = std::make_shared<Frame>();
   frame->index = world.clock.frame;
   frame->time_s = world.clock.time_s();
-  frame->view = world.scene.view;
+  frame->view = along(world.scene.view_keys, world.scene.view, frame->time_s);
   frame->view.ground_m = world.scene.ground.height_m;
   frame->materials = world.materials;
+  frame->names = world.names;
   frame->meshes = world.meshes.publish();
   frame->report = std::exchange(ledger.report, {});
   FrameReport& report = frame->report;
   add_bodies(world, *frame);
   add_landscape(world, *frame);
+  for (Actor& actor : world.actors) actor.shown_key = actor.key;
   particles.show(*frame);
   report.mass_kg += ledger.debris_mass_kg + ledger.removed_mass_kg;
   for (const Shot& shot : shots_to_come) {

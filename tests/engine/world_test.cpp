@@ -314,6 +314,41 @@ TEST(Simulation, FiresShotsAtTheirTimeAndCountsTheirMassFromTheStart) {
   EXPECT_NEAR(last->bodies[0].X_WB.position.x(), 0.1, 1.5 / 60);
 }
 
+TEST(Simulation, TellsOfEachPieceWhatItWasPartOfAndWhatItCameOff) {
+  const Solid front{"front", two_boxes(Vec3::Zero(), false), {}};
+  Scene scene = scene_of({front}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))});
+  scene.shots = {{0.02, ball_at(Vec3(0, 9, 0), Vec3(1, 0, 0))}};
+  scene.shots[0].ball.name = "shot";
+  ScriptedRun run(scene, always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));
+  EXPECT_EQ(run.simulation.next()->bodies[0].before_key, 0u);
+  FramePtr frame = run.simulation.next();
+  EXPECT_EQ(*frame->names, (std::vector<std::string>{"front", scene.balls[0].name, "shot"}));
+  ASSERT_EQ(frame->bodies.size(), 3u) << "the ball, then pieces";
+  EXPECT_EQ(frame->bodies[0].before_key, 1u);
+  EXPECT_EQ(frame->bodies[0].name, 1u);
+  for (const std::size_t piece : {1, 2}) {
+    EXPECT_EQ(frame->bodies[piece].before_key, 0u);
+    EXPECT_EQ(frame->bodies[piece].name, 0u);
+  }
+  frame = run.simulation.next();
+  ASSERT_EQ(frame->bodies.size(), 4u);
+  for (const FrameBody& body : frame->bodies) EXPECT_EQ(body.before_key, body.key);
+  EXPECT_EQ(frame->bodies[3].name, 2u) << "of the shot";
+}
+
+TEST(Simulation, TakesItsCameraAlongItsKeys) {
+  Scene scene = scene_of({}, {});
+  scene.view.target_W = {0, 1, 0};
+  scene.view_keys = {{0, Vec3(0, 0, 10), {}, {}}, {0.1, Vec3(4, 0, 10), {}, 0.5}};
+  ScriptedRun run(scene, [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
+  FramePtr frame;
+  for (int i = 0; i <= 3; ++i) frame = run.simulation.next();
+  EXPECT_NEAR(frame->view.eye_W.x(), 2, 1e-9) << "half-way";
+  EXPECT_EQ(frame->view.target_W, Vec3(0, 1, 0));
+  for (int i = 0; i < 6; ++i) frame = run.simulation.next();
+  EXPECT_EQ(frame->view.fov_rad, 0.5);
+}
+
 TEST(Simulation, KeepsTheMeshesOfWhatABreakDidNotChange) {
   const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
   ScriptedRun run(scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))}),

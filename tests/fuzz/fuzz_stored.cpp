@@ -78,13 +78,15 @@ void play(const std::vector<std::byte>& file) {
 void play_file(std::span<const std::uint8_t> bytes) { play(bytes_of(bytes)); }
 
 /// A take whose sums are right, whatever its blocks hold: each is given as its kind, its number,
-/// the length of its content in two bytes, and that.
+/// the length of its content in two bytes, and that. With 128 more the first kind says that it is
+/// one of the newest version, else of the oldest.
 void play_blocks(std::span<const std::uint8_t> bytes) {
   ByteWriter out;
-  for (const char c : kTakeMagic) out.put(c);
+  for (std::size_t i = 0; i < kTakeName; ++i) out.put(kTakeMagic[i]);
+  out.put(bytes.empty() || bytes[0] < 128 ? kOldestTake : kTakeMagic[kTakeName]);
   Packer frames, others;
   for (std::size_t at = 0; at + 4 <= bytes.size();) {
-    const auto kind = static_cast<BlockKind>(bytes[at]);
+    const auto kind = static_cast<BlockKind>(bytes[at] % 128);
     const std::size_t said = bytes[at + 2] | bytes[at + 3] << 8;
     const std::size_t size = std::min(said, bytes.size() - at - 4);
     const std::vector<std::byte> content = bytes_of(bytes.subspan(at + 4, size));

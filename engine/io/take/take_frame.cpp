@@ -18,8 +18,10 @@ constexpr double kPlaceSteps_m = 8192;
 constexpr double kTurnSteps = 4096;
 constexpr double kSpeedSteps_m_s = 2;  // no picture shows a speed
 
-// Columns of a body: position and rotation (gliding), velocities, flags, hash, key, centre of mass.
-constexpr std::size_t kBodyColumns = 23;
+// Columns of a body: position and rotation (gliding), velocities, flags, hash, key, centre of mass;
+// by how much its key has grown since the frame before, name.
+constexpr std::size_t kBodyColumns = 25;
+constexpr std::size_t kOldBodyColumns = 23;  // without the last two
 constexpr std::size_t kBodyGlides = 7;
 // Of particles only positions: their rotations are too coarse to tell a pace from rounding.
 constexpr std::size_t kParticleGlides = 3;
@@ -47,6 +49,8 @@ void encode(const FrameBody& body, std::int32_t* to) {
   };
   put_bits(body.key);
   for (int i = 0; i < 3; ++i) put_bits(std::bit_cast<std::uint64_t>(body.com_R[i]));
+  *to++ = static_cast<std::int32_t>(body.key - body.before_key);
+  *to++ = static_cast<std::int32_t>(body.name);
 }
 
 Vec3 vector_of(const std::int32_t*& from, double steps) {
@@ -55,7 +59,8 @@ Vec3 vector_of(const std::int32_t*& from, double steps) {
   return v;
 }
 
-FrameBody decode_body(const std::int32_t* from, std::int32_t& hash) {
+FrameBody decode_body(std::span<const std::int32_t> row, std::int32_t& hash) {
+  const std::int32_t* from = row.data();
   FrameBody body;
   body.X_WB.position = vector_of(from, kPlaceSteps_m);
   for (int i = 0; i < 4; ++i) {
@@ -76,6 +81,10 @@ FrameBody decode_body(const std::int32_t* from, std::int32_t& hash) {
   body.key = take_bits();
   for (int i = 0; i < 3; ++i) body.com_R[i] = std::bit_cast<double>(take_bits());
   if (!body.com_R.allFinite()) body.com_R.setZero();
+  body.before_key = body.key;
+  if (row.size() == kOldBodyColumns) return body;
+  body.before_key -= static_cast<std::uint64_t>(std::int64_t{*from++});
+  body.name = static_cast<std::uint32_t>(*from);
   return body;
 }
 
@@ -196,8 +205,8 @@ std::int32_t short_hash(const FrameBody& body) {
   return static_cast<std::int32_t>(hash_body(body) & 0xff);
 }
 
-FrameCoder::FrameCoder()
-    : bodies_(kBodyColumns, kBodyGlides),
+FrameCoder::FrameCoder(bool knows_origins)
+    : bodies_(knows_origins ? kBodyColumns : kOldBodyColumns, kBodyGlides),
       debris_(kParticleNumbers, kParticleGlides),
       dust_(kParticleNumbers, kParticleGlides) {}
 
@@ -259,7 +268,7 @@ TakeFrame FrameCoder::read(const std::vector<std::byte>& bytes, const std::strin
   frame.bodies.resize(table.rows());
   take.body_hashes.resize(table.rows());
   for (std::size_t b = 0; b < table.rows(); ++b) {
-    frame.bodies[b] = decode_body(table.row(b).data(), take.body_hashes[b]);
+    frame.bodies[b] = decode_body(table.row(b), take.body_hashes[b]);
   }
   read_instances(in, file, before, take);
   frame.debris = read_particles(in, file, debris_, decode_debris);

@@ -25,7 +25,8 @@ struct TakeFrame {
 /// One end of a stream of frames: writer and reader each keep one, in step.
 class FrameCoder {
  public:
-  FrameCoder();
+  /// `knows_origins`: of bodies, as takes do from version 6 on.
+  explicit FrameCoder(bool knows_origins = true);
   /// The next frame stands alone.
   void reset();
   void write(ByteWriter& out, const Frame& frame);

@@ -45,6 +45,7 @@ class TakeReader::Playback {
   std::optional<BlockPlace> materials_block_;
   std::vector<BlockPlace> mesh_blocks_, frame_blocks_;
   std::shared_ptr<const std::vector<Material>> materials_;
+  std::shared_ptr<const std::vector<std::string>> names_;
   std::shared_ptr<MeshStore> meshes_ = std::make_shared<MeshStore>();
   std::size_t mesh_blocks_read_ = 0;
 
@@ -64,11 +65,13 @@ TakeReader::Playback::Playback(const std::filesystem::path& path) : file_(path.s
   char magic[sizeof kTakeMagic] = {};
   in_.seekg(0);
   in_.read(magic, sizeof magic);
-  if (!in_ || std::memcmp(magic, kTakeMagic, sizeof magic) != 0) {
-    const bool other = in_ && std::memcmp(magic, kTakeMagic, kTakeName) == 0;
+  const bool is_take = in_ && std::memcmp(magic, kTakeMagic, kTakeName) == 0;
+  const char version = magic[kTakeName];
+  if (!is_take || version < kOldestTake || version > kTakeMagic[kTakeName]) {
+    const bool other = is_take;
     throw InputError(file_ + (other
                                   ? ": a take of another version of sunder (" +
-                                        std::string(1, magic[kTakeName]) + ", this one reads " +
+                                        std::string(1, version) + ", this one reads up to " +
                                         kTakeMagic[kTakeName] + "); record it again"
                                   : std::string(": not a take; sunder simulate --take makes one")));
   }
@@ -80,6 +83,9 @@ TakeReader::Playback::Playback(const std::filesystem::path& path) : file_(path.s
   const auto content = content_at(*materials_block_, other_unpacker_);
   ByteReader in(content, file_);
   materials_ = std::make_shared<const std::vector<Material>>(take_materials(in));
+  const bool is_newest = version == kTakeMagic[kTakeName];
+  if (is_newest) names_ = std::make_shared<const std::vector<std::string>>(take_names(in));
+  coder_ = FrameCoder(is_newest);
 }
 
 /// Blocks follow each other in the order of the run, each with its frame or mesh number.
@@ -218,6 +224,7 @@ FramePtr TakeReader::Playback::decode(std::uint32_t frame) {
   }
   auto result = std::make_shared<Frame>(std::move(take.frame));
   result->materials = materials_;
+  result->names = names_;
   result->meshes = meshes_;
   body_hashes_ = std::move(take.body_hashes);
   decoded_ = frame;

@@ -131,6 +131,7 @@ void TakeWriter::Recording::write(const Frame& frame) {
     materials_ = frame.materials;
     ByteWriter content;
     put(content, *materials_);
+    put_names(content, frame.names ? *frame.names : std::vector<std::string>());
     append(BlockKind::kMaterials, 0, content.bytes.size(), other_packer_.pack(content.bytes));
   }
   SUNDER_CHECK(frame.materials == materials_);  // a take is of one run

@@ -52,10 +52,17 @@ void hang(World& world, const Shot& shot) {
 }
 
 void shoot(World& world, const Shot& shot) {
+  const std::uint32_t first_key = world.actors.next_key();
   if (shot.hangs_from_W) {
     hang(world, shot);
   } else {
     add_ball(world, shot.ball);
+  }
+  const Scene& scene = world.scene;
+  const auto number = static_cast<std::size_t>(&shot - scene.shots.data());
+  for (Actor& actor : world.actors) {
+    if (actor.key < first_key) continue;
+    actor.name = static_cast<std::uint32_t>(scene.solids.size() + scene.balls.size() + number);
   }
 }
 

@@ -45,8 +45,10 @@ inline constexpr MeshIndex kUndrawn = MeshIndex(0xfffffffe);
 
 /// A solid in the world: a body, what it is made of, and what is drawn of it.
 struct Actor {
-  std::uint32_t key = 0;       ///< Unique in a run, ascending with age; the tag of its body.
-  std::uint32_t root_key = 0;  ///< Of what it came off in the end: a solid or ball of the scene.
+  std::uint32_t key = 0;          ///< Unique in a run, ascending with age; the tag of its body.
+  std::uint32_t root_key = 0;     ///< Of what it came off in the end: a solid or ball of the scene.
+  std::uint32_t shown_key = 0;    ///< As what, or part of what, the last frame showed it.
+  std::uint32_t name = kUnnamed;  ///< In World::names; of its root.
   BodyId body;
   bool is_static = false;     ///< Nothing pushes it: it stands, or
   bool is_kinematic = false;  ///< goes its path.

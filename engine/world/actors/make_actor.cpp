@@ -93,7 +93,7 @@ void set_least(const World& world, Actor& actor) {
 
 Actor make_actor(World& world, const Compound& compound) {
   Actor actor;
-  actor.key = actor.root_key = world.actors.new_key();
+  actor.key = actor.root_key = actor.shown_key = world.actors.new_key();
   actor.structure = Structure(compound);
   actor.is_static = actor.structure.is_anchored();
   actor.weight = weigh(compound, *world.materials);
@@ -170,7 +170,7 @@ void add_ball(World& world, const Ball& ball) {
   const Material& material = world.material(ball.material);
   const double radius = ball.radius_m;
   Actor actor;
-  actor.key = actor.root_key = world.actors.new_key();
+  actor.key = actor.root_key = actor.shown_key = world.actors.new_key();
   actor.volume_m3 = ball_volume_m3(radius);
   actor.weight.mass_kg = ball_mass_kg(world, ball);
   actor.weight.inertia_R = 0.4 * actor.weight.mass_kg * radius * radius * Mat3::Identity();

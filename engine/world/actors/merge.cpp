@@ -59,6 +59,8 @@ Actor made_of_both(World& world, Actor& a, const Actor& b, const BreakEdit& edit
   a.structure.apply(edit);
   Actor both = make_actor(world, a.structure.compound());
   both.root_key = a.root_key;
+  both.shown_key = a.shown_key;
+  both.name = a.name;
   both.rejoined = a.rejoined;
   both.born_step = world.clock.step + 1;
   set_least(world, both);  // of a fragment

@@ -114,6 +114,8 @@ struct Pieces {
     // What hangs on by a hinge is what it was to whoever strikes it.
     piece.born_step = hinged ? parent.born_step : world.clock.step + 1;
     piece.root_key = parent.root_key;
+    piece.shown_key = parent.shown_key;
+    piece.name = parent.name;
     piece.rejoined = parent.rejoined;
     set_least(world, piece);  // of a fragment
     if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@ namespace sunder {
 struct World {
   const Scene scene;  ///< As it was given.
   const std::shared_ptr<const std::vector<Material>> materials;
+  const std::shared_ptr<const std::vector<std::string>> names;  ///< Solids, balls, then shots.
   const std::unique_ptr<Physics> physics;
   Clock clock;
   Actors actors;
@@ -37,6 +39,7 @@ struct World {
   World(Scene given, std::unique_ptr<Physics> moves)
       : scene(std::move(given)),
         materials(std::make_shared<const std::vector<Material>>(scene.materials)),
+        names(std::make_shared<const std::vector<std::string>>(names_in(scene))),
         physics(std::move(moves)),
         clock(scene.accuracy) {}
 
