@@ -13,8 +13,6 @@
 namespace sunder::render {
 namespace {
 
-constexpr int kFramesPerS = 60;
-
 /// Makes `folder`, if it is not there yet; throws FileError.
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -27,8 +25,8 @@ void make_folder(const std::filesystem::path& folder) {
 
 class VideoSink final : public FrameSink {
  public:
-  VideoSink(std::filesystem::path path, Renderer& renderer)
-      : renderer_(renderer), encoder_(path, renderer.width(), renderer.height(), kFramesPerS) {}
+  VideoSink(const std::filesystem::path& path, Renderer& renderer, int frames_per_s)
+      : renderer_(renderer), encoder_(path, renderer.width(), renderer.height(), frames_per_s) {}
   void take(const FramePtr& frame) override { encoder_.add(renderer_.draw(*frame)); }
   void finish() override { encoder_.finish(); }
 
@@ -78,7 +76,8 @@ class ImagesSink final : public FrameSink {
 class OwnRenderer final : public FrameSink {
  public:
   OwnRenderer(const std::filesystem::path& path, const RenderOptions& options)
-      : renderer_(options), sink_(make_picture_sink(path, renderer_)) {}
+      : renderer_(options),
+        sink_(make_picture_sink(path, renderer_, false, options.frames_per_s)) {}
   void take(const FramePtr& frame) override { sink_->take(frame); }
   void finish() override { sink_->finish(); }
 
@@ -89,27 +88,32 @@ class OwnRenderer final : public FrameSink {
 
 }  // namespace
 
+void check_place(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) {
+    throw InputError(path.string() + ": is a folder; name a file");
+  }
+  make_folder(path.parent_path());
+}
+
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
                                              const RenderOptions& options) {
   return std::make_unique<OwnRenderer>(path, options);
 }
 
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer,
-                                             bool resume) {
+                                             bool resume, int frames_per_s) {
   const std::string extension = path.extension().string();
-  if (extension == ".mp4" || extension == ".png") {
-    if (std::filesystem::is_directory(path)) {
-      throw InputError(path.string() + ": is a folder; name a file");
-    }
+  const bool is_video = extension == ".mp4" || extension == ".webm";
+  if (is_video || extension == ".png") {
     if (resume)
       throw InputError(path.string() + ": only pictures in a folder (DIR/) can be resumed");
-    make_folder(path.parent_path());
-    if (extension == ".mp4") return std::make_unique<VideoSink>(path, renderer);
+    check_place(path);
+    if (is_video) return std::make_unique<VideoSink>(path, renderer, frames_per_s);
     return std::make_unique<LastImageSink>(path, renderer);
   }
   const std::filesystem::path folder = path.has_filename() ? path : path.parent_path();
   if (!extension.empty() && !std::filesystem::is_directory(folder)) {
-    throw InputError(path.string() + ": make it .mp4, .png, or a folder (ending in /)");
+    throw InputError(path.string() + ": make it .mp4, .webm, .png, or a folder (ending in /)");
   }
   return std::make_unique<ImagesSink>(folder, renderer, resume);
 }

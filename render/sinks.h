@@ -17,13 +17,14 @@ struct RenderOptions {
   std::string view_mode = "materials";
   bool hud = false;          ///< Frame number, time and counts in the corner.
   bool time_passes = false;  ///< Waits for the GPU after each pass, to fill pass_times().
+  int frames_per_s = 60;     ///< Of a video.
 };
 
 /// Draws with OpenGL, off-screen, on the thread that makes it; renderer.h.
 class Renderer;
 
-/// `path` ending in .mp4: a video of 60 frames a second; .png: the last frame taken; otherwise a
-/// directory of frame_00000.png and so on. No file stands there until it is complete.
+/// `path` ending in .mp4 or .webm: a video; .png: the last frame taken; otherwise a directory of
+/// frame_00000.png and so on. No file stands there until it is complete.
 /// Throws InputError if ffmpeg is missing (naming the package) or the options cannot be met,
 /// FileError if the place cannot be written.
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
@@ -31,6 +32,9 @@ std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
 /// The same with a renderer that is there already, and must outlive the sink; `resume`: pictures
 /// that are in the directory stay as they are, and are not drawn.
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer,
-                                             bool resume = false);
+                                             bool resume = false, int frames_per_s = 60);
+/// Makes the folder of a file that is to be written. Throws InputError if `path` is a folder
+/// itself, FileError if that cannot be written to.
+void check_place(const std::filesystem::path& path);
 
 }  // namespace sunder::render

@@ -23,37 +23,32 @@ extern char** environ;
 namespace sunder::render {
 namespace {
 
-std::vector<std::string> arguments(const std::filesystem::path& file, int width, int height,
-                                   int frames_per_s) {
-  return {"ffmpeg",
-          "-hide_banner",
-          "-loglevel",
-          "error",
-          "-y",
-          "-f",
-          "rawvideo",
-          "-pix_fmt",
-          "rgb24",
-          "-s",
-          std::to_string(width) + "x" + std::to_string(height),
-          "-r",
-          std::to_string(frames_per_s),
-          "-i",
-          "pipe:0",
-          "-an",
-          "-c:v",
-          "libx264",
-          "-preset",
-          "veryfast",
-          "-crf",
-          "18",
-          "-pix_fmt",
-          "yuv420p",
-          "-movflags",
-          "+faststart",
-          "-f",
-          "mp4",
-          file.string()};
+using Words = std::vector<std::string>;
+
+void append(Words& words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
+/// Colours are turned into those of BT.709, and the file says so: players guess otherwise.
+Words arguments(const std::filesystem::path& file, bool webm, int width, int height,
+                int frames_per_s) {
+  Words words = {"ffmpeg", "-hide_banner", "-loglevel", "error", "-y"};
+  append(words, {"-f", "rawvideo", "-pix_fmt", "rgb24"});
+  append(words, {"-s", std::to_string(width) + "x" + std::to_string(height)});
+  append(words, {"-r", std::to_string(frames_per_s), "-i", "pipe:0", "-an"});
+  append(words, {"-vf", "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd", "-pix_fmt",
+                 "yuv420p"});
+  append(words, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"});
+  append(words, {"-color_range", "tv"});
+  if (webm) {
+    append(words, {"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0"});
+    append(words, {"-deadline", "good", "-cpu-used", "5", "-row-mt", "1", "-f", "webm"});
+  } else {
+    append(words, {"-c:v", "libx264", "-preset", "veryfast", "-crf", "18"});
+    append(words, {"-movflags", "+faststart", "-f", "mp4"});
+  }
+  words.push_back(file.string());
+  return words;
 }
 
 /// Starts the program with `input` as standard input and `log` as both outputs; 0 or an errno.
@@ -85,8 +80,10 @@ void close_once(int& file) {
 Encoder::Encoder(const std::filesystem::path& path, int width, int height, int frames_per_s)
     : path_(path), temporary_(temporary_name(path)), width_(width), height_(height) {
   if (width % 2 != 0 || height % 2 != 0) {
+    const auto size = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
     throw InputError(path.string() + ": a video needs an even width and height, not " +
-                     std::to_string(width) + "x" + std::to_string(height));
+                     size(width, height) + "; make it " +
+                     size(width + width % 2, height + height % 2));
   }
   int ends[2] = {-1, -1};
   log_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
@@ -96,7 +93,9 @@ Encoder::Encoder(const std::filesystem::path& path, int width, int height, int f
     throw InputError(path.string() + ": no connection to ffmpeg: " + reason);
   }
   input_ = ends[0];
-  const int error = spawn(arguments(temporary_, width, height, frames_per_s), ends[1], log_, pid_);
+  const int error =
+      spawn(arguments(temporary_, path.extension() == ".webm", width, height, frames_per_s),
+            ends[1], log_, pid_);
   ::close(ends[1]);
   if (error == 0) return;
   close_once(input_);

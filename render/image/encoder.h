@@ -7,7 +7,8 @@
 
 namespace sunder::render {
 
-/// An MP4 (H.264, yuv420p) being made; nothing stands at `path` until finish() returns.
+/// An MP4 (H.264) or, by its name, a WebM (VP9) being made, of yuv420p; nothing stands at `path`
+/// until finish() returns.
 class Encoder {
  public:
   /// Starts ffmpeg. Throws InputError if it is missing (naming the package) or the size is odd.

@@ -105,10 +105,9 @@ Vec3 parse_point(const std::string& flag, const std::string& text) {
 void parse_size(const std::string& text, render::RenderOptions& options) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 ||
-      options.width < 16 || options.height < 16 || options.width > 8192 || options.height > 8192 ||
-      options.width % 2 != 0 || options.height % 2 != 0) {
+      options.width < 16 || options.height < 16 || options.width > 8192 || options.height > 8192) {
     throw InputError("--size " + text +
-                     ": expected WIDTHxHEIGHT, even numbers from 16 to 8192 (video needs even)");
+                     ": expected WIDTHxHEIGHT, numbers from 16 to 8192; of a video, even ones");
   }
 }
 

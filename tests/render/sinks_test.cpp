@@ -4,14 +4,17 @@
 #include <sys/stat.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
 #include "render/renderer.h"
+#include "render/sheet.h"
 #include "tests/render/synthetic_frame.h"
 #include "tests/render/test_folder.h"
 
@@ -76,6 +79,39 @@ TEST(VideoSink, WritesAPlayableFileWithEveryFrame) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "new"), {}), 1);
 }
 
+TEST(VideoSink, AnyRateAndWebMTooSayWhatTheirColoursAre) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "package ffmpeg is not installed";
+  const TestFolder folder;
+  for (const auto& [name, codec] : {std::pair{"v.mp4", "h264"}, {"v.webm", "vp9"}}) {
+    const auto sink = make_picture_sink(folder / name, renderer(), false, 25);
+    take_frames(*sink, 3);
+    sink->finish();
+    const std::string probed = output_of(
+        "ffprobe -v error -select_streams v:0 -show_entries stream=codec_name,r_frame_rate,"
+        "color_range,color_space,color_transfer,color_primaries -of csv=p=0 " +
+        (folder / name).string());
+    EXPECT_EQ(probed, std::string(codec) + ",tv,bt709,bt709,bt709,25/1\n");
+  }
+}
+
+TEST(VideoSink, ColoursComeBackAsTheyWere) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "package ffmpeg is not installed";
+  const TestFolder folder;
+  const std::string video = (folder / "v.mp4").string(), back = (folder / "b.png").string();
+  const auto sink = make_picture_sink(video, renderer());
+  take_frames(*sink, 1);
+  sink->finish();
+  output_of("ffmpeg -v error -i " + video +
+            " -vf scale=flags=accurate_rnd+full_chroma_int -frames:v 1 " + back);
+  const Image drawn = renderer().draw(*frame_number(0)), shown = read_png(back);
+  double off[3] = {};
+  for (std::size_t i = 0; i < drawn.rgb.size(); ++i) off[i % 3] += shown.rgb[i] - drawn.rgb[i];
+  for (const double sum : off) {
+    EXPECT_LT(std::abs(sum) / static_cast<double>(drawn.rgb.size() / 3), 0.7)
+        << "of 255, in the mean";
+  }
+}
+
 TEST(VideoSink, GivenUpItLeavesNothing) {
   if (!has_ffmpeg()) GTEST_SKIP() << "package ffmpeg is not installed";
   const TestFolder folder;
@@ -129,10 +165,19 @@ TEST(VideoSink, AnFfmpegThatFailsWithoutSayingSoInItsStatusIsAnErrorToo) {
   EXPECT_EQ(folder.contents(), std::vector<std::string>{"bin"});
 }
 
-TEST(VideoSink, AnOddSizeIsRefused) {
+TEST(VideoSink, AnOddSizeIsRefusedWithAnEvenOneWhileAPictureMayHaveIt) {
   const TestFolder folder;
-  Renderer odd({.width = 161, .height = 90});
-  EXPECT_THROW(make_picture_sink(folder / "v.mp4", odd), InputError);
+  Renderer odd({.width = 161, .height = 91});
+  try {
+    make_picture_sink(folder / "v.mp4", odd);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("make it 162x92"), std::string::npos) << error.what();
+  }
+  const auto sink = make_picture_sink(folder / "p.png", odd);
+  take_frames(*sink, 1);
+  sink->finish();
+  EXPECT_EQ(read_png(folder / "p.png").width, 161);
 }
 
 TEST(ImageSink, APngIsTheLastFrame) {
@@ -166,6 +211,50 @@ TEST(ImageSink, AFolderThatIsResumedKeepsItsPictures) {
   EXPECT_EQ(read_png(folder / "frames/frame_00001.png"), other);
   EXPECT_EQ(read_png(folder / "frames/frame_00002.png"), renderer().draw(*frame_number(2)));
   EXPECT_THROW(make_picture_sink(folder / "v.mp4", renderer(), true), InputError);
+}
+
+/// Part of an image.
+Image cut(const Image& all, int left, int top, int width, int height) {
+  Image part{width, height, {}};
+  for (int y = top; y < top + height; ++y) {
+    const auto row = all.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * all.width + left);
+    part.rgb.insert(part.rgb.end(), row, row + 3 * static_cast<std::ptrdiff_t>(width));
+  }
+  return part;
+}
+
+TEST(SheetSink, LaysFramesEvenlyOverTheRunSideBySide) {
+  const TestFolder folder;
+  const auto sink = make_sheet_sink(folder / "s.png", renderer(), {0, 8, 5}, false);
+  take_frames(*sink, 9);
+  EXPECT_TRUE(folder.contents().empty());
+  sink->finish();
+  const Image sheet = read_png(folder / "s.png");
+  EXPECT_EQ(sheet.width, 3 * 160 + 2 * 4);
+  EXPECT_EQ(sheet.height, 2 * 90 + 4);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(cut(sheet, i % 3 * 164, i / 3 * 94, 160, 90),
+              renderer().draw(*frame_number(2 * static_cast<std::uint64_t>(i))))
+        << i;
+  }
+}
+
+TEST(SheetSink, WritesTheTimesAndKeepsWhatARunThatEndsSoonerCameTo) {
+  const TestFolder folder;
+  const auto sink = make_sheet_sink(folder / "s.png", renderer(), {0, 8, 5});
+  take_frames(*sink, 3);
+  sink->finish();
+  const Image sheet = read_png(folder / "s.png");
+  EXPECT_EQ(sheet.width, 2 * 160 + 4);
+  EXPECT_EQ(sheet.height, 90);
+  EXPECT_NE(cut(sheet, 0, 0, 160, 90), renderer().draw(*frame_number(0)));
+}
+
+TEST(SheetSink, WhatCannotBeIsRefused) {
+  const TestFolder folder;
+  EXPECT_THROW(make_sheet_sink(folder / "s.mp4", renderer(), {0, 8, 5}), InputError);
+  EXPECT_THROW(make_sheet_sink(folder / "s.png", renderer(), {0, 3, 5}), InputError);
+  EXPECT_THROW(make_sheet_sink(folder / "s.png", renderer(), {0, 99999, 90000}), InputError);
 }
 
 TEST(ImageSink, AnUnknownKindOfFileIsRefused) {
