@@ -20,18 +20,13 @@
 #include "scenes/file/planar.h"
 #include "scenes/file/schema.h"
 #include "scenes/file/script.h"
+#include "scenes/file/view.h"
 #include "scenes/structures/structure.h"
 
 namespace sunder::scenes {
 namespace {
 
 constexpr double kFrame = 1.0 / 60;
-
-void check_view(const View& view, const std::string& where) {
-  if (!view.to_sun_W.isZero() && view.eye_W != view.target_W) return;
-  throw InputError(where +
-                   ": [view] needs a sun that is not zero, and an eye that is not at its target");
-}
 
 /// The loader's state: the document and the scene it is becoming.
 class Loader {
@@ -90,8 +85,7 @@ Scene Loader::load(const LoadOptions& options) {
   read_table(s.solver, "solver", scene_.solver);
   read_table(s.limits, "limits", scene_.limits);
   read_table(s.ground, "ground", scene_.ground);
-  read_table(s.view, "view", scene_.view);
-  check_view(scene_.view, document_.where);
+  read_view(document_, scene_);
   add_materials(document_, folder_);
   if (const Value* ground = find(document_, "ground"))
     for (const Value* table : tables(*ground, "mesh")) read_ground_mesh(*table, folder_, scene_);
@@ -331,23 +325,6 @@ void add_builtin_materials(Loader& loader) {
 }
 
 }  // namespace
-
-void change_view(View& view, const std::vector<std::string>& set, const std::string& what) {
-  Value document{what, Table{}};
-  for (const std::string& assignment : set) {
-    if (!assignment.starts_with("view.")) {
-      throw InputError("--set " + assignment + ": " + what +
-                       " has been simulated; keys of [view] alone can be set, as view.fov_deg=30");
-    }
-    set_value(document, assignment);
-  }
-  try {
-    if (const Value* table = find(document, "view")) read(schema().view, *table, {}, view);
-  } catch (const InputError& error) {
-    throw InputError(what + ": " + error.what());
-  }
-  check_view(view, what);
-}
 
 std::vector<Material> builtin_materials() {
   const Value nothing;

@@ -33,10 +33,6 @@ Scene load_scene(const std::string& file_or_name, const LoadOptions& options = {
 Scene parse_scene(const std::string& text, const std::string& file,
                   const LoadOptions& options = {});
 
-/// Changes how something that has been simulated is looked at, by `set` as in LoadOptions. Throws
-/// InputError for all but keys of [view]; `what` is what errors call it.
-void change_view(View& view, const std::vector<std::string>& set, const std::string& what);
-
 /// The library of materials that every scene file starts from: brick, concrete, glass, steel and
 /// so on (scenes/materials.toml), for scenes made in code.
 std::vector<Material> builtin_materials();

@@ -96,9 +96,9 @@ std::string key_reference() {
   const Schema& s = schema();
   std::string text = section(s.scene) + section(s.accuracy) + preset_list() + section(s.solver) +
                      section(s.limits) + section(s.ground) + section(ground_mesh_keys()) +
-                     section(s.view) + section(s.material_head) + section(s.material) +
-                     section(s.pattern) + section(s.stronger) + section(s.crumbling) +
-                     section(s.look) + section(s.solid) + section(s.part) +
+                     section(s.view) + section(s.view_key) + section(s.material_head) +
+                     section(s.material) + section(s.pattern) + section(s.stronger) +
+                     section(s.crumbling) + section(s.look) + section(s.solid) + section(s.part) +
                      section(placement_keys()) + section(repeat_keys());
   for (const StructureType& structure : structures()) {
     text += "#### structure = \"" + std::string(structure.name) + "\"\n\n" +

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "render/camera.h"
 #include "render/view_mode.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
@@ -92,17 +93,35 @@ void add_render(CLI::App& program, Command& chosen) {
       ->required();
   command.app
       ->add_option("-o,--output", options.output,
-                   "X.mp4: video; X.png: the last frame; DIR/: a PNG a frame")
+                   "X.mp4, X.webm: video; X.png: the last frame; DIR/: a PNG a frame")
       ->required();
   command.app
       ->add_option("--frames", options.frames,
                    "Draw frames A to B, both included; A: to the end, :B from the start, A alone")
       ->type_name("A:B");
+  command.app
+      ->add_option("--view", options.view,
+                   std::string("Where it is seen from: ") + render::kCameras +
+                       " | FILE.toml, a path by keys")
+      ->type_name("SPEC")
+      ->capture_default_str();
+  command.app
+      ->add_option("--speed", options.speed,
+                   "Of the film: 0.1 is ten times slower, with pictures between the frames")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->capture_default_str();
+  command.app->add_option("--fps", options.render.frames_per_s, "Pictures a second of the film")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command.app
+      ->add_option("--sheet", options.sheet,
+                   "Into X.png: so many pictures side by side, evenly over the run, with times")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
   command.app->add_flag("--resume", options.resume,
                         "Into DIR/: keep pictures that are there, draw the others");
-  command.app->add_option("--size", options.size, "Pixels")
-      ->type_name("WxH")
-      ->capture_default_str();
+  command.app->add_option("--size", options.size, "Pixels; 1280x720, of a sheet's pictures 480x270")
+      ->type_name("WxH");
   command.app
       ->add_option("--gl", options.render.gl, "auto | egl-device:N | egl-surfaceless | osmesa")
       ->capture_default_str();

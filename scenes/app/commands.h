@@ -50,8 +50,11 @@ struct RenderOptions : CommonOptions {
   scenes::LoadOptions load;
   bool preset_given = false;
   std::string output;
-  std::string frames;  ///< "A:B"
-  std::string size = "1280x720";
+  std::string frames;          ///< "A:B"
+  std::string view = "fixed";  ///< As render/camera.h has it, or a file of its path.
+  double speed = 1;
+  int sheet = 0;     ///< Pictures of a contact sheet; 0: none.
+  std::string size;  ///< Empty: what is usual.
   bool resume = false;
   render::RenderOptions render;
 };

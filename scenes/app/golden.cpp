@@ -20,6 +20,7 @@
 #include "scenes/app/arguments.h"
 #include "scenes/app/golden_file.h"
 #include "scenes/app/run.h"
+#include "scenes/file/view.h"
 
 namespace sunder::app {
 namespace {

@@ -1,8 +1,8 @@
 // sunder render: a scene, a take or one stored frame becomes a video or images.
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "engine/base/check.h"
@@ -10,9 +10,12 @@
 #include "engine/io/frame_file.h"
 #include "engine/io/statistics.h"
 #include "engine/io/take/take.h"
-#include "render/sinks.h"
+#include "render/camera.h"
+#include "render/pace.h"
+#include "render/sheet.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/run.h"
+#include "scenes/file/view.h"
 
 namespace sunder::app {
 namespace {
@@ -48,34 +51,75 @@ Span parse_frames(const std::string& text) {
 class StoredFrame final : public FrameSource {
  public:
   explicit StoredFrame(const std::string& file) : frame_(read_frame(file)) {}
+  int number() const { return static_cast<int>(frame_->index); }
   FramePtr next() override { return std::exchange(frame_, nullptr); }
 
  private:
   FramePtr frame_;
 };
 
-/// What another source gives, looked at as the first of it is with the user's changes.
+/// What another source gives, from where it is to be seen.
 class LookedAt final : public FrameSource {
  public:
-  LookedAt(std::unique_ptr<FrameSource> source, const RenderOptions& options)
-      : source_(std::move(source)), options_(options) {}
+  /// `changed`: by the user's --set, of what has been simulated.
+  LookedAt(FrameSource& source, const RenderOptions& options, render::Camera& camera, bool changed)
+      : source_(source),
+        options_(options),
+        camera_(camera),
+        changed_(changed && !options.load.set.empty()) {}
   FramePtr next() override {
-    const FramePtr frame = source_->next();
-    if (!frame || options_.load.set.empty()) return frame;
-    if (!view_) {
-      view_ = frame->view;
-      scenes::change_view(*view_, options_.load.set, options_.scene);
-    }
+    const FramePtr frame = source_.next();
+    if (!frame || (!changed_ && options_.view == "fixed")) return frame;
     auto seen = std::make_shared<Frame>(*frame);
-    seen->view = *view_;
+    if (changed_) scenes::change_view(seen->view, options_.load.set, options_.scene);
+    seen->view = camera_.at(*seen);
     return seen;
   }
 
  private:
-  std::unique_ptr<FrameSource> source_;
+  FrameSource& source_;
   const RenderOptions& options_;
-  std::optional<View> view_;
+  render::Camera& camera_;
+  bool changed_;
 };
+
+/// Shows what goes by to a sink.
+class Watched final : public FrameSource {
+ public:
+  Watched(FrameSource& source, FrameSink& sink) : source_(source), sink_(sink) {}
+  FramePtr next() override {
+    FramePtr frame = source_.next();
+    if (frame) sink_.take(frame);
+    return frame;
+  }
+
+ private:
+  FrameSource& source_;
+  FrameSink& sink_;
+};
+
+/// Counts what gets as far as this.
+class Counter final : public FrameSink {
+ public:
+  explicit Counter(FrameSink& sink) : sink_(sink) {}
+  void take(const FramePtr& frame) override {
+    sink_.take(frame);
+    ++taken_;
+  }
+  void finish() override {
+    if (taken_ > 0) sink_.finish();
+  }
+  std::int64_t taken() const { return taken_; }
+
+ private:
+  FrameSink& sink_;
+  std::int64_t taken_ = 0;
+};
+
+std::unique_ptr<render::Camera> camera_of(const std::string& spec) {
+  if (spec.ends_with(".toml")) return render::make_camera(scenes::load_view_keys(spec));
+  return render::make_camera(spec);
+}
 
 /// What is drawn, and where it comes from.
 struct Shown {
@@ -83,25 +127,43 @@ struct Shown {
   Span drawn;
   int skipped = 0;             ///< Frames that the source does not give.
   TakeReader* take = nullptr;  ///< What the source plays, if it does.
+  bool is_recorded = false;
 };
 
-Shown open(const RenderOptions& options, const Span& span) {
-  const bool is_frame = options.scene.ends_with(".frame"),
-             is_take = options.scene.ends_with(".take");
-  if ((is_frame || is_take) && options.preset_given) {
+/// What has been simulated cannot be simulated otherwise.
+void check_recorded(const RenderOptions& options) {
+  if (options.preset_given) {
     throw InputError("--preset " + options.load.preset + ": " + options.scene +
-                     " has been simulated; only how it is looked at can change, by --set view.KEY");
+                     " has been simulated; only how it is looked at can change, by --view and by "
+                     "--set view.KEY");
   }
-  if (is_frame)
-    return {std::make_unique<LookedAt>(std::make_unique<StoredFrame>(options.scene), options),
-            {0, 0}};
+}
+
+/// One frame, whatever its number.
+Shown open_frame(const RenderOptions& options) {
+  for (const auto& [is_given, flag] : {std::pair{!options.frames.empty(), "--frames"},
+                                       {options.sheet > 1, "--sheet"},
+                                       {options.speed != 1, "--speed"},
+                                       {options.render.frames_per_s != 60, "--fps"}}) {
+    if (is_given) throw InputError(options.scene + " is one frame; leave out " + flag);
+  }
+  auto frame = std::make_unique<StoredFrame>(options.scene);
+  const int number = frame->number();
+  return {std::move(frame), {number, number}, number, nullptr, true};
+}
+
+/// `from_start`: of a take as well.
+Shown open(const RenderOptions& options, const Span& span, bool from_start) {
   Shown shown;
+  shown.is_recorded = options.scene.ends_with(".frame") || options.scene.ends_with(".take");
+  if (shown.is_recorded) check_recorded(options);
+  if (options.scene.ends_with(".frame")) return open_frame(options);
   int last = 0;
-  if (is_take) {
+  if (shown.is_recorded) {
     auto take = std::make_unique<TakeReader>(options.scene);
     shown.take = take.get();
     last = static_cast<int>(shown.take->frames()) - 1;
-    shown.source = std::make_unique<LookedAt>(std::move(take), options);
+    shown.source = std::move(take);
   } else {
     Scene scene = scenes::load_scene(options.scene, options.load);
     last = last_frame(scene, -1);
@@ -112,11 +174,22 @@ Shown open(const RenderOptions& options, const Span& span) {
     throw InputError("--frames " + options.frames + ": " + options.scene + " ends with frame " +
                      std::to_string(last));
   }
-  if (shown.take) {
+  if (shown.take && !from_start) {
     shown.skipped = span.first;
     shown.take->seek(static_cast<std::uint32_t>(span.first));
   }
   return shown;
+}
+
+std::unique_ptr<FrameSink> make_sink(const RenderOptions& options, render::Renderer& renderer,
+                                     std::uint64_t first, std::uint64_t last) {
+  if (options.sheet == 0) {
+    return render::make_picture_sink(options.output, renderer, options.resume,
+                                     options.render.frames_per_s);
+  }
+  if (options.resume) throw InputError("--resume: a sheet is drawn anew; leave it out");
+  return render::make_sheet_sink(options.output, renderer, {first, last, options.sheet},
+                                 !options.render.hud);
 }
 
 }  // namespace
@@ -125,25 +198,47 @@ int render_scene(const RenderOptions& options) {
   options.apply();
   const Span span = parse_frames(options.frames);
   render::RenderOptions render_options = options.render;
-  parse_size(options.size, render_options);
+  parse_size(!options.size.empty() ? options.size
+             : options.sheet > 0   ? "480x270"
+                                   : "1280x720",
+             render_options);
 
-  const Shown shown = open(options, span);
+  const auto camera = camera_of(options.view);
+  const Shown shown = open(options, span, camera->remembers());
+  const render::Pace pace{render_options.frames_per_s, options.speed};
+  const std::uint64_t first = pace.first_picture(static_cast<std::uint64_t>(shown.drawn.first));
+  const std::uint64_t last = pace.last_picture(static_cast<std::uint64_t>(shown.drawn.last));
+  if (first > last) {
+    throw InputError("--frames " + options.frames +
+                     ": no picture falls on them at this --speed "
+                     "and --fps; take more of them");
+  }
   render::Renderer renderer(render_options);
   options.say(renderer.description() + "\n");
-  const auto pictures = render::make_picture_sink(options.output, renderer, options.resume);
-  FramesFrom from(*pictures, static_cast<std::uint64_t>(shown.drawn.first));
-  FramesUntil frames(*shown.source, shown.drawn.last - shown.skipped);
-  Progress progress("render " + options.scene, shown.drawn.last, options.quiet);
+  const auto pictures = make_sink(options, renderer, first, last);
+  Counter counter(*pictures);
+  FramesFrom from(counter, first);
   StateHash hash;
-  FrameSink* const sinks[] = {&from, &hash, &progress};
-  const int stopped = pump_until_stopped(frames, sinks);
-  options.say((stopped == 0 ? "wrote " : "stopped; kept what was drawn: ") + options.output + "\n");
+  FramesUntil frames(*shown.source, shown.drawn.last - shown.skipped);
+  Watched watched(frames, hash);
+  render::PacedSource paced(watched, pace, camera->remembers() ? 0 : first);
+  LookedAt seen(paced, options, *camera, shown.is_recorded);
+  Progress progress("render " + options.scene, static_cast<int>(last), options.quiet);
+  FrameSink* const sinks[] = {&from, &progress};
+  const int stopped = pump_until_stopped(seen, sinks);
+  if (counter.taken() == 0) {
+    options.say("stopped before anything was drawn; nothing is written\n");
+  } else {
+    options.say((stopped == 0 ? "wrote " : "stopped; kept what was drawn: ") + options.output +
+                "\n");
+  }
   options.write_json(format_figures({{"/output", options.output},
                                      {"/gl", renderer.description()},
                                      {"/width", std::int64_t{render_options.width}},
                                      {"/height", std::int64_t{render_options.height}},
                                      {"/first_frame", std::int64_t{shown.drawn.first}},
                                      {"/last_frame", std::int64_t{shown.drawn.last}},
+                                     {"/pictures", counter.taken()},
                                      {"/state_hash", hash.hex()}}));
   if (shown.take && !shown.take->damage().empty()) {
     throw InputError(options.scene + ": " + shown.take->damage() + "; what was before is drawn");

@@ -22,6 +22,9 @@ class UntilStopped final : public FrameSource {
     action.sa_handler = [](int signal) { stop_signal = signal; };
     action.sa_flags = static_cast<int>(SA_RESETHAND);
     for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+    struct sigaction before = {};  // whoever asked to go on without a terminal does
+    ::sigaction(SIGHUP, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
   }
   FramePtr next() override { return stop_signal == 0 ? source_.next() : nullptr; }
 

@@ -45,9 +45,9 @@ class FramesFrom final : public FrameSink {
   std::uint64_t first_;
 };
 
-/// As pump(); but an interrupt (Ctrl-C) or a termination ends it after the frame under way, and
-/// what the sinks have is finished as if the source had ended there. A second one ends the program
-/// at once. The exit code: 0, or 128 and the signal.
+/// As pump(); but an interrupt (Ctrl-C), a termination or a terminal that goes ends it after the
+/// frame under way, and what the sinks have is finished as if the source had ended there. A second
+/// one ends the program at once. The exit code: 0, or 128 and the signal.
 int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks);
 
 /// Says on stderr how far the run is and how long it will take: a bar on a terminal, otherwise a

@@ -289,7 +289,15 @@ Schema make_schema() {
              key<&View::target_W>("target", "m", kPlace, "What it looks at."),
              key<&View::fov_rad>("fov_rad", "rad", Range{0.02, 3}, "Vertical angle of view."),
              key<&View::to_sun_W>("sun", "", kPlace, "Direction towards the sun."),
-             key<&View::ground_color>("ground_color", "", kFraction, "Linear red, green, blue.")}};
+             key<&View::ground_color>("ground_color", "", kFraction, "Linear red, green, blue."),
+             table_key("key", "Where the camera is when.")}};
+  s.view_key = {
+      "[[view.key]]",
+      {key<&ViewKey::time_s>("time_s", "s", kTime, "When; later than the key before.").must(),
+       key<&ViewKey::eye_W>("eye", "m", kPlace, "Where the camera is; as before if not given."),
+       key<&ViewKey::target_W>("target", "m", kPlace, "What it looks at; likewise."),
+       key<&ViewKey::fov_rad>("fov_rad", "rad", Range{0.02, 3},
+                              "Vertical angle of view; likewise.")}};
   s.material_head = {
       "[[material]]",
       {key<&MaterialHead::name>("name", "What solids call it.").must(),

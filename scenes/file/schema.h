@@ -119,6 +119,7 @@ struct Schema {
   Keys<Limits> limits;
   Keys<Ground> ground;
   Keys<View> view;
+  Keys<ViewKey> view_key;
   Keys<MaterialHead> material_head;
   Keys<Material> material;
   Keys<PatternSpec> pattern;

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -313,11 +314,14 @@ TEST(Program, WhatIsStoppedKeepsWhatItHasAndLeavesNothingElse) {
   EXPECT_TRUE(TakeReader(take).is_complete());
   if (std::system("ffprobe -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
   const std::string video = folder / "v.mp4";
-  EXPECT_EQ(stopped("render brick_wall --size 64x48 -o " + video,
-                    "ls " + video + ".part-* >/dev/null 2>&1 && sleep 1", "TERM"),
-            143);
-  EXPECT_EQ(std::system(("ffprobe -v error " + video).c_str()), 0);
-  EXPECT_FALSE(std::filesystem::exists(video + ".part"));
+  for (const auto& [signal, code] : {std::pair{"TERM", 143}, {"HUP", 129}}) {
+    EXPECT_EQ(stopped("render brick_wall --size 64x48 -o " + video,
+                      "ls " + video + ".part-* >/dev/null 2>&1 && sleep 1", signal),
+              code);
+    EXPECT_EQ(std::system(("ffprobe -v error " + video).c_str()), 0) << signal;
+    EXPECT_NE(std::system(("ls " + video + ".part-* >/dev/null 2>&1").c_str()), 0) << signal;
+    std::filesystem::remove(video);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,30 @@
+// How large what is drawn is, about: frames do not say.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/model/frame.h"
+
+namespace sunder::render {
+
+/// Of the meshes of a run, each measured once.
+class MeshSizes {
+ public:
+  /// The diagonal of its box; 0 for a mesh without vertices.
+  double diagonal_m(const Frame& frame, MeshIndex mesh) {
+    const MeshStore& meshes = *frame.meshes;
+    while (known_m_.size() < meshes.size()) {
+      Box box;
+      for (const Mesh::Vertex& vertex : meshes[known_m_.size()]->vertices)
+        box.extend(Vec3(vertex.position.cast<double>()));
+      known_m_.push_back(box.empty() ? 0 : box.extent().norm());
+    }
+    return known_m_[mesh.value];
+  }
+
+ private:
+  std::vector<double> known_m_;
+};
+
+}  // namespace sunder::render

@@ -1,0 +1,71 @@
+#include "render/pace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sunder::render {
+namespace {
+
+constexpr double kWhole = 1e-6;  // frames by which a picture may miss one that it shows
+
+}  // namespace
+
+std::uint64_t Pace::first_picture(std::uint64_t frame) const {
+  return static_cast<std::uint64_t>(std::ceil((static_cast<double>(frame) - kWhole) / step()));
+}
+
+std::uint64_t Pace::last_picture(std::uint64_t frame) const {
+  return static_cast<std::uint64_t>(std::floor((static_cast<double>(frame) + kWhole) / step()));
+}
+
+bool PacedSource::read() {
+  if (ended_) return false;
+  FramePtr frame = source_.next();
+  ended_ = !frame;
+  if (frame) frames_.push_back(std::move(frame));
+  return !ended_;
+}
+
+/// Of the first two frames that are held; worked out once for all pictures in it.
+const Interval& PacedSource::interval() {
+  if (interval_.before == frames_[0]) return interval_;
+  if (frames_.size() < 3) read();
+  const bool goes_on = interval_.after == frames_[0] && interval_.beyond == frames_[1];
+  Interval next{frames_[0], frames_[1],
+                goes_on ? std::move(interval_.into_beyond) : passage(*frames_[0], *frames_[1])};
+  if (frames_.size() > 2) {
+    next.beyond = frames_[2];
+    next.into_beyond = passage(*frames_[1], *frames_[2]);
+  }
+  interval_ = std::move(next);
+  return interval_;
+}
+
+FramePtr PacedSource::next() {
+  if (frames_.empty() && !read()) return nullptr;
+  if (!started_) picture_ = std::max(picture_, pace_.first_picture(frames_[0]->index));
+  started_ = true;
+  const double at = static_cast<double>(picture_) * pace_.step();
+  const auto whole = static_cast<std::uint64_t>(std::floor(at + kWhole));
+  while (frames_[0]->index < whole) {
+    if (frames_.size() == 1 && !read()) return nullptr;
+    frames_.pop_front();
+  }
+  const double part = at - static_cast<double>(whole);
+  std::shared_ptr<Frame> shown;
+  if (part <= kWhole) {
+    if (frames_[0]->index == picture_) {
+      ++picture_;
+      return frames_[0];
+    }
+    shown = std::make_shared<Frame>(*frames_[0]);
+  } else {
+    if (frames_.size() == 1 && !read()) return nullptr;
+    shown = between(interval(), part);
+  }
+  shown->index = picture_++;
+  return shown;
+}
+
+}  // namespace sunder::render

@@ -1,0 +1,321 @@
+// Read first: between().
+#include "render/passage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "engine/base/rotation.h"
+
+namespace sunder::render {
+namespace {
+
+constexpr float kFarthest_m = 2;  // that a chip flies in a frame
+
+std::vector<std::uint32_t> known_bodies(const Frame& before, const Frame& after) {
+  std::vector<std::uint32_t> found(after.bodies.size(), kNotThere);
+  const auto place_of = [&](std::uint64_t key) {
+    const auto it = std::ranges::lower_bound(before.bodies, key, {}, &FrameBody::key);
+    const bool there = it != before.bodies.end() && it->key == key;
+    return there ? static_cast<std::uint32_t>(it - before.bodies.begin()) : kNotThere;
+  };
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    found[b] = place_of(after.bodies[b].key);
+    if (found[b] == kNotThere) found[b] = place_of(after.bodies[b].before_key);
+  }
+  return found;
+}
+
+/// A chip that fades lies still.
+bool may_be(const FrameDebris& now, const FrameDebris& then) {
+  if (now.variant != then.variant || now.material != then.material) return false;
+  const float way_m = (now.position_W - then.position_W).norm();
+  return now.radius_m == then.radius_m
+             ? way_m < kFarthest_m
+             : now.radius_m < then.radius_m && way_m < 0.5f * then.radius_m;
+}
+
+/// Debris keeps its place; where a piece went, the last one has taken it.
+std::vector<std::uint32_t> known_debris(const std::vector<FrameDebris>& before,
+                                        const std::vector<FrameDebris>& after) {
+  std::vector<std::uint32_t> found(after.size(), kNotThere);
+  std::vector<std::uint8_t> taken(before.size());
+  for (std::uint32_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+    if (!may_be(after[i], before[i])) continue;
+    found[i] = i;
+    taken[i] = 1;
+  }
+  std::unordered_multimap<float, std::uint32_t> left;  // by radius, which hardly two share
+  for (std::uint32_t i = 0; i < before.size(); ++i) {
+    if (taken[i] == 0) left.emplace(before[i].radius_m, i);
+  }
+  for (std::uint32_t i = 0; i < after.size() && !left.empty(); ++i) {
+    if (found[i] != kNotThere) continue;
+    auto nearest = left.end();
+    float least_m = kFarthest_m;
+    const auto [first, last] = left.equal_range(after[i].radius_m);
+    for (auto it = first; it != last; ++it) {
+      const FrameDebris& then = before[it->second];
+      const float way_m = (after[i].position_W - then.position_W).norm();
+      if (!may_be(after[i], then) || way_m >= least_m) continue;
+      least_m = way_m;
+      nearest = it;
+    }
+    if (nearest == left.end()) continue;
+    found[i] = nearest->second;
+    left.erase(nearest);
+  }
+  return found;
+}
+
+/// How unlike two puffs are; they drift and turn slowly, and no two are turned alike.
+float unlike(const FrameDust& now, const FrameDust& then) {
+  if (now.material != then.material) return std::numeric_limits<float>::infinity();
+  const float turned =
+      1 - std::abs(now.rotation_WD.normalized().dot(then.rotation_WD.normalized()));
+  return (now.position_W - then.position_W).norm() + std::abs(now.radius_m - then.radius_m) +
+         4 * turned;
+}
+
+/// Dust keeps its order but for gaps: of the next few, the one that is most like it.
+std::vector<std::uint32_t> known_dust(const std::vector<FrameDust>& before,
+                                      const std::vector<FrameDust>& after) {
+  constexpr std::size_t kWindow = 24;
+  constexpr float kAlike = 0.05f, kOther = 1;
+  std::vector<std::uint32_t> found(after.size(), kNotThere);
+  std::size_t expected = 0;
+  for (std::size_t i = 0; i < after.size() && expected < before.size(); ++i) {
+    float least = kOther;
+    const std::size_t end = std::min(expected + kWindow, before.size());
+    for (std::size_t b = expected; b < end && least > kAlike; ++b) {
+      const float here = unlike(after[i], before[b]);
+      if (here >= least) continue;
+      least = here;
+      found[i] = static_cast<std::uint32_t>(b);
+    }
+    if (found[i] != kNotThere) expected = found[i] + std::size_t{1};
+  }
+  return found;
+}
+
+/// The turn from one rotation to another, with as many whole ones as the spin says.
+Vec3 turn_between(const Quat& from, const Quat& to, const Vec3& expected_W) {
+  const Vec3 turn_W = rotation_vector(to * from.conjugate());
+  const double angle = turn_W.norm();
+  if (!(angle > 0)) return turn_W;
+  const Vec3 axis_W = turn_W / angle;
+  const double missing = (expected_W.dot(axis_W) - angle) / (2 * std::numbers::pi);
+  return (angle + 2 * std::numbers::pi * std::round(missing)) * axis_W;
+}
+
+/// Where a body was a frame ago, if it was part of `before`.
+Pose pose_before(const FrameBody& body, const FrameBody& before) {
+  return {before.X_WB * Vec3(body.com_R - before.com_R), before.X_WB.rotation};
+}
+
+Pose moved(const Pose& pose, const Vec3& shift_W, const Vec3& turn_W) {
+  return {pose.position + shift_W, (rotation_by(turn_W) * pose.rotation).normalized()};
+}
+
+/// From which part of the interval on what broke in it is in pieces: since its first break, which
+/// is at the start of a step.
+using Starts = std::unordered_map<std::uint64_t, double>;
+
+Starts starts_of(const Interval& interval, double frame_s) {
+  Starts starts;
+  for (const BreakEvent& event : interval.after->breaks) {
+    const double since = (event.time_s - interval.before->time_s) / frame_s;
+    const auto [known, is_first] = starts.emplace(event.body_key, std::clamp(since, 0.0, 0.99));
+    if (!is_first) known->second = std::min(known->second, std::clamp(since, 0.0, 0.99));
+  }
+  return starts;
+}
+
+/// A body as it flies on; `pose` is of what lies in its rest frame.
+Pose flown(const FrameBody& body, const Pose& pose, double for_s) {
+  const Vec3 turn_W = for_s * body.angular_velocity_W;
+  const Vec3 arm_W = pose.position - body.X_WB.position;
+  return {body.X_WB.position + for_s * body.velocity_W + rotation_by(turn_W) * arm_W,
+          (rotation_by(turn_W) * pose.rotation).normalized()};
+}
+
+/// A piece flies with the whole until that breaks, and straight from there to where it is after.
+Pose pose_of_piece(const FrameBody& piece, const FrameBody& whole, double start, double part,
+                   double frame_s) {
+  const Pose from = pose_before(piece, whole);
+  if (part <= start) return flown(whole, from, part * frame_s);
+  const Pose parted = flown(whole, from, start * frame_s);
+  const double on = (part - start) / (1 - start);
+  const Vec3 turn_W = turn_between(parted.rotation, piece.X_WB.rotation,
+                                   (1 - start) * frame_s * piece.angular_velocity_W);
+  return moved(parted, on * (piece.X_WB.position - parted.position), on * turn_W);
+}
+
+void move_bodies(const Interval& interval, const Starts& starts, double part, double frame_s,
+                 Frame& frame) {
+  for (std::size_t b = 0; b < frame.bodies.size(); ++b) {
+    FrameBody& body = frame.bodies[b];
+    const std::uint32_t then = interval.into_after.bodies[b];
+    if (then == kNotThere) {  // newly shot
+      const double back_s = (part - 1) * frame_s;
+      body.X_WB = moved(body.X_WB, back_s * body.velocity_W, back_s * body.angular_velocity_W);
+      continue;
+    }
+    const FrameBody& before = interval.before->bodies[then];
+    if (body.key != before.key) {
+      const auto broken = starts.find(before.key);
+      const double start = broken == starts.end() ? 0 : broken->second;
+      body.X_WB = pose_of_piece(body, before, start, part, frame_s);
+      continue;
+    }
+    if (body.X_WB == before.X_WB) continue;
+    const Pose& from = before.X_WB;
+    const Vec3 spin_W = 0.5 * (before.angular_velocity_W + body.angular_velocity_W);
+    const Vec3 turn_W = turn_between(from.rotation, body.X_WB.rotation, frame_s * spin_W);
+    body.X_WB = moved(from, part * (body.X_WB.position - from.position), part * turn_W);
+  }
+}
+
+/// Puts bodies back into the order of their keys.
+void sort_bodies(Frame& frame) {
+  std::vector<std::uint32_t> old_of_new(frame.bodies.size());
+  std::iota(old_of_new.begin(), old_of_new.end(), 0u);
+  std::ranges::sort(old_of_new, {}, [&](std::uint32_t b) { return frame.bodies[b].key; });
+  std::vector<FrameBody> bodies;
+  std::vector<std::uint32_t> new_of_old(old_of_new.size());
+  for (const std::uint32_t old : old_of_new) {
+    new_of_old[old] = static_cast<std::uint32_t>(bodies.size());
+    bodies.push_back(frame.bodies[old]);
+  }
+  for (Instance& instance : frame.instances) instance.body = new_of_old[instance.body];
+  frame.bodies = std::move(bodies);
+}
+
+/// What nothing came of, and what has not become part of something else, flies on.
+void keep_gone(const Interval& interval, double part, double frame_s, Frame& frame) {
+  const Frame& before = *interval.before;
+  std::vector<std::uint8_t> is_gone(before.bodies.size(), 1);
+  for (const std::uint32_t then : interval.into_after.bodies) {
+    if (then != kNotThere) is_gone[then] = 0;
+  }
+  std::vector<std::uint8_t> drawn(interval.after->meshes->size());
+  for (const Instance& instance : frame.instances) drawn[instance.mesh.value] = 1;
+  std::vector<std::uint32_t> place(before.bodies.size(), kNotThere);
+  for (const Instance& instance : before.instances) {
+    if (is_gone[instance.body] == 0 || drawn[instance.mesh.value] != 0) continue;
+    std::uint32_t& body = place[instance.body];
+    if (body == kNotThere) {
+      body = static_cast<std::uint32_t>(frame.bodies.size());
+      frame.bodies.push_back(before.bodies[instance.body]);
+      FrameBody& flying = frame.bodies.back();
+      const double on_s = part * frame_s;
+      flying.X_WB = moved(flying.X_WB, on_s * flying.velocity_W, on_s * flying.angular_velocity_W);
+    }
+    frame.instances.push_back({instance.mesh, body});
+  }
+  if (frame.bodies.size() > interval.after->bodies.size()) sort_bodies(frame);
+}
+
+/// Of those that come out of nothing, how they move on; of the others nothing.
+template <class Particle>
+std::vector<Vec3f> ways_on(const std::vector<Particle>& here, const std::vector<Particle>& beyond,
+                           const std::vector<std::uint32_t>& into_beyond) {
+  std::vector<Vec3f> ways(here.size(), Vec3f::Zero());
+  for (std::size_t i = 0; i < into_beyond.size(); ++i) {
+    if (into_beyond[i] == kNotThere) continue;
+    ways[into_beyond[i]] = beyond[i].position_W - here[into_beyond[i]].position_W;
+  }
+  return ways;
+}
+
+/// Rotations of particles are coarse, and need not be of length 1.
+Quatf turned(const Quatf& from, const Quatf& to, float part) {
+  const float side = from.dot(to) < 0 ? -1.0f : 1.0f;
+  const Eigen::Vector4f mix = (1 - part) * from.coeffs() + part * side * to.coeffs();
+  return mix.norm() > 0 ? Quatf(mix.normalized()) : to;
+}
+
+void scale(FrameDebris& chip, float by) { chip.radius_m *= by; }
+void scale(FrameDust& puff, float by) { puff.opacity *= by; }
+void mix(FrameDebris& chip, const FrameDebris& then, float part) {
+  chip.radius_m = then.radius_m + part * (chip.radius_m - then.radius_m);
+}
+void mix(FrameDust& puff, const FrameDust& then, float part) {
+  puff.radius_m = then.radius_m + part * (puff.radius_m - then.radius_m);
+  puff.opacity = then.opacity + part * (puff.opacity - then.opacity);
+}
+
+template <class Particle>
+std::vector<Particle> move_particles(const std::vector<Particle>& before,
+                                     const std::vector<Particle>& after,
+                                     const std::vector<std::uint32_t>& into_after,
+                                     const std::vector<Vec3f>& ways, float start, float part) {
+  std::vector<Particle> all = after;
+  std::vector<std::uint8_t> is_gone(before.size(), 1);
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    Particle& one = all[i];
+    if (into_after[i] == kNotThere) {
+      if (!ways.empty()) one.position_W -= (1 - part) * ways[i];
+      scale(one, std::max(0.0f, (part - start) / (1 - start)));
+      continue;
+    }
+    const Particle& then = before[into_after[i]];
+    is_gone[into_after[i]] = 0;
+    one.position_W = then.position_W + part * (one.position_W - then.position_W);
+    one.rotation_WD = turned(then.rotation_WD, one.rotation_WD, part);
+    mix(one, then, part);
+  }
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (is_gone[i] == 0) continue;
+    all.push_back(before[i]);
+    scale(all.back(), 1 - part);
+  }
+  return all;
+}
+
+View mixed(const View& from, const View& to, double part) {
+  View view = to;
+  view.eye_W = from.eye_W + part * (to.eye_W - from.eye_W);
+  view.target_W = from.target_W + part * (to.target_W - from.target_W);
+  view.fov_rad = from.fov_rad + part * (to.fov_rad - from.fov_rad);
+  return view;
+}
+
+}  // namespace
+
+Passage passage(const Frame& before, const Frame& after) {
+  return {known_bodies(before, after), known_debris(before.debris, after.debris),
+          known_dust(before.dust, after.dust)};
+}
+
+std::shared_ptr<Frame> between(const Interval& interval, double part) {
+  const Frame &before = *interval.before, &after = *interval.after;
+  auto frame = std::make_shared<Frame>(after);
+  const double frame_s = after.time_s - before.time_s;
+  frame->time_s = before.time_s + part * frame_s;
+  frame->view = mixed(before.view, after.view, part);
+  frame->breaks.clear();
+  frame->recorded_hash = 0;
+  const Starts starts = starts_of(interval, frame_s);
+  double first = starts.empty() ? 0 : 1;
+  for (const auto& [key, start] : starts) first = std::min(first, start);
+  move_bodies(interval, starts, part, frame_s, *frame);
+  keep_gone(interval, part, frame_s, *frame);
+  const auto particles = [&](auto list, const std::vector<std::uint32_t>& into_after,
+                             const std::vector<std::uint32_t>& into_beyond) {
+    std::vector<Vec3f> ways;
+    if (interval.beyond) ways = ways_on(after.*list, (*interval.beyond).*list, into_beyond);
+    return move_particles(before.*list, after.*list, into_after, ways, static_cast<float>(first),
+                          static_cast<float>(part));
+  };
+  frame->debris =
+      particles(&Frame::debris, interval.into_after.debris, interval.into_beyond.debris);
+  frame->dust = particles(&Frame::dust, interval.into_after.dust, interval.into_beyond.dust);
+  return frame;
+}
+
+}  // namespace sunder::render

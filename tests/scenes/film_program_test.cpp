@@ -1,0 +1,145 @@
+// Films as users make them: cameras, pace and sheets, of scenes, takes and stored frames alike.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "engine/io/figures.h"
+#include "tests/scenes/program.h"
+
+namespace sunder::tests {
+namespace {
+
+std::string bytes_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A take of a ball that breaks a block.
+class Film : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new Folder;
+    std::ofstream(scene()) << R"([scene]
+description = "A block, and a ball that breaks it."
+duration_s = 0.5
+[[solid]]
+structure = "box"
+name = "block"
+size_m = [1, 2, 1]
+anchored = "bottom"
+[[script.shot]]
+name = "shot"
+time_s = 0.1
+from = [0, 1, 8]
+at = [0, 1, 0]
+speed_m_s = 40
+)";
+    const Outcome outcome =
+        sunder("simulate " + scene() + " --preset draft --quiet --take " + take());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+  static void TearDownTestSuite() { delete shared_; }
+  static std::string scene() { return *shared_ / "block.toml"; }
+  static std::string take() { return *shared_ / "block.take"; }
+
+  /// The picture that it writes.
+  std::string drawn(const std::string& what) {
+    const std::string picture = folder_ / "x.png";
+    const Outcome outcome = sunder("render " + what + " --size 64x48 --quiet -o " + picture);
+    EXPECT_EQ(outcome.exit_code, 0) << what << "\n" << outcome.err;
+    return bytes_of(picture);
+  }
+  void expect_refused(const std::string& what, const std::string& word) {
+    const Outcome outcome = sunder("render " + what + " --quiet");
+    EXPECT_EQ(outcome.exit_code, 2) << what;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << what << "\n" << outcome.err;
+  }
+
+  Folder folder_;
+
+ private:
+  static Folder* shared_;
+};
+Folder* Film::shared_ = nullptr;
+
+TEST_F(Film, ATakeIsSeenFromAnywhereByEveryCamera) {
+  const std::string path = folder_ / "path.toml";
+  std::ofstream(path) << "[[key]]\ntime_s = 0\neye = [9, 2, 0]\n[[key]]\ntime_s = 0.5\n"
+                         "fov_deg = 20\ntarget = [0, 0, 0]\n";
+  std::set<std::string> pictures;
+  for (const std::string& view :
+       std::initializer_list<std::string>{"fixed", "orbit:2", "follow:shot", "auto", path})
+    pictures.insert(drawn(take() + " --frames 20 --view " + view));
+  pictures.insert(drawn(take() + " --frames 20 --set view.ground_color=[1,0,0]"));
+  EXPECT_EQ(pictures.size(), 6u);
+  EXPECT_EQ(pictures.count(drawn(take() + " --frames 19:20 --view auto")), 1u)
+      << "a camera comes to the same place whatever part is drawn";
+}
+
+TEST_F(Film, WhatDoesNotApplyIsRefusedByName) {
+  const std::string x = " -o " + folder_ / "x.png";
+  expect_refused(take() + " --set solid.0.size_m=[1,1,1]" + x, "--set solid.0.size_m=[1,1,1]");
+  expect_refused(take() + " --set foo.bar=1" + x, "view.fov_deg=30");
+  expect_refused(take() + " --set view.key.0.time_s=1" + x, "--view FILE.toml");
+  expect_refused(take() + " --preset draft" + x, "has been simulated");
+  expect_refused(take() + " --view follow:tower" + x, "there are: block");
+  expect_refused(take() + " --view spiral" + x, "fixed | orbit[:SECONDS]");
+  expect_refused(take() + " --view nowhere.toml" + x, "nowhere.toml");
+  expect_refused(take() + " --speed 0" + x, "--speed");
+  expect_refused(take() + " --fps 0" + x, "--fps");
+  expect_refused(take() + " --sheet 99" + x, "there are 31 frames");
+  expect_refused(take() + " --sheet 4 -o " + folder_ / "x.mp4", "X.png");
+  expect_refused(take() + " --size 65x48 -o " + folder_ / "x.mp4", "make it 66x48");
+  const std::string frame = SUNDER_ROOT "/tests/golden/stack.frame";
+  for (const char* flag : {"--frames 2", "--speed 0.5", "--fps 30", "--sheet 4"})
+    expect_refused(frame + " " + flag + x, "is one frame");
+  const std::string path = folder_ / "path.toml";
+  const auto path_says = [&](const std::string& text, const std::string& word) {
+    std::ofstream(path) << text;
+    expect_refused(take() + " --view " + path + x, word);
+  };
+  path_says("# none\n", "[[key]] or more");
+  path_says("[[key]]\ntime_s = 1\n[[key]]\ntime_s = 1\n", "path.toml:4: time_s in [[key]] is 1");
+  path_says("[[key]]\ntime_s = 1\neyes = 2\n", "did you mean 'eye'?");
+  path_says("[view]\n", "unknown key 'view'");
+}
+
+TEST_F(Film, ARunIsShownAtAnyPace) {
+  const auto pictures = [&](const std::string& options) {
+    const Outcome outcome = sunder("render " + take() + " --size 32x32 --quiet --json - " +
+                                   options + " -o " + folder_ / "p/");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return std::get<std::int64_t>(parse_figures(outcome.out, "x").at("/pictures"));
+  };
+  EXPECT_EQ(pictures("--frames 10:11 --speed 0.25"), 5);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "p/frame_00040.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "p/frame_00044.png"));
+  EXPECT_EQ(pictures("--frames :10 --fps 24"), 5);
+}
+
+TEST_F(Film, ASheetLaysPicturesOfAnySizeSideBySide) {
+  const std::string sheet = folder_ / "s.png";
+  const Outcome outcome =
+      sunder("render " + take() + " --sheet 5 --size 65x49 --quiet -o " + sheet);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string png = bytes_of(sheet);  // width and height are in bytes 16 to 23, high first
+  ASSERT_GT(png.size(), 24u);
+  EXPECT_EQ(static_cast<std::uint8_t>(png[19]), 3 * 65 + 2 * 4);
+  EXPECT_EQ(static_cast<std::uint8_t>(png[23]), 2 * 49 + 4);
+}
+
+TEST_F(Film, ASceneMaySayWhereItsCameraGoes) {
+  const std::string moving = folder_ / "moving.toml";
+  std::filesystem::copy_file(scene(), moving);
+  std::ofstream(moving, std::ios::app) << "[[view.key]]\ntime_s = 0\neye = [9, 2, 0]\n";
+  EXPECT_EQ(drawn(moving + " --preset draft --frames 2"),
+            drawn(scene() + " --preset draft --frames 2 --set view.eye=[9,2,0]"));
+}
+
+}  // namespace
+}  // namespace sunder::tests
