@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -150,12 +151,16 @@ struct Scene {
   std::vector<Move> moves;  ///< In no order.
 };
 
-/// Of its solids, balls and shots, in this order; a chain goes by the name of its ball.
+/// Of its solids, balls and shots, in this order; a chain goes by the name of its ball. Shots
+/// without one are shot.0, shot.1 and so on, counted among all.
 inline std::vector<std::string> names_in(const Scene& scene) {
   std::vector<std::string> names;
   for (const Solid& solid : scene.solids) names.push_back(solid.name);
   for (const Ball& ball : scene.balls) names.push_back(ball.name);
-  for (const Shot& shot : scene.shots) names.push_back(shot.ball.name);
+  for (std::size_t i = 0; i < scene.shots.size(); ++i) {
+    const std::string& name = scene.shots[i].ball.name;
+    names.push_back(name.empty() ? "shot." + std::to_string(i) : name);
+  }
   return names;
 }
 

@@ -318,11 +318,11 @@ TEST(Simulation, TellsOfEachPieceWhatItWasPartOfAndWhatItCameOff) {
   const Solid front{"front", two_boxes(Vec3::Zero(), false), {}};
   Scene scene = scene_of({front}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))});
   scene.shots = {{0.02, ball_at(Vec3(0, 9, 0), Vec3(1, 0, 0))}};
-  scene.shots[0].ball.name = "shot";
+  scene.shots[0].ball.name = "";
   ScriptedRun run(scene, always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));
   EXPECT_EQ(run.simulation.next()->bodies[0].before_key, 0u);
   FramePtr frame = run.simulation.next();
-  EXPECT_EQ(*frame->names, (std::vector<std::string>{"front", scene.balls[0].name, "shot"}));
+  EXPECT_EQ(*frame->names, (std::vector<std::string>{"front", scene.balls[0].name, "shot.0"}));
   ASSERT_EQ(frame->bodies.size(), 3u) << "the ball, then pieces";
   EXPECT_EQ(frame->bodies[0].before_key, 1u);
   EXPECT_EQ(frame->bodies[0].name, 1u);
