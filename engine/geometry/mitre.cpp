@@ -144,7 +144,7 @@ class DrawnMesh {
         if (!old_.corner_uvs.empty()) mesh_.corner_uvs.push_back(old_.corner_uvs[c]);
       }
     }
-    mesh_.faces.push_back({face.plane, face.id, first, face.contour_count, face.kind});
+    mesh_.faces.push_back({face.plane, face.id, first, face.contour_count, face.kind, face.mark});
   }
 
   void add_walls(const PolygonMesh::Face& cap) {

@@ -30,6 +30,9 @@ struct PolygonMesh {
     std::uint32_t first_contour = 0;
     std::uint32_t contour_count = 0;
     FaceKind kind = FaceKind::kSurface;
+    /// Where the file names what the face is of, the number of its group (RawMesh::groups), from 1;
+    /// kept through all cuts. 0: nothing names it.
+    std::uint32_t mark = 0;
   };
 
   std::vector<Vec3> vertices;

@@ -17,16 +17,20 @@ struct RawMesh {
   struct Polygon {
     std::uint32_t first_corner = 0;
     std::uint32_t corner_count = 0;
-    std::uint32_t group = 0;  ///< Index into `groups`, if there are any.
+    std::uint32_t group = kNoGroup;  ///< Index into `groups`.
   };
+  /// What a file calls some of its polygons: their group, object and material, the narrower first.
+  struct Group {
+    std::vector<std::string> names;
+  };
+  static constexpr std::uint32_t kNoGroup = ~std::uint32_t{0};
 
   std::vector<Vec3> vertices;
   std::vector<Polygon> polygons;
   std::vector<std::uint32_t> corners;  ///< Vertex index of each corner.
-  std::vector<Vec3f>
-      corner_normals;               ///< Zero where the file has none; empty if it has none at all.
-  std::vector<Vec2f> corner_uvs;    ///< Likewise.
-  std::vector<std::string> groups;  ///< Names of objects and groups, as in the file.
+  std::vector<Vec3f> corner_normals;   ///< Zero where the file has none; empty if it has none.
+  std::vector<Vec2f> corner_uvs;       ///< Likewise.
+  std::vector<Group> groups;
 
   std::span<const std::uint32_t> polygon_corners(std::size_t p) const {
     return std::span(corners).subspan(polygons[p].first_corner, polygons[p].corner_count);

@@ -34,6 +34,7 @@ class CappedMesh {
 
   void add_copy(const PolygonMesh::Face& face) {
     begin(face.plane, face.id, face.kind);
+    mesh_.faces.back().mark = face.mark;
     for (std::uint32_t k = face.first_contour; k < face.first_contour + face.contour_count; ++k) {
       const PolygonMesh::Contour& contour = old_.contours[k];
       for (std::uint32_t i = 0; i < contour.corner_count; ++i) add_corner(contour.first_corner + i);
@@ -47,6 +48,7 @@ class CappedMesh {
     std::map<OutlineEdge, std::uint32_t> corner_of;  // where the edge starts
     for (const PolygonMesh::Face& face : faces) {
       if (face.kind == FaceKind::kSurface) mesh_.faces.back().kind = face.kind;
+      if (face.mark != 0) mesh_.faces.back().mark = face.mark;
       add_edges(face, corner_of);
     }
     while (!corner_of.empty()) {

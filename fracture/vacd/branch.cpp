@@ -32,7 +32,7 @@ bool add_side(const VacdPiece& piece, const Plane& plane, PlaneId id, double lea
   }
   for (PolygonMesh& island : islands(std::move(side.mesh))) {
     if (!(mass_properties(island).volume_m3 > least_m3)) return false;
-    sides.push_back({side.region, std::move(island)});
+    sides.push_back({side.region, std::move(island), piece.shell});
   }
   return true;
 }

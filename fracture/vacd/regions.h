@@ -15,6 +15,7 @@ namespace sunder::fracture {
 struct VacdPiece {
   ConvexPolyhedron region;
   PolygonMesh mesh;
+  std::uint32_t shell = 0;  ///< Which of the mesh's shells it is of.
 
   /// Whether the mesh is the region itself: no part of the original surface is in it.
   bool is_internal() const;

@@ -1,6 +1,7 @@
 #include "fracture/vacd/vacd.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -37,6 +38,7 @@ std::vector<VacdPiece> all_pieces(const RepairedMesh& mesh, const VacdOptions& o
     const std::vector<Vec3> nodes =
         options.nodes.empty() ? automatic_nodes(shell, share[s]) : options.nodes;
     std::vector<VacdPiece> part = voronoi_pieces(shell, nodes, names);
+    for (VacdPiece& piece : part) piece.shell = static_cast<std::uint32_t>(s);
     std::move(part.begin(), part.end(), std::back_inserter(pieces));
   }
   return pieces;
@@ -96,13 +98,33 @@ double drop_inside_out(std::vector<VacdPiece>& pieces) {
   return dropped;
 }
 
+/// What most of a mesh's original surface is marked to be; `otherwise` if it has none.
+MaterialIndex material_of(const PolygonMesh& mesh, const VacdOptions& options,
+                          MaterialIndex otherwise) {
+  std::map<MaterialIndex, double> area_m2;
+  const std::size_t caps = options.marked.empty() ? 0 : first_cap(mesh);
+  for (std::size_t f = 0; f < caps; ++f) {
+    const std::size_t mark = mesh.faces[f].mark;
+    const bool marked = mark > 0 && mark <= options.marked.size();
+    area_m2[marked ? options.marked[mark - 1] : options.material] += face_area(mesh, f);
+  }
+  const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto most = std::max_element(area_m2.begin(), area_m2.end(), less);
+  return most == area_m2.end() ? otherwise : most->first;
+}
+
 /// A part per piece: fitted to its mesh, which goes with it unless the part looks the same alone.
-std::vector<Part> fitted_parts(std::vector<VacdPiece> pieces, const VacdOptions& options) {
+std::vector<Part> fitted_parts(const RepairedMesh& mesh, std::vector<VacdPiece> pieces,
+                               const VacdOptions& options) {
+  std::vector<MaterialIndex> of_shells;
+  for (const PolygonMesh& shell : mesh.shells) {
+    of_shells.push_back(material_of(shell, options, options.material));
+  }
   std::vector<Part> parts(pieces.size());
   for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
     VacdPiece& piece = pieces[p];
     parts[p].polyhedron = fitted_region(piece, options.fit);
-    parts[p].material = options.material;
+    parts[p].material = material_of(piece.mesh, options, of_shells[piece.shell]);
     if (!piece.is_internal() && !shows_all(parts[p].polyhedron, piece.mesh)) {
       parts[p].visual = std::make_shared<PolygonMesh>(std::move(piece.mesh));
     }
@@ -142,7 +164,7 @@ Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
   std::vector<VacdPiece> pieces = cut_pieces(mesh, options, names);
   const double inside_out_m3 = drop_inside_out(pieces);
   const double split_ms = watch.ms();
-  std::vector<Part> parts = fitted_parts(std::move(pieces), options);
+  std::vector<Part> parts = fitted_parts(mesh, std::move(pieces), options);
   Vacd result{make_compound(std::move(parts), touching_tolerance(mesh)), {}};
   const double total_ms = watch.ms();
   result.figures = measure(result.compound, mesh);

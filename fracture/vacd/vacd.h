@@ -36,6 +36,9 @@ struct VacdOptions {
   std::uint32_t polygons = kDefaultPolygons;
   Fit fit{Fit::Kind::kHull, 24};
   MaterialIndex material;
+  /// By marks of faces (PolygonMesh::Face), from 1 on: what a convex is made of most of whose
+  /// surface has that mark, or, if it has none, most of whose shell's has. Other marks: `material`.
+  std::vector<MaterialIndex> marked{};
   std::function<void(double)> progress{};  ///< Told of the share of the work done; may be empty.
 };
 

@@ -31,7 +31,10 @@ Keys<MeshTable> make_mesh_keys() {
                                      "Most convexes of its decomposition; 0: what nodes make."),
            key<&MeshTable::fit>("fit", "Of its convexes: aabb, 14dop, 26dop or hull:N."),
            choice<&MeshTable::repair>("repair", kRepairs, "off: a mesh that needs it is refused."),
-           key<&MeshTable::material>("material", "What it is made of.")}};
+           key<&MeshTable::material>("material", "What it is made of."),
+           table_key("materials",
+                     "Of a file: what those parts are made of that it has a name for, an object, a "
+                     "group or a material: { roof = \"wood\", \"Wall.001\" = \"brick\" }.")}};
 }
 
 Keys<BodyTable> make_body_keys() {
@@ -55,6 +58,7 @@ MeshOptions options_of(const MeshTable& given, const std::filesystem::path& fold
   options.repair = kRepairs[static_cast<std::size_t>(given.repair)];
   options.scale = given.scale;
   options.size_m = given.size_m;
+  options.materials = given.materials;
   options.cached = true;
   return options;
 }
@@ -94,6 +98,20 @@ const Keys<BodyTable>& body_keys() {
   return kKeys;
 }
 
+void read_named_materials(const Value& table, std::span<const Material> materials,
+                          MeshTable& mesh) {
+  const Value* named = find(table, "materials");
+  if (!named) return;
+  for (const Entry& entry : as_table(*named, "materials")) {
+    const std::string* material = std::get_if<std::string>(&entry.value.data);
+    if (!material) {
+      throw InputError(entry.value.where + ": '" + entry.key + "' in materials is " +
+                       describe(entry.value) + "; expected the name of a material");
+    }
+    mesh.materials.emplace_back(entry.key, find_material(*material, entry.value.where, materials));
+  }
+}
+
 Compound read_compound(const MeshTable& given, const std::filesystem::path& folder) {
   const bool built_in = names_built_in(given.mesh);
   const std::string mesh = built_in ? given.mesh : (folder / given.mesh).string();
@@ -111,6 +129,7 @@ Body read_body(const Value& table, std::span<const Material> materials,
   check_known(table, name, {mesh_keys().keys, body_keys().keys, placement_keys().keys});
   MeshTable mesh;
   read_keys(table, name, mesh_keys().keys, materials, &mesh);
+  read_named_materials(table, materials, mesh);
   BodyTable given;
   read_keys(table, name, body_keys().keys, {}, &given);
   const std::vector<Copy> copies = read_copies(table, name);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/model/scene.h"
@@ -25,8 +26,11 @@ struct MeshTable {
   std::string fit = "hull:24";
   RepairChoice repair = RepairChoice::kAuto;
   MaterialRef material{"concrete", {}};
+  std::vector<std::pair<std::string, MaterialIndex>> materials;  ///< read_named_materials()
 };
 const Keys<MeshTable>& mesh_keys();
+/// Reads the key of the table that gives parts of a mesh materials by name. Throws InputError.
+void read_named_materials(const Value& table, std::span<const Material> materials, MeshTable& mesh);
 
 /// The other keys of [[body]], but for its place (placement.h).
 struct BodyTable {

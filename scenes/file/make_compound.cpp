@@ -9,18 +9,15 @@
 namespace sunder::scenes {
 namespace {
 
-/// The same convexes, of another material.
-void set_material(Compound& compound, MaterialIndex material) {
-  for (ConvexPtr& convex : compound.convexes) {
+/// The same convexes, of the materials that theirs are numbers of.
+void set_materials(Compound& compound, const std::vector<MaterialIndex>& materials) {
+  const auto change = [&](ConvexPtr& convex) {
     const auto changed = std::make_shared<Convex>(*convex);
-    changed->material = material;
+    changed->material = materials[convex->material.value];
     convex = changed;
-  }
-  for (Ghost& ghost : compound.ghosts) {
-    const auto changed = std::make_shared<Convex>(*ghost.convex);
-    changed->material = material;
-    ghost.convex = changed;
-  }
+  };
+  for (ConvexPtr& convex : compound.convexes) change(convex);
+  for (Ghost& ghost : compound.ghosts) change(ghost.convex);
 }
 
 }  // namespace
@@ -32,7 +29,9 @@ Compound make_compound(std::vector<Part> parts) {
 Compound make_compound(const std::string& mesh, MaterialIndex material,
                        const MeshOptions& options) {
   Compound compound = make_mesh_solid(mesh, options).compound;
-  set_material(compound, material);
+  std::vector<MaterialIndex> materials = {material};
+  for (const auto& [name, of] : options.materials) materials.push_back(of);
+  set_materials(compound, materials);
   return compound;
 }
 

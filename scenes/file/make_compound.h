@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/model/compound.h"
@@ -23,14 +24,18 @@ struct MeshOptions {
   std::string repair = "auto";   ///< off: a mesh that needs repair is refused.
   double scale = 1;              ///< Metres a unit of the file.
   std::optional<double> size_m;  ///< In place of it: the longest side of the bounding box.
-  bool cached = false;           ///< Whether a decomposition is kept, and recalled (mesh_cache.h).
+  /// Of what else its parts are made that a file has a name for: a group or object of it, or one of
+  /// its own materials. Where several names are given that a polygon has, the narrower counts.
+  std::vector<std::pair<std::string, MaterialIndex>> materials{};
+  bool cached = false;  ///< Whether a decomposition is kept, and recalled (mesh_cache.h).
   /// Told of each step when it begins, and then of the share of all work done; may be empty.
   std::function<void(const char* step, double share)> progress{};
 };
 
-/// A compound of one material from a mesh: a file (.obj .ply .stl .off .gltf .glb), repaired and
-/// decomposed, a built-in mesh, "statue:80000", likewise, or a built-in solid such as
-/// "torus:1,0.3". Throws InputError if `mesh` names nothing, or what is asked of it cannot be.
+/// A compound of a material (and those of the options) from a mesh: a file (.obj .ply .stl .off
+/// .gltf .glb), repaired and decomposed, a built-in mesh, "statue:80000", likewise, or a built-in
+/// solid such as "torus:1,0.3". Throws InputError if `mesh` names nothing, or what is asked of it
+/// cannot be.
 Compound make_compound(const std::string& mesh, MaterialIndex material,
                        const MeshOptions& options = {});
 

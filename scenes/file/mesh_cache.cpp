@@ -10,7 +10,7 @@ namespace sunder::scenes {
 namespace {
 
 /// To be counted up whenever reading, repair, decomposition or this layout give something else.
-constexpr std::uint64_t kVersion = 3;
+constexpr std::uint64_t kVersion = 4;
 
 template <class Vectors>
 void put_all(ByteWriter& out, const Vectors& vectors) {
@@ -57,8 +57,10 @@ std::uint64_t cache_key(const RawMesh& mesh, const fracture::VacdOptions& vacd,
   put_all(all, mesh.corner_normals);
   put_all(all, mesh.corner_uvs);
   for (const std::uint32_t corner : mesh.corners) all.put(corner);
-  for (const RawMesh::Polygon& polygon : mesh.polygons) all.put(polygon.corner_count);
+  for (const RawMesh::Polygon& polygon : mesh.polygons)
+    all.put(polygon.corner_count, polygon.group);
   put_all(all, vacd.nodes);
+  put_all(all, vacd.marked);
   all.put(vacd.node_count.value_or(0), vacd.convexes, vacd.fit.kind, vacd.fit.vertex_count, repair);
   return hash_bytes(all.bytes);
 }

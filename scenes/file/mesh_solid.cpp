@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "engine/base/check.h"
@@ -10,6 +11,7 @@
 #include "engine/geometry/approximate_hull.h"
 #include "engine/io/mesh/mesh_reader.h"
 #include "fracture/solids.h"
+#include "scenes/file/keys.h"
 #include "scenes/file/mesh_cache.h"
 #include "scenes/file/text_file.h"
 #include "scenes/sculpture/statue.h"
@@ -18,6 +20,7 @@ namespace sunder::scenes {
 namespace {
 
 constexpr const char* kSolids[] = {"box", "column", "torus", "grid", "voronoi", "hall"};
+constexpr std::size_t kNamesShown = 20;  // of a file, where one is given that it has not
 constexpr const char* kStatue = "statue";
 constexpr std::uint32_t kFewestTriangles = 1000, kMostTriangles = 1000000;
 
@@ -53,6 +56,39 @@ void scale_mesh(RawMesh& mesh, const MeshOptions& options, fracture::VacdOptions
   }
   for (Vec3& vertex : mesh.vertices) vertex *= scale;
   for (Vec3& node : vacd.nodes) node *= scale;
+}
+
+/// By group of a mesh, the number of its material: that of the first of its names which is given
+/// one. Throws InputError for a name that the mesh does not have.
+std::vector<MaterialIndex> materials_of(const RawMesh& mesh, const std::string& file,
+                                        const MeshOptions& options) {
+  std::vector<MaterialIndex> marked(mesh.groups.size(), MaterialIndex(0u));
+  std::set<std::string_view> all;
+  for (const RawMesh::Group& group : mesh.groups) {
+    for (const std::string& name : group.names) all.insert(name);
+  }
+  for (const auto& [name, material] : options.materials) {
+    if (all.contains(name)) continue;
+    std::vector<std::string_view> names(all.begin(), all.end());
+    const std::size_t more = names.size() - std::min(names.size(), kNamesShown);
+    const std::string nearest = did_you_mean(name, names);
+    names.resize(names.size() - more);
+    throw InputError(file + ": nothing in it is called '" + name + "'" + nearest +
+                     (names.empty()
+                          ? "; OBJ and glTF files have names, of objects, groups and materials"
+                          : "; there are: " + join(names)) +
+                     (more > 0 ? " and " + std::to_string(more) + " more" : ""));
+  }
+  for (std::size_t g = 0; g < marked.size(); ++g) {
+    for (const std::string& name : mesh.groups[g].names) {
+      const auto found = std::ranges::find(
+          options.materials, name, [](auto& one) -> const auto& { return one.first; });
+      if (found == options.materials.end()) continue;
+      marked[g] = MaterialIndex(1 + static_cast<std::size_t>(found - options.materials.begin()));
+      break;
+    }
+  }
+  return marked;
 }
 
 /// Of a mesh: parts inside out that are more than this show that it passes through itself so much
@@ -94,6 +130,7 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   }
   RawMesh raw = make_raw_mesh(file);
   scale_mesh(raw, options, vacd_of);
+  if (!options.materials.empty()) vacd_of.marked = materials_of(raw, file, options);
   const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
   std::optional<MeshSolid> known = options.cached ? recall(key) : std::nullopt;
   MeshSolid solid = known ? std::move(*known) : MeshSolid();
@@ -167,6 +204,9 @@ MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options) {
     vacd_options(options);
     if (options.scale != 1 || options.size_m) {
       throw InputError(mesh + ": is built in; give it its size there, in place of a scale");
+    }
+    if (!options.materials.empty()) {
+      throw InputError(mesh + ": is built in, and has no names; say of which one material it is");
     }
     solid = as_mesh_solid(mesh, fracture::make_solid(mesh));
   } else {

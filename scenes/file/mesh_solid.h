@@ -16,7 +16,8 @@
 
 namespace sunder::scenes {
 
-/// A compound, and what it was made of.
+/// A compound, and what it was made of. Its materials are numbers: 0, and from 1 on those of
+/// MeshOptions::materials.
 struct MeshSolid {
   Compound compound;
   std::string name;

@@ -137,7 +137,9 @@ TEST(MeshReader, ObjKeepsPolygonsGroupsAndAttributes) {
   const RawMesh mesh = parse(kObj, MeshFormat::kObj);
   ASSERT_EQ(mesh.polygons.size(), 2u);
   EXPECT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 1, 2, 3, 0, 1, 2}));
-  EXPECT_EQ(mesh.groups, (std::vector<std::string>{"first", "second"}));
+  ASSERT_EQ(mesh.groups.size(), 2u);
+  EXPECT_EQ(mesh.groups[0].names, std::vector<std::string>{"first"});
+  EXPECT_EQ(mesh.groups[1].names, (std::vector<std::string>{"second", "part", "first"}));
   EXPECT_EQ(mesh.polygons[1].group, 1u);
   EXPECT_EQ(mesh.corner_normals[1], Vec3f(0, 0, 1));
   EXPECT_EQ(mesh.corner_normals[2], Vec3f(0, 0, 0));
@@ -180,7 +182,8 @@ TEST(MeshReader, GltfNodesPlaceTheirMeshes) {
     EXPECT_EQ(mesh.vertices[1], Vec3(2, 0, 5));
     EXPECT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 2, 1}));  // mirrored, so turned
     EXPECT_EQ(mesh.corner_normals[0], Vec3f(0, 0, -1));
-    EXPECT_EQ(mesh.groups, std::vector<std::string>{"tri"});
+    ASSERT_EQ(mesh.groups.size(), 1u);
+    EXPECT_EQ(mesh.groups[0].names, std::vector<std::string>{"tri"});
   }
 }
 

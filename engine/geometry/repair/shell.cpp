@@ -171,7 +171,7 @@ class WindingGrid {
         const auto at = std::lower_bound(edges.begin(), edges.end(), corners_[c + k]);
         vertices[k] = static_cast<std::uint32_t>(at - edges.begin());
       }
-      append_polygon(mesh, vertices, 0);
+      append_polygon(mesh, vertices, RawMesh::kNoGroup);
     }
     return mesh;
   }

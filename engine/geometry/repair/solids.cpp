@@ -120,7 +120,7 @@ void append(RawMesh& mesh, const RawMesh& other) {
   for (std::size_t p = 0; p < other.polygons.size(); ++p) {
     vertices.clear();
     for (const std::uint32_t v : other.polygon_corners(p)) vertices.push_back(first + v);
-    append_polygon(mesh, vertices, 0);
+    append_polygon(mesh, vertices, RawMesh::kNoGroup);
   }
 }
 
@@ -213,7 +213,8 @@ std::vector<PolygonMesh> polygon_meshes(const Surface& surface,
                           {},
                           static_cast<std::uint32_t>(part.contours.size()),
                           1,
-                          FaceKind::kSurface});
+                          FaceKind::kSurface,
+                          polygon.group < mesh.groups.size() ? polygon.group + 1 : 0});
     part.contours.push_back(
         {static_cast<std::uint32_t>(part.corners.size()), polygon.corner_count});
     for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {

@@ -40,7 +40,7 @@ class GltfScene {
     const json& scenes = data_.array(document, "scenes");
     if (scenes.empty()) {  // a library of meshes
       for (const json& mesh : data_.array(document, "meshes")) {
-        add_mesh(mesh, Eigen::Matrix4d::Identity());
+        add_mesh(mesh, Eigen::Matrix4d::Identity(), {});
       }
       return std::move(mesh_);
     }
@@ -61,15 +61,28 @@ class GltfScene {
     const Eigen::Matrix4d matrix = parent * local_matrix(node, data_);
     if (node.is_object() && node.contains("mesh")) {
       const json& meshes = data_.array(data_.document(), "meshes");
-      add_mesh(meshes[data_.index(node, "mesh", meshes.size())], matrix);
+      add_mesh(meshes[data_.index(node, "mesh", meshes.size())], matrix, name_of(node));
     }
     for (const json& child : data_.array(node, "children")) add_node(child, matrix, depth + 1);
   }
 
-  void add_mesh(const json& mesh, const Eigen::Matrix4d& matrix) {
-    const bool named = mesh.is_object() && mesh.contains("name") && mesh["name"].is_string();
-    mesh_.groups.push_back(named ? mesh["name"].get<std::string>() : "mesh");
-    for (const json& primitive : data_.array(mesh, "primitives")) add_primitive(primitive, matrix);
+  void add_mesh(const json& mesh, const Eigen::Matrix4d& matrix, const std::string& node_name) {
+    const json& materials = data_.array(data_.document(), "materials");
+    for (const json& primitive : data_.array(mesh, "primitives")) {
+      std::string material;
+      if (primitive.is_object() && primitive.contains("material"))
+        material = name_of(materials[data_.index(primitive, "material", materials.size())]);
+      RawMesh::Group& group = mesh_.groups.emplace_back();
+      for (const std::string& name : {node_name, name_of(mesh), material}) {
+        if (!name.empty()) group.names.push_back(name);
+      }
+      add_primitive(primitive, matrix);
+    }
+  }
+
+  static std::string name_of(const json& thing) {
+    const bool named = thing.is_object() && thing.contains("name") && thing["name"].is_string();
+    return named ? thing["name"].get<std::string>() : std::string();
   }
 
   void add_primitive(const json& primitive, const Eigen::Matrix4d& matrix) {

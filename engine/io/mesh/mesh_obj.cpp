@@ -2,6 +2,7 @@
 // over, as every reader of this format does.
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "engine/io/mesh/mesh_text.h"
 
@@ -14,6 +15,13 @@ struct ObjList {
   std::size_t count = 0;
   std::size_t most_wanted = 0;  ///< The highest index used so far, from 1, and its line.
   std::size_t wanted_line = 0;
+};
+
+/// What polygons are called.
+struct Names {
+  std::vector<std::string> groups;
+  std::string object, material;
+  auto operator<=>(const Names&) const = default;
 };
 
 class ObjReader {
@@ -47,11 +55,32 @@ class ObjReader {
       ++lists_[2].count;
     } else if (keyword == "f" || keyword == "fo") {
       face();
-    } else if (keyword == "g" || keyword == "o") {
-      const std::string_view name = text_.word();
-      if (mesh_.groups.empty() && !mesh_.polygons.empty()) mesh_.groups.emplace_back("default");
-      mesh_.groups.emplace_back(name.empty() ? "default" : name);
+    } else if (keyword == "g") {
+      names_.groups.clear();
+      for (std::string_view name; !(name = text_.word()).empty();) names_.groups.emplace_back(name);
+      group_ = RawMesh::kNoGroup;
+    } else if (keyword == "o") {
+      names_ = {{}, text_.words(), names_.material};
+      group_ = RawMesh::kNoGroup;
+    } else if (keyword == "usemtl") {
+      names_.material = text_.words();
+      group_ = RawMesh::kNoGroup;
     }
+  }
+
+  /// The number of what polygons are called now; files go to and fro between names.
+  std::uint32_t group() {
+    if (group_ != RawMesh::kNoGroup || names_ == Names()) return group_;
+    const auto number = static_cast<std::uint32_t>(mesh_.groups.size());
+    const auto [known, is_new] = known_.try_emplace(names_, number);
+    group_ = known->second;
+    if (!is_new) return group_;
+    std::vector<std::string> names = names_.groups;
+    for (const std::string& name : {names_.object, names_.material}) {
+      if (!name.empty()) names.push_back(name);
+    }
+    mesh_.groups.push_back({std::move(names)});
+    return group_;
   }
 
   void face() {
@@ -69,6 +98,7 @@ class ObjReader {
       corner_normals_.push_back(corner[2]);
     }
     add_polygon(mesh_, polygon_);
+    mesh_.polygons.back().group = group();
     if (mesh_.polygons.size() % 4096 == 0) source_.check_size(mesh_);
   }
 
@@ -100,6 +130,9 @@ class ObjReader {
   RawMesh mesh_;
   std::vector<Vec2f> uvs_;
   std::vector<Vec3f> normals_;
+  Names names_;
+  std::uint32_t group_ = RawMesh::kNoGroup;  ///< Of names_, once it is asked for.
+  std::map<Names, std::uint32_t> known_;
   std::vector<std::uint32_t> polygon_, corner_uvs_, corner_normals_;
   std::array<ObjList, 3> lists_{{{"vertex"}, {"texture coordinate"}, {"normal"}}};
 };

@@ -28,7 +28,7 @@ void add_polygon(RawMesh& mesh, std::span<const std::uint32_t> vertices) {
   RawMesh::Polygon& polygon = mesh.polygons.emplace_back();
   polygon.first_corner = static_cast<std::uint32_t>(mesh.corners.size());
   polygon.corner_count = static_cast<std::uint32_t>(vertices.size());
-  polygon.group = mesh.groups.empty() ? 0 : static_cast<std::uint32_t>(mesh.groups.size() - 1);
+  if (!mesh.groups.empty()) polygon.group = static_cast<std::uint32_t>(mesh.groups.size() - 1);
   mesh.corners.insert(mesh.corners.end(), vertices.begin(), vertices.end());
 }
 
@@ -81,6 +81,15 @@ std::string_view MeshText::word() {
   const std::size_t start = at_;
   while (at_ < text_.size() && text_[at_] != line_end_ && !blank(text_[at_])) ++at_;
   return text_.substr(start, at_ - start);
+}
+
+std::string MeshText::words() {
+  std::string all;
+  for (std::string_view next; !(next = word()).empty();) {
+    if (!all.empty()) all += ' ';
+    all += next;
+  }
+  return all;
 }
 
 double MeshText::to_number(std::string_view word) const {

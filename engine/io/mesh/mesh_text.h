@@ -48,6 +48,8 @@ class MeshText {
   void need_line(const std::string& what);
   /// The line's next word; empty at its end.
   std::string_view word();
+  /// All its words from here on, a blank between them.
+  std::string words();
   /// The line's next word, which must be a finite number.
   double number() { return to_number(word()); }
   double to_number(std::string_view word) const;
