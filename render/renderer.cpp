@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include <ctime>
+#include <optional>
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
@@ -12,6 +13,7 @@
 #include "render/image/hud.h"
 #include "render/passes/chips.h"
 #include "render/passes/material_rows.h"
+#include "render/passes/pictures.h"
 #include "render/passes/pieces.h"
 #include "render/passes/puffs.h"
 #include "render/passes/tiles.h"
@@ -23,7 +25,8 @@ namespace sunder::render {
 namespace {
 
 struct Programs {
-  GLuint shadow, zenith, matte, shiny, glass, ground, sky, occlusion, blur, composite, dusty;
+  GLuint shadow, zenith, matte, painted, shiny, glass, ground, sky, occlusion, blur, composite,
+      dusty;
 };
 
 struct Target {
@@ -43,6 +46,9 @@ Programs make_programs(const GlTable& gl) {
                           {common_glsl, nothing_frag});
   p.matte = make_program(gl, "matte", {common_glsl, bodies_glsl, pieces_vert},
                          {common_glsl, shadow_glsl, pieces_frag});
+  p.painted =
+      make_program(gl, "painted", {common_glsl, bodies_glsl, "#define PAINTED\n", pieces_vert},
+                   {common_glsl, shadow_glsl, "#define PAINTED\n", pieces_frag});
   p.shiny = make_program(gl, "shiny", {common_glsl, bodies_glsl, pieces_vert},
                          {common_glsl, shadow_glsl, "#define SHINY\n", pieces_frag});
   p.glass = make_program(gl, "glass", {common_glsl, bodies_glsl, pieces_vert},
@@ -119,6 +125,7 @@ struct Renderer::Impl {
   Pieces pieces;
   Chips chips;
   Puffs puffs;
+  std::optional<Pictures> pictures;
   GLuint uniform_buffer = 0;
   GLuint material_buffer = 0;
   GLuint empty_vertex_array = 0;  ///< For passes that need no vertices.
@@ -130,6 +137,7 @@ struct Renderer::Impl {
   Target dust;
   Target picture;
   std::shared_ptr<const std::vector<Material>> materials;
+  std::shared_ptr<const std::vector<Paint>> paints;
   std::vector<std::uint32_t> pixels;
   std::vector<PassTime> times;
   Stopwatch watch;
@@ -161,6 +169,8 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
 
   upload_tiles(gl);
+  take_unit(gl, kPictureUnit);
+  pictures.emplace(gl);
   take_unit(gl, kSlotUnit);
   gl.BindTexture(GL_TEXTURE_BUFFER, pieces.slot_texture());
   GLuint look_texture = 0;
@@ -195,12 +205,24 @@ void Renderer::Impl::done(const char* pass) {
 void Renderer::Impl::upload(const Frame& frame) {
   take_unit(gl, kSlotUnit);
   pieces.update(frame);
+  if (frame.paints != paints) {
+    paints = frame.paints;
+    take_unit(gl, kPictureUnit);
+    pictures->update(paints ? *paints : std::vector<Paint>());
+    materials = nullptr;  // whose rows come before those of paints
+  }
   if (frame.materials != materials) {
     materials = frame.materials;
-    fill_buffer(gl, GL_TEXTURE_BUFFER, material_buffer, material_rows(*materials), GL_STATIC_DRAW);
+    std::vector<float> rows = material_rows(*materials);
+    if (paints) {
+      const std::vector<float> more = pictures->rows(*paints);
+      rows.insert(rows.end(), more.begin(), more.end());
+    }
+    fill_buffer(gl, GL_TEXTURE_BUFFER, material_buffer, rows, GL_STATIC_DRAW);
   }
-  const FrameUniforms uniforms =
+  FrameUniforms uniforms =
       make_uniforms(frame.view, pieces.casters(), options.width, options.height);
+  uniforms.lens[2] = static_cast<float>(kTexelsAMaterial * materials->size());
   gl.BindBuffer(GL_UNIFORM_BUFFER, uniform_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
   chips.update(frame, uniforms.lens[1], uniforms.to_sun[3]);
@@ -216,6 +238,7 @@ void Renderer::Impl::draw_shadows() {
   begin(shadow, programs.shadow);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   pieces.draw(Pieces::Group::kMatte);
+  pieces.draw(Pieces::Group::kPainted);
   pieces.draw(Pieces::Group::kShiny);
   chips.draw_shadows();
   gl.Disable(GL_POLYGON_OFFSET_FILL);
@@ -231,6 +254,10 @@ void Renderer::Impl::draw_pieces() {
   gl.Clear(GL_DEPTH_BUFFER_BIT);  // every pixel's colour is written by a piece, ground or sky
   gl.PolygonMode(GL_FRONT_AND_BACK, view_mode.edges() ? GL_LINE : GL_FILL);
   pieces.draw(Pieces::Group::kMatte);
+  if (pieces.has(Pieces::Group::kPainted)) {
+    begin(light, programs.painted);
+    pieces.draw(Pieces::Group::kPainted);
+  }
   begin(light, programs.shiny);
   pieces.draw(Pieces::Group::kShiny);
   gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);

@@ -59,6 +59,8 @@ MeshIndex ViewMode::colored(const std::shared_ptr<const Mesh>& mesh, MaterialInd
   if (is_new) {
     auto copy = std::make_shared<Mesh>(*mesh);
     copy->material = material;
+    for (Mesh::Vertex& vertex : copy->vertices) vertex.look = Mesh::kSurface;
+    copy->uvs.clear();
     meshes_.push_back(std::move(copy));
   }
   return entry->second;

@@ -40,7 +40,7 @@ void add(const FrameBody& body, const Mesh& mesh, Look& look) {
     look.size_m = std::max(look.size_m, (place_R(vertex) - body.com_R).norm());
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const Mesh::Vertex& a = mesh.vertices[mesh.indices[i]];
-    if (a.interior) continue;
+    if (a.look == Mesh::kInterior) continue;
     const Vec3f ab = mesh.vertices[mesh.indices[i + 1]].position - a.position;
     const Vec3f ac = mesh.vertices[mesh.indices[i + 2]].position - a.position;
     look.surface_m2 += 0.5 * double{ab.cross(ac).norm()};

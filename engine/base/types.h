@@ -1,6 +1,6 @@
 // Vectors, rotations and poses: Eigen under the short names every room uses. Strong indices, so
 // that an index into one array cannot be used in another, and ids that notice when what they named
-// is gone.
+// is gone. And what a mesh's file paints a face with, which every room hands on.
 //
 // double for geometry and body positions, float (suffix f) for solver inner loops and drawing.
 // Poses follow monogram notation: X_WB is the pose of B in W, and X_WB * point_B == point_W.
@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -83,6 +85,18 @@ struct Id {
 
   constexpr bool none() const { return slot == std::numeric_limits<std::uint32_t>::max(); }
   constexpr auto operator<=>(const Id&) const = default;
+};
+
+/// A colour, and a picture that it is multiplied by.
+struct Paint {
+  Vec3f color = Vec3f::Ones();  ///< Linear RGB.
+  /// PNG or JPEG, as it was in its file, repeated beyond its edges; null: none.
+  std::shared_ptr<const std::vector<std::byte>> picture;
+  /// Whether texture coordinates count from the picture's lowest row up, as in OBJ, or from its
+  /// highest down, as in glTF.
+  bool from_below = false;
+
+  bool operator==(const Paint&) const = default;
 };
 
 }  // namespace sunder

@@ -30,8 +30,8 @@ struct PolygonMesh {
     std::uint32_t first_contour = 0;
     std::uint32_t contour_count = 0;
     FaceKind kind = FaceKind::kSurface;
-    /// Where the file names what the face is of, the number of its group (RawMesh::groups), from 1;
-    /// kept through all cuts. 0: nothing names it.
+    /// Kept through all cuts: of a mesh from a file the number of its group (RawMesh::groups), in a
+    /// scene that of its paint (Scene::paints), from 1; 0: none.
     std::uint32_t mark = 0;
   };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct RawMesh {
   /// What a file calls some of its polygons: their group, object and material, the narrower first.
   struct Group {
     std::vector<std::string> names;
+    std::optional<Paint> paint = std::nullopt;  ///< None: the file does not say how it looks.
   };
   static constexpr std::uint32_t kNoGroup = ~std::uint32_t{0};
 

@@ -1,6 +1,6 @@
-// Layout: "SUNDERF4" (or 3: nothing is known to be asleep; or 2: without poses of meshes, either;
-// or 1: without debris and dust, either), XXH3 of the rest (8 bytes), size of the content (8
-// bytes), content in zstd.
+// Layout: "SUNDERF5" (or 4: without paints; or 3: nothing is known to be asleep, either; or 2:
+// without poses of meshes, either; or 1: without debris and dust, either), XXH3 of the rest (8
+// bytes), size of the content (8 bytes), content in zstd.
 #include "engine/io/frame_file.h"
 
 #include <cstring>
@@ -15,7 +15,7 @@
 namespace sunder {
 namespace {
 
-constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '4'};
+constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '5'};
 constexpr std::size_t kName = sizeof kMagic - 1;  // what precedes the version
 constexpr std::size_t kHeader = sizeof kMagic + 8;
 constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refused
@@ -83,6 +83,10 @@ std::vector<std::byte> content_of(const Frame& frame) {
   }
   put_codes(out, frame.debris);
   put_codes(out, frame.dust);
+  put(out, frame.paints ? *frame.paints : std::vector<Paint>());
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  for (const std::uint32_t mesh : drawn) meshes.push_back((*frame.meshes)[mesh]);
+  put_uvs(out, meshes);
   return std::move(out.bytes);
 }
 
@@ -92,16 +96,14 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
   in.take_to(frame->index, frame->time_s);
   frame->view = take_view(in);
   std::vector<Material> materials = take_materials(in);
-  auto meshes = std::make_shared<MeshStore>(in.take_count(kLeastMeshBytes));
-  for (auto& mesh : *meshes) {
-    mesh = std::make_shared<const Mesh>(take_mesh(in, file, materials.size(), version >= 3));
-  }
+  std::vector<Mesh> meshes(in.take_count(kLeastMeshBytes));
+  for (Mesh& mesh : meshes) mesh = take_mesh(in, file, materials.size(), version >= 3);
   frame->bodies.resize(in.take_count(89));
   for (FrameBody& body : frame->bodies) body = take_body(in);
   frame->instances.resize(in.take_count(8));
   for (Instance& instance : frame->instances) {
     in.take_to(instance.mesh, instance.body);
-    if (instance.mesh.value >= meshes->size() || instance.body >= frame->bodies.size()) {
+    if (instance.mesh.value >= meshes.size() || instance.body >= frame->bodies.size()) {
       throw InputError(file + ": corrupt: an instance names no mesh or body");
     }
   }
@@ -109,9 +111,19 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
     frame->debris = take_codes(in, file, materials.size(), decode_debris);
     frame->dust = take_codes(in, file, materials.size(), decode_dust);
   }
+  std::vector<Paint> paints;
+  if (version >= 5) {
+    paints = take_paints(in, file);
+    take_uvs(in, file, meshes);
+  }
+  for (const Mesh& mesh : meshes) check_looks(mesh, file, paints.size());
   if (!in.at_end()) throw InputError(file + ": corrupt: bytes are left over");
   frame->materials = std::make_shared<const std::vector<Material>>(std::move(materials));
-  frame->meshes = std::move(meshes);
+  if (!paints.empty())
+    frame->paints = std::make_shared<const std::vector<Paint>>(std::move(paints));
+  auto store = std::make_shared<MeshStore>();
+  for (Mesh& mesh : meshes) store->push_back(std::make_shared<const Mesh>(std::move(mesh)));
+  frame->meshes = std::move(store);
   return frame;
 }
 

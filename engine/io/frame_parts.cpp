@@ -1,6 +1,14 @@
 #include "engine/io/frame_parts.h"
 
+#include <algorithm>
+
 namespace sunder {
+namespace {
+
+constexpr std::uint32_t kNoPicture = ~std::uint32_t{0};
+
+}  // namespace
+
 void put(ByteWriter& out, const View& view) {
   out.put(view.eye_W, view.target_W, view.to_sun_W, view.ground_color, view.fov_rad, view.ground_m);
 }
@@ -16,7 +24,7 @@ void put(ByteWriter& out, const Mesh& mesh) {
   out.put(mesh.X_RT.position, mesh.X_RT.rotation.coeffs(), mesh.origin_T, mesh.material);
   out.put(static_cast<std::uint32_t>(mesh.vertices.size()));
   for (const Mesh::Vertex& vertex : mesh.vertices) {
-    out.put(vertex.position, vertex.normal, vertex.interior);
+    out.put(vertex.position, vertex.normal, vertex.look);
   }
   out.put_list(mesh.indices);
 }
@@ -27,7 +35,7 @@ Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials, b
   in.take_to(mesh.origin_T, mesh.material);
   mesh.vertices.resize(in.take_count(28));
   for (Mesh::Vertex& vertex : mesh.vertices) {
-    in.take_to(vertex.position, vertex.normal, vertex.interior);
+    in.take_to(vertex.position, vertex.normal, vertex.look);
   }
   mesh.indices = in.take_list<std::uint32_t>();
   for (const std::uint32_t index : mesh.indices) {
@@ -37,6 +45,63 @@ Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials, b
   if (mesh.material.value >= materials)
     throw InputError(file + ": corrupt: a mesh has no material");
   return mesh;
+}
+
+void put_uvs(ByteWriter& out, std::span<const std::shared_ptr<const Mesh>> meshes) {
+  for (std::uint32_t m = 0; m < meshes.size(); ++m) {
+    if (meshes[m]->uvs.empty()) continue;
+    out.put(m);
+    out.put_list(meshes[m]->uvs);
+  }
+  out.put(~std::uint32_t{0});
+}
+
+void take_uvs(ByteReader& in, const std::string& file, std::span<Mesh> meshes) {
+  for (std::uint32_t m; (m = in.take<std::uint32_t>()) != ~std::uint32_t{0};) {
+    if (m >= meshes.size()) throw InputError(file + ": corrupt: texture coordinates of no mesh");
+    meshes[m].uvs = in.take_list<Eigen::Vector2f>();
+    if (meshes[m].uvs.size() != meshes[m].vertices.size())
+      throw InputError(file + ": corrupt: a vertex has no texture coordinates");
+  }
+}
+
+void check_looks(const Mesh& mesh, const std::string& file, std::size_t paints) {
+  for (const Mesh::Vertex& vertex : mesh.vertices) {
+    if (vertex.look >= Mesh::kFirstPaint + paints)
+      throw InputError(file + ": corrupt: a mesh has no paint");
+  }
+}
+
+void put(ByteWriter& out, const std::vector<Paint>& paints) {
+  std::vector<const std::vector<std::byte>*> pictures;  // each once
+  out.put(static_cast<std::uint32_t>(paints.size()));
+  for (const Paint& paint : paints) {
+    const auto known = std::find(pictures.begin(), pictures.end(), paint.picture.get());
+    const auto number = static_cast<std::uint32_t>(known - pictures.begin());
+    const bool is_new = paint.picture && known == pictures.end();
+    out.put(paint.color, static_cast<std::uint8_t>(paint.from_below ? 1 : 0),
+            paint.picture ? number : kNoPicture);
+    if (!is_new) continue;
+    pictures.push_back(paint.picture.get());
+    out.put_list(*paint.picture);
+  }
+}
+
+std::vector<Paint> take_paints(ByteReader& in, const std::string& file) {
+  std::vector<std::shared_ptr<const std::vector<std::byte>>> pictures;
+  std::vector<Paint> paints(in.take_count(17));
+  for (Paint& paint : paints) {
+    in.take_to(paint.color);
+    paint.from_below = in.take<std::uint8_t>() != 0;
+    const auto number = in.take<std::uint32_t>();
+    if (number == kNoPicture) continue;
+    if (number > pictures.size()) throw InputError(file + ": corrupt: a paint has no picture");
+    if (number == pictures.size()) {
+      pictures.push_back(std::make_shared<const std::vector<std::byte>>(in.take_list<std::byte>()));
+    }
+    paint.picture = pictures[number];
+  }
+  return paints;
 }
 
 void put(ByteWriter& out, const std::vector<Material>& materials) {

@@ -23,11 +23,14 @@ struct Mesh {
   struct Vertex {
     Vec3f position = Vec3f::Zero();
     Vec3f normal = Vec3f::UnitY();
-    std::uint32_t interior = 0;  ///< 1 where a break made the face.
+    std::uint32_t look = kSurface;
   };
+  /// Looks of vertices: those of its material, or, from kFirstPaint on, the frame's paints.
+  static constexpr std::uint32_t kSurface = 0, kInterior = 1, kFirstPaint = 2;
   Pose X_RT;
   Vec3 origin_T = Vec3::Zero();
   std::vector<Vertex> vertices;
+  std::vector<Eigen::Vector2f> uvs;    ///< Of each vertex, where paints need them; else empty.
   std::vector<std::uint32_t> indices;  ///< Triangles, counter-clockwise seen from outside.
   MaterialIndex material;
 };
@@ -147,6 +150,7 @@ struct Frame {
   double time_s = 0;
   View view;
   std::shared_ptr<const std::vector<Material>> materials;
+  std::shared_ptr<const std::vector<Paint>> paints;  ///< Null: none.
   std::shared_ptr<const MeshStore> meshes;
   /// Of the scene's solids, balls and shots; the same in all frames. Null where nobody knows.
   std::shared_ptr<const std::vector<std::string>> names;

@@ -89,9 +89,10 @@ void add_polyhedron(const ConvexPolyhedron& polyhedron, const std::vector<std::u
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const std::uint32_t corner = face.first_corner + k;
-      mesh.vertices.push_back({place_T(mesh, polyhedron.vertices[polyhedron.corners[corner]]),
-                               direction_T(mesh, polyhedron.corner_normals[corner]),
-                               face.kind == FaceKind::kInterior ? 1u : 0u});
+      mesh.vertices.push_back(
+          {place_T(mesh, polyhedron.vertices[polyhedron.corners[corner]]),
+           direction_T(mesh, polyhedron.corner_normals[corner]),
+           face.kind == FaceKind::kInterior ? Mesh::kInterior : Mesh::kSurface});
       if (k >= 2) {
         mesh.indices.insert(mesh.indices.end(), {first, first + k - 1, first + k});
       }
@@ -110,20 +111,27 @@ bool is_hidden(const Convex& convex, const std::vector<std::uint8_t>& hidden, Pl
 void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, Mesh& mesh) {
   constexpr std::uint32_t kNone = 0xffffffff;
   const PolygonMesh& visual = *convex.visual;
+  const bool textured = !visual.corner_uvs.empty() &&
+                        std::any_of(visual.faces.begin(), visual.faces.end(),
+                                    [](const PolygonMesh::Face& face) { return face.mark > 0; });
   std::vector<std::uint32_t> latest(visual.vertices.size(), kNone);  // of each of its vertices
   for (std::size_t f = 0; f < visual.faces.size(); ++f) {
     const PolygonMesh::Face& face = visual.faces[f];
     if (!face.id.none() && is_hidden(convex, hidden, face.id)) continue;
-    const std::uint32_t interior = face.kind == FaceKind::kInterior ? 1 : 0;
+    const std::uint32_t look = face.kind == FaceKind::kInterior ? Mesh::kInterior
+                               : face.mark > 0                  ? Mesh::kFirstPaint + face.mark - 1
+                                                                : Mesh::kSurface;
     for (const Triangle& triangle : triangulate(visual, f)) {
       for (const std::uint32_t corner : triangle) {
         const std::uint32_t vertex = visual.corners[corner];
         const Vec3f normal = direction_T(mesh, visual.corner_normals[corner]);
         std::uint32_t& drawn = latest[vertex];
-        if (drawn == kNone || mesh.vertices[drawn].interior != interior ||
-            mesh.vertices[drawn].normal != normal) {
+        const Vec2f uv = textured ? visual.corner_uvs[corner] : Vec2f(Vec2f::Zero());
+        if (drawn == kNone || mesh.vertices[drawn].look != look ||
+            mesh.vertices[drawn].normal != normal || (textured && mesh.uvs[drawn] != uv)) {
           drawn = static_cast<std::uint32_t>(mesh.vertices.size());
-          mesh.vertices.push_back({place_T(mesh, visual.vertices[vertex]), normal, interior});
+          mesh.vertices.push_back({place_T(mesh, visual.vertices[vertex]), normal, look});
+          if (textured) mesh.uvs.push_back(uv);
         }
         mesh.indices.push_back(drawn);
       }
@@ -188,7 +196,8 @@ std::shared_ptr<const Mesh> make_ball_mesh(double radius_m, MaterialIndex materi
     for (std::uint32_t sector = 0; sector <= kSectors; ++sector) {
       const SinCos around = sin_cos(2 * std::numbers::pi * (sector % kSectors) / kSectors);
       const Vec3 normal(polar.sin * around.sin, polar.cos, polar.sin * around.cos);
-      mesh->vertices.push_back({(radius_m * normal).cast<float>(), normal.cast<float>(), 0});
+      mesh->vertices.push_back(
+          {(radius_m * normal).cast<float>(), normal.cast<float>(), Mesh::kSurface});
     }
   }
   constexpr std::uint32_t kRow = kSectors + 1;

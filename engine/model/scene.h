@@ -140,6 +140,7 @@ struct Scene {
   View view;
   std::vector<ViewKey> view_keys;  ///< Where its camera goes; none: it stays.
   std::vector<Material> materials;
+  std::vector<Paint> paints;  ///< Of meshes from files: PolygonMesh::Face::mark.
   std::vector<Solid> solids;
   std::vector<Ball> balls;
   std::vector<Joint> joints;

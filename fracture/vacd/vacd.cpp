@@ -113,6 +113,12 @@ MaterialIndex material_of(const PolygonMesh& mesh, const VacdOptions& options,
   return most == area_m2.end() ? otherwise : most->first;
 }
 
+bool is_painted(const PolygonMesh& mesh, const VacdOptions& options) {
+  return std::ranges::any_of(mesh.faces, [&](const PolygonMesh::Face& face) {
+    return face.mark > 0 && face.mark <= options.painted.size() && options.painted[face.mark - 1];
+  });
+}
+
 /// A part per piece: fitted to its mesh, which goes with it unless the part looks the same alone.
 std::vector<Part> fitted_parts(const RepairedMesh& mesh, std::vector<VacdPiece> pieces,
                                const VacdOptions& options) {
@@ -125,7 +131,8 @@ std::vector<Part> fitted_parts(const RepairedMesh& mesh, std::vector<VacdPiece> 
     VacdPiece& piece = pieces[p];
     parts[p].polyhedron = fitted_region(piece, options.fit);
     parts[p].material = material_of(piece.mesh, options, of_shells[piece.shell]);
-    if (!piece.is_internal() && !shows_all(parts[p].polyhedron, piece.mesh)) {
+    if (piece.is_internal()) return;
+    if (is_painted(piece.mesh, options) || !shows_all(parts[p].polyhedron, piece.mesh)) {
       parts[p].visual = std::make_shared<PolygonMesh>(std::move(piece.mesh));
     }
   });

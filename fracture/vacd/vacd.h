@@ -39,6 +39,9 @@ struct VacdOptions {
   /// By marks of faces (PolygonMesh::Face), from 1 on: what a convex is made of most of whose
   /// surface has that mark, or, if it has none, most of whose shell's has. Other marks: `material`.
   std::vector<MaterialIndex> marked{};
+  /// Likewise: whether such faces look other than their material does, and so must stay as they
+  /// are.
+  std::vector<std::uint8_t> painted{};
   std::function<void(double)> progress{};  ///< Told of the share of the work done; may be empty.
 };
 
@@ -64,11 +67,11 @@ struct Vacd {
 
 /// Convexes that each own one connected watertight piece of a shell, within disjoint convex
 /// regions; pieces sum to the mesh, less what of it is inside out. Without visual mesh are regions
-/// wholly inside the mesh, and pieces that are flat-shaded convexes without texture: seen alone,
-/// they look the same. Regions that touch share plane ids and bonds, and hulls that overlap (of
-/// different shells, or of islands in one region) ghosts. Throws InputError if the options ask for
-/// more than kMostNodes, for nodes by hand that make more convexes than allowed, or for coordinates
-/// that are not finite.
+/// wholly inside the mesh, and pieces that are flat-shaded convexes without texture or paint:
+/// seen alone, they look the same. Regions that touch share plane ids and bonds, and hulls that
+/// overlap (of different shells, or of islands in one region) ghosts. Throws InputError if the
+/// options ask for more than kMostNodes, for nodes by hand that make more convexes than allowed, or
+/// for coordinates that are not finite.
 Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options = {});
 
 /// Voronoi nodes from a file: `x y z` a line, what follows a # is left out. Throws InputError

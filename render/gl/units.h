@@ -10,6 +10,7 @@ enum Unit {
   kSlotUnit,
   kMaterialUnit,
   kTileUnit,
+  kPictureUnit,
   kDepthUnit,
   kLightUnit,
   kOpenUnit,
@@ -19,7 +20,7 @@ enum Unit {
 
 /// The samplers of unit 0, 1 and so on.
 inline constexpr const char* kSamplers[] = {"shadow_map", "zenith_map", "slots",  "materials",
-                                            "tiles",      "depths",     "lights", "openness",
-                                            "occlusion",  "dust"};
+                                            "tiles",      "pictures",   "depths", "lights",
+                                            "openness",   "occlusion",  "dust"};
 
 }  // namespace sunder::render

@@ -1,12 +1,15 @@
-// PNG files by stb; the one place that holds stb's code.
+// PNG files, and pictures, by stb; the one place that holds stb's code.
 #include "render/image/image.h"
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
+#include <string>
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
+#define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
@@ -19,11 +22,20 @@ namespace sunder::render {
 namespace {
 
 constexpr int kChannels = 3;
+constexpr int kMostPixels = 16384;  // a side, of a picture
 
 void append(void* bytes, void* data, int size) {
   const auto* begin = static_cast<const std::uint8_t*>(data);
   auto& out = *static_cast<std::vector<std::uint8_t>*>(bytes);
   out.insert(out.end(), begin, begin + size);
+}
+
+using Pixels = std::unique_ptr<stbi_uc, void (*)(void*)>;
+
+void keep(const Pixels& pixels, Image& image) {
+  const std::size_t size =
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * kChannels;
+  image.rgb.assign(pixels.get(), pixels.get() + size);
 }
 
 }  // namespace
@@ -71,12 +83,30 @@ void write_png(const std::filesystem::path& path, const Image& image) {
 Image read_png(const std::filesystem::path& path) {
   Image image;
   int channels = 0;
-  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-      stbi_load(path.c_str(), &image.width, &image.height, &channels, kChannels), stbi_image_free);
+  const Pixels pixels(stbi_load(path.c_str(), &image.width, &image.height, &channels, kChannels),
+                      stbi_image_free);
   if (!pixels) throw InputError(path.string() + ": not a readable PNG: " + stbi_failure_reason());
-  const std::size_t size =
-      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * kChannels;
-  image.rgb.assign(pixels.get(), pixels.get() + size);
+  keep(pixels, image);
+  return image;
+}
+
+Image decode_picture(std::span<const std::byte> bytes) {
+  const auto refuse = [](const std::string& why) {
+    throw InputError("a mesh's picture is no PNG or JPEG that can be shown (" + why +
+                     "): save it anew, or say look = \"material\"");
+  };
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), 1u << 30));
+  Image image;
+  int channels = 0;
+  if (stbi_info_from_memory(data, size, &image.width, &image.height, &channels) == 0)
+    refuse(stbi_failure_reason());
+  if (std::max(image.width, image.height) > kMostPixels) refuse("it is too large");
+  const Pixels pixels(
+      stbi_load_from_memory(data, size, &image.width, &image.height, &channels, kChannels),
+      stbi_image_free);
+  if (!pixels) refuse(stbi_failure_reason());
+  keep(pixels, image);
   return image;
 }
 

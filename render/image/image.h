@@ -1,6 +1,7 @@
 // Pixels, and PNG files of them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -23,6 +24,9 @@ std::vector<std::uint8_t> encode_png(const Image& image);
 void write_png(const std::filesystem::path& path, const Image& image);
 /// Throws InputError if there is no readable PNG at `path`.
 Image read_png(const std::filesystem::path& path);
+
+/// A PNG or JPEG in memory. Throws InputError if it is neither, or too large.
+Image decode_picture(std::span<const std::byte> bytes);
 
 /// Where a file is written until it is complete: beside `path`, named after this process.
 std::filesystem::path temporary_name(const std::filesystem::path& path);

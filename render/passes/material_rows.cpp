@@ -66,7 +66,7 @@ void append(std::vector<float>& texels, const Look& look, const Finish& finish) 
 
 std::vector<float> material_rows(std::span<const Material> materials) {
   std::vector<float> texels;
-  texels.reserve(24 * materials.size());
+  texels.reserve(4 * kTexelsAMaterial * materials.size());
   for (const Material& material : materials) {
     append(texels, material.surface, surface_finish(material.surface));
     append(texels, material.interior, interior_finish(material.interior));

@@ -17,6 +17,8 @@ struct GpuVertex {
   float position[3];
   float normal[3];
   std::uint32_t piece;  ///< slot * 2 + interior
+  float uv[2];
+  std::uint32_t paint;  ///< From 1; 0: none.
 };
 
 GLsizeiptr bytes(std::size_t count, std::size_t size) {
@@ -51,6 +53,10 @@ Pieces::Pieces(const GlTable& gl) : gl_(gl) {
   gl_.EnableVertexAttribArray(2);
   gl_.VertexAttribIPointer(2, 1, GL_UNSIGNED_INT, sizeof(GpuVertex),
                            buffer_offset(offsetof(GpuVertex, piece)));
+  set_attributes(gl_, 3, sizeof(GpuVertex), {{2, offsetof(GpuVertex, uv)}});
+  gl_.EnableVertexAttribArray(4);
+  gl_.VertexAttribIPointer(4, 1, GL_UNSIGNED_INT, sizeof(GpuVertex),
+                           buffer_offset(offsetof(GpuVertex, paint)));
   gl_.BindBuffer(GL_TEXTURE_BUFFER, slot_buffer_);
   gl_.BindTexture(GL_TEXTURE_BUFFER, slot_texture_);
   gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, slot_buffer_);
@@ -95,7 +101,7 @@ std::uint32_t Pieces::find_slot(std::uint32_t mesh_index, const std::shared_ptr<
     copies.unused = slots_[slot].next_copy;
     return slot;
   }
-  slots_.push_back({mesh, 0, copies.first, Vec3f::Zero(), 0});
+  slots_.push_back({mesh, 0, copies.first, Vec3f::Zero(), 0, false});
   copies.first = static_cast<std::uint32_t>(slots_.size() - 1);
   return copies.first;
 }
@@ -128,11 +134,18 @@ void Pieces::upload_new() {
     const auto base = static_cast<std::uint32_t>(vertices_ + vertices.size());
     for (const std::uint32_t index : slot.mesh->indices) indices.push_back(base + index);
     Box box;
-    for (const Mesh::Vertex& v : slot.mesh->vertices) {
-      const auto piece = static_cast<std::uint32_t>(2 * s) + (v.interior != 0 ? 1u : 0u);
+    for (std::size_t i = 0; i < slot.mesh->vertices.size(); ++i) {
+      const Mesh::Vertex& v = slot.mesh->vertices[i];
+      const auto piece = static_cast<std::uint32_t>(2 * s) + (v.look == Mesh::kInterior ? 1u : 0u);
+      const Eigen::Vector2f uv =
+          slot.mesh->uvs.empty() ? Eigen::Vector2f(Eigen::Vector2f::Zero()) : slot.mesh->uvs[i];
+      const std::uint32_t paint = v.look >= Mesh::kFirstPaint ? v.look - Mesh::kFirstPaint + 1 : 0;
+      slot.painted = slot.painted || paint > 0;
       vertices.push_back({{v.position.x(), v.position.y(), v.position.z()},
                           {v.normal.x(), v.normal.y(), v.normal.z()},
-                          piece});
+                          piece,
+                          {uv.x(), uv.y()},
+                          paint});
       box.extend(Vec3(v.position.cast<double>()));
     }
     if (box.empty()) continue;
@@ -179,7 +192,7 @@ void Pieces::place(const Frame& frame) {
     const auto add = [&](Group to) {
       placed[static_cast<std::size_t>(to)].push_back({distance, static_cast<std::uint32_t>(i), s});
     };
-    add(group);
+    add(slot.painted && group != Group::kGlass ? Group::kPainted : group);
     if (group == Group::kMatte && slot.radius > kLarge_m) add(Group::kLarge);
     if (group != Group::kGlass) casters_.push_back({center, slot.radius});
   }

@@ -23,11 +23,12 @@ class Pieces {
   /// The pieces with surfaces of a kind; opaque ones nearest first, glass farthest first.
   enum class Group : std::uint8_t {
     kMatte,
+    kPainted,  ///< Matte ones, of which a file says how they look.
     kShiny,
     kGlass,  ///< For each piece its back faces, then its front faces.
-    kLarge,  ///< Of the matte ones again those that keep light from rooms.
+    kLarge,  ///< Of the matte and painted ones again those that keep light from rooms.
   };
-  static constexpr int kGroups = 4;
+  static constexpr int kGroups = 5;
   bool has(Group group) const { return !draws(group).counts.empty(); }
   void draw(Group group) const;
 
@@ -44,6 +45,7 @@ class Pieces {
     std::uint32_t next_copy = kNone;
     Vec3f center = Vec3f::Zero();  ///< Of a ball around the vertices, in the mesh's coordinates.
     float radius = 0;
+    bool painted = false;
   };
   /// The copies of a mesh, and the first that this frame does not use yet.
   struct Copies {

@@ -13,7 +13,7 @@ layout(std140) uniform Frame {
   vec4 ground;           // linear colour; w: height above the eye
   vec4 ground_offset;    // of the eye in the ground's texture: x, z, in metres
   vec4 pixel;            // width, height, and their inverses
-  vec4 lens;             // x: near plane, y: pixels a radian
+  vec4 lens;             // x: near plane, y: pixels a radian; z: where paints begin in materials
 };
 
 const vec3 kSunLight = vec3(3.7, 3.05, 2.3);

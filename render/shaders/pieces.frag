@@ -1,6 +1,11 @@
 // A lit, textured face. Alpha is the share of the light that comes from all around: what ambient
 // occlusion may take away.
 uniform sampler2DArray tiles;
+#ifdef PAINTED
+uniform sampler2DArray pictures;
+in vec2 picture_uv;
+flat in vec4 paint;
+#endif
 
 in vec3 rest;
 in vec3 normal_rest;
@@ -38,6 +43,16 @@ void main() {
   vec3 coat = kPlaster * (0.65 + 0.7 * cloud.r) * (1.0 - 0.25 * rim);
   albedo = mix(albedo, coat, plaster);
   vec2 slope = (mix(tile.ba, cloud.ba, plaster) - 0.5) * (2.0 * kSteepest * finish.y);
+
+#ifdef PAINTED
+  // A file's own colours in place of the material's; of that, a little of the grain is left.
+  vec3 shown = texture(pictures, vec3(picture_uv, max(paint.w - 1.0, 0.0))).rgb;
+  shown = shown * (shown * (shown * 0.305306011 + 0.682171111) + 0.012522878);  // from sRGB
+  if (paint.w >= 0.0) {
+    albedo = paint.rgb * (paint.w > 0.0 ? shown : vec3(1.0));
+    slope *= 0.3;
+  }
+#endif
 
   vec3 tilt = a.y > max(a.x, a.z) ? vec3(slope.x, 0.0, slope.y)
                                   : (a.x > 1.01 * a.z ? vec3(0.0, slope.y, slope.x)

@@ -1,6 +1,13 @@
 // Light, sky and eye are turned into the piece's rest frame here, so that the fragment shader
 // works in the frame its textures live in.
-uniform samplerBuffer materials;  // material_rows(): surface, then interior, three texels each
+uniform samplerBuffer materials;  // material_rows(), then Pictures::rows()
+#ifdef PAINTED
+layout(location = 3) in vec2 uv;
+layout(location = 4) in uint paint_number;  // from 1; 0: none
+
+out vec2 picture_uv;
+flat out vec4 paint;  // linear colour; w: layer of the picture from 1, 0: none, -1: not painted
+#endif
 
 out vec3 rest;
 out vec3 normal_rest;
@@ -33,4 +40,9 @@ void main() {
   first_color = texelFetch(materials, row);
   second_color = texelFetch(materials, row + 1);
   finish = texelFetch(materials, row + 2).xyz;
+#ifdef PAINTED
+  picture_uv = uv;
+  paint = vec4(0.0, 0.0, 0.0, -1.0);
+  if (paint_number > 0u) paint = texelFetch(materials, int(lens.z) + int(paint_number) - 1);
+#endif
 }

@@ -13,6 +13,7 @@ namespace sunder::scenes {
 namespace {
 
 constexpr std::string_view kRepairs[] = {"auto", "off"};
+constexpr std::string_view kLooks[] = {"file", "material"};
 /// What reaches this part of the height is the bottom.
 constexpr double kBottom = 0.01;
 
@@ -34,7 +35,10 @@ Keys<MeshTable> make_mesh_keys() {
            key<&MeshTable::material>("material", "What it is made of."),
            table_key("materials",
                      "Of a file: what those parts are made of that it has a name for, an object, a "
-                     "group or a material: { roof = \"wood\", \"Wall.001\" = \"brick\" }.")}};
+                     "group or a material: { roof = \"wood\", \"Wall.001\" = \"brick\" }."),
+           choice<&MeshTable::look>("look", kLooks,
+                                    "file: outside it keeps the colours and pictures that the file "
+                                    "gives it, where it does.")}};
 }
 
 Keys<BodyTable> make_body_keys() {
@@ -112,10 +116,13 @@ void read_named_materials(const Value& table, std::span<const Material> material
   }
 }
 
-Compound read_compound(const MeshTable& given, const std::filesystem::path& folder) {
+Compound read_compound(const MeshTable& given, const std::filesystem::path& folder,
+                       std::vector<Paint>& paints) {
   const bool built_in = names_built_in(given.mesh);
   const std::string mesh = built_in ? given.mesh : (folder / given.mesh).string();
-  return make_compound(mesh, given.material.index, options_of(given, folder));
+  MeshOptions options = options_of(given, folder);
+  if (given.look == LookChoice::kFile) options.paints = &paints;
+  return make_compound(mesh, given.material.index, options);
 }
 
 Vec3 foot_of(const Compound& compound) {
@@ -124,7 +131,7 @@ Vec3 foot_of(const Compound& compound) {
 }
 
 Body read_body(const Value& table, std::span<const Material> materials,
-               const std::filesystem::path& folder) {
+               const std::filesystem::path& folder, std::vector<Paint>& paints) {
   const std::string_view name = body_keys().table;
   check_known(table, name, {mesh_keys().keys, body_keys().keys, placement_keys().keys});
   MeshTable mesh;
@@ -135,7 +142,7 @@ Body read_body(const Value& table, std::span<const Material> materials,
   const std::vector<Copy> copies = read_copies(table, name);
   Body body{given.name, default_name(mesh.mesh), {}};
   try {
-    Compound compound = read_compound(mesh, folder);
+    Compound compound = read_compound(mesh, folder, paints);
     anchor(compound, given.anchored);
     std::array<std::vector<Compound>, 2> islands;  // as they are, and mirrored
     std::array<Vec3, 2> foot_R;

@@ -15,6 +15,7 @@
 namespace sunder::scenes {
 
 enum class RepairChoice { kAuto, kOff };
+enum class LookChoice { kFile, kMaterial };
 
 /// The keys that name a mesh and say how it is decomposed.
 struct MeshTable {
@@ -26,6 +27,7 @@ struct MeshTable {
   std::string fit = "hull:24";
   RepairChoice repair = RepairChoice::kAuto;
   MaterialRef material{"concrete", {}};
+  LookChoice look = LookChoice::kFile;
   std::vector<std::pair<std::string, MaterialIndex>> materials;  ///< read_named_materials()
 };
 const Keys<MeshTable>& mesh_keys();
@@ -42,8 +44,10 @@ struct BodyTable {
 const Keys<BodyTable>& body_keys();
 
 /// A mesh in its own coordinates, of its material. Files are sought from `folder` on,
-/// decompositions kept in the cache (mesh_cache.h). Throws InputError without a place.
-Compound read_compound(const MeshTable& given, const std::filesystem::path& folder);
+/// decompositions kept in the cache (mesh_cache.h), and the scene's paints are appended to. Throws
+/// InputError without a place.
+Compound read_compound(const MeshTable& given, const std::filesystem::path& folder,
+                       std::vector<Paint>& paints);
 /// The middle of a compound's lowest level.
 Vec3 foot_of(const Compound& compound);
 
@@ -55,6 +59,6 @@ struct Body {
 };
 /// Throws InputError.
 Body read_body(const Value& table, std::span<const Material> materials,
-               const std::filesystem::path& folder);
+               const std::filesystem::path& folder, std::vector<Paint>& paints);
 
 }  // namespace sunder::scenes

@@ -27,6 +27,9 @@ struct MeshOptions {
   /// Of what else its parts are made that a file has a name for: a group or object of it, or one of
   /// its own materials. Where several names are given that a polygon has, the narrower counts.
   std::vector<std::pair<std::string, MaterialIndex>> materials{};
+  /// Where to append how the file paints its surface, in place of what its materials look like:
+  /// what a scene has, whose paints are these. Null: it looks as its materials do.
+  std::vector<Paint>* paints = nullptr;
   bool cached = false;  ///< Whether a decomposition is kept, and recalled (mesh_cache.h).
   /// Told of each step when it begins, and then of the share of all work done; may be empty.
   std::function<void(const char* step, double share)> progress{};

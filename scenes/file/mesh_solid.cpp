@@ -131,10 +131,16 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   RawMesh raw = make_raw_mesh(file);
   scale_mesh(raw, options, vacd_of);
   if (!options.materials.empty()) vacd_of.marked = materials_of(raw, file, options);
+  std::vector<std::optional<Paint>> paints;
+  for (const RawMesh::Group& group : raw.groups) paints.push_back(group.paint);
+  for (const std::optional<Paint>& paint : paints) {
+    if (options.paints) vacd_of.painted.push_back(paint ? 1 : 0);
+  }
   const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
   std::optional<MeshSolid> known = options.cached ? recall(key) : std::nullopt;
   MeshSolid solid = known ? std::move(*known) : MeshSolid();
   solid.name = std::filesystem::path(file).filename().string();
+  solid.paints = std::move(paints);
   if (known) return solid;
   solid.vertices = raw.vertices.size();
   solid.faces = raw.polygons.size();

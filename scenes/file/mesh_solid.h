@@ -21,7 +21,8 @@ namespace sunder::scenes {
 struct MeshSolid {
   Compound compound;
   std::string name;
-  std::size_t vertices = 0;  ///< As it was given, as are:
+  std::vector<std::optional<Paint>> paints;  ///< By group of the file: its faces' marks, less 1.
+  std::size_t vertices = 0;                  ///< As it was given, as are:
   std::size_t faces = 0;
   bool closed = true;
   std::vector<Repair> repairs;

@@ -30,6 +30,7 @@ struct Piece {
 struct Site {
   std::span<const Material> materials;
   std::filesystem::path folder;  ///< Where files are sought.
+  std::vector<Paint>& paints;    ///< Of the scene, to append to.
 };
 
 /// A kind of structure: its keys in the scene file and how it is built.

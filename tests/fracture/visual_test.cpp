@@ -279,7 +279,7 @@ double drawn_area(const Compound& piece) {
       const auto at = [&](std::size_t k) { return mesh->vertices[mesh->indices[i + k]]; };
       const Vec3f out = (at(1).position - at(0).position).cross(at(2).position - at(0).position);
       area += 0.5 * static_cast<double>(out.norm());
-      if (at(0).interior != 0 && out.norm() > 1e-5f) {
+      if (at(0).look == Mesh::kInterior && out.norm() > 1e-5f) {
         EXPECT_GT(out.normalized().dot(at(0).normal), 0.99f);
       }
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/io/mesh/mesh_gltf_data.h"
+#include "engine/io/mesh/mesh_gltf_paints.h"
 
 namespace sunder {
 namespace {
@@ -33,7 +34,7 @@ Eigen::Matrix4d local_matrix(const json& node, const GltfData& data) {
 
 class GltfScene {
  public:
-  explicit GltfScene(const MeshSource& source) : source_(source), data_(source) {}
+  explicit GltfScene(const MeshSource& source) : source_(source), data_(source), paints_(data_) {}
 
   RawMesh read() {
     const json& document = data_.document();
@@ -70,9 +71,12 @@ class GltfScene {
     const json& materials = data_.array(data_.document(), "materials");
     for (const json& primitive : data_.array(mesh, "primitives")) {
       std::string material;
-      if (primitive.is_object() && primitive.contains("material"))
-        material = name_of(materials[data_.index(primitive, "material", materials.size())]);
       RawMesh::Group& group = mesh_.groups.emplace_back();
+      if (primitive.is_object() && primitive.contains("material")) {
+        const json& used = materials[data_.index(primitive, "material", materials.size())];
+        material = name_of(used);
+        group.paint = paints_.of(used);
+      }
       for (const std::string& name : {node_name, name_of(mesh), material}) {
         if (!name.empty()) group.names.push_back(name);
       }
@@ -138,6 +142,7 @@ class GltfScene {
 
   const MeshSource& source_;
   GltfData data_;
+  GltfPaints paints_;
   RawMesh mesh_;
   std::size_t nodes_visited_ = 0;
 };

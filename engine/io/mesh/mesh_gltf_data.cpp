@@ -229,6 +229,16 @@ std::vector<double> GltfData::numbers(const json& parent, const char* name,
   return numbers;
 }
 
+std::string GltfData::view(const json& thing) const {
+  const json& views = array(document_, "bufferViews");
+  const json& view = views[index(thing, "bufferView", views.size())];
+  const std::string_view buffer = buffers_[index(view, "buffer", buffers_.size())];
+  const std::size_t start = index(view, "byteOffset", kMostBytes, 0);
+  const std::size_t size = index(view, "byteLength", kMostBytes);
+  if (start + size > buffer.size()) fail("a buffer view leaves its buffer: the file is cut short");
+  return std::string(buffer.substr(start, size));
+}
+
 std::vector<double> GltfData::items(const json& where, std::size_t count, std::size_t width,
                                     std::size_t type) const {
   const Component component = component_of(type);

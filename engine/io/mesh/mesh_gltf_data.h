@@ -35,6 +35,10 @@ class GltfData {
   /// The vertices of a primitive in order, each below `vertex_count`.
   std::vector<std::uint32_t> indices(const nlohmann::json& primitive,
                                      std::size_t vertex_count) const;
+  /// The bytes of the buffer view that a thing names.
+  std::string view(const nlohmann::json& thing) const;
+  /// What a reference holds: data of its own, or a file in the same folder.
+  std::string load_uri(const std::string& reference) const;
   [[noreturn]] void fail(const std::string& what) const { source_.fail(what); }
 
  private:
@@ -42,7 +46,6 @@ class GltfData {
 
   std::string_view json_chunk();
   void load_buffers();
-  std::string load_uri(const std::string& reference) const;
   /// `count` times `width` numbers of a component type, from a view of a buffer.
   std::vector<double> items(const nlohmann::json& where, std::size_t count, std::size_t width,
                             std::size_t type) const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "engine/io/mesh/mesh_mtl.h"
 #include "engine/io/mesh/mesh_text.h"
 
 namespace sunder {
@@ -62,6 +63,8 @@ class ObjReader {
     } else if (keyword == "o") {
       names_ = {{}, text_.words(), names_.material};
       group_ = RawMesh::kNoGroup;
+    } else if (keyword == "mtllib") {
+      paints_.merge(read_mtl(source_, text_.words()));
     } else if (keyword == "usemtl") {
       names_.material = text_.words();
       group_ = RawMesh::kNoGroup;
@@ -79,7 +82,9 @@ class ObjReader {
     for (const std::string& name : {names_.object, names_.material}) {
       if (!name.empty()) names.push_back(name);
     }
-    mesh_.groups.push_back({std::move(names)});
+    const auto paint = paints_.find(names_.material);
+    mesh_.groups.push_back({std::move(names), {}});
+    if (paint != paints_.end()) mesh_.groups.back().paint = paint->second;
     return group_;
   }
 
@@ -133,6 +138,7 @@ class ObjReader {
   Names names_;
   std::uint32_t group_ = RawMesh::kNoGroup;  ///< Of names_, once it is asked for.
   std::map<Names, std::uint32_t> known_;
+  std::map<std::string, Paint> paints_;  ///< By the name of the material.
   std::vector<std::uint32_t> polygon_, corner_uvs_, corner_normals_;
   std::array<ObjList, 3> lists_{{{"vertex"}, {"texture coordinate"}, {"normal"}}};
 };

@@ -57,7 +57,7 @@ RawMesh read_text(const MeshSource& source) {
   while (text.next_line()) {
     const std::string_view keyword = text.word();
     if (is_word(keyword, "solid")) {
-      mesh.groups.push_back({{std::string(text.word())}});
+      mesh.groups.push_back({{std::string(text.word())}, {}});
       any_keyword = true;
     } else if (is_word(keyword, "vertex")) {
       polygon.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));

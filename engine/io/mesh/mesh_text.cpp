@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/io/bytes.h"
+
 namespace sunder {
 namespace {
 
@@ -22,6 +24,18 @@ void MeshSource::check_size(const RawMesh& mesh) const {
     fail("the mesh is larger than " + std::to_string(limits.vertices) + " vertices or " +
          std::to_string(limits.corners) + " corners: decimate it");
   }
+}
+
+std::optional<std::string> MeshSource::beside(const std::string& name) const {
+  const std::filesystem::path path(name);
+  const bool elsewhere = path.is_absolute() || name.find("..") != std::string::npos ||
+                         name.find(':') < name.size() || name.find('\0') < name.size();
+  const std::filesystem::path found = file.parent_path() / path;
+  std::error_code error;
+  if (elsewhere || !std::filesystem::is_regular_file(found, error)) return std::nullopt;
+  if (std::filesystem::file_size(found, error) > limits.bytes) return std::nullopt;
+  const std::vector<std::byte> bytes = read_file(found);
+  return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 void add_polygon(RawMesh& mesh, std::span<const std::uint32_t> vertices) {

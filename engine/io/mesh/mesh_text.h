@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,9 @@ struct MeshSource {
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(file.string() + ": " + what);
   }
+  /// What a file in the same folder, or below, holds; none if there is none, or it is elsewhere: a
+  /// mesh from somebody else must not make us read what is not its own.
+  std::optional<std::string> beside(const std::string& name) const;
   /// Throws InputError if the mesh has outgrown the limits.
   void check_size(const RawMesh& mesh) const;
 };

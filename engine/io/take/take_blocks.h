@@ -26,10 +26,10 @@ inline constexpr std::uint64_t kFramesAChunk = 120;
 inline constexpr std::uint64_t kMostBlockBytes = 1ull << 30;  ///< Larger ones are refused.
 
 enum class BlockKind : std::uint32_t {
-  kMaterials = 1,
-  kMeshes,    ///< What the mesh store has grown by.
-  kKeyFrame,  ///< Stands alone; begins a chunk.
-  kFrame,     ///< A change of the frame before.
+  kMaterials = 1,  ///< And paints, where a run has any.
+  kMeshes,         ///< What the mesh store has grown by; where there are paints, with their places.
+  kKeyFrame,       ///< Stands alone; begins a chunk.
+  kFrame,          ///< A change of the frame before.
   kIndex,
 };
 

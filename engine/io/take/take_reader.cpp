@@ -46,6 +46,7 @@ class TakeReader::Playback {
   std::vector<BlockPlace> mesh_blocks_, frame_blocks_;
   std::shared_ptr<const std::vector<Material>> materials_;
   std::shared_ptr<const std::vector<std::string>> names_;
+  std::shared_ptr<const std::vector<Paint>> paints_;
   std::shared_ptr<MeshStore> meshes_ = std::make_shared<MeshStore>();
   std::size_t mesh_blocks_read_ = 0;
 
@@ -86,6 +87,7 @@ TakeReader::Playback::Playback(const std::filesystem::path& path) : file_(path.s
   const bool is_newest = version == kTakeMagic[kTakeName];
   if (is_newest) names_ = std::make_shared<const std::vector<std::string>>(take_names(in));
   coder_ = FrameCoder(is_newest);
+  if (!in.at_end()) paints_ = std::make_shared<const std::vector<Paint>>(take_paints(in, file_));
 }
 
 /// Blocks follow each other in the order of the run, each with its frame or mesh number.
@@ -225,6 +227,7 @@ FramePtr TakeReader::Playback::decode(std::uint32_t frame) {
   auto result = std::make_shared<Frame>(std::move(take.frame));
   result->materials = materials_;
   result->names = names_;
+  result->paints = paints_;
   result->meshes = meshes_;
   body_hashes_ = std::move(take.body_hashes);
   decoded_ = frame;
@@ -242,9 +245,12 @@ void TakeReader::Playback::read_meshes(std::uint32_t until) {
     }
     const auto content = content_at(mesh_blocks_[mesh_blocks_read_], other_unpacker_);
     ByteReader in(content, file_);
-    const std::uint32_t count = in.take_count(kLeastMeshBytes);
-    for (std::uint32_t m = 0; m < count; ++m) {
-      meshes_->push_back(std::make_shared<const Mesh>(take_mesh(in, file_, materials_->size())));
+    std::vector<Mesh> meshes(in.take_count(kLeastMeshBytes));
+    for (Mesh& mesh : meshes) mesh = take_mesh(in, file_, materials_->size());
+    if (paints_) take_uvs(in, file_, meshes);
+    for (Mesh& mesh : meshes) {
+      check_looks(mesh, file_, paints_ ? paints_->size() : 0);
+      meshes_->push_back(std::make_shared<const Mesh>(std::move(mesh)));
     }
     ++mesh_blocks_read_;
   }

@@ -26,6 +26,7 @@ struct World {
   const Scene scene;  ///< As it was given.
   const std::shared_ptr<const std::vector<Material>> materials;
   const std::shared_ptr<const std::vector<std::string>> names;  ///< Solids, balls, then shots.
+  const std::shared_ptr<const std::vector<Paint>> paints;  ///< Null: none.
   const std::unique_ptr<Physics> physics;
   Clock clock;
   Actors actors;
@@ -40,6 +41,8 @@ struct World {
       : scene(std::move(given)),
         materials(std::make_shared<const std::vector<Material>>(scene.materials)),
         names(std::make_shared<const std::vector<std::string>>(names_in(scene))),
+        paints(scene.paints.empty() ? nullptr
+                                    : std::make_shared<const std::vector<Paint>>(scene.paints)),
         physics(std::move(moves)),
         clock(scene.accuracy) {}
 

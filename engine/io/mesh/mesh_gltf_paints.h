@@ -1,0 +1,31 @@
+// What the materials of a glTF look like.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/io/mesh/mesh_gltf_data.h"
+
+namespace sunder {
+
+class GltfPaints {
+ public:
+  explicit GltfPaints(const GltfData& data) : data_(data) {}
+
+  /// Base colour and its picture; none where a material has neither. A picture that is not there,
+  /// or uses other texture coordinates than the first, is left out.
+  std::optional<Paint> of(const nlohmann::json& material);
+
+ private:
+  using Picture = std::shared_ptr<const std::vector<std::byte>>;
+
+  Picture picture(std::size_t image);
+
+  const GltfData& data_;
+  std::map<std::size_t, Picture> pictures_;  ///< By image.
+};
+
+}  // namespace sunder

@@ -1,0 +1,101 @@
+#include "render/passes/pictures.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <utility>
+
+#include "render/image/image.h"
+
+namespace sunder::render {
+namespace {
+
+/// RGBA texels of a picture scaled to `side` x `side`: the mean of what each covers, and of its
+/// nearest pixels where that is less than one; the row where texture coordinates begin comes first.
+std::vector<std::uint8_t> scaled(const Image& image, int side, bool from_below) {
+  std::vector<std::uint8_t> texels(4 * static_cast<std::size_t>(side) *
+                                   static_cast<std::size_t>(side));
+  const auto covered = [&](int texel, int pixels) {
+    const int first = static_cast<int>(std::int64_t{texel} * pixels / side);
+    const int end = static_cast<int>(std::int64_t{texel + 1} * pixels / side);
+    return std::pair(first, std::max(end, first + 1));
+  };
+  for (int v = 0; v < side; ++v) {
+    const auto [top, bottom] = covered(from_below ? side - 1 - v : v, image.height);
+    for (int u = 0; u < side; ++u) {
+      const auto [left, right] = covered(u, image.width);
+      std::uint32_t sum[3] = {};
+      for (int y = top; y < bottom; ++y) {
+        for (int x = left; x < right; ++x) {
+          const std::size_t at =
+              3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                   static_cast<std::size_t>(x));
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += image.rgb[at + c];
+        }
+      }
+      const auto count = static_cast<std::uint32_t>((bottom - top) * (right - left));
+      std::uint8_t* texel =
+          texels.data() + 4 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(side) +
+                               static_cast<std::size_t>(u));
+      for (std::size_t c = 0; c < 3; ++c) {
+        texel[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
+      }
+      texel[3] = 255;
+    }
+  }
+  return texels;
+}
+
+std::vector<Paint>::const_iterator find_layer(const std::vector<Paint>& layers,
+                                              const Paint& paint) {
+  return std::find_if(layers.begin(), layers.end(), [&](const Paint& layer) {
+    return layer.picture == paint.picture && layer.from_below == paint.from_below;
+  });
+}
+
+}  // namespace
+
+Pictures::Pictures(const GlTable& gl) : gl_(gl) {
+  gl_.GenTextures(1, &texture_);
+  gl_.BindTexture(GL_TEXTURE_2D_ARRAY, texture_);
+  update({});
+}
+
+void Pictures::update(const std::vector<Paint>& paints) {
+  layers_.clear();
+  std::vector<Image> images;
+  int largest = 1;
+  for (const Paint& paint : paints) {
+    if (!paint.picture || layers_.size() == kMostPictures) continue;
+    if (find_layer(layers_, paint) != layers_.end()) continue;
+    layers_.push_back(paint);
+    images.push_back(decode_picture(*paint.picture));
+    largest = std::max({largest, images.back().width, images.back().height});
+  }
+  const auto wanted = static_cast<int>(std::bit_ceil(static_cast<unsigned>(largest)));
+  const int side = std::min(wanted, kMostPictureTexels);
+  std::vector<std::uint8_t> texels(images.empty() ? 4 : 0);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const std::vector<std::uint8_t> layer = scaled(images[i], side, layers_[i].from_below);
+    texels.insert(texels.end(), layer.begin(), layer.end());
+  }
+  gl_.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, side, side,
+                 static_cast<GLsizei>(std::max<std::size_t>(images.size(), 1)), 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, texels.data());
+  gl_.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl_.GenerateMipmap(GL_TEXTURE_2D_ARRAY);
+}
+
+std::vector<float> Pictures::rows(const std::vector<Paint>& paints) const {
+  std::vector<float> texels;
+  for (const Paint& paint : paints) {
+    const auto layer = find_layer(layers_, paint);
+    const bool shown = paint.picture && layer != layers_.end();
+    texels.insert(texels.end(), {paint.color.x(), paint.color.y(), paint.color.z(),
+                                 shown ? static_cast<float>(layer - layers_.begin() + 1) : 0.0f});
+  }
+  return texels;
+}
+
+}  // namespace sunder::render

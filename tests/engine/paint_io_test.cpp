@@ -1,0 +1,102 @@
+// What a mesh's file paints is in frame files and takes.
+#include <unistd.h>
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "engine/io/frame_file.h"
+#include "engine/io/take/take.h"
+#include "engine/model/piece_mesh.h"
+
+namespace sunder {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PaintIo : public ::testing::Test {
+ protected:
+  ~PaintIo() override { fs::remove(path_); }
+
+  const fs::path path_ = fs::temp_directory_path() / ("sunder-paint-" + std::to_string(::getpid()));
+};
+
+std::shared_ptr<const std::vector<std::byte>> picture(std::uint8_t first) {
+  return std::make_shared<const std::vector<std::byte>>(
+      std::vector{std::byte{first}, std::byte{2}, std::byte{0}});
+}
+
+/// A ball that no file paints, and one with a picture, two of whose vertices are of its first and
+/// last paint.
+std::shared_ptr<Frame> painted_frame() {
+  auto frame = std::make_shared<Frame>();
+  frame->materials = std::make_shared<const std::vector<Material>>(1);
+  const auto shared = picture(7);
+  frame->paints = std::make_shared<const std::vector<Paint>>(
+      std::vector<Paint>{{Vec3f(1, 0.5f, 0.25f), shared, true},
+                         {Vec3f(0, 0, 1), nullptr, false},
+                         {Vec3f(1, 1, 1), picture(9), false},
+                         {Vec3f(0.5f, 1, 1), shared, true}});
+  auto mesh = std::make_shared<Mesh>(*make_ball_mesh(1, MaterialIndex(0)));
+  mesh->vertices[3].look = Mesh::kFirstPaint;
+  mesh->vertices[5].look = Mesh::kFirstPaint + 3;
+  for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
+    mesh->uvs.emplace_back(static_cast<float>(v), -0.5f);
+  }
+  frame->meshes = std::make_shared<const MeshStore>(
+      MeshStore{make_ball_mesh(2, MaterialIndex(0)), std::move(mesh)});
+  frame->bodies.resize(1);
+  frame->instances = {{MeshIndex(0), 0}, {MeshIndex(1), 0}};
+  return frame;
+}
+
+void expect_same(const Frame& read, const Frame& frame) {
+  ASSERT_TRUE(read.paints);
+  ASSERT_EQ(read.paints->size(), frame.paints->size());
+  for (std::size_t p = 0; p < frame.paints->size(); ++p) {
+    const Paint &got = (*read.paints)[p], &given = (*frame.paints)[p];
+    EXPECT_EQ(got.color, given.color);
+    EXPECT_EQ(got.from_below, given.from_below);
+    ASSERT_EQ(got.picture == nullptr, given.picture == nullptr);
+    if (given.picture) {
+      EXPECT_EQ(*got.picture, *given.picture);
+    }
+  }
+  EXPECT_EQ((*read.paints)[0].picture, (*read.paints)[3].picture) << "one picture is read once";
+  ASSERT_EQ(read.meshes->size(), 2u);
+  EXPECT_TRUE(read.meshes->at(0)->uvs.empty());
+  const Mesh &got = *read.meshes->at(1), &given = *frame.meshes->at(1);
+  EXPECT_EQ(got.uvs, given.uvs);
+  for (std::size_t v = 0; v < given.vertices.size(); ++v)
+    EXPECT_EQ(got.vertices[v].look, given.vertices[v].look);
+}
+
+TEST_F(PaintIo, FrameFilesKeepPaintsPicturesAndWhereTheyAre) {
+  const auto frame = painted_frame();
+  write_frame(path_, *frame);
+  expect_same(*read_frame(path_), *frame);
+}
+
+TEST_F(PaintIo, TakesKeepThemAlso) {
+  const auto frame = painted_frame();
+  {
+    TakeWriter writer(path_);
+    writer.take(frame);
+    writer.finish();
+  }
+  TakeReader reader(path_);
+  const FramePtr read = reader.next();
+  ASSERT_TRUE(read);
+  expect_same(*read, *frame);
+}
+
+TEST_F(PaintIo, AVertexOfAPaintThatIsNotThereIsRefused) {
+  const auto frame = painted_frame();
+  frame->paints = std::make_shared<const std::vector<Paint>>(1);
+  write_frame(path_, *frame);
+  EXPECT_THROW(read_frame(path_), InputError);
+}
+
+}  // namespace
+}  // namespace sunder

@@ -1,0 +1,138 @@
+// What files say that surfaces look like: MTL beside OBJ, and the materials of glTF.
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "engine/io/mesh/mesh_reader.h"
+
+namespace sunder {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Paints : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "sunder-paints-XXXXXX").string();
+    outside_ = mkdtemp(name.data());
+    folder_ = outside_ / "meshes";
+    fs::create_directories(folder_ / "pictures");
+  }
+  void TearDown() override { fs::remove_all(outside_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  RawMesh read(const std::string& name) const { return read_mesh(folder_ / name); }
+
+  fs::path outside_, folder_;
+};
+
+std::string text_of(const Paint& paint) {
+  std::string text;
+  for (const std::byte b : *paint.picture) text.push_back(static_cast<char>(b));
+  return text;
+}
+
+const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+TEST_F(Paints, OfAnObjAreThoseOfTheMtlBesideIt) {
+  write("a.mtl",
+        "newmtl red clay\nKa 1 1 1\nKd 1 0.5 0\n"
+        "newmtl brick\nKd 0 0 0\nmap_Kd -s 2 2 1 -clamp on pictures\\wall one.png\n"
+        "newmtl odd\nKd spectral file.rfl\n");
+  write("pictures/wall one.png", "PNG!");
+  write("a.obj",
+        "mtllib a.mtl\n" + kTriangle +
+            "f 1 2 3\nusemtl red clay\nf 1 2 3\nusemtl brick\nf 1 2 3\nusemtl none\nf 1 2 3\n"
+            "usemtl red clay\nf 3 2 1\n");
+  const RawMesh mesh = read("a.obj");
+  ASSERT_EQ(mesh.polygons.size(), 5u);
+  EXPECT_EQ(mesh.polygons[0].group, RawMesh::kNoGroup);
+  EXPECT_EQ(mesh.polygons[1].group, mesh.polygons[4].group);
+  const auto paint = [&](std::size_t polygon) {
+    return mesh.groups[mesh.polygons[polygon].group].paint;
+  };
+  ASSERT_TRUE(paint(1));
+  EXPECT_NEAR(paint(1)->color.x(), 1, 1e-3);
+  EXPECT_NEAR(paint(1)->color.y(), 0.214, 2e-3) << "from what a screen shows to light";
+  EXPECT_EQ(paint(1)->color.z(), 0);
+  EXPECT_FALSE(paint(1)->picture);
+  ASSERT_TRUE(paint(2));
+  ASSERT_TRUE(paint(2)->picture);
+  EXPECT_EQ(text_of(*paint(2)), "PNG!");
+  EXPECT_TRUE(paint(2)->from_below);
+  EXPECT_EQ(paint(2)->color, Vec3f(1, 1, 1)) << "black times a picture is not meant";
+  EXPECT_FALSE(paint(3));
+}
+
+TEST_F(Paints, WhatIsMissingOrElsewhereIsLeftOut) {
+  std::ofstream(outside_ / "secret.png") << "PNG!";
+  std::ofstream(outside_ / "secret.mtl") << "newmtl m\nKd 1 1 1\n";
+  write("a.mtl", "newmtl m\nmap_Kd ../secret.png\nnewmtl n\nmap_Kd none.png\n");
+  for (const std::string library : {"a.mtl", "none.mtl", "../secret.mtl"}) {
+    write("a.obj", "mtllib " + library + "\n" + kTriangle + "usemtl m\nf 1 2 3\n");
+    const RawMesh mesh = read("a.obj");
+    const auto& paint = mesh.groups.at(0).paint;
+    EXPECT_EQ(paint.has_value(), library == "a.mtl") << library;
+    if (paint) {
+      EXPECT_FALSE(paint->picture);
+    }
+  }
+}
+
+TEST_F(Paints, AFaultOfAnMtlIsNamedWithItsLine) {
+  write("a.mtl", "newmtl m\nKd 1 red 0\n");
+  write("a.obj", "mtllib a.mtl\n" + kTriangle + "usemtl m\nf 1 2 3\n");
+  try {
+    read("a.obj");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a.mtl:2: 'red' is not a number"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(Paints, OfAGltfAreBaseColoursAndPicturesWhereverTheyLie) {
+  std::string points;
+  for (const float f : {0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) {
+    points.append(reinterpret_cast<const char*>(&f), 4);
+  }
+  write("points.bin", points + "JPEG");
+  write("pictures/a b.png", "PNG!");
+  std::string primitives;
+  for (int material = 0; material < 6; ++material) {
+    primitives += std::string(material == 0 ? "" : ",") +
+                  R"({"attributes":{"POSITION":0},"material":)" + std::to_string(material) + "}";
+  }
+  write("a.gltf", R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[)" + primitives + R"(]}],
+"materials":[
+{"pbrMetallicRoughness":{"baseColorFactor":[0.25,0.5,1,1]}},
+{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},
+{"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}},
+{"pbrMetallicRoughness":{"baseColorTexture":{"index":2}}},
+{"pbrMetallicRoughness":{"baseColorTexture":{"index":3}}},
+{"pbrMetallicRoughness":{"roughnessFactor":0.5}}],
+"textures":[{"source":0},{"source":1},{"source":2},{"source":3}],
+"images":[{"uri":"pictures/a%20b.png"},{"uri":"data:image/png;base64,UE5HIQ=="},
+{"bufferView":1,"mimeType":"image/jpeg"},{"uri":"../secret.png"}],
+"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":4}],
+"buffers":[{"byteLength":40,"uri":"points.bin"}]})");
+  const RawMesh mesh = read("a.gltf");
+  ASSERT_EQ(mesh.groups.size(), 6u);
+  const auto paint = [&](std::size_t g) { return mesh.groups[g].paint; };
+  EXPECT_EQ(paint(0)->color, Vec3f(0.25f, 0.5f, 1));
+  EXPECT_EQ(text_of(*paint(1)), "PNG!");
+  EXPECT_EQ(text_of(*paint(2)), "PNG!");
+  EXPECT_EQ(text_of(*paint(3)), "JPEG");
+  EXPECT_FALSE(paint(3)->from_below);
+  ASSERT_TRUE(paint(4));
+  EXPECT_FALSE(paint(4)->picture);
+  EXPECT_FALSE(paint(5)) << "it says nothing of its colour";
+}
+
+}  // namespace
+}  // namespace sunder

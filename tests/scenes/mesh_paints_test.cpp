@@ -1,0 +1,123 @@
+// How a mesh's file paints it is seen in frames, before a break and after.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "engine/geometry/polygon_mesh.h"
+#include "scenes/load.h"
+#include "scenes/make_simulation.h"
+
+namespace sunder::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Texture coordinates of the box below, anywhere on it.
+Vec2f uv_at(const Vec3& point) {
+  return Vec2(point.x() + 2 * point.z(), point.y() - 3 * point.z()).cast<float>();
+}
+
+class MeshPaints : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "sunder-paint-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    setenv("SUNDER_CACHE", (folder_ / "cache").c_str(), 1);
+    std::string text = "mtllib box.mtl\n";
+    const ConvexPolyhedron box = make_box(Vec3(0, 0, 0), Vec3(1, 2, 1));
+    for (const Vec3& v : box.vertices) {
+      const Vec2f uv = uv_at(v);
+      text += "v " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
+              std::to_string(v.z()) + "\nvt " + std::to_string(uv.x()) + " " +
+              std::to_string(uv.y()) + "\n";
+    }
+    for (std::size_t f = 0; f < box.faces.size(); ++f) {
+      text += f % 2 == 0 ? "usemtl red\nf" : "usemtl blue\nf";
+      for (const std::uint32_t v : box.face_corners(f)) {
+        text += " " + std::to_string(v + 1) + "/" + std::to_string(v + 1);
+      }
+      text += "\n";
+    }
+    write("box.obj", text);
+    write("box.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+  }
+  void TearDown() override {
+    unsetenv("SUNDER_CACHE");
+    fs::remove_all(folder_);
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  Scene load(const std::string& lines) const {
+    return parse_scene("[scene]\ndescription = \"x\"\nduration_s = 0.4\n" + lines,
+                       (folder_ / "scene.toml").string(), {});
+  }
+
+  fs::path folder_;
+};
+
+const std::string kBody = "[[body]]\nmesh = \"box.obj\"\n";
+
+TEST_F(MeshPaints, AreTheScenesOncePerLook) {
+  const Scene scene = load(kBody + kBody + "position = [5, 0, 0]\n");
+  ASSERT_EQ(scene.paints.size(), 2u);
+  EXPECT_EQ(scene.paints[0].color, Vec3f(1, 0, 0));
+  EXPECT_EQ(scene.paints[1].color, Vec3f(0, 0, 1));
+  for (const Solid& solid : scene.solids) {
+    for (const ConvexPtr& convex : solid.compound.convexes) {
+      ASSERT_TRUE(convex->visual);
+      for (const PolygonMesh::Face& face : convex->visual->faces)
+        EXPECT_EQ(face.mark != 0, face.id.none());
+    }
+  }
+}
+
+TEST_F(MeshPaints, AreLeftOutWhereTheMaterialsLookIsAskedFor) {
+  const Scene scene = load(kBody + "look = \"material\"\n");
+  EXPECT_TRUE(scene.paints.empty());
+  for (const ConvexPtr& convex : scene.solids.at(0).compound.convexes) {
+    for (const PolygonMesh::Face& face : convex->visual->faces) EXPECT_EQ(face.mark, 0u);
+  }
+}
+
+TEST_F(MeshPaints, StayOnTheOutsideThroughABreakAndNeverGetInside) {
+  const Scene scene = load(kBody +
+                           "material = \"stone\"\n[script]\n[[script.shot]]\ntime_s = 0.05\n"
+                           "from = [-3, 1, 0]\nat = [0, 1, 0]\nspeed_m_s = 60\nradius_m = 0.3\n");
+  const auto simulation = make_simulation(scene);
+  FramePtr last;
+  while (FramePtr frame = simulation->next()) last = std::move(frame);
+  ASSERT_GT(last->bodies.size(), 10u) << "it breaks";
+  ASSERT_TRUE(last->paints);
+  ASSERT_EQ(last->paints->size(), 2u);
+  const Box box{Vec3(0, 0, 0), Vec3(1, 2, 1)};
+  std::size_t painted = 0, broken = 0;
+  for (const Instance& instance : last->instances) {
+    const Mesh& mesh = *(*last->meshes)[instance.mesh.value];
+    if (scene.materials[mesh.material.value].name != "stone") continue;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      const Vec3 at = mesh.origin_T + mesh.vertices[v].position.cast<double>();
+      const Vec3 normal = mesh.vertices[v].normal.cast<double>();
+      const Vec3 beyond = at + 1e-3 * normal;
+      const bool outside =
+          (beyond.array() < box.min.array()).any() || (beyond.array() > box.max.array()).any();
+      ASSERT_NE(mesh.vertices[v].look, Mesh::kSurface) << "the file says how all of it looks";
+      if (mesh.vertices[v].look == Mesh::kInterior) {
+        ++broken;
+        continue;
+      }
+      ++painted;
+      ASSERT_TRUE(outside);
+      ASSERT_EQ(mesh.uvs.size(), mesh.vertices.size());
+      ASSERT_LT((mesh.uvs[v] - uv_at(at)).norm(), 1e-4f) << "wherever it was cut";
+    }
+  }
+  EXPECT_GT(painted, 50u);
+  EXPECT_GT(broken, painted) << "most faces of pieces are inside";
+}
+
+}  // namespace
+}  // namespace sunder::scenes
