@@ -291,7 +291,7 @@ void Renderer::Impl::draw_glass() {
   begin(light, programs.glass);
   gl.Enable(GL_CULL_FACE);
   gl.Enable(GL_BLEND);
-  gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
+  gl.BlendFuncSeparate(GL_ONE, GL_SRC1_COLOR, GL_ZERO, GL_SRC1_ALPHA);
   gl.DepthMask(GL_FALSE);
   pieces.draw(Pieces::Group::kGlass);
   gl.DepthMask(GL_TRUE);

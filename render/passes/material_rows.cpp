@@ -15,6 +15,7 @@ struct Finish {
   float bump = 1;
   float contrast = 1.4f;  ///< How far brightness swings with the tile.
   float plaster_from = kNoPlaster;
+  float chips = 1;  ///< How bright debris of it is.
 };
 
 Finish surface_finish(const Look& look) {
@@ -47,7 +48,7 @@ Finish interior_finish(const Look& look) {
     case Texture::kMetal:
       return {Tile::kGrain, look.color, 1.5f, 1.5f};
     case Texture::kGlass:
-      return {Tile::kGrain, look.color, 1, 1};
+      return {Tile::kGrain, look.color, 1, 1, kNoPlaster, 0.45f};
     default:
       return {Tile::kRubble, 0.72f * look.color + Vec3f(0.03f, 0.03f, 0.03f), 1.1f, 1.6f};
   }
@@ -55,11 +56,12 @@ Finish interior_finish(const Look& look) {
 
 void append(std::vector<float>& texels, const Look& look, const Finish& finish) {
   const auto tile = static_cast<std::size_t>(finish.tile);
-  texels.insert(texels.end(), {look.color.x(), look.color.y(), look.color.z(),           //
-                               1 / kTileMetres[tile],                                    //
-                               finish.second.x(), finish.second.y(), finish.second.z(),  //
-                               finish.plaster_from,                                      //
-                               static_cast<float>(tile), finish.bump, finish.contrast, 0});
+  texels.insert(texels.end(),
+                {look.color.x(), look.color.y(), look.color.z(),           //
+                 1 / kTileMetres[tile],                                    //
+                 finish.second.x(), finish.second.y(), finish.second.z(),  //
+                 finish.plaster_from,                                      //
+                 static_cast<float>(tile), finish.bump, finish.contrast, finish.chips});
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ void main() {
   int row = 6 * int(material) + 3;
   first_color = texelFetch(materials, row);
   second_color = texelFetch(materials, row + 1);
-  finish = texelFetch(materials, row + 2).xyz;
+  vec4 rest_of_row = texelFetch(materials, row + 2);
+  finish = rest_of_row.xyz;
+  first_color.rgb *= rest_of_row.w;  // a heap of glass is see-through
 }
 #endif

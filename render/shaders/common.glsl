@@ -23,16 +23,25 @@ const vec3 kHorizon = vec3(0.70, 0.70, 0.69);
 
 const float kHaze = 0.0075;  // per metre
 
-// What is seen of the sky in a direction; also what far things fade into.
-vec3 sky(vec3 direction) {
-  float height = clamp(direction.y, 0.0, 1.0);
-  float thin = 1.0 - height;
+// The sky in a direction of which its height and the cosine to the sun are known.
+vec3 sky_at(float height, float sunward) {
+  float thin = 1.0 - clamp(height, 0.0, 1.0);
   float air = thin * thin;
   air *= air;
   vec3 color = mix(kZenith, kHorizon, 0.22 + 0.78 * air);
-  float glow = max(dot(direction, to_sun.xyz), 0.0);
+  float glow = max(sunward, 0.0);
   float glow4 = glow * glow * glow * glow;
   return color + vec3(0.42, 0.31, 0.18) * (0.35 * glow4 + 0.8 * glow4 * glow4 * glow4 * glow4);
+}
+
+// What is seen of the sky in a direction; also what far things fade into.
+vec3 sky(vec3 direction) { return sky_at(direction.y, dot(direction, to_sun.xyz)); }
+
+// What a mirror shows: the sky above, sunlit ground below, the horizon between them as soft as
+// the mirror is rough.
+vec3 mirrored_at(float height, float sunward, float soft) {
+  vec3 below = ground.rgb * (0.14 * kSunLight * max(to_sun.y, 0.0) + 0.3 * kSkyLight);
+  return mix(below, sky_at(height, sunward), smoothstep(-soft, soft, height));
 }
 
 // Air between the eye and something `metres` away.

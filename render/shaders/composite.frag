@@ -9,10 +9,13 @@ uniform sampler2D dust;
 in vec2 at;
 out vec4 color;
 
-const float kExposure = 0.52;
+const float kExposure = 1.2;
 
-// Narkowicz's fit of the ACES filmic curve (2015).
-vec3 filmic(vec3 x) { return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0); }
+// Reinhard's curve (2002) with a toe: shadows are deep, and white stone in the sun keeps its shape.
+vec3 filmic(vec3 x) {
+  vec3 part = x / (1.0 + x);
+  return min(part * (0.4 + 0.88 * part), vec3(1.0));
+}
 
 // The sRGB curve, in the shader: drivers' own encodings differ. Of roots, which are exact
 // everywhere, rather than a power; fitted to 0.011 of a level.

@@ -1,4 +1,7 @@
-// A pane: what is behind it, tinted, under a reflected sky; broken edges scatter light.
+// Glass: a face reflects more of the world the more it is looked along, and takes some colour from
+// what is behind it; an edge, which is looked into far, takes most of it, and throws a little of the
+// light from around back. So cracks are darker than what is bright behind them, brighter than what
+// is dark, and glint where they mirror the sun.
 in vec3 rest;
 in vec3 normal_rest;
 in vec3 shadow;
@@ -7,24 +10,38 @@ flat in vec3 up_rest;
 flat in vec3 eye_rest;
 flat in vec4 first_color;
 flat in vec3 finish;
-out vec4 color;
+layout(location = 0, index = 0) out vec4 color;
+layout(location = 0, index = 1) out vec4 through;  // what is left of that behind
 
 void main() {
   vec3 n = normalize(normal_rest);
-  vec3 from_eye = rest - eye_rest;
-  float metres = length(from_eye);
-  vec3 view = from_eye / metres;
+  vec3 view = normalize(rest - eye_rest);
   if (dot(view, n) > 0.0) n = -n;
   float edge = finish.y;  // 1 on a broken face
-  float grazing = 1.0 - max(-dot(view, n), 0.0);
-  float fresnel = 0.05 + 0.95 * grazing * grazing * grazing * grazing * grazing;
-  vec3 mirrored = reflect(view, n);
-  float up = dot(mirrored, up_rest);
-  vec3 mirrored_sky = mix(ground_light(), mix(kHorizon, kZenith, max(up, 0.0)), smoothstep(-0.1, 0.1, up));
-  float shine = pow(max(dot(mirrored, sun_rest), 0.0), 200.0) * 6.0 * sunlit(shadow);
+  float facing = max(-dot(view, n), 0.0);
+  float grazing = 1.0 - facing;
+  float fresnel = grazing * grazing;
+  fresnel = 0.07 + 0.93 * fresnel * fresnel * grazing;
 
-  vec3 scattered = first_color.rgb * (ambient_light(dot(n, up_rest)) + 0.5 * kSunLight * sunlit(shadow));
-  float body = mix(0.025, 0.5, edge);
-  vec3 light = mirrored_sky * fresnel + scattered * body + kSunLight * 0.25 * shine;
-  color = vec4(light, clamp(fresnel + body, 0.0, 1.0));
+  vec3 mirrored = reflect(view, n);
+  float sunward = dot(mirrored, sun_rest);
+  float sun = sunlit(shadow);
+  float glint = max(sunward, 0.0);
+  glint *= glint;
+  glint *= glint;
+  glint *= glint;
+  glint *= glint;
+  glint *= glint;
+  glint *= glint * glint;
+  vec3 world = mirrored_at(dot(mirrored, up_rest), sunward, 0.04);
+  vec3 light = fresnel * world;
+  light += kSunLight * (sun * glint * (0.4 + fresnel));
+
+  // The way through grows as the face is looked along, up to three times.
+  float way = min(1.0 / max(facing, 0.33), 3.0);
+  vec3 clear = exp2(-way * 0.25 * (1.0 - first_color.rgb));
+  vec3 deep = 0.5 * first_color.rgb * first_color.rgb;
+  light += edge * deep * (0.35 * world + 0.1 * kSunLight * sun);
+  through = vec4((1.0 - fresnel) * mix(clear, deep, edge), 1.0 - fresnel);
+  color = vec4(light, 1.0);
 }

@@ -60,7 +60,8 @@ void main() {
   vec3 bumped = normalize(n - tilt + n * dot(n, tilt));
 
   float facing = dot(bumped, sun_rest) * smoothstep(0.0, 0.12, dot(n, sun_rest));
-  vec3 direct = kSunLight * (max(facing, 0.0) * sunlit(shadow));
+  float sunlit_here = sunlit(shadow);
+  vec3 direct = kSunLight * (max(facing, 0.0) * sunlit_here);
   vec3 around = ambient_light(dot(bumped, up_rest));
 
   vec3 from_eye = rest - eye_rest;
@@ -69,20 +70,26 @@ void main() {
   // Metal has little colour of its own, but tints what it mirrors.
   vec3 view = from_eye / metres;
   vec3 mirrored = reflect(view, bumped);
-  float fresnel = 1.0 - max(-dot(view, bumped), 0.0);
-  fresnel *= fresnel;
-  fresnel *= fresnel;
-  float shine = max(dot(mirrored, sun_rest), 0.0);
+  float grazing = 1.0 - max(-dot(view, bumped), 0.0);
+  float fresnel = grazing * grazing;
+  fresnel *= fresnel * grazing;
+  float sunward = dot(mirrored, sun_rest);
+  float shine = max(sunward, 0.0);
   shine *= shine;
   shine *= shine;
   shine *= shine;
   shine *= shine;
-  float up = dot(mirrored, up_rest);
-  vec3 mirrored_sky = mix(ground_light(), mix(kHorizon, kZenith, max(up, 0.0)),
-                          smoothstep(-0.15, 0.15, up));
-  vec3 tint = 1.7 * albedo;
-  around = 0.25 * albedo * around + tint * mirrored_sky * (0.5 + 0.4 * fresnel);
-  direct *= 0.25 * albedo + tint * 1.7 * shine;
+  float sharp = shine * shine * shine;
+  // Rough where the weather has been at it: there it is duller, and its horizon softer.
+  float rough = smoothstep(0.35, 0.8, cloud.g + 0.3 * (tile.r - 0.5));
+  float drawn = texture(tiles, vec3(uv * vec2(1.9, 0.07), kCloudLayer)).r - 0.5;  // as steel is drawn
+  vec3 tint = min(1.5 * first_color.rgb * (0.96 + 0.08 * tile.r + 0.2 * drawn), vec3(1.0));
+  vec3 mirror = mix(tint, vec3(1.0), fresnel);
+  vec3 world = mirrored_at(dot(mirrored, up_rest) + 0.2 * drawn * (1.0 - grazing), sunward,
+                           mix(0.05, 0.25, rough));
+  around = tint * (0.1 + 0.1 * rough) * around + mirror * world * (0.85 - 0.3 * rough);
+  direct = kSunLight * sunlit_here * (0.12 * tint * max(facing, 0.0) +
+                                      mirror * mix(1.6 * sharp, 0.6 * shine, rough));
 #else
   around *= albedo;
   direct *= albedo;

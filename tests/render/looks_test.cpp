@@ -1,4 +1,6 @@
-// What pictures show of what things are made of: a file's paints.
+// What pictures show of what things are made of: a file's paints, glass, metal, white stone.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
@@ -127,6 +129,72 @@ TEST(Paint, APictureThatIsNoneIsRefused) {
   paint_all(frame, paint);
   EXPECT_THROW(drawn(frame), InputError);
   EXPECT_NO_THROW(drawn(wall_frame(Stuff::kConcrete))) << "and the renderer goes on";
+}
+
+/// A pane before a wall, its broken edge in the middle.
+Frame pane_frame(const Vec3& eye, bool with_pane = true) {
+  SyntheticFrame s;
+  s.add_box({-4, 0, -2}, {4, 3, -1.9}, Stuff::kWood);
+  if (with_pane) {
+    s.add_box({-1, 0.2, 0}, {0, 2, 0.02}, Stuff::kGlass);
+    s.add_box({0.01, 0.2, 0}, {1, 2, 0.02}, Stuff::kGlass);
+  }
+  s.frame.view.eye_W = eye;
+  s.frame.view.target_W = {0, 1.1, 0};
+  s.frame.view.to_sun_W = {0.5, 0.7, 0.6};
+  return s.frame;
+}
+
+TEST(Glass, TakesColorFromWhatIsBehindItAndIsBrighterWhereItIsLookedAlong) {
+  const Vec3 eye(0.3, 1.1, 4);
+  const Vec3f with = mean(drawn(pane_frame(eye)), 130, 60, 150, 110);
+  const Vec3f without = mean(drawn(pane_frame(eye, false)), 130, 60, 150, 110);
+  EXPECT_LT(with.x(), without.x() - 8) << "red is taken";
+  EXPECT_LT(with.x() / with.y(), without.x() / without.y());
+}
+
+TEST(Glass, FromAnywhereIsNeitherBlackNorBurntOut) {
+  for (int step = 0; step < 12; ++step) {
+    const double angle = 0.13 + 0.5 * step;
+    const Image image =
+        drawn(pane_frame(Vec3(3 * std::sin(angle), 0.3 + 0.2 * step, 3 * std::cos(angle))));
+    std::size_t black = 0, white = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+      black += image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2] == 0;  // what is no number is
+      white += image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2] == 3 * 255;
+    }
+    EXPECT_EQ(black, 0u) << step;
+    EXPECT_LT(white, 40u) << step;
+  }
+}
+
+TEST(Metal, MirrorsTheSkyAboveAndTheGroundBelow) {
+  SyntheticFrame s;
+  s.add_ball({0, 3, 0}, 1, Stuff::kSteel);
+  s.frame.view.eye_W = {0, 3, 4};
+  s.frame.view.target_W = {0, 3, 0};
+  s.frame.view.to_sun_W = {0.9, 0.5, -0.5};
+  s.frame.view.ground_color = {0.5f, 0.3f, 0.1f};
+  const Image image = drawn(s.frame);
+  const Vec3f above = mean(image, 155, 50, 165, 60), below = mean(image, 155, 120, 165, 130);
+  EXPECT_GT(above.z() / above.x(), 1.05f) << above.transpose();
+  EXPECT_GT(below.x() / below.z(), 1.2f) << below.transpose();
+}
+
+TEST(WhiteStone, InTheSunKeepsItsShape) {
+  SyntheticFrame s;
+  s.add_ball({0, 1, 0}, 1, Stuff::kPlaster);
+  auto materials = std::make_shared<std::vector<Material>>(*s.frame.materials);
+  (*materials)[static_cast<std::size_t>(Stuff::kPlaster)].surface = {Texture::kPlain,
+                                                                     Vec3f(0.7f, 0.68f, 0.64f)};
+  s.frame.materials = materials;
+  s.frame.view.eye_W = {0, 1, 4};
+  s.frame.view.target_W = {0, 1, 0};
+  s.frame.view.to_sun_W = {1, 0.3, 1};
+  const Image image = drawn(s.frame);
+  const float lit = mean(image, 180, 75, 190, 85).x(), slanting = mean(image, 139, 75, 149, 85).x();
+  EXPECT_LT(lit, 240);
+  EXPECT_GT(lit, slanting + 18) << "it is round";
 }
 
 }  // namespace
