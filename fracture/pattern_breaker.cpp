@@ -111,6 +111,9 @@ class PatternBreaker final : public Breaker {
   StressAnswer stress(const Structure& structure, const LoadCase& load) const override {
     return break_by_stress(structure, load);
   }
+  std::vector<float> utilisation(const Structure& structure, const LoadCase& load) const override {
+    return utilisation_by_stress(structure, load);
+  }
   Rejoined rejoin(const BentPair& bent) const override { return rejoin_bent(bent); }
 
  private:

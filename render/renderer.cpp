@@ -12,6 +12,7 @@
 #include "render/image/antialias.h"
 #include "render/image/hud.h"
 #include "render/passes/chips.h"
+#include "render/passes/marks.h"
 #include "render/passes/material_rows.h"
 #include "render/passes/pictures.h"
 #include "render/passes/pieces.h"
@@ -110,6 +111,7 @@ struct Renderer::Impl {
   void draw_occlusion();
   void draw_glass();
   void draw_dust();
+  void draw_marks();
   void composite();
   Image read_back();
 
@@ -126,6 +128,7 @@ struct Renderer::Impl {
   Chips chips;
   Puffs puffs;
   std::optional<Pictures> pictures;
+  Marks marks;
   GLuint uniform_buffer = 0;
   GLuint material_buffer = 0;
   GLuint empty_vertex_array = 0;  ///< For passes that need no vertices.
@@ -152,7 +155,8 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
       programs(make_programs(gl)),
       pieces(gl),
       chips(gl),
-      puffs(gl) {
+      puffs(gl),
+      marks(gl) {
   const int w = options.width;
   const int h = options.height;
   const int half_w = (w + 1) / 2;
@@ -227,6 +231,7 @@ void Renderer::Impl::upload(const Frame& frame) {
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
   chips.update(frame, uniforms.lens[1], uniforms.to_sun[3]);
   puffs.update(frame);
+  marks.update(view_mode.marks(), frame.view.eye_W);
 }
 
 void Renderer::Impl::draw_shadows() {
@@ -311,6 +316,11 @@ void Renderer::Impl::draw_dust() {
   gl.Disable(GL_BLEND);
 }
 
+void Renderer::Impl::draw_marks() {
+  begin(light, 0);
+  marks.draw();
+}
+
 void Renderer::Impl::composite() {
   gl.Disable(GL_DEPTH_TEST);
   gl.Disable(GL_CULL_FACE);
@@ -350,6 +360,7 @@ Image Renderer::draw(const Frame& frame) {
   r.done("glass");
   if (r.puffs.any()) r.draw_dust();
   r.done("dust");
+  if (r.marks.any()) r.draw_marks();
   r.composite();
   r.done("composite");
   Image image = r.read_back();

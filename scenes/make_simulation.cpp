@@ -89,9 +89,11 @@ std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOption
   }
   std::unique_ptr<Particles> particles = make_particles(scene);
   std::unique_ptr<Physics> physics = make_physics(scene);
-  return std::make_unique<Simulation>(std::move(scene), std::move(physics),
-                                      fracture::make_pattern_breaker(failure_log(options)),
-                                      std::move(particles));
+  auto simulation = std::make_unique<Simulation>(
+      std::move(scene), std::move(physics), fracture::make_pattern_breaker(failure_log(options)),
+      std::move(particles));
+  if (options.inspect) simulation->inspect();
+  return simulation;
 }
 
 RunInfo run_info(const Scene& scene, const std::string& preset) {

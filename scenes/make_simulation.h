@@ -20,6 +20,8 @@ struct SimulationOptions {
   std::filesystem::path cases_folder;
   /// Told, in a sentence, what the user should know, now and when the run is over; may be empty.
   std::function<void(const std::string& warning)> warn;
+  /// Frames have an Inspection, for debug views; it takes time, and the run is the same.
+  bool inspect = false;
 };
 
 /// A source of frames: frame 0 is the scene as given, then one every 1/60 s until the scene's

@@ -1,8 +1,9 @@
-// Layout: "SUNDERF5" (or 4: without paints; or 3: nothing is known to be asleep, either; or 2:
-// without poses of meshes, either; or 1: without debris and dust, either), XXH3 of the rest (8
-// bytes), size of the content (8 bytes), content in zstd.
+// Layout: "SUNDERF6" (or 5: without what happens inside; or 4: without paints, either; or 3: nothing
+// is known to be asleep, either; or 2: without poses of meshes, either; or 1: without debris and
+// dust, either), XXH3 of the rest (8 bytes), size of the content (8 bytes), content in zstd.
 #include "engine/io/frame_file.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include <xxhash.h>
@@ -15,7 +16,7 @@
 namespace sunder {
 namespace {
 
-constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '5'};
+constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '6'};
 constexpr std::size_t kName = sizeof kMagic - 1;  // what precedes the version
 constexpr std::size_t kHeader = sizeof kMagic + 8;
 constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refused
@@ -54,6 +55,34 @@ std::vector<Particle> take_codes(ByteReader& in, const std::string& file, std::s
   return particles;
 }
 
+void put(ByteWriter& out, const Inspection& inspection) {
+  out.put(static_cast<std::uint32_t>(inspection.contacts.size()));
+  for (const FrameContact& contact : inspection.contacts) out.put(contact.point_W, contact.force_W);
+  out.put(static_cast<std::uint32_t>(inspection.boxes.size()));
+  for (const FrameBox& box : inspection.boxes) out.put(box.min_W, box.max_W, box.body);
+  out.put_list(inspection.islands);
+  out.put_list(inspection.stresses);
+}
+
+std::shared_ptr<const Inspection> take_inspection(ByteReader& in, const std::string& file,
+                                                  const Frame& frame) {
+  auto inspection = std::make_shared<Inspection>();
+  inspection->contacts.resize(in.take_count(24));
+  for (FrameContact& contact : inspection->contacts) in.take_to(contact.point_W, contact.force_W);
+  inspection->boxes.resize(in.take_count(28));
+  for (FrameBox& box : inspection->boxes) in.take_to(box.min_W, box.max_W, box.body);
+  inspection->islands = in.take_list<std::uint32_t>();
+  inspection->stresses = in.take_list<float>();
+  const auto is_body = [&](std::uint32_t body) { return body < frame.bodies.size(); };
+  if (inspection->islands.size() != frame.bodies.size() ||
+      inspection->stresses.size() != frame.instances.size() ||
+      !std::ranges::all_of(inspection->islands, is_body) ||
+      !std::ranges::all_of(inspection->boxes, is_body, &FrameBox::body)) {
+    throw InputError(file + ": corrupt: what happens inside is of other bodies");
+  }
+  return inspection;
+}
+
 /// Only the meshes that the frame draws; `new_of_old` numbers them.
 std::vector<std::uint32_t> drawn_meshes(const Frame& frame, std::vector<std::uint32_t>& drawn) {
   std::vector<std::uint32_t> new_of_old(frame.meshes->size(), MeshIndex::kNone);
@@ -87,6 +116,8 @@ std::vector<std::byte> content_of(const Frame& frame) {
   std::vector<std::shared_ptr<const Mesh>> meshes;
   for (const std::uint32_t mesh : drawn) meshes.push_back((*frame.meshes)[mesh]);
   put_uvs(out, meshes);
+  out.put(static_cast<std::uint8_t>(frame.inspection ? 1 : 0));
+  if (frame.inspection) put(out, *frame.inspection);
   return std::move(out.bytes);
 }
 
@@ -117,6 +148,9 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
     take_uvs(in, file, meshes);
   }
   for (const Mesh& mesh : meshes) check_looks(mesh, file, paints.size());
+  if (version >= 6 && in.take<std::uint8_t>() != 0) {
+    frame->inspection = take_inspection(in, file, *frame);
+  }
   if (!in.at_end()) throw InputError(file + ": corrupt: bytes are left over");
   frame->materials = std::make_shared<const std::vector<Material>>(std::move(materials));
   if (!paints.empty())

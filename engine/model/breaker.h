@@ -218,6 +218,12 @@ class Breaker {
   /// Which bonds of a structure, that is not empty, a steady load breaks, judged by the stress that
   /// balances it; spends about `load.most_work`.
   virtual StressAnswer stress(const Structure& structure, const LoadCase& load) const = 0;
+  /// Per slot of a structure, how much a steady load makes of what the worst bond of its convex
+  /// bears; negative where there is none. Nothing comes of it: it is for who looks inside.
+  virtual std::vector<float> utilisation(const Structure& /*structure*/,
+                                         const LoadCase& /*load*/) const {
+    return {};
+  }
   /// Makes one structure of two that have bent against each other: both end midway between them,
   /// and b's convexes are moved into a's rest frame. Mass is kept.
   virtual Rejoined rejoin(const BentPair& /*bent*/) const { return {}; }

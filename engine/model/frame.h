@@ -82,6 +82,30 @@ struct FrameBody {
 struct Instance {
   MeshIndex mesh;
   std::uint32_t body = 0;  ///< Index in Frame::bodies.
+  MaterialIndex material = {};  ///< That it is drawn as; none(): the mesh's.
+};
+
+/// A point where two bodies press on each other.
+struct FrameContact {
+  Vec3f point_W = Vec3f::Zero();
+  Vec3f force_W = Vec3f::Zero();  ///< On the second, N, friction included.
+};
+
+/// What the broad phase takes a shape of a body for.
+struct FrameBox {
+  Vec3f min_W = Vec3f::Zero(), max_W = Vec3f::Zero();
+  std::uint32_t body = 0;  ///< Index in Frame::bodies.
+};
+
+/// What happens inside, for who looks there: gathered only where that was asked for.
+struct Inspection {
+  std::vector<FrameContact> contacts;
+  std::vector<FrameBox> boxes;
+  /// Per body, the first of those that contacts and joints lead to without crossing what is held.
+  std::vector<std::uint32_t> islands;
+  /// Per instance, the worst stress on the bonds of its convex, in parts of what they bear;
+  /// negative where no load can break any.
+  std::vector<float> stresses;
 };
 
 /// A piece of debris: one of kDebrisVariants chips, inscribed in a sphere.
@@ -162,6 +186,7 @@ struct Frame {
   FrameReport report;
   /// Of a frame from a take: the hash of the state as it was, which is stored less exactly; else 0.
   std::uint64_t recorded_hash = 0;
+  std::shared_ptr<const Inspection> inspection;  ///< Null unless it was asked for.
 };
 using FramePtr = std::shared_ptr<const Frame>;
 

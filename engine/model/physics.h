@@ -14,7 +14,8 @@
 //   contact_loads(), joint_loads()   what pressed and pulled; overloaded bonds part it: replace(),
 //   joint_flows(), strengthen()      what flowed, and hardens by it
 //   ...
-// And at the end of a frame penetrations(). states() may be asked for at any time.
+// And at the end of a frame penetrations(), and inspect() if somebody looks. states() may be asked
+// for at any time.
 #pragma once
 
 #include <array>
@@ -172,6 +173,25 @@ struct SolveReport {
   std::uint32_t frozen = 0;  ///< Bodies stopped because they were no longer finite.
 };
 
+/// A point where two bodies press on each other.
+struct PressPoint {
+  std::uint32_t body_tag_a = 0, body_tag_b = 0;
+  Vec3 point_W = Vec3::Zero();
+  Vec3 force_W = Vec3::Zero();  ///< On b, N, friction included, over the last substep.
+};
+
+/// What the broad phase takes a shape for.
+struct ShapeBox {
+  std::uint32_t body_tag = 0;
+  Box box_W;
+};
+
+/// What goes on in a physics, for who looks into it.
+struct PhysicsInspection {
+  std::vector<PressPoint> presses;  ///< Ordered by a key that does not depend on threads.
+  std::vector<ShapeBox> boxes;      ///< Likewise.
+};
+
 class Physics {
  public:
   virtual ~Physics() = default;
@@ -238,6 +258,8 @@ class Physics {
   virtual std::vector<JointFlow> joint_flows() const { return {}; }
   /// Depths (m, >= 0) of all contact points that carry load, unordered; for statistics.
   virtual std::vector<float> penetrations() const = 0;
+  /// As it is now; asked for by debug views alone.
+  virtual PhysicsInspection inspect() const { return {}; }
   /// What it did since the last call.
   virtual std::vector<WorkItem> take_work() { return {}; }
 };

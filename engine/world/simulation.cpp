@@ -12,6 +12,7 @@
 #include "engine/world/actors/landscape.h"
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/break/break_stage.h"
+#include "engine/world/inspect.h"
 #include "engine/world/load/load_stage.h"
 #include "engine/world/particles/particle_stage.h"
 #include "engine/world/snapshot.h"
@@ -52,7 +53,8 @@ struct Simulation::Parts {
   BreakStage breaks;
   LoadStage loads;
   ParticleStage particles;
-  bool started = false;  ///< Frame 0 has been given out.
+  bool started = false;   ///< Frame 0 has been given out.
+  bool inspects = false;  ///< Somebody looks inside.
 
   Parts(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaks_by,
         std::unique_ptr<Particles> moves)
@@ -83,8 +85,10 @@ Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
 
 Simulation::~Simulation() = default;
 
+void Simulation::inspect() { parts_->inspects = true; }
+
 FramePtr Simulation::next() {
-  auto& [world, breaker, act, breaks, loads, particles, started] = *parts_;
+  auto& [world, breaker, act, breaks, loads, particles, started, inspects] = *parts_;
   if (started) {
     const double frame_s = world.clock.frame_s();
     const double end_s = static_cast<double>(world.clock.frame + 1) * frame_s;
@@ -102,6 +106,7 @@ FramePtr Simulation::next() {
                         breaks.waiting() + loads.waiting());
   frame->report.work = world.ledger.work.take();
   clock.end(Stage::kSnapshot, frame->report);
+  if (inspects) frame->inspection = sunder::inspect(world, *breaker, *frame);
   return frame;
 }
 

@@ -23,6 +23,8 @@ class Simulation final : public FrameSource {
   ~Simulation() override;
 
   FramePtr next() override;
+  /// Frames from now on say what happens inside (Frame::inspection); the run is the same.
+  void inspect();
   /// One step of the scene's dt.
   void advance();
 

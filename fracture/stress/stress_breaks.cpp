@@ -112,6 +112,22 @@ class StressBreaks {
     return answer;
   }
 
+  std::vector<float> utilisation(std::size_t slots) {
+    StressAnswer answer;
+    memory_ = recall(load_.memory.get(), compound_, slots_, load_.materials, answer.work);
+    most_work_ = std::numeric_limits<std::uint64_t>::max();
+    solve(answer);
+    const std::vector<double> parts = judge(answer).parts();
+    std::vector<float> worst(slots, -1);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (const std::uint32_t convex : {compound_.bonds[i].a, compound_.bonds[i].b}) {
+        float& of_convex = worst[slots_[convex].value];
+        of_convex = std::max(of_convex, static_cast<float>(parts[i]));
+      }
+    }
+    return worst;
+  }
+
  private:
   std::vector<ConvexLoad> by_convex(std::span<const Load> loads) const {
     std::vector<ConvexLoad> all;
@@ -317,6 +333,11 @@ class StressBreaks {
 StressAnswer break_by_stress(const Structure& structure, const LoadCase& load) {
   SUNDER_CHECK(!structure.empty());
   return StressBreaks(structure, load).run();
+}
+
+std::vector<float> utilisation_by_stress(const Structure& structure, const LoadCase& load) {
+  SUNDER_CHECK(!structure.empty());
+  return StressBreaks(structure, load).utilisation(structure.slot_count());
 }
 
 }  // namespace sunder::fracture

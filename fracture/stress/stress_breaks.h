@@ -6,6 +6,8 @@
 // Bonds that yield are not cut: where no others are overloaded, their sections flow (yielding.h).
 #pragma once
 
+#include <vector>
+
 #include "engine/model/breaker.h"
 
 namespace sunder::fracture {
@@ -13,5 +15,8 @@ namespace sunder::fracture {
 /// What Breaker::stress() answers: cuts the bonds that the load is too much for, and what comes
 /// off.
 StressAnswer break_by_stress(const Structure& structure, const LoadCase& load);
+
+/// What Breaker::utilisation() answers, however much work it takes.
+std::vector<float> utilisation_by_stress(const Structure& structure, const LoadCase& load);
 
 }  // namespace sunder::fracture

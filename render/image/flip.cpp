@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kPixelsPerDegree = 67.02f;
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr std::size_t kRowsPerChunk = 16;
+constexpr std::size_t kRowsAChunk = 16;
 
 /// One value a pixel.
 struct Plane {
@@ -54,7 +54,7 @@ Plane convolved(const Plane& plane, const Kernel& along_x, const Kernel& along_y
   const std::size_t radius_x = along_x.size() / 2;
   const std::size_t radius_y = along_y.size() / 2;
   Plane across(w, h);
-  for_chunks(h, kRowsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+  for_chunks(h, kRowsAChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     std::vector<float> padded(w + 2 * radius_x);
     for (std::size_t y = begin; y < end; ++y) {
       const float* row = plane.row(y);
@@ -68,7 +68,7 @@ Plane convolved(const Plane& plane, const Kernel& along_x, const Kernel& along_y
     }
   });
   Plane result(w, h);
-  for_chunks(h, kRowsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+  for_chunks(h, kRowsAChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t y = begin; y < end; ++y) {
       float* out = result.row(y);
       for (std::size_t k = 0; k < along_y.size(); ++k) {

@@ -184,15 +184,17 @@ void Pieces::place(const Frame& frame) {
       texels[4 * row + 3] = translation[row];
       texels[12 + row] = static_cast<float>(origin[row]);
     }
-    texels[15] = static_cast<float>(slot.mesh->material.value);
+    const MaterialIndex given = frame.instances[i].material;
+    const std::uint32_t material = (given.none() ? slot.mesh->material : given).value;
+    texels[15] = static_cast<float>(material);
 
     const Vec3f center = rotation * slot.center + translation;
     const float distance = center.dot(forward.cast<float>());
-    const Group group = group_of((*frame.materials)[slot.mesh->material.value]);
+    const Group group = group_of((*frame.materials)[material]);
     const auto add = [&](Group to) {
       placed[static_cast<std::size_t>(to)].push_back({distance, static_cast<std::uint32_t>(i), s});
     };
-    add(slot.painted && group != Group::kGlass ? Group::kPainted : group);
+    add(slot.painted && given.none() && group != Group::kGlass ? Group::kPainted : group);
     if (group == Group::kMatte && slot.radius > kLarge_m) add(Group::kLarge);
     if (group != Group::kGlass) casters_.push_back({center, slot.radius});
   }

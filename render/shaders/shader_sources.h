@@ -19,6 +19,8 @@ extern const char* const occlusion_frag;
 extern const char* const blur_frag;
 extern const char* const composite_frag;
 extern const char* const chips_vert;
+extern const char* const marks_vert;
+extern const char* const marks_frag;
 extern const char* const puffs_vert;
 extern const char* const puffs_frag;
 

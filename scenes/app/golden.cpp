@@ -17,6 +17,7 @@
 #include "engine/io/statistics.h"
 #include "render/image/golden_report.h"
 #include "render/renderer.h"
+#include "render/view_mode.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/golden_file.h"
 #include "scenes/app/run.h"
@@ -142,7 +143,8 @@ FramePtr simulated_frame(const GoldenOptions& options) {
   Scene scene = scenes::load_scene(options.scene, options.load);
   const int last = last_frame(scene, options.frame, "FRAME " + std::to_string(options.frame));
   Progress progress("record " + scene.name, last, options.quiet);
-  const auto simulation = make_simulation(std::move(scene));
+  const render::ViewMode mode(options.render.view_mode);
+  const auto simulation = make_simulation(std::move(scene), mode.looks_inside());
   FramePtr frame;
   for (int i = 0; i <= last; ++i) {
     frame = simulation->next();

@@ -22,7 +22,7 @@ struct Golden {
   int frame = 0;  ///< Of the scene.
   int width = 640;
   int height = 360;
-  std::string view_mode = "materials";
+  std::string view_mode = "materials";  ///< One that looks inside: the frame says what is there.
   bool hud = false;
   render::Thresholds thresholds;
   std::string hash;      ///< Of the baseline's pixels.

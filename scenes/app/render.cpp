@@ -13,6 +13,8 @@
 #include "render/camera.h"
 #include "render/pace.h"
 #include "render/sheet.h"
+#include "render/sinks.h"
+#include "render/view_mode.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/run.h"
 #include "scenes/file/view.h"
@@ -167,7 +169,8 @@ Shown open(const RenderOptions& options, const Span& span, bool from_start) {
   } else {
     Scene scene = scenes::load_scene(options.scene, options.load);
     last = last_frame(scene, -1);
-    shown.source = make_simulation(std::move(scene));
+    const render::ViewMode mode(options.render.view_mode);
+    shown.source = make_simulation(std::move(scene), mode.looks_inside());
   }
   shown.drawn = {span.first, std::min(span.last, last)};
   if (shown.drawn.first > shown.drawn.last) {

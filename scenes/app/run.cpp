@@ -40,8 +40,9 @@ int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks) {
   return stop_signal == 0 ? 0 : 128 + stop_signal;
 }
 
-std::unique_ptr<FrameSource> make_simulation(Scene scene) {
+std::unique_ptr<FrameSource> make_simulation(Scene scene, bool inspect) {
   scenes::SimulationOptions options;
+  options.inspect = inspect;
   options.cases_folder = "sunder-cases";
   options.warn = [](const std::string& warning) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());

@@ -14,8 +14,8 @@
 namespace sunder::app {
 
 /// A scene's simulation as the program has it: warnings go to stderr, breaks that went wrong to
-/// sunder-cases/.
-std::unique_ptr<FrameSource> make_simulation(Scene scene);
+/// sunder-cases/. `inspect`: for a view mode that looks inside.
+std::unique_ptr<FrameSource> make_simulation(Scene scene, bool inspect = false);
 /// Index of the last frame: `wanted`, or, if that is negative, where the scene ends. Throws
 /// InputError if it ends before `wanted`; `asked` is how that was said.
 int last_frame(const Scene& scene, int wanted, const std::string& asked = "");

@@ -13,6 +13,7 @@
 #include "engine/model/work_log.h"
 #include "solver/base/check_bodies.h"
 #include "solver/planar/contact_listener.h"
+#include "solver/planar/planar_reports.h"
 #include "solver/planar/planar_touches.h"
 
 namespace sunder::solver {
@@ -40,7 +41,10 @@ class PlanarPhysics final : public Physics {
   SolveReport solve(double dt_s, int substeps) override;
   BodyStates states() const override { return table_.states(); }
   std::vector<ContactLoad> contact_loads() const override;
-  std::vector<float> penetrations() const override;
+  std::vector<float> penetrations() const override { return find_penetrations(world_, plane_); }
+  PhysicsInspection inspect() const override {
+    return inspect_planar(world_, bodies_.items, plane_, last_h_s_);
+  }
   std::vector<WorkItem> take_work() override { return work_.take(); }
 
  private:
@@ -70,7 +74,8 @@ class PlanarPhysics final : public Physics {
   BodyTable table_;
   std::vector<Nearby> nearby_;
   bool nearby_known_ = false;
-  double dt_s_ = 0;  ///< Of the last collide.
+  double dt_s_ = 0;      ///< Of the last collide.
+  double last_h_s_ = 0;  ///< Of Box2D's last step; 0: there was none.
   WorkLog work_;
 };
 
@@ -241,6 +246,7 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   listener_.begin();
   for (int i = 0; i < steps; ++i) step(static_cast<float>(dt_s / steps), report);
   listener_.end(steps);
+  last_h_s_ = dt_s / steps;
   freeze_broken(report);
   report.external_impulse_Ns += plane_.metres(listener_.from_static);
   for (const b2Contact* c = world_.GetContactList(); c; c = c->GetNext()) {
@@ -361,21 +367,6 @@ std::vector<ContactLoad> PlanarPhysics::contact_loads() const {
     }
   }
   return loads;
-}
-
-std::vector<float> PlanarPhysics::penetrations() const {
-  std::vector<float> depths;
-  for (const b2Contact* c = world_.GetContactList(); c; c = c->GetNext()) {
-    if (!c->IsTouching()) continue;
-    b2WorldManifold manifold;
-    c->GetWorldManifold(&manifold);
-    for (int i = 0; i < c->GetManifold()->pointCount; ++i) {
-      if (c->GetManifold()->points[i].normalImpulse <= 0) continue;
-      const double units = -static_cast<double>(manifold.separations[i] + kSlop);
-      depths.push_back(static_cast<float>(std::max(0.0, units / plane_.units_per_m)));
-    }
-  }
-  return depths;
 }
 
 }  // namespace

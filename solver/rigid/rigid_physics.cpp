@@ -67,6 +67,9 @@ class RigidPhysics final : public Physics {
   std::vector<JointLoad> joint_loads() const override { return joints_.loads(bodies_); }
   std::vector<JointFlow> joint_flows() const override { return joints_.flows(); }
   std::vector<float> penetrations() const override { return find_penetrations(contacts_); }
+  PhysicsInspection inspect() const override {
+    return {find_presses(contacts_, bodies_, last_h_s_), broad_phase_.boxes(shapes_, bodies_)};
+  }
   std::vector<WorkItem> take_work() override { return work_.take(); }
 
  private:

@@ -83,6 +83,31 @@ TEST(FrameFile, GivesBackWhatWasWritten) {
   EXPECT_NEAR(read->dust[0].opacity, 0.456f, 0.01f);
 }
 
+TEST(FrameFile, SaysWhatHappensInsideIfTheFrameDoes) {
+  const TemporaryFile file;
+  Frame frame = sample_frame();
+  write_frame(file.path, frame);
+  EXPECT_EQ(read_frame(file.path)->inspection, nullptr);
+  auto inside = std::make_shared<Inspection>();
+  inside->contacts = {{Vec3f(1, 2, 3), Vec3f(4, 5, 6)}};
+  inside->boxes = {{Vec3f(-1, -2, -3), Vec3f(1, 2, 3), 0}};
+  inside->islands = {0};
+  inside->stresses = {0.25f};
+  frame.inspection = inside;
+  write_frame(file.path, frame);
+  const FramePtr read = read_frame(file.path);
+  ASSERT_NE(read->inspection, nullptr);
+  EXPECT_EQ(read->inspection->contacts[0].point_W, Vec3f(1, 2, 3));
+  EXPECT_EQ(read->inspection->contacts[0].force_W, Vec3f(4, 5, 6));
+  EXPECT_EQ(read->inspection->boxes[0].min_W, Vec3f(-1, -2, -3));
+  EXPECT_EQ(read->inspection->boxes[0].max_W, Vec3f(1, 2, 3));
+  EXPECT_EQ(read->inspection->islands, inside->islands);
+  EXPECT_EQ(read->inspection->stresses, inside->stresses);
+  inside->islands = {1};  // of a body that there is not
+  write_frame(file.path, frame);
+  EXPECT_THROW(read_frame(file.path), InputError);
+}
+
 TEST(ParticleCodes, OfWhatWasDecodedAreTheSame) {
   Random random(3);
   const auto number = [&](double largest) {

@@ -1,6 +1,7 @@
 // What a steady load breaks, and what it leaves alone.
 #include "fracture/stress/stress_breaks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -82,6 +83,23 @@ TEST(StressBreaks, ACantileverWithstandsNineTenthsOfItsLoadForEverAndSnapsAtElev
   const Outcome answer = loaded(compound, materials, at_tip(compound, 1.1 * kSnaps_N), memory);
   EXPECT_TRUE(answer.settled);
   expect_snapped_at_root(answer.plan);
+}
+
+TEST(StressBreaks, UtilisationIsWorstAtTheRootAndGrowsWithTheLoad) {
+  const Compound compound = bar(kLength, kWidth, 40, 4);
+  const std::vector<Material> materials = weightless(kRootStrength);
+  const Structure structure(compound);
+  for (const double part : {0.3, 0.9, 1.5}) {  // beyond the limit it is told, and nothing breaks
+    const std::vector<Load> loads = at_tip(compound, part * kSnaps_N);
+    const std::vector<float> worst =
+        utilisation_by_stress(structure, {materials, loads, kDown, Vec3::Zero(), kPlenty});
+    ASSERT_EQ(worst.size(), structure.slot_count());
+    const auto most = std::ranges::max_element(worst);
+    EXPECT_NEAR(double{*most}, part, 0.1 * part);
+    const ConvexSlot at(static_cast<std::size_t>(most - worst.begin()));
+    EXPECT_LT(structure.convex(at)->solid.centroid.x(), 0.05 * kLength);
+    EXPECT_LT(worst.back(), 0.1f * *most) << "the tip bears little";
+  }
 }
 
 TEST(StressBreaks, WhatPartsIsLaidBareOnBothSides) {

@@ -26,7 +26,9 @@ Frame sample() {
 }
 
 std::uint32_t material_of(const Frame& frame, std::size_t instance) {
-  return (*frame.meshes)[frame.instances[instance].mesh.value]->material.value;
+  const Instance& drawn = frame.instances[instance];
+  return (drawn.material.none() ? (*frame.meshes)[drawn.mesh.value]->material : drawn.material)
+      .value;
 }
 
 Vec3f color_of(const Frame& frame, std::size_t instance) {
@@ -80,15 +82,96 @@ TEST(ViewMode, ACompoundHasOneColorAndItsConvexesMany) {
   EXPECT_GE(colors("convexes"), 6u);
 }
 
-TEST(ViewMode, AColorStaysFromFrameToFrameAndItsMeshIsMadeOnce) {
+TEST(ViewMode, AColorStaysFromFrameToFrameAndNoMeshIsMadeForIt) {
   Frame frame = sample();
   ViewMode mode("convexes");
   const Frame before = mode.shown(frame);
   frame.instances.erase(frame.instances.begin());
   const Frame after = mode.shown(frame);
-  EXPECT_EQ((*after.meshes)[after.instances[1].mesh.value],
-            (*before.meshes)[before.instances[2].mesh.value]);
-  EXPECT_EQ(after.meshes->size(), before.meshes->size());
+  EXPECT_EQ(material_of(after, 1), material_of(before, 2));
+  EXPECT_EQ(after.meshes, frame.meshes);
+}
+
+/// The sample with a force of 1 kN upwards, and all of it in one island but for the beam.
+Frame looked_into() {
+  Frame frame = sample();
+  frame.debris.resize(2);
+  auto inside = std::make_shared<Inspection>();
+  inside->contacts = {{Vec3f(1, 2, 3), Vec3f(0, 1000, 0)}, {Vec3f(0, 0, 0), Vec3f(0, 0, 0)}};
+  inside->boxes = {{Vec3f(0, 0, 0), Vec3f(1, 1, 1), 0}, {Vec3f(2, 0, 0), Vec3f(4, 1, 1), 1}};
+  inside->islands = {0, 1, 0};
+  inside->stresses = {0.1f, 0.95f, -1};
+  frame.inspection = inside;
+  return frame;
+}
+
+TEST(ViewMode, WhatLooksInsideRefusesAFrameThatDoesNotSay) {
+  for (const char* name : {"contacts", "stress", "islands", "broadphase"}) {
+    ViewMode mode(name);
+    EXPECT_TRUE(mode.looks_inside());
+    EXPECT_NO_THROW(mode.shown(looked_into())) << name;
+    try {
+      mode.shown(sample());
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      const std::string said = error.what();
+      EXPECT_NE(said.find(name), std::string::npos) << said;
+      EXPECT_NE(said.find("render the scene itself"), std::string::npos) << said;
+    }
+  }
+  EXPECT_FALSE(ViewMode("exploded").looks_inside());
+}
+
+TEST(ViewMode, AContactIsMarkedWhereAndAlongWhatItPressesAndMoreIfItPressesMore) {
+  Frame frame = looked_into();
+  ViewMode mode("contacts");
+  const Frame shown = mode.shown(frame);
+  EXPECT_EQ(color_of(shown, 0), color_of(shown, 2)) << "solids are grey";
+  EXPECT_TRUE(shown.debris.empty());
+  ASSERT_EQ(mode.marks().spindles.size(), 1u) << "where nothing presses nothing is marked";
+  const Mark one = mode.marks().spindles[0];
+  EXPECT_EQ(one.center_W, Vec3f(1, 2, 3));
+  EXPECT_GT(one.half_axes_W.col(0).y(), 2 * one.half_axes_W.col(1).norm());
+  EXPECT_NEAR(one.half_axes_W.determinant(),
+              one.half_axes_W.col(0).norm() * one.half_axes_W.col(1).squaredNorm(), 1e-6)
+      << "turned inside out, it would not be seen";
+  auto pressed = std::make_shared<Inspection>(*frame.inspection);
+  pressed->contacts[0].force_W *= 8;
+  frame.inspection = pressed;
+  mode.shown(frame);
+  const Mark more = mode.marks().spindles[0];
+  EXPECT_NEAR(more.half_axes_W.col(0).norm(), 2 * one.half_axes_W.col(0).norm(), 1e-5);
+  EXPECT_NE(more.color, one.color);
+}
+
+TEST(ViewMode, StressGoesFromBlueToRedAndIsGreyWhereThereIsNone) {
+  ViewMode mode("stress");
+  const Frame shown = mode.shown(looked_into());
+  EXPECT_GT(color_of(shown, 0).z(), 3 * color_of(shown, 0).x());
+  EXPECT_GT(color_of(shown, 1).x(), 3 * color_of(shown, 1).z());
+  EXPECT_EQ(color_of(shown, 2).x(), color_of(shown, 2).z());
+  EXPECT_TRUE(mode.marks().empty());
+}
+
+TEST(ViewMode, AnIslandHasOneColorWhichIsDarkWhereItSleeps) {
+  Frame frame = looked_into();
+  ViewMode mode("islands");
+  const Frame shown = mode.shown(frame);
+  EXPECT_LT(color_of(shown, 2).norm(), color_of(shown, 0).norm());
+  frame.bodies[2].asleep = false;
+  const Frame awake = mode.shown(frame);
+  EXPECT_EQ(color_of(awake, 2), color_of(awake, 0));
+  EXPECT_NE(color_of(awake, 1), color_of(awake, 0)) << "what is held is of no island";
+}
+
+TEST(ViewMode, EveryBoxOfTheBroadPhaseIsDrawnInTheColorOfItsBodysState) {
+  ViewMode mode("broadphase");
+  mode.shown(looked_into());
+  ASSERT_EQ(mode.marks().boxes.size(), 2u);
+  const Mark& wide = mode.marks().boxes[1];
+  EXPECT_EQ(wide.center_W, Vec3f(3, 0.5f, 0.5f));
+  EXPECT_EQ(wide.half_axes_W.col(0), Vec3f(1, 0, 0));
+  EXPECT_NE(wide.color, mode.marks().boxes[0].color);
 }
 
 TEST(ViewMode, ExplodedPiecesMoveApartAndNotIntoTheGround) {

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
+#include "engine/io/state_hash.h"
 #include "scenes/load.h"
 
 namespace sunder::scenes {
@@ -36,6 +38,57 @@ TEST(MakeSimulation, GivesTheSolverTheScenesGravity) {
       EXPECT_NEAR(body.X_WB.position.y(), 5 - 0.5 * 2, 0.03) << planar;
     }
   }
+}
+
+TEST(MakeSimulation, WhoLooksInsideSeesTheWeightThatContactsBearAndChangesNothing) {
+  for (const char* planar : {"", "planar = true\n"}) {
+    const Scene scene = parse_scene(std::string(kHead) + planar +
+                                        "[[solid]]\nstructure = \"stack\"\ncount = 3\n"
+                                        "[[solid]]\nstructure = \"stack\"\ncount = 1\n"
+                                        "position = [5, 0, 0]\n",
+                                    "stack.toml");
+    SimulationOptions look;
+    look.inspect = true;
+    const FramePtr last = end_of(scene, look), unseen = end_of(scene);
+    EXPECT_EQ(hash_state(*last), hash_state(*unseen));
+    EXPECT_EQ(unseen->inspection, nullptr);
+    ASSERT_NE(last->inspection, nullptr);
+    double up_N = 0;  // between things is counted once: 3 + 2 + 1 and 1 boxes' weight
+    for (const FrameContact& contact : last->inspection->contacts)
+      up_N += std::abs(double{contact.force_W.y()});
+    EXPECT_NEAR(up_N, 7 * 9.81 * last->report.mass_kg / 4, 0.02 * up_N) << planar;
+    ASSERT_EQ(last->bodies.size(), 4u);
+    EXPECT_EQ(last->inspection->islands, (std::vector<std::uint32_t>{0, 0, 0, 3}));
+    ASSERT_EQ(last->inspection->boxes.size(), 4u);
+    for (const FrameBox& box : last->inspection->boxes) {
+      const Vec3f at = last->bodies[box.body].X_WB.position.cast<float>();
+      EXPECT_TRUE((box.min_W.head<2>().array() < at.head<2>().array() - 0.49f).all()) << planar;
+      EXPECT_TRUE((box.max_W.head<2>().array() > at.head<2>().array() + 0.49f).all()) << planar;
+    }
+    EXPECT_EQ(last->inspection->stresses.size(), last->instances.size());
+  }
+}
+
+TEST(MakeSimulation, WhoLooksInsideSeesThatAColumnBearsMostAtItsFoot) {
+  const Scene scene =
+      parse_scene(std::string(kHead) +
+                      "[[solid]]\nstructure = \"box\"\nsize_m = [0.3, 6, 0.3]\nblock_m = 1\n"
+                      "anchored = \"bottom\"\n",
+                  "column.toml");
+  SimulationOptions look;
+  look.inspect = true;
+  const FramePtr first = make_simulation(scene, look)->next();
+  std::vector<std::pair<double, float>> by_height;
+  for (std::size_t i = 0; i < first->instances.size(); ++i) {
+    const Mesh& mesh = *(*first->meshes)[first->instances[i].mesh.value];
+    by_height.emplace_back(mesh.origin_T.y(), first->inspection->stresses[i]);
+  }
+  std::ranges::sort(by_height);
+  ASSERT_GE(by_height.size(), 6u);
+  for (std::size_t i = 2; i < by_height.size(); ++i)
+    EXPECT_LT(by_height[i].second, by_height[i - 1].second) << by_height[i].first;
+  EXPECT_GT(by_height.back().second, 0);
+  EXPECT_LT(by_height.front().second, 0.1);
 }
 
 TEST(MakeSimulation, RefusesAPlanarSceneMadeInCodeThatIsNone) {

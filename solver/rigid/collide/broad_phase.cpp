@@ -131,6 +131,17 @@ void BroadPhase::remove_half_space(ShapeSlot s) {
   half_space_of_[s] = -1;
 }
 
+std::vector<ShapeBox> BroadPhase::boxes(const Shapes& shapes, const Bodies& bodies) const {
+  std::vector<ShapeBox> all;
+  for (const ShapeSlot s : role_.slots()) {
+    const bool has_box = role_[s] == Role::kMover || role_[s] == Role::kStatic;
+    if (!has_box || fat_[s].min.x() > fat_[s].max.x()) continue;  // not looked at since it came
+    all.push_back(
+        {bodies.tag[shapes[s].body], {fat_[s].min.cast<double>(), fat_[s].max.cast<double>()}});
+  }
+  return all;
+}
+
 void BroadPhase::update_boxes(const StepContext& step, const Shapes& shapes, const Bodies& bodies) {
   for (const ShapeSlot s : moved_list_) moved_[s] = 0;
   moved_list_.clear();

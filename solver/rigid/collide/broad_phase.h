@@ -46,6 +46,8 @@ class BroadPhase {
   bool strayed(const Pair& pair) const {
     return (moved_[pair.shape_a] || moved_[pair.shape_b]) && !keep(pair);
   }
+  /// The fat boxes of shapes that have one, in order of slots.
+  std::vector<ShapeBox> boxes(const Shapes& shapes, const Bodies& bodies) const;
 
  private:
   enum class Role : std::uint8_t { kAbsent, kMover, kStatic, kHalfSpace };

@@ -3,18 +3,29 @@
 #include <algorithm>
 
 namespace sunder::solver {
+namespace {
+
+/// Manifolds that are there and fit, in the order of their pairs' keys.
+template <class Fits>
+std::vector<const Manifold*> by_key(const Contacts& contacts, const Fits& fits) {
+  std::vector<const Manifold*> all;
+  for (const Manifold& m : contacts.manifolds)
+    if (m.count > 0 && fits(m)) all.push_back(&m);
+  std::sort(all.begin(), all.end(), [&](const Manifold* m, const Manifold* n) {
+    return contacts.pairs[m->pair].key() < contacts.pairs[n->pair].key();
+  });
+  return all;
+}
+
+}  // namespace
 
 std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodies& bodies,
                                             const Shapes& shapes) {
-  std::vector<const Manifold*> loaded;
-  for (const Manifold& m : contacts.manifolds)
-    if (m.count > 0 && (bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b]))
-      loaded.push_back(&m);
-  std::sort(loaded.begin(), loaded.end(), [&](const Manifold* m, const Manifold* n) {
-    return contacts.pairs[m->pair].key() < contacts.pairs[n->pair].key();
-  });
+  const auto is_reported = [&](const Manifold& m) {
+    return bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b];
+  };
   std::vector<ContactLoad> loads;
-  for (const Manifold* loaded_m : loaded) {
+  for (const Manifold* loaded_m : by_key(contacts, is_reported)) {
     const Manifold& m = *loaded_m;
     const Pair& pair = contacts.pairs[m.pair];
     const Vec3 impulse = m.step_impulse_W.cast<double>();
@@ -28,6 +39,25 @@ std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodi
     }
   }
   return loads;
+}
+
+std::vector<PressPoint> find_presses(const Contacts& contacts, const Bodies& bodies, double h_s) {
+  std::vector<PressPoint> presses;
+  if (!(h_s > 0)) return presses;
+  const auto is_pressed = [](const Manifold& m) { return m.normal_impulse() > 0; };
+  for (const Manifold* pressed : by_key(contacts, is_pressed)) {
+    const Manifold& m = *pressed;
+    // Friction acts at their middle: each point has its part of it.
+    const Vec3 force_W = m.impulse_W().cast<double>() / (h_s * double{m.normal_impulse()});
+    for (std::size_t i = 0; i < m.count; ++i) {
+      const ManifoldPoint& p = m.points[i];
+      if (!(p.impulse_Ns > 0)) continue;
+      const Vec3 arm_W = bodies.rotation[m.body_a] * p.anchor_A.cast<double>();
+      presses.push_back({bodies.tag[m.body_a], bodies.tag[m.body_b],
+                         bodies.position[m.body_a] + arm_W, double{p.impulse_Ns} * force_W});
+    }
+  }
+  return presses;
 }
 
 std::vector<float> find_penetrations(const Contacts& contacts) {

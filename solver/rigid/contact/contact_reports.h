@@ -12,6 +12,8 @@ namespace sunder::solver {
 /// See Physics::contact_loads().
 std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodies& bodies,
                                             const Shapes& shapes);
+/// See Physics::inspect(); `h_s` is that of the impulses kept, 0: there are none.
+std::vector<PressPoint> find_presses(const Contacts& contacts, const Bodies& bodies, double h_s);
 /// See Physics::penetrations().
 std::vector<float> find_penetrations(const Contacts& contacts);
 

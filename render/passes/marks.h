@@ -1,0 +1,56 @@
+// What view modes point out, on the GPU: plain shapes that show, fainter, through what is before
+// them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/base/types.h"
+#include "render/gl/table.h"
+
+namespace sunder::render {
+
+/// A shape stretched along three axes.
+struct Mark {
+  Vec3f center_W = Vec3f::Zero();
+  Mat3f half_axes_W = Mat3f::Identity();  ///< In columns.
+  Vec3f color = Vec3f::Ones();            ///< Linear RGB.
+  float through = 0.5f;                   ///< How much of it shows where it is hidden.
+};
+struct MarkList {
+  std::vector<Mark> spindles;  ///< Octahedra, solid.
+  std::vector<Mark> boxes;     ///< Their edges.
+
+  bool empty() const { return spindles.empty() && boxes.empty(); }
+};
+
+class Marks {
+ public:
+  explicit Marks(const GlTable& gl);
+
+  void update(const MarkList& marks, const Vec3& eye_W);
+  bool any() const { return spindles_.count + boxes_.count > 0; }
+  /// Over what is there, with its depths: what they hide, and then what hides them.
+  void draw() const;
+
+ private:
+  struct Shape {
+    GLenum kind = GL_TRIANGLES;
+    GLint first_vertex = 0;
+    GLsizei vertices = 0;
+    std::size_t first = 0;  ///< Of the instances.
+    GLsizei count = 0;
+  };
+
+  void draw(GLuint program) const;
+
+  const GlTable& gl_;
+  GLuint program_ = 0;
+  GLuint hidden_program_ = 0;
+  GLuint vertex_array_ = 0;
+  GLuint vertex_buffer_ = 0;
+  GLuint instance_buffer_ = 0;
+  Shape spindles_, boxes_;
+};
+
+}  // namespace sunder::render
