@@ -1,6 +1,6 @@
-// Layout: "SUNDERF6" (or 5: without what happens inside; or 4: without paints, either; or 3: nothing
-// is known to be asleep, either; or 2: without poses of meshes, either; or 1: without debris and
-// dust, either), XXH3 of the rest (8 bytes), size of the content (8 bytes), content in zstd.
+// Layout: "SUNDERF5" (or 4: without paints, lights and what happens inside; or 3: nothing is known
+// to be asleep, either; or 2: without poses of meshes, either; or 1: without debris and dust,
+// either), XXH3 of the rest (8 bytes), size of the content (8 bytes), content in zstd.
 #include "engine/io/frame_file.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace sunder {
 namespace {
 
-constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '6'};
+constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '5'};
 constexpr std::size_t kName = sizeof kMagic - 1;  // what precedes the version
 constexpr std::size_t kHeader = sizeof kMagic + 8;
 constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refused
@@ -148,7 +148,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
     take_uvs(in, file, meshes);
   }
   for (const Mesh& mesh : meshes) check_looks(mesh, file, paints.size());
-  if (version >= 6 && in.take<std::uint8_t>() != 0) {
+  if (version >= 5 && in.take<std::uint8_t>() != 0) {
     frame->inspection = take_inspection(in, file, *frame);
   }
   if (!in.at_end()) throw InputError(file + ": corrupt: bytes are left over");
