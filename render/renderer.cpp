@@ -1,11 +1,13 @@
 // The list of passes that make a picture. Read first: Renderer::draw().
 #include "render/renderer.h"
 
+#include <cmath>
 #include <ctime>
 #include <optional>
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
+#include "render/between.h"
 #include "render/gl/context.h"
 #include "render/gl/objects.h"
 #include "render/gl/units.h"
@@ -16,56 +18,20 @@
 #include "render/passes/material_rows.h"
 #include "render/passes/pictures.h"
 #include "render/passes/pieces.h"
+#include "render/passes/programs.h"
 #include "render/passes/puffs.h"
 #include "render/passes/tiles.h"
 #include "render/passes/viewpoint.h"
-#include "render/shaders/shader_sources.h"
 #include "render/view_mode.h"
 
 namespace sunder::render {
 namespace {
-
-struct Programs {
-  GLuint shadow, zenith, matte, painted, shiny, glass, ground, sky, occlusion, blur, composite,
-      dusty;
-};
 
 struct Target {
   GLuint framebuffer = 0;
   int width = 0;
   int height = 0;
 };
-
-Programs make_programs(const GlTable& gl) {
-  using namespace shader_sources;
-  Programs p;
-  p.shadow = make_program(gl, "shadow",
-                          {common_glsl, bodies_glsl, "#define LIGHT shadow_of_eye\n", shadow_vert},
-                          {common_glsl, nothing_frag});
-  p.zenith = make_program(gl, "zenith",
-                          {common_glsl, bodies_glsl, "#define LIGHT zenith_of_eye\n", shadow_vert},
-                          {common_glsl, nothing_frag});
-  p.matte = make_program(gl, "matte", {common_glsl, bodies_glsl, pieces_vert},
-                         {common_glsl, shadow_glsl, pieces_frag});
-  p.painted =
-      make_program(gl, "painted", {common_glsl, bodies_glsl, "#define PAINTED\n", pieces_vert},
-                   {common_glsl, shadow_glsl, "#define PAINTED\n", pieces_frag});
-  p.shiny = make_program(gl, "shiny", {common_glsl, bodies_glsl, pieces_vert},
-                         {common_glsl, shadow_glsl, "#define SHINY\n", pieces_frag});
-  p.glass = make_program(gl, "glass", {common_glsl, bodies_glsl, pieces_vert},
-                         {common_glsl, shadow_glsl, glass_frag});
-  p.ground = make_program(gl, "ground", {common_glsl, ground_vert},
-                          {common_glsl, shadow_glsl, ground_frag});
-  p.sky = make_program(gl, "sky", {common_glsl, screen_vert}, {common_glsl, sky_frag});
-  p.occlusion =
-      make_program(gl, "occlusion", {common_glsl, screen_vert}, {common_glsl, occlusion_frag});
-  p.blur = make_program(gl, "blur", {common_glsl, screen_vert}, {common_glsl, blur_frag});
-  p.composite =
-      make_program(gl, "composite", {common_glsl, screen_vert}, {common_glsl, composite_frag});
-  p.dusty = make_program(gl, "dusty composite", {common_glsl, screen_vert},
-                         {common_glsl, "#define DUSTY\n", composite_frag});
-  return p;
-}
 
 /// What is bound from here on is on that unit, and stays there.
 void take_unit(const GlTable& gl, Unit unit) {
@@ -99,12 +65,22 @@ void upload_tiles(const GlTable& gl) {
   gl.GenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 
+/// From its middle; the first few fill it as evenly as many do (Roberts 2018, the R2 sequence).
+Vec2 place_in_pixel(int sample) {
+  const auto of = [&](double step) {
+    const double x = 0.5 + step * sample;
+    return x - std::floor(x) - 0.5;
+  };
+  return {of(0.7548776662466927), of(0.5698402909980532)};
+}
+
 }  // namespace
 
 struct Renderer::Impl {
   explicit Impl(const RenderOptions& wanted);
 
-  void upload(const Frame& frame);
+  void draw_light(const Frame& frame, const Sample& sample);
+  void upload(const Frame& frame, const Sample& sample);
   void draw_shadows();
   void draw_pieces();
   void draw_ground_and_sky();
@@ -113,6 +89,8 @@ struct Renderer::Impl {
   void draw_dust();
   void draw_marks();
   void composite();
+  void gather(bool first);
+  void develop();
   Image read_back();
 
   void begin(const Target& target, GLuint program);
@@ -128,7 +106,7 @@ struct Renderer::Impl {
   Chips chips;
   Puffs puffs;
   std::optional<Pictures> pictures;
-  Marks marks;
+  std::optional<Marks> marks;  ///< None unless the view mode has some.
   GLuint uniform_buffer = 0;
   GLuint material_buffer = 0;
   GLuint empty_vertex_array = 0;  ///< For passes that need no vertices.
@@ -138,6 +116,7 @@ struct Renderer::Impl {
   Target open;
   Target blurred;
   Target dust;
+  Target sum;  ///< Of samples.
   Target picture;
   std::shared_ptr<const std::vector<Material>> materials;
   std::shared_ptr<const std::vector<Paint>> paints;
@@ -152,11 +131,11 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
       view_mode(wanted.view_mode),
       context(make_context(wanted.gl)),
       gl(context->gl()),
-      programs(make_programs(gl)),
+      programs(make_programs(gl, wanted.samples > 1)),
       pieces(gl),
       chips(gl),
-      puffs(gl),
-      marks(gl) {
+      puffs(gl) {
+  if (view_mode.looks_inside()) marks.emplace(gl);
   const int w = options.width;
   const int h = options.height;
   const int half_w = (w + 1) / 2;
@@ -170,6 +149,7 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   open = make_target(gl, kOpenUnit, GL_RG16F, half_w, half_h);
   blurred = make_target(gl, kBlurUnit, GL_RG16F, half_w, half_h);
   dust = make_target(gl, kDustUnit, GL_RGBA16F, half_w, half_h);
+  if (options.samples > 1) sum = make_target(gl, kSumUnit, GL_RGBA32F, w, h);
   pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
 
   upload_tiles(gl);
@@ -206,7 +186,7 @@ void Renderer::Impl::done(const char* pass) {
   cpu_start = now;
 }
 
-void Renderer::Impl::upload(const Frame& frame) {
+void Renderer::Impl::upload(const Frame& frame, const Sample& sample) {
   take_unit(gl, kSlotUnit);
   pieces.update(frame);
   if (frame.paints != paints) {
@@ -225,13 +205,13 @@ void Renderer::Impl::upload(const Frame& frame) {
     fill_buffer(gl, GL_TEXTURE_BUFFER, material_buffer, rows, GL_STATIC_DRAW);
   }
   FrameUniforms uniforms =
-      make_uniforms(frame.view, pieces.casters(), options.width, options.height);
-  uniforms.lens[2] = static_cast<float>(kTexelsAMaterial * materials->size());
+      make_uniforms(frame.view, pieces.casters(), options.width, options.height, sample);
+  uniforms.ground_offset[2] = static_cast<float>(kTexelsAMaterial * materials->size());
   gl.BindBuffer(GL_UNIFORM_BUFFER, uniform_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
   chips.update(frame, uniforms.lens[1], uniforms.to_sun[3]);
   puffs.update(frame);
-  marks.update(view_mode.marks(), frame.view.eye_W);
+  if (marks) marks->update(view_mode.marks(), frame.view.eye_W);
 }
 
 void Renderer::Impl::draw_shadows() {
@@ -318,7 +298,7 @@ void Renderer::Impl::draw_dust() {
 
 void Renderer::Impl::draw_marks() {
   begin(light, 0);
-  marks.draw();
+  marks->draw();
 }
 
 void Renderer::Impl::composite() {
@@ -329,39 +309,73 @@ void Renderer::Impl::composite() {
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+/// Adds the sample that was drawn to the others.
+void Renderer::Impl::gather(bool first) {
+  gl.Disable(GL_DEPTH_TEST);
+  gl.Disable(GL_CULL_FACE);
+  gl.BindVertexArray(empty_vertex_array);
+  begin(sum, puffs.any() ? programs.dusty_gather : programs.gather);
+  gl.ClearColor(0, 0, 0, 0);
+  if (first) gl.Clear(GL_COLOR_BUFFER_BIT);
+  gl.Enable(GL_BLEND);
+  gl.BlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.Disable(GL_BLEND);
+}
+
+void Renderer::Impl::develop() {
+  begin(picture, programs.develop);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
 Image Renderer::Impl::read_back() {
   gl.ReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   done("read");
-  Image image = antialiased(pixels, options.width, options.height);
+  Image image = options.samples > 1 ? opaque(pixels, options.width, options.height)
+                                    : antialiased(pixels, options.width, options.height);
   done("antialias");
   return image;
+}
+
+void Renderer::Impl::draw_light(const Frame& frame, const Sample& sample) {
+  upload(view_mode.shown(frame), sample);
+  done("upload");
+  draw_shadows();
+  draw_pieces();
+  done("pieces");
+  draw_ground_and_sky();
+  done("ground and sky");
+  draw_occlusion();
+  done("occlusion");
+  if (pieces.has(Pieces::Group::kGlass)) draw_glass();
+  done("glass");
+  if (puffs.any()) draw_dust();
+  done("dust");
+  if (marks && marks->any()) draw_marks();
 }
 
 Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 Renderer::~Renderer() = default;
 
-Image Renderer::draw(const Frame& frame) {
+Image Renderer::draw(const Frame& frame, const Frame* before) {
   Impl& r = *impl_;
   r.context->make_current();
   r.times.clear();
   r.watch.lap_ms();
   r.cpu_start = std::clock();
-
-  r.upload(r.view_mode.shown(frame));
-  r.done("upload");
-  r.draw_shadows();
-  r.draw_pieces();
-  r.done("pieces");
-  r.draw_ground_and_sky();
-  r.done("ground and sky");
-  r.draw_occlusion();
-  r.done("occlusion");
-  if (r.pieces.has(Pieces::Group::kGlass)) r.draw_glass();
-  r.done("glass");
-  if (r.puffs.any()) r.draw_dust();
-  r.done("dust");
-  if (r.marks.any()) r.draw_marks();
-  r.composite();
+  if (r.options.samples <= 1) {
+    r.draw_light(frame, {});
+    r.composite();
+  } else {
+    const double weight = 1.0 / r.options.samples;
+    for (int s = 0; s < r.options.samples; ++s) {
+      const double part = 1 - frame.view.shutter * (1 - (s + 0.5) * weight);
+      r.draw_light(frame.view.shutter > 0 ? between(before, frame, part) : frame,
+                   {place_in_pixel(s), weight});
+      r.gather(s == 0);
+    }
+    r.develop();
+  }
   r.done("composite");
   Image image = r.read_back();
   if (r.options.hud) draw_text(image, hud_text(frame));

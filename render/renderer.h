@@ -25,7 +25,9 @@ class Renderer {
   explicit Renderer(const RenderOptions& options);
   ~Renderer();
 
-  Image draw(const Frame& frame);
+  /// `before`, if there is one: the frame that what moves has come from, while the shutter of the
+  /// view was open; else it is taken to have moved evenly.
+  Image draw(const Frame& frame, const Frame* before = nullptr);
   /// Context, driver and version, for logs.
   std::string description() const;
   int width() const;

@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <optional>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "render/image/encoder.h"
@@ -23,37 +23,53 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
-class VideoSink final : public FrameSink {
+/// Draws frames as they come, each with the one before it.
+class Film {
  public:
-  VideoSink(const std::filesystem::path& path, Renderer& renderer, int frames_per_s)
-      : renderer_(renderer), encoder_(path, renderer.width(), renderer.height(), frames_per_s) {}
-  void take(const FramePtr& frame) override { encoder_.add(renderer_.draw(*frame)); }
-  void finish() override { encoder_.finish(); }
+  explicit Film(Renderer& renderer) : renderer_(renderer) {}
+  void take(const FramePtr& frame) { before_ = std::exchange(frame_, frame); }
+  /// None was taken yet.
+  bool empty() const { return !frame_; }
+  Image picture() { return renderer_.draw(*frame_, before_.get()); }
 
  private:
   Renderer& renderer_;
+  FramePtr before_, frame_;
+};
+
+class VideoSink final : public FrameSink {
+ public:
+  VideoSink(const std::filesystem::path& path, Renderer& renderer, int frames_per_s)
+      : film_(renderer), encoder_(path, renderer.width(), renderer.height(), frames_per_s) {}
+  void take(const FramePtr& frame) override {
+    film_.take(frame);
+    encoder_.add(film_.picture());
+  }
+  void finish() override { encoder_.finish(); }
+
+ private:
+  Film film_;
   Encoder encoder_;
 };
 
 class LastImageSink final : public FrameSink {
  public:
   LastImageSink(std::filesystem::path path, Renderer& renderer)
-      : path_(std::move(path)), renderer_(renderer) {}
-  void take(const FramePtr& frame) override { last_ = frame; }
+      : path_(std::move(path)), film_(renderer) {}
+  void take(const FramePtr& frame) override { film_.take(frame); }
   void finish() override {
-    if (last_) write_png(path_, renderer_.draw(*last_));
+    if (!film_.empty()) write_png(path_, film_.picture());
   }
 
  private:
   std::filesystem::path path_;
-  Renderer& renderer_;
-  FramePtr last_;
+  Film film_;
 };
 
 class ImagesSink final : public FrameSink {
  public:
   ImagesSink(std::filesystem::path folder, Renderer& renderer, bool resume)
-      : folder_(std::move(folder)), renderer_(renderer), resume_(resume) {
+      : folder_(std::move(folder)), film_(renderer), resume_(resume) {
     make_folder(folder_);
   }
 
@@ -62,13 +78,14 @@ class ImagesSink final : public FrameSink {
     std::snprintf(name, sizeof name, "frame_%05llu.png",
                   static_cast<unsigned long long>(frame->index));
     const std::filesystem::path picture = folder_ / name;
-    if (!resume_ || !std::filesystem::exists(picture)) write_png(picture, renderer_.draw(*frame));
+    film_.take(frame);
+    if (!resume_ || !std::filesystem::exists(picture)) write_png(picture, film_.picture());
   }
   void finish() override {}
 
  private:
   std::filesystem::path folder_;
-  Renderer& renderer_;
+  Film film_;
   bool resume_;
 };
 

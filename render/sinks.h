@@ -15,6 +15,9 @@ struct RenderOptions {
   std::string gl = "auto";  ///< auto | egl-device:N | egl-surfaceless | osmesa
   /// materials | convexes | compounds | asleep | wireframe | exploded
   std::string view_mode = "materials";
+  /// Pictures that each is the mean of, in linear light: each a little aside, by less than a pixel,
+  /// and, while the view's shutter is open, a little later.
+  int samples = 1;
   bool hud = false;          ///< Frame number, time and counts in the corner.
   bool time_passes = false;  ///< Waits for the GPU after each pass, to fill pass_times().
   int frames_per_s = 60;     ///< Of a video.

@@ -125,7 +125,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
   ByteReader in(content, file);
   auto frame = std::make_shared<Frame>();
   in.take_to(frame->index, frame->time_s);
-  frame->view = take_view(in);
+  frame->view = take_view(in, version >= 5);
   std::vector<Material> materials = take_materials(in);
   std::vector<Mesh> meshes(in.take_count(kLeastMeshBytes));
   for (Mesh& mesh : meshes) mesh = take_mesh(in, file, materials.size(), version >= 3);

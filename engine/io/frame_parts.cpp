@@ -11,12 +11,18 @@ constexpr std::uint32_t kNoPicture = ~std::uint32_t{0};
 
 void put(ByteWriter& out, const View& view) {
   out.put(view.eye_W, view.target_W, view.to_sun_W, view.ground_color, view.fov_rad, view.ground_m);
+  out.put(view.exposure, view.shutter, view.sun_color, view.sky_color, view.sun_strength,
+          view.sky_strength);
 }
 
-View take_view(ByteReader& in) {
+View take_view(ByteReader& in, bool lit) {
   View view;
   in.take_to(view.eye_W, view.target_W, view.to_sun_W, view.ground_color, view.fov_rad,
              view.ground_m);
+  if (lit) {
+    in.take_to(view.exposure, view.shutter, view.sun_color, view.sky_color, view.sun_strength,
+               view.sky_strength);
+  }
   return view;
 }
 

@@ -12,7 +12,8 @@
 namespace sunder {
 
 void put(ByteWriter& out, const View& view);
-View take_view(ByteReader& in);
+/// `lit`: with its exposure, shutter and lights, as put() has it; older files have none.
+View take_view(ByteReader& in, bool lit = true);
 
 /// Names and looks: what pictures need of them.
 void put(ByteWriter& out, const std::vector<Material>& materials);

@@ -48,6 +48,12 @@ struct View {
   Vec3 to_sun_W = Vec3(0.5, 0.7, 0.4);              ///< Towards the sun, any length.
   Vec3f ground_color = Vec3f(0.42f, 0.38f, 0.32f);  ///< Linear RGB.
   double ground_m = 0;                              ///< Height of the ground plane.
+  double exposure = 1;                              ///< What is seen is this times as bright.
+  double shutter = 0;  ///< How much of the time between frames, before each, it is open.
+  /// Light on a face turned to the sun, and by the sky on one turned up: linear RGB.
+  Vec3f sun_color = Vec3f(3.7f, 3.05f, 2.3f);
+  Vec3f sky_color = Vec3f(0.6f, 0.72f, 0.92f);
+  double sun_strength = 1, sky_strength = 1;  ///< Times these.
 };
 
 /// The key of the body that the ground's meshes are, if it has any; it comes last.

@@ -15,12 +15,13 @@ enum Unit {
   kLightUnit,
   kOpenUnit,
   kBlurUnit,
-  kDustUnit
+  kDustUnit,
+  kSumUnit
 };
 
 /// The samplers of unit 0, 1 and so on.
 inline constexpr const char* kSamplers[] = {"shadow_map", "zenith_map", "slots",  "materials",
                                             "tiles",      "pictures",   "depths", "lights",
-                                            "openness",   "occlusion",  "dust"};
+                                            "openness",   "occlusion",  "dust",   "sums"};
 
 }  // namespace sunder::render

@@ -40,6 +40,16 @@ void keep(const Pixels& pixels, Image& image) {
 
 }  // namespace
 
+Image opaque(std::span<const std::uint32_t> pixels, int width, int height) {
+  Image image{width, height, {}};
+  image.rgb.reserve(kChannels * pixels.size());
+  for (const std::uint32_t pixel : pixels) {
+    for (int c = 0; c < kChannels; ++c)
+      image.rgb.push_back(static_cast<std::uint8_t>(pixel >> (8 * c)));
+  }
+  return image;
+}
+
 std::vector<std::uint8_t> encode_png(const Image& image) {
   std::vector<std::uint8_t> bytes;
   const int done = stbi_write_png_to_func(append, &bytes, image.width, image.height, kChannels,

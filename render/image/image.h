@@ -18,6 +18,9 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
+/// Of pixels as red, green, blue and something else, from the lowest byte up.
+Image opaque(std::span<const std::uint32_t> pixels, int width, int height);
+
 /// The bytes of a PNG file.
 std::vector<std::uint8_t> encode_png(const Image& image);
 /// Writes to a temporary name and renames; throws FileError if the place cannot be written.

@@ -77,10 +77,32 @@ Mat4 shadow_matrix(const Mat3& sun, const Box& box, const Vec3& eye_W, double& s
   return matrix;
 }
 
+// As they are in the light that a View has by itself.
+constexpr float kExposure = 1.2f;
+const Vec3f kZenith(0.20f, 0.30f, 0.47f), kHorizon(0.70f, 0.70f, 0.69f);
+const Vec3f kCloud(0.95f, 0.93f, 0.9f), kSunGlow(0.42f, 0.31f, 0.18f);
+
+void store(float* out, const Vec3f& color) {
+  for (int i = 0; i < 3; ++i) out[i] = color[i];
+}
+
+void light(const View& view, FrameUniforms& u) {
+  const Vec3f sun = static_cast<float>(view.sun_strength) * view.sun_color;
+  const Vec3f sky = static_cast<float>(view.sky_strength) * view.sky_color;
+  const Vec3f more_sun = sun.cwiseQuotient(View().sun_color);
+  const Vec3f more_sky = sky.cwiseQuotient(View().sky_color);
+  store(u.sun_light, sun);
+  store(u.sky_light, sky);
+  store(u.zenith, Vec3f(kZenith.cwiseProduct(more_sky)));
+  store(u.horizon, Vec3f(kHorizon.cwiseProduct(more_sky)));
+  store(u.cloud_light, Vec3f(kCloud.cwiseProduct(more_sky)));
+  store(u.sun_glow, Vec3f(kSunGlow.cwiseProduct(more_sun)));
+}
+
 }  // namespace
 
 FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, int width,
-                            int height) {
+                            int height, const Sample& sample) {
   const Vec3 look = view.target_W - view.eye_W;
   const double distance = look.norm() > 0 ? look.norm() : 1.0;
   const Mat3 camera = frame_along(look.norm() > 0 ? look : Vec3(-Vec3::UnitZ()));
@@ -93,6 +115,8 @@ FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, i
   Mat4 projection = Mat4::Zero();
   projection(0, 0) = 1 / wide;
   projection(1, 1) = 1 / tall;
+  const Vec2 aside = sample.aside_px.cwiseQuotient(0.5 * Vec2(width, height));
+  projection.block<2, 1>(0, 2) = -aside;
   projection(2, 2) = 1;
   projection(2, 3) = -2 * near_m;
   projection(3, 2) = 1;
@@ -110,13 +134,15 @@ FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, i
   const Mat4 shadow = seen_along(-to_sun, shadow_m);
   const Mat4 zenith = seen_along(-Vec3::UnitY(), zenith_m);
 
-  FrameUniforms u;
+  FrameUniforms u = {};
+  light(view, u);
   store(u.clip_of_eye, Mat4(projection * rotation));
   store(u.shadow_of_eye, shadow);
   store(u.zenith_of_eye, zenith);
-  store(u.ray_right, wide * camera.row(0).transpose(), 0);
-  store(u.ray_up, tall * camera.row(1).transpose(), 0);
-  store(u.ray_forward, camera.row(2).transpose(), 0);
+  const Vec3 right = wide * camera.row(0).transpose(), up = tall * camera.row(1).transpose();
+  store(u.ray_right, right, 0);
+  store(u.ray_up, up, 0);
+  store(u.ray_forward, camera.row(2).transpose() + aside.x() * right + aside.y() * up, 0);
   store(u.to_sun, to_sun, shadow_m / kShadowTexels);
   store(u.ground, view.ground_color.cast<double>(), view.ground_m - view.eye_W.y());
   store(u.ground_offset,
@@ -125,7 +151,8 @@ FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, i
         0);
   const Vec3 size(width, height, 1.0 / width);
   store(u.pixel, size, 1.0 / height);
-  store(u.lens, Vec3(near_m, height / (2 * tall), 0), 0);
+  store(u.lens, Vec3(near_m, height / (2 * tall), double{kExposure} * view.exposure),
+        sample.weight);
   return u;
 }
 

@@ -21,6 +21,12 @@ struct FrameUniforms {
   float ground_offset[4];
   float pixel[4];
   float lens[4];
+  float sun_light[4];
+  float sky_light[4];
+  float zenith[4];
+  float horizon[4];
+  float cloud_light[4];
+  float sun_glow[4];
 };
 
 inline constexpr int kShadowTexels = 2048;
@@ -32,9 +38,15 @@ struct Caster {
   float radius;
 };
 
+/// One of the pictures that a picture is the mean of.
+struct Sample {
+  Vec2 aside_px = Vec2::Zero();  ///< Of the middle of a pixel: right and up.
+  double weight = 1;
+};
+
 /// The shadow map covers the casters in sight of the view's target, in steps coarse enough that it
 /// does not crawl while they move.
 FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, int width,
-                            int height);
+                            int height, const Sample& sample = {});
 
 }  // namespace sunder::render

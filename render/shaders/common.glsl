@@ -11,15 +11,16 @@ layout(std140) uniform Frame {
   vec4 ray_forward;
   vec4 to_sun;           // w: metres a texel of the shadow map
   vec4 ground;           // linear colour; w: height above the eye
-  vec4 ground_offset;    // of the eye in the ground's texture: x, z, in metres
+  vec4 ground_offset;    // of the eye in the ground's texture: x, z, in metres; z: where paints begin in materials
   vec4 pixel;            // width, height, and their inverses
-  vec4 lens;             // x: near plane, y: pixels a radian; z: where paints begin in materials
+  vec4 lens;             // x: near plane, y: pixels a radian, z: exposure, w: weight of a sample
+  vec4 sun_light;        // on a face turned to it
+  vec4 sky_light;        // on a face turned up
+  vec4 zenith;           // what is seen of the sky
+  vec4 horizon;
+  vec4 cloud_light;
+  vec4 sun_glow;         // around the sun
 };
-
-const vec3 kSunLight = vec3(3.7, 3.05, 2.3);
-const vec3 kSkyLight = vec3(0.60, 0.72, 0.92);   // on a face turned up
-const vec3 kZenith = vec3(0.20, 0.30, 0.47);
-const vec3 kHorizon = vec3(0.70, 0.70, 0.69);
 
 const float kHaze = 0.0075;  // per metre
 
@@ -28,10 +29,10 @@ vec3 sky_at(float height, float sunward) {
   float thin = 1.0 - clamp(height, 0.0, 1.0);
   float air = thin * thin;
   air *= air;
-  vec3 color = mix(kZenith, kHorizon, 0.22 + 0.78 * air);
+  vec3 color = mix(zenith.rgb, horizon.rgb, 0.22 + 0.78 * air);
   float glow = max(sunward, 0.0);
   float glow4 = glow * glow * glow * glow;
-  return color + vec3(0.42, 0.31, 0.18) * (0.35 * glow4 + 0.8 * glow4 * glow4 * glow4 * glow4);
+  return color + sun_glow.rgb * (0.35 * glow4 + 0.8 * glow4 * glow4 * glow4 * glow4);
 }
 
 // What is seen of the sky in a direction; also what far things fade into.
@@ -40,7 +41,7 @@ vec3 sky(vec3 direction) { return sky_at(direction.y, dot(direction, to_sun.xyz)
 // What a mirror shows: the sky above, sunlit ground below, the horizon between them as soft as
 // the mirror is rough.
 vec3 mirrored_at(float height, float sunward, float soft) {
-  vec3 below = ground.rgb * (0.14 * kSunLight * max(to_sun.y, 0.0) + 0.3 * kSkyLight);
+  vec3 below = ground.rgb * (0.14 * sun_light.rgb * max(to_sun.y, 0.0) + 0.3 * sky_light.rgb);
   return mix(below, sky_at(height, sunward), smoothstep(-soft, soft, height));
 }
 
@@ -51,9 +52,9 @@ vec3 through_air(vec3 color, vec3 direction, float metres) {
 }
 
 // Light that the ground throws back up.
-vec3 ground_light() { return ground.rgb * (0.13 * kSunLight * to_sun.y + 0.25 * kSkyLight); }
+vec3 ground_light() { return ground.rgb * (0.13 * sun_light.rgb * to_sun.y + 0.25 * sky_light.rgb); }
 
 // Light from all around on a face whose normal has the given height.
 vec3 ambient_light(float normal_y) {
-  return mix(ground_light(), kSkyLight, 0.5 + 0.5 * normal_y);
+  return mix(ground_light(), sky_light.rgb, 0.5 + 0.5 * normal_y);
 }

@@ -1,5 +1,5 @@
-// Light to picture: occlusion, tone, gamma. Written top row first; alpha is the brightness, for
-// finding edges.
+// Light to picture: occlusion, tone, gamma. Written top row first. With GATHER, to a part of the
+// light that a picture is developed from.
 uniform sampler2D lights;
 uniform sampler2D occlusion;
 uniform sampler2D depths;
@@ -8,24 +8,6 @@ uniform sampler2D dust;
 #endif
 in vec2 at;
 out vec4 color;
-
-const float kExposure = 1.2;
-
-// Reinhard's curve (2002) with a toe: shadows are deep, and white stone in the sun keeps its shape.
-vec3 filmic(vec3 x) {
-  vec3 part = x / (1.0 + x);
-  return min(part * (0.4 + 0.88 * part), vec3(1.0));
-}
-
-// The sRGB curve, in the shader: drivers' own encodings differ. Of roots, which are exact
-// everywhere, rather than a power; fitted to 0.011 of a level.
-vec3 srgb(vec3 c) {
-  vec3 root2 = sqrt(c);
-  vec3 root4 = sqrt(root2);
-  vec3 root8 = sqrt(root4);
-  vec3 curve = 0.6423657 * root2 + 0.7121104 * root4 - 0.3368699 * root8 - 0.0175631 * c;
-  return mix(12.92 * c, curve, step(0.0031308, c));
-}
 
 // Occlusion and dust were worked out at half the resolution: of the four nearest values, those from
 // the same distance count, so that no edge gets a seam.
@@ -60,7 +42,9 @@ void main() {
   float open = open_at(here, along, veil);
   vec3 lit = light.rgb * mix(1.0, open, 0.35 + 0.65 * light.a);
   lit = lit * (1.0 - veil.a) + veil.rgb;
-  float vignette = 1.0 - 0.22 * dot(at - 0.5, at - 0.5);
-  vec3 shown = srgb(filmic(lit * (kExposure * vignette)));
-  color = vec4(shown, dot(shown, vec3(0.299, 0.587, 0.114)));
+#ifdef GATHER
+  color = vec4(lit, 1.0) * lens.w;
+#else
+  color = developed(lit, at);
+#endif
 }

@@ -35,13 +35,13 @@ void main() {
   glint *= glint * glint;
   vec3 world = mirrored_at(dot(mirrored, up_rest), sunward, 0.04);
   vec3 light = fresnel * world;
-  light += kSunLight * (sun * glint * (0.4 + fresnel));
+  light += sun_light.rgb * (sun * glint * (0.4 + fresnel));
 
   // The way through grows as the face is looked along, up to three times.
   float way = min(1.0 / max(facing, 0.33), 3.0);
   vec3 clear = exp2(-way * 0.25 * (1.0 - first_color.rgb));
   vec3 deep = 0.5 * first_color.rgb * first_color.rgb;
-  light += edge * deep * (0.35 * world + 0.1 * kSunLight * sun);
+  light += edge * deep * (0.35 * world + 0.1 * sun_light.rgb * sun);
   through = vec4((1.0 - fresnel) * mix(clear, deep, edge), 1.0 - fresnel);
   color = vec4(light, 1.0);
 }

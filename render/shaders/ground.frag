@@ -21,7 +21,7 @@ void main() {
   vec3 n = normalize(vec3(-slope.x, 1.0, -slope.y));
 
   vec3 shadow = (shadow_of_eye * vec4(place + vec3(0.0, to_sun.w, 0.0), 1.0)).xyz;
-  vec3 direct = albedo * kSunLight * (max(dot(n, to_sun.xyz), 0.0) * sunlit(shadow));
+  vec3 direct = albedo * sun_light.rgb * (max(dot(n, to_sun.xyz), 0.0) * sunlit(shadow));
   vec3 around = albedo * ambient_light(n.y);
   vec3 light = direct + around;
   float ambient_share = dot(around, vec3(0.33)) / max(dot(light, vec3(0.33)), 1e-4);

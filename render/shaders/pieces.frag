@@ -61,7 +61,7 @@ void main() {
 
   float facing = dot(bumped, sun_rest) * smoothstep(0.0, 0.12, dot(n, sun_rest));
   float sunlit_here = sunlit(shadow);
-  vec3 direct = kSunLight * (max(facing, 0.0) * sunlit_here);
+  vec3 direct = sun_light.rgb * (max(facing, 0.0) * sunlit_here);
   vec3 around = ambient_light(dot(bumped, up_rest));
 
   vec3 from_eye = rest - eye_rest;
@@ -88,7 +88,7 @@ void main() {
   vec3 world = mirrored_at(dot(mirrored, up_rest) + 0.2 * drawn * (1.0 - grazing), sunward,
                            mix(0.05, 0.25, rough));
   around = tint * (0.1 + 0.1 * rough) * around + mirror * world * (0.85 - 0.3 * rough);
-  direct = kSunLight * sunlit_here * (0.12 * tint * max(facing, 0.0) +
+  direct = sun_light.rgb * sunlit_here * (0.12 * tint * max(facing, 0.0) +
                                       mirror * mix(1.6 * sharp, 0.6 * shine, rough));
 #else
   around *= albedo;
@@ -96,5 +96,5 @@ void main() {
 #endif
   vec3 light = direct + around;
   float ambient_share = dot(around, vec3(0.33)) / max(dot(light, vec3(0.33)), 1e-4);
-  color = vec4(mix(kHorizon, light, exp2(-metres * kHaze)), ambient_share);
+  color = vec4(mix(horizon.rgb, light, exp2(-metres * kHaze)), ambient_share);
 }

@@ -43,6 +43,6 @@ void main() {
 #ifdef PAINTED
   picture_uv = uv;
   paint = vec4(0.0, 0.0, 0.0, -1.0);
-  if (paint_number > 0u) paint = texelFetch(materials, int(lens.z) + int(paint_number) - 1);
+  if (paint_number > 0u) paint = texelFetch(materials, int(ground_offset.z) + int(paint_number) - 1);
 #endif
 }

@@ -23,7 +23,7 @@ void main() {
   vec3 bulge = normalize(ray_right.xyz) * on.x + normalize(ray_up.xyz) * on.y -
                ray_forward.xyz * sqrt(body);
   float facing = 0.5 + 0.5 * dot(bulge, to_sun.xyz);
-  vec3 light = color * (kSunLight * (0.12 + 0.38 * facing * (0.6 + 0.8 * clot)) * lit +
+  vec3 light = color * (sun_light.rgb * (0.12 + 0.38 * facing * (0.6 + 0.8 * clot)) * lit +
                         ambient_light(0.3 + 0.5 * bulge.y));
-  result = vec4(mix(kHorizon, light, puff.w) * alpha, alpha);
+  result = vec4(mix(horizon.rgb, light, puff.w) * alpha, alpha);
 }

@@ -10,5 +10,5 @@ void main() {
   vec2 uv = ray.xz / max(ray.y + 0.12, 0.02);
   float cloud = texture(tiles, vec3(uv * vec2(0.16, 0.34), 6.0)).r;
   float veil = smoothstep(0.42, 0.8, cloud) * smoothstep(0.02, 0.3, ray.y);
-  color = vec4(mix(air, vec3(0.95, 0.93, 0.9), 0.32 * veil), 0.0);
+  color = vec4(mix(air, cloud_light.rgb, 0.32 * veil), 0.0);
 }

@@ -123,6 +123,12 @@ void add_render(CLI::App& program, Command& chosen) {
   command.app->add_option("--size", options.size, "Pixels; 1280x720, of a sheet's pictures 480x270")
       ->type_name("WxH");
   command.app
+      ->add_option("--samples", options.render.samples,
+                   "Pictures that each is the mean of: smoother edges, and blur while view.shutter "
+                   "is open")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command.app
       ->add_option("--gl", options.render.gl, "auto | egl-device:N | egl-surfaceless | osmesa")
       ->capture_default_str();
   add_looks(command.app, options.render);

@@ -9,6 +9,7 @@ constexpr Range kPlace{-1e6, 1e6};
 constexpr Range kSpeed{-1e4, 1e4};
 constexpr Range kRadius{0.001, 100};
 constexpr Range kFraction{0, 1};
+constexpr Range kLight{0, 100};
 
 constexpr std::string_view kPatterns[] = {"none",  "voronoi", "web",  "radial",
                                           "brick", "slabs",   "grid", "file"};
@@ -290,6 +291,18 @@ Schema make_schema() {
              key<&View::fov_rad>("fov_rad", "rad", Range{0.02, 3}, "Vertical angle of view."),
              key<&View::to_sun_W>("sun", "", kPlace, "Direction towards the sun."),
              key<&View::ground_color>("ground_color", "", kFraction, "Linear red, green, blue."),
+             key<&View::exposure>("exposure", "", Range{0, 1000},
+                                  "What is seen is this times as bright."),
+             key<&View::shutter>("shutter", "", kFraction,
+                                 "How much of the time between frames it is open: what moves is "
+                                 "blurred so far, by render --samples."),
+             key<&View::sun_color>("sun_color", "", kLight,
+                                   "Light on a face turned to the sun: linear red, green, blue."),
+             key<&View::sun_strength>("sun_strength", "", kLight, "Times sun_color."),
+             key<&View::sky_color>("sky_color", "", kLight,
+                                   "Light of the sky on a face turned up, likewise; what is seen "
+                                   "of it follows."),
+             key<&View::sky_strength>("sky_strength", "", kLight, "Times sky_color."),
              table_key("key", "Where the camera is when.")}};
   s.view_key = {
       "[[view.key]]",

@@ -31,6 +31,10 @@ Frame sample_frame() {
   frame.time_s = 7 / 60.0;
   frame.view.eye_W = Vec3(1, 2, 3);
   frame.view.ground_m = -0.5;
+  frame.view.exposure = 1.5;
+  frame.view.shutter = 0.5;
+  frame.view.sun_color = Vec3f(1, 2, 3);
+  frame.view.sun_strength = 0.25;
   Material stone;
   stone.name = "stone";
   stone.interior.texture = Texture::kConcrete;
@@ -62,6 +66,11 @@ TEST(FrameFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(read->index, frame.index);
   EXPECT_EQ(read->view.eye_W, frame.view.eye_W);
   EXPECT_EQ(read->view.ground_m, frame.view.ground_m);
+  EXPECT_EQ(read->view.exposure, 1.5);
+  EXPECT_EQ(read->view.shutter, 0.5);
+  EXPECT_EQ(read->view.sun_color, Vec3f(1, 2, 3));
+  EXPECT_EQ(read->view.sky_color, View().sky_color);
+  EXPECT_EQ(read->view.sun_strength, 0.25);
   EXPECT_EQ(read->materials->at(1).name, "stone");
   EXPECT_EQ(read->materials->at(1).interior.texture, Texture::kConcrete);
   ASSERT_EQ(read->meshes->size(), 1u);

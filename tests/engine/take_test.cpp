@@ -305,6 +305,20 @@ TEST_F(Take, OfTheVersionBeforeIsPlayedWithoutNames) {
   EXPECT_EQ(frames, take.frames());
 }
 
+TEST_F(Take, OfTheVersionBeforeIsReadWithTheLightThatThereWas) {
+  TakeReader take(fs::path(SUNDER_FRAMES_FOLDER) / "version_5.take");
+  EXPECT_TRUE(take.is_complete());
+  std::uint64_t frames = 0;
+  while (const FramePtr frame = take.next()) {
+    EXPECT_EQ(frame->index, frames++);
+    EXPECT_EQ(frame->bodies.size(), 2u);
+    EXPECT_EQ(frame->view.exposure, 1);
+    EXPECT_EQ(frame->view.sun_color, View().sun_color);
+  }
+  EXPECT_EQ(frames, take.frames());
+  EXPECT_EQ(take.damage(), "");
+}
+
 TEST_F(Take, ARunThatIsTheSameIsFoundTheSame) {
   record(40);
   TakeReader take(path_);

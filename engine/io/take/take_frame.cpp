@@ -205,8 +205,9 @@ std::int32_t short_hash(const FrameBody& body) {
   return static_cast<std::int32_t>(hash_body(body) & 0xff);
 }
 
-FrameCoder::FrameCoder(bool knows_origins)
-    : bodies_(knows_origins ? kBodyColumns : kOldBodyColumns, kBodyGlides),
+FrameCoder::FrameCoder(bool is_newest)
+    : lit_(is_newest),
+      bodies_(is_newest ? kBodyColumns : kOldBodyColumns, kBodyGlides),
       debris_(kParticleNumbers, kParticleGlides),
       dust_(kParticleNumbers, kParticleGlides) {}
 
@@ -261,7 +262,7 @@ TakeFrame FrameCoder::read(const std::vector<std::byte>& bytes, const std::strin
   TakeFrame take;
   Frame& frame = take.frame;
   in.take_to(frame.index, frame.time_s, frame.recorded_hash, take.meshes);
-  frame.view = take_view(in);
+  frame.view = take_view(in, lit_);
   read_report(in, frame);
   std::vector<std::uint32_t> before;
   const NumberTable table = bodies_.read(in, file, before);

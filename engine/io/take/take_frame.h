@@ -25,8 +25,8 @@ struct TakeFrame {
 /// One end of a stream of frames: writer and reader each keep one, in step.
 class FrameCoder {
  public:
-  /// `knows_origins`: of bodies, as takes do from version 6 on.
-  explicit FrameCoder(bool knows_origins = true);
+  /// Takes of the version before know neither lights nor where bodies come from.
+  explicit FrameCoder(bool is_newest = true);
   /// The next frame stands alone.
   void reset();
   void write(ByteWriter& out, const Frame& frame);
@@ -39,6 +39,7 @@ class FrameCoder {
   void read_instances(ByteReader& in, const std::string& file,
                       const std::vector<std::uint32_t>& before, TakeFrame& take);
 
+  bool lit_;
   TableCoder bodies_, debris_, dust_;
   std::vector<std::uint64_t> keys_;                 ///< Of the last frame's bodies.
   std::vector<std::vector<std::uint32_t>> meshes_;  ///< Drawn on each of them.
