@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/base/parallel.h"
 #include "engine/io/figures.h"
 #include "engine/io/frame_file.h"
+#include "engine/io/frames_ahead.h"
 #include "engine/io/statistics.h"
 #include "engine/io/take/take.h"
 #include "render/camera.h"
@@ -223,12 +225,16 @@ int render_scene(const RenderOptions& options) {
   FramesFrom from(counter, first);
   StateHash hash;
   FramesUntil frames(*shown.source, shown.drawn.last - shown.skipped);
-  Watched watched(frames, hash);
+  // With one thread to have, pictures and frames take turns.
+  std::optional<FramesAhead> ahead;
+  if (threads() > 1) ahead.emplace(frames);
+  Watched watched(ahead ? static_cast<FrameSource&>(*ahead) : frames, hash);
   render::PacedSource paced(watched, pace, camera->remembers() ? 0 : first);
   LookedAt seen(paced, options, *camera, shown.is_recorded);
   Progress progress("render " + options.scene, static_cast<int>(last), options.quiet);
   FrameSink* const sinks[] = {&from, &progress};
   const int stopped = pump_until_stopped(seen, sinks);
+  ahead.reset();
   if (counter.taken() == 0) {
     options.say("stopped before anything was drawn; nothing is written\n");
   } else {
