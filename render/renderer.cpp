@@ -93,6 +93,8 @@ struct Renderer::Impl {
   void develop();
   Image read_back();
 
+  /// Whether the picture is developed from a sum.
+  bool gathers() const { return options.samples > 1 || options.transparent; }
   void begin(const Target& target, GLuint program);
   /// Ends a pass, and times it if that was asked for.
   void done(const char* pass);
@@ -106,6 +108,8 @@ struct Renderer::Impl {
   Chips chips;
   Puffs puffs;
   std::optional<Pictures> pictures;
+  std::optional<Layers> layers;  ///< None unless asked for.
+  std::vector<Layer> drawn_layers;
   std::optional<Marks> marks;  ///< None unless the view mode has some.
   GLuint uniform_buffer = 0;
   GLuint material_buffer = 0;
@@ -131,10 +135,11 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
       view_mode(wanted.view_mode),
       context(make_context(wanted.gl)),
       gl(context->gl()),
-      programs(make_programs(gl, wanted.samples > 1)),
+      programs(make_programs(gl, wanted.samples > 1 || wanted.transparent, wanted.transparent)),
       pieces(gl),
       chips(gl),
       puffs(gl) {
+  check_layers(options.layers);
   if (view_mode.looks_inside()) marks.emplace(gl);
   const int w = options.width;
   const int h = options.height;
@@ -149,7 +154,8 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   open = make_target(gl, kOpenUnit, GL_RG16F, half_w, half_h);
   blurred = make_target(gl, kBlurUnit, GL_RG16F, half_w, half_h);
   dust = make_target(gl, kDustUnit, GL_RGBA16F, half_w, half_h);
-  if (options.samples > 1) sum = make_target(gl, kSumUnit, GL_RGBA32F, w, h);
+  if (gathers()) sum = make_target(gl, kSumUnit, GL_RGBA32F, w, h);
+  if (!options.layers.empty()) layers.emplace(gl, options.layers, w, h);
   pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
 
   upload_tiles(gl);
@@ -236,7 +242,8 @@ void Renderer::Impl::draw_shadows() {
 
 void Renderer::Impl::draw_pieces() {
   begin(light, programs.matte);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);  // every pixel's colour is written by a piece, ground or sky
+  gl.ClearColor(0, 0, 0, 1);  // of what is transparent: all of what is behind it shows
+  gl.Clear(GL_DEPTH_BUFFER_BIT | (options.transparent ? GL_COLOR_BUFFER_BIT : 0u));
   gl.PolygonMode(GL_FRONT_AND_BACK, view_mode.edges() ? GL_LINE : GL_FILL);
   pieces.draw(Pieces::Group::kMatte);
   if (pieces.has(Pieces::Group::kPainted)) {
@@ -331,8 +338,8 @@ void Renderer::Impl::develop() {
 Image Renderer::Impl::read_back() {
   gl.ReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   done("read");
-  Image image = options.samples > 1 ? opaque(pixels, options.width, options.height)
-                                    : antialiased(pixels, options.width, options.height);
+  Image image = gathers() ? unpacked(pixels, options.width, options.height, options.transparent)
+                          : antialiased(pixels, options.width, options.height);
   done("antialias");
   return image;
 }
@@ -343,7 +350,7 @@ void Renderer::Impl::draw_light(const Frame& frame, const Sample& sample) {
   draw_shadows();
   draw_pieces();
   done("pieces");
-  draw_ground_and_sky();
+  if (!options.transparent) draw_ground_and_sky();
   done("ground and sky");
   draw_occlusion();
   done("occlusion");
@@ -363,7 +370,7 @@ Image Renderer::draw(const Frame& frame, const Frame* before) {
   r.times.clear();
   r.watch.lap_ms();
   r.cpu_start = std::clock();
-  if (r.options.samples <= 1) {
+  if (!r.gathers()) {
     r.draw_light(frame, {});
     r.composite();
   } else {
@@ -378,12 +385,19 @@ Image Renderer::draw(const Frame& frame, const Frame* before) {
   }
   r.done("composite");
   Image image = r.read_back();
+  if (r.layers) {
+    const Frame& shown = r.view_mode.shown(frame);
+    if (r.options.samples > 1) r.upload(shown, {});  // as it is, and not as the last sample was
+    r.drawn_layers = r.layers->draw(shown, r.pieces, r.chips);
+  }
   if (r.options.hud) draw_text(image, hud_text(frame));
   SUNDER_CHECK(r.gl.GetError() == GL_NO_ERROR);
   return image;
 }
 
 std::string Renderer::description() const { return impl_->context->description(); }
+const std::vector<Layer>& Renderer::layers() const { return impl_->drawn_layers; }
+const RenderOptions& Renderer::options() const { return impl_->options; }
 int Renderer::width() const { return impl_->options.width; }
 int Renderer::height() const { return impl_->options.height; }
 const std::vector<PassTime>& Renderer::pass_times() const { return impl_->times; }

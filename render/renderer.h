@@ -7,6 +7,7 @@
 
 #include "engine/model/frame.h"
 #include "render/image/image.h"
+#include "render/passes/layers.h"
 #include "render/sinks.h"
 
 namespace sunder::render {
@@ -28,6 +29,9 @@ class Renderer {
   /// `before`, if there is one: the frame that what moves has come from, while the shutter of the
   /// view was open; else it is taken to have moved evenly.
   Image draw(const Frame& frame, const Frame* before = nullptr);
+  /// Those of the options, of the picture drawn last.
+  const std::vector<Layer>& layers() const;
+  const RenderOptions& options() const;
   /// Context, driver and version, for logs.
   std::string description() const;
   int width() const;

@@ -31,6 +31,15 @@ class Film {
   /// None was taken yet.
   bool empty() const { return !frame_; }
   Image picture() { return renderer_.draw(*frame_, before_.get()); }
+  /// The picture, and its layers beside it: first these, so that it is there when all is.
+  void write(const std::filesystem::path& path) {
+    const Image image = picture();
+    for (const Layer& layer : renderer_.layers()) {
+      const std::string name = path.stem().string() + "_" + layer.name + ".png";
+      write_png(path.parent_path() / name, layer.image);
+    }
+    write_png(path, image);
+  }
 
  private:
   Renderer& renderer_;
@@ -58,7 +67,7 @@ class LastImageSink final : public FrameSink {
       : path_(std::move(path)), film_(renderer) {}
   void take(const FramePtr& frame) override { film_.take(frame); }
   void finish() override {
-    if (!film_.empty()) write_png(path_, film_.picture());
+    if (!film_.empty()) film_.write(path_);
   }
 
  private:
@@ -79,7 +88,7 @@ class ImagesSink final : public FrameSink {
                   static_cast<unsigned long long>(frame->index));
     const std::filesystem::path picture = folder_ / name;
     film_.take(frame);
-    if (!resume_ || !std::filesystem::exists(picture)) write_png(picture, film_.picture());
+    if (!resume_ || !std::filesystem::exists(picture)) film_.write(picture);
   }
   void finish() override {}
 
@@ -124,6 +133,11 @@ std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, 
   if (is_video || extension == ".png") {
     if (resume)
       throw InputError(path.string() + ": only pictures in a folder (DIR/) can be resumed");
+    const RenderOptions& options = renderer.options();
+    if (is_video && (options.transparent || !options.layers.empty())) {
+      throw InputError(path.string() +
+                       ": a video has neither transparency nor layers; make it images, in DIR/");
+    }
     check_place(path);
     if (is_video) return std::make_unique<VideoSink>(path, renderer, frames_per_s);
     return std::make_unique<LastImageSink>(path, renderer);

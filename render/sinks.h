@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/model/frame.h"
 
@@ -18,7 +19,10 @@ struct RenderOptions {
   /// Pictures that each is the mean of, in linear light: each a little aside, by less than a pixel,
   /// and, while the view's shutter is open, a little later.
   int samples = 1;
-  bool hud = false;          ///< Frame number, time and counts in the corner.
+  /// Neither ground nor sky: what is not covered is transparent. Images only.
+  bool transparent = false;
+  std::vector<std::string> layers = {};  ///< Images beside each: depth | normals | ids.
+  bool hud = false;                      ///< Frame number, time and counts in the corner.
   bool time_passes = false;  ///< Waits for the GPU after each pass, to fill pass_times().
   int frames_per_s = 60;     ///< Of a video.
 };
@@ -27,7 +31,8 @@ struct RenderOptions {
 class Renderer;
 
 /// `path` ending in .mp4 or .webm: a video; .png: the last frame taken; otherwise a directory of
-/// frame_00000.png and so on. No file stands there until it is complete.
+/// frame_00000.png and so on; layers are X_depth.png and so on beside each. No file stands there
+/// until it is complete.
 /// Throws InputError if ffmpeg is missing (naming the package) or the options cannot be met,
 /// FileError if the place cannot be written.
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,

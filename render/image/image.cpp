@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <string>
+#include <utility>
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -38,22 +40,74 @@ void keep(const Pixels& pixels, Image& image) {
   image.rgb.assign(pixels.get(), pixels.get() + size);
 }
 
+/// Highest byte first, as PNG has it.
+void put(std::vector<std::uint8_t>& out, std::uint64_t number, int bytes) {
+  while (bytes-- > 0) out.push_back(static_cast<std::uint8_t>(number >> (8 * bytes)));
+}
+
+/// The sum that ends a chunk (ISO 15948, annex D).
+std::uint32_t crc(std::span<const std::uint8_t> bytes) {
+  std::uint32_t sum = 0xffffffff;
+  for (const std::uint8_t byte : bytes) {
+    sum ^= byte;
+    for (int bit = 0; bit < 8; ++bit) sum = (sum & 1) != 0 ? sum >> 1 ^ 0xedb88320 : sum >> 1;
+  }
+  return ~sum;
+}
+
+void put_chunk(std::vector<std::uint8_t>& out, const std::string& kind,
+               std::span<const std::uint8_t> content) {
+  put(out, content.size(), 4);
+  const std::size_t summed = out.size();
+  out.insert(out.end(), kind.begin(), kind.end());
+  out.insert(out.end(), content.begin(), content.end());
+  put(out, crc(std::span(out).subspan(summed)), 4);
+}
+
+/// Rows as differences from those above them, packed.
+std::vector<std::uint8_t> packed_rows(const DeepImage& image) {
+  constexpr std::uint8_t kUp = 2;
+  const auto row = static_cast<std::size_t>(image.width * image.channels);
+  std::vector<std::uint8_t> above(2 * row), rows;
+  for (std::size_t first = 0; first < image.values.size(); first += row) {
+    rows.push_back(kUp);
+    for (std::size_t i = 0; i < 2 * row; ++i) {
+      const auto byte = static_cast<std::uint8_t>(image.values[first + i / 2] >> (i % 2 ? 0 : 8));
+      rows.push_back(static_cast<std::uint8_t>(byte - std::exchange(above[i], byte)));
+    }
+  }
+  int size = 0;
+  const std::unique_ptr<unsigned char, void (*)(void*)> packed(
+      stbi_zlib_compress(rows.data(), static_cast<int>(rows.size()), &size, 8), std::free);
+  SUNDER_CHECK(packed != nullptr);
+  return {packed.get(), packed.get() + size};
+}
+
 }  // namespace
 
-Image opaque(std::span<const std::uint32_t> pixels, int width, int height) {
+Image unpacked(std::span<const std::uint32_t> pixels, int width, int height, bool has_alpha) {
   Image image{width, height, {}};
   image.rgb.reserve(kChannels * pixels.size());
   for (const std::uint32_t pixel : pixels) {
     for (int c = 0; c < kChannels; ++c)
       image.rgb.push_back(static_cast<std::uint8_t>(pixel >> (8 * c)));
+    if (has_alpha) image.alpha.push_back(static_cast<std::uint8_t>(pixel >> 24));
   }
   return image;
 }
 
 std::vector<std::uint8_t> encode_png(const Image& image) {
+  std::vector<std::uint8_t> rgba;
+  const bool is_opaque = image.alpha.empty();
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    rgba.insert(rgba.end(), &image.rgb[kChannels * i], &image.rgb[kChannels * i] + kChannels);
+    rgba.push_back(image.alpha[i]);
+  }
+  const int channels = is_opaque ? kChannels : kChannels + 1;
   std::vector<std::uint8_t> bytes;
-  const int done = stbi_write_png_to_func(append, &bytes, image.width, image.height, kChannels,
-                                          image.rgb.data(), image.width * kChannels);
+  const int done =
+      stbi_write_png_to_func(append, &bytes, image.width, image.height, channels,
+                             is_opaque ? image.rgb.data() : rgba.data(), image.width * channels);
   SUNDER_CHECK(done != 0);
   return bytes;
 }
@@ -88,6 +142,25 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t
 
 void write_png(const std::filesystem::path& path, const Image& image) {
   write_bytes(path, encode_png(image));
+}
+
+void write_png(const std::filesystem::path& path, const DeepImage& image) {
+  SUNDER_CHECK(image.channels == 1 || image.channels == 3);
+  std::vector<std::uint8_t> bytes = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  std::vector<std::uint8_t> head;
+  put(head, static_cast<std::uint64_t>(image.width), 4);
+  put(head, static_cast<std::uint64_t>(image.height), 4);
+  head.insert(head.end(), {16, image.channels == 1 ? std::uint8_t{0} : std::uint8_t{2}, 0, 0, 0});
+  put_chunk(bytes, "IHDR", head);
+  for (const auto& [key, word] : image.words) {
+    std::vector<std::uint8_t> text(key.begin(), key.end());
+    text.push_back(0);
+    text.insert(text.end(), word.begin(), word.end());
+    put_chunk(bytes, "tEXt", text);
+  }
+  put_chunk(bytes, "IDAT", packed_rows(image));
+  put_chunk(bytes, "IEND", {});
+  write_bytes(path, bytes);
 }
 
 Image read_png(const std::filesystem::path& path) {

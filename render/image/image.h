@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace sunder::render {
@@ -14,18 +16,30 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgb;
+  std::vector<std::uint8_t> alpha = {};  ///< A byte a pixel, not multiplied in; empty: opaque.
 
   bool operator==(const Image&) const = default;
 };
 
-/// Of pixels as red, green, blue and something else, from the lowest byte up.
-Image opaque(std::span<const std::uint32_t> pixels, int width, int height);
+/// Figures of pixels, 16 bits a channel, of which there are one or three; top row first.
+struct DeepImage {
+  int width = 0;
+  int height = 0;
+  int channels = 1;
+  std::vector<std::uint16_t> values;
+  std::vector<std::pair<std::string, std::string>> words = {};  ///< ASCII: keys and what they say.
+};
+
+/// Of pixels as red, green, blue, and alpha or something else, from the lowest byte up.
+Image unpacked(std::span<const std::uint32_t> pixels, int width, int height, bool has_alpha);
 
 /// The bytes of a PNG file.
 std::vector<std::uint8_t> encode_png(const Image& image);
 /// Writes to a temporary name and renames; throws FileError if the place cannot be written.
 void write_png(const std::filesystem::path& path, const Image& image);
-/// Throws InputError if there is no readable PNG at `path`.
+/// The same, with the words in chunks of text.
+void write_png(const std::filesystem::path& path, const DeepImage& image);
+/// Throws InputError if there is no readable PNG at `path`; its alpha is not read.
 Image read_png(const std::filesystem::path& path);
 
 /// A PNG or JPEG in memory. Throws InputError if it is neither, or too large.

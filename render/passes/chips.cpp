@@ -110,7 +110,8 @@ void Chips::update(const Frame& frame, float pixels_a_radian, float shadow_texel
 }
 
 void Chips::draw_shadows() const { draw(shadow_program_, &Variant::casters); }
-void Chips::draw() const { draw(program_, &Variant::count); }
+void Chips::draw() const { draw(program_); }
+void Chips::draw(GLuint program) const { draw(program, &Variant::count); }
 
 void Chips::draw(GLuint program, std::size_t Variant::*count) const {
   gl_.UseProgram(program);

@@ -20,6 +20,8 @@ class Chips {
   /// Into the sun's shadow map.
   void draw_shadows() const;
   void draw() const;
+  /// The same, by another program.
+  void draw(GLuint program) const;
 
  private:
   struct Variant {

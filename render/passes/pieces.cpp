@@ -204,6 +204,14 @@ void Pieces::place(const Frame& frame) {
   fill_buffer(gl_, GL_TEXTURE_BUFFER, slot_buffer_, slot_texels_, GL_STREAM_DRAW);
 }
 
+void Pieces::name_bodies(const Frame& frame) {
+  for (std::size_t i = 0; i < frame.instances.size(); ++i) {
+    const std::uint64_t key = frame.bodies[frame.instances[i].body].key;
+    slot_texels_[slot_of_instance_[i] * kFloatsPerSlot + 15] = static_cast<float>(key + 1);
+  }
+  fill_buffer(gl_, GL_TEXTURE_BUFFER, slot_buffer_, slot_texels_, GL_STREAM_DRAW);
+}
+
 Pieces::Draws Pieces::ordered(std::vector<Placed>& placed, bool near_first) const {
   std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) {
     if (a.distance != b.distance) return (a.distance < b.distance) == near_first;

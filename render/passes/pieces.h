@@ -32,6 +32,9 @@ class Pieces {
   bool has(Group group) const { return !draws(group).counts.empty(); }
   void draw(Group group) const;
 
+  /// Until the next update, slots have the key of their body, and 1, in place of a material.
+  void name_bodies(const Frame& frame);
+
   GLuint slot_texture() const { return slot_texture_; }
 
  private:

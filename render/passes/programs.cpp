@@ -5,7 +5,7 @@
 
 namespace sunder::render {
 
-Programs make_programs(const GlTable& gl, bool gathers) {
+Programs make_programs(const GlTable& gl, bool gathers, bool transparent) {
   using namespace shader_sources;
   Programs p = {};
   p.shadow = make_program(gl, "shadow",
@@ -38,8 +38,9 @@ Programs make_programs(const GlTable& gl, bool gathers) {
   if (!gathers) return p;
   p.gather = to_picture("gather", "#define GATHER\n");
   p.dusty_gather = to_picture("dusty gather", "#define DUSTY\n#define GATHER\n");
+  const char* const defines = transparent ? "#define TRANSPARENT\n" : "";
   p.develop = make_program(gl, "develop", {common_glsl, screen_vert},
-                           {common_glsl, tone_glsl, develop_frag});
+                           {common_glsl, tone_glsl, defines, develop_frag});
   return p;
 }
 

@@ -11,7 +11,7 @@ struct Programs {
   GLuint gather, dusty_gather, develop;  ///< To a sum, and that to picture; 0 unless asked for.
 };
 
-/// `gathers`: pictures are sums.
-Programs make_programs(const GlTable& gl, bool gathers);
+/// `gathers`: pictures are sums; with `transparent`, of what covers them.
+Programs make_programs(const GlTable& gl, bool gathers, bool transparent);
 
 }  // namespace sunder::render

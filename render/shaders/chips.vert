@@ -8,7 +8,18 @@ layout(location = 4) in float material;
 
 vec3 turned(vec3 v, vec4 q) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 
-#ifdef SHADOW
+#if defined(LAYER)
+out vec3 place_;
+out vec3 normal_;
+flat out float body;
+
+void main() {
+  place_ = place.xyz + turned(position * place.w, rotation);
+  normal_ = turned(normal, rotation);
+  body = 0.0;
+  gl_Position = clip_of_eye * vec4(place_, 1.0);
+}
+#elif defined(SHADOW)
 void main() {
   vec3 here = place.xyz + turned(position * place.w, rotation);
   vec3 seen = (shadow_of_eye * vec4(here, 1.0)).xyz;

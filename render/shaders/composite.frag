@@ -43,7 +43,10 @@ void main() {
   vec3 lit = light.rgb * mix(1.0, open, 0.35 + 0.65 * light.a);
   lit = lit * (1.0 - veil.a) + veil.rgb;
 #ifdef GATHER
-  color = vec4(lit, 1.0) * lens.w;
+  // Where nothing solid is, light.a is how much of what is behind shows through glass.
+  bool covered = texelFetch(depths, here, 0).r < 1.0;
+  float through = covered ? 0.0 : light.a * (1.0 - veil.a);
+  color = vec4(lit, 1.0 - through) * lens.w;
 #else
   color = developed(lit, at);
 #endif

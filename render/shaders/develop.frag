@@ -1,6 +1,13 @@
-// A sum of light to picture.
+// A sum of light to picture. With TRANSPARENT, alpha is how much of a pixel is covered.
 uniform sampler2D sums;
 in vec2 at;
 out vec4 color;
 
-void main() { color = developed(texelFetch(sums, ivec2(gl_FragCoord.xy), 0).rgb, at); }
+void main() {
+  vec4 sum = texelFetch(sums, ivec2(gl_FragCoord.xy), 0);
+#ifdef TRANSPARENT
+  color = vec4(developed(sum.rgb / max(sum.a, 1e-4), at).rgb, sum.a);
+#else
+  color = developed(sum.rgb, at);
+#endif
+}

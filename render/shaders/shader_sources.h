@@ -21,6 +21,8 @@ extern const char* const tone_glsl;
 extern const char* const composite_frag;
 extern const char* const develop_frag;
 extern const char* const chips_vert;
+extern const char* const layer_vert;
+extern const char* const layer_frag;
 extern const char* const marks_vert;
 extern const char* const marks_frag;
 extern const char* const puffs_vert;

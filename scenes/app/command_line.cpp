@@ -129,6 +129,14 @@ void add_render(CLI::App& program, Command& chosen) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command.app
+      ->add_option("--also", options.render.layers,
+                   std::string("Images beside each, of 16 bits: ") + render::kLayers)
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.app->add_flag("--transparent", options.render.transparent,
+                        "Images without ground and sky, through which what is behind them shows");
+  command.app
       ->add_option("--gl", options.render.gl, "auto | egl-device:N | egl-surfaceless | osmesa")
       ->capture_default_str();
   add_looks(command.app, options.render);

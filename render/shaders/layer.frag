@@ -1,0 +1,17 @@
+in vec3 place_;
+in vec3 normal_;
+flat in float body;
+out vec4 value;
+
+void main() {
+#ifdef DEPTH
+  // From the depth itself, as places on the very large quad of the ground are lost in rounding.
+  value = vec4(lens.x / max(1.0 - gl_FragCoord.z, 1e-6) / sun_light.w);
+#endif
+#ifdef NORMALS
+  value = vec4(0.5 + 0.5 * normalize(normal_), 1.0);
+#endif
+#ifdef IDS
+  value = vec4(mod(body, 65536.0) / 65535.0, floor(body / 65536.0) / 65535.0, 0.0, 1.0);
+#endif
+}

@@ -1,0 +1,143 @@
+// What is known of each pixel besides its colour, and pictures that what is behind them shows
+// through.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "render/renderer.h"
+#include "tests/render/synthetic_frame.h"
+#include "tests/render/test_folder.h"
+
+namespace sunder::render {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 90;
+
+/// A wall 2 m wide before the eye, 9 m away, its face towards it.
+Frame wall() {
+  SyntheticFrame s;
+  s.add_box({-1, 0, -1}, {1, 4, 1}, Stuff::kConcrete);
+  s.frame.bodies[0].key = 70000;
+  s.frame.view.eye_W = Vec3(0, 2, 10);
+  s.frame.view.target_W = Vec3(0, 2, 0);
+  s.frame.view.fov_rad = 0.6;
+  return s.frame;
+}
+
+RenderOptions with_layers(std::vector<std::string> names) {
+  RenderOptions options{.width = kWidth, .height = kHeight};
+  options.layers = std::move(names);
+  return options;
+}
+
+std::vector<std::uint16_t> at(const DeepImage& image, int x, int y) {
+  const auto first = static_cast<std::size_t>((y * image.width + x) * image.channels);
+  const auto from = image.values.begin() + static_cast<std::ptrdiff_t>(first);
+  return {from, from + image.channels};
+}
+
+TEST(Layers, SayHowFarWhichWayAndOfWhatEveryPixelIs) {
+  Renderer renderer(with_layers({"depth", "normals", "ids"}));
+  renderer.draw(wall());
+  const std::vector<Layer>& layers = renderer.layers();
+  ASSERT_EQ(layers.size(), 3u);
+  const DeepImage &depth = layers[0].image, &normals = layers[1].image, &ids = layers[2].image;
+  double far_m = 0;
+  for (const auto& [key, word] : depth.words)
+    if (key == "far_m") far_m = std::stod(word);
+  EXPECT_NEAR(far_m, 40, 1e-6) << "four times as far as what it looks at";
+  const int x = kWidth / 2, y = kHeight / 2;
+  EXPECT_NEAR(at(depth, x, y)[0] / 65535.0 * far_m, 9, 0.01);
+  EXPECT_EQ(at(depth, 2, 2)[0], 65535) << "the sky";
+  const std::vector<std::uint16_t> n = at(normals, x, y), up = at(normals, 2, kHeight - 2);
+  EXPECT_NEAR(n[0], 32767.5, 1);
+  EXPECT_NEAR(n[1], 32767.5, 1);
+  EXPECT_EQ(n[2], 65535) << "towards the eye";
+  EXPECT_EQ(up[1], 65535) << "the ground";
+  EXPECT_EQ(at(normals, 2, 2), (std::vector<std::uint16_t>{0, 0, 0})) << "the sky";
+  EXPECT_EQ(at(ids, x, y), (std::vector<std::uint16_t>{70001 - 65536, 1, 0}));
+  EXPECT_EQ(at(ids, 2, kHeight - 2), (std::vector<std::uint16_t>{0, 0, 0})) << "the ground";
+}
+
+TEST(Layers, DoNotChangeThePictureNorDoesItsNumberOfSamplesChangeThem) {
+  const Frame frame = wall();
+  Renderer plain(with_layers({})), layered(with_layers({"ids", "depth"}));
+  EXPECT_TRUE(plain.layers().empty());
+  const Image image = plain.draw(frame);
+  EXPECT_EQ(layered.draw(frame), image);
+  EXPECT_EQ(layered.draw(frame), image) << "after layers have been drawn";
+  RenderOptions many = with_layers({"depth"});
+  many.samples = 4;
+  Renderer sampled(many);
+  sampled.draw(frame);
+  EXPECT_EQ(sampled.layers()[0].image.values, layered.layers()[1].image.values);
+}
+
+TEST(Layers, AnUnknownOneIsRefusedWithWhatIsAllowed) {
+  try {
+    Renderer renderer(with_layers({"depth", "smell"}));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("smell"), std::string::npos) << said;
+    EXPECT_NE(said.find("normals"), std::string::npos) << said;
+  }
+}
+
+TEST(Transparent, OnlyWhatIsThereCoversAnything) {
+  RenderOptions options{.width = kWidth, .height = kHeight};
+  options.transparent = true;
+  options.samples = 4;
+  Renderer renderer(options);
+  Frame frame = wall();
+  const Image image = renderer.draw(frame);
+  ASSERT_EQ(image.alpha.size(), static_cast<std::size_t>(kWidth * kHeight));
+  const auto alpha = [&](const Image& of, int x, int y) {
+    return of.alpha[static_cast<std::size_t>(y * kWidth + x)];
+  };
+  EXPECT_EQ(alpha(image, kWidth / 2, kHeight / 2), 255);
+  EXPECT_EQ(alpha(image, 2, 2), 0) << "no sky";
+  EXPECT_EQ(alpha(image, 2, kHeight - 2), 0) << "no ground";
+  frame.dust = {{Vec3f(2.2f, 2, 2), Quatf::Identity(), 0.5f, 0.8f, MaterialIndex(0)}};
+  const Image dusty = renderer.draw(frame);
+  int thin = 0;
+  for (const std::uint8_t covered : dusty.alpha) thin += covered > 20 && covered < 235 ? 1 : 0;
+  EXPECT_GT(thin, 30) << "dust covers a part";
+  SyntheticFrame pane;
+  pane.add_box({-1, 0, -0.01}, {1, 4, 0.01}, Stuff::kGlass);
+  Frame glass = frame;
+  glass.dust.clear();
+  glass.bodies = pane.frame.bodies;
+  glass.instances = pane.frame.instances;
+  glass.meshes = pane.frame.meshes;
+  const std::uint8_t through = alpha(renderer.draw(glass), kWidth / 2, kHeight / 2);
+  EXPECT_GT(through, 5);
+  EXPECT_LT(through, 200) << "and so does glass";
+}
+
+TEST(PictureSink, WritesLayersBesideThePictureAndRefusesThemForAVideo) {
+  const TestFolder folder;
+  RenderOptions options = with_layers({"depth"});
+  options.transparent = true;
+  Renderer renderer(options);
+  const auto sink = make_picture_sink(folder / "wall.png", renderer);
+  sink->take(std::make_shared<Frame>(wall()));
+  sink->finish();
+  const Image picture = read_png(folder / "wall.png");
+  const Image depth = read_png(folder / "wall_depth.png");  // its higher bytes
+  EXPECT_EQ(picture.width, kWidth);
+  ASSERT_EQ(depth.height, kHeight);
+  EXPECT_EQ(depth.rgb[0], 255);
+  const auto middle = static_cast<std::size_t>(3 * (kHeight / 2 * kWidth + kWidth / 2));
+  EXPECT_NEAR(depth.rgb[middle], 255 * 9 / 40.0, 1);
+  try {
+    make_picture_sink(folder / "wall.mp4", renderer);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("images"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace sunder::render
