@@ -44,7 +44,7 @@ const Interval& PacedSource::interval() {
 
 FramePtr PacedSource::next() {
   if (frames_.empty() && !read()) return nullptr;
-  if (!started_) picture_ = std::max(picture_, pace_.first_picture(frames_[0]->index));
+  if (!started_) picture_ = pace_.first_picture(frames_[0]->index);
   started_ = true;
   const double at = static_cast<double>(picture_) * pace_.step();
   const auto whole = static_cast<std::uint64_t>(std::floor(at + kWhole));
@@ -53,8 +53,9 @@ FramePtr PacedSource::next() {
     frames_.pop_front();
   }
   const double part = at - static_cast<double>(whole);
+  const bool is_passed_over = picture_ < first_;
   std::shared_ptr<Frame> shown;
-  if (part <= kWhole) {
+  if (part <= kWhole || is_passed_over) {
     if (frames_[0]->index == picture_) {
       ++picture_;
       return frames_[0];
@@ -65,6 +66,9 @@ FramePtr PacedSource::next() {
     shown = between(interval(), part);
   }
   shown->index = picture_++;
+  if (is_passed_over) {
+    picture_ = std::clamp(pace_.first_picture(frames_[0]->index + 1), picture_, first_);
+  }
   return shown;
 }
 

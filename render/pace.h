@@ -24,9 +24,9 @@ struct Pace {
 /// of the source, or what is between two of them. They are numbered anew, as Pace says.
 class PacedSource final : public FrameSource {
  public:
-  /// Those before picture `first` are left out.
+  /// Of those before picture `first` there is one a frame at most, and it is not worked out.
   PacedSource(FrameSource& source, const Pace& pace, std::uint64_t first = 0)
-      : source_(source), pace_(pace), picture_(first) {}
+      : source_(source), pace_(pace), first_(first) {}
   FramePtr next() override;
 
  private:
@@ -35,8 +35,9 @@ class PacedSource final : public FrameSource {
 
   FrameSource& source_;
   Pace pace_;
+  std::uint64_t first_;
   bool started_ = false, ended_ = false;
-  std::uint64_t picture_;
+  std::uint64_t picture_ = 0;
   std::deque<FramePtr> frames_;  ///< What has been read, from the one before the picture on.
   Interval interval_;
 };

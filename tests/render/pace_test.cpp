@@ -56,12 +56,12 @@ std::vector<FramePtr> run(std::uint64_t frames) {
   return all;
 }
 
-std::vector<double> times(const Pace& pace, std::uint64_t frames, std::uint64_t first = 0) {
+std::vector<double> times(const Pace& pace, std::uint64_t frames) {
   Given given(run(frames));
-  PacedSource paced(given, pace, first);
+  PacedSource paced(given, pace);
   std::vector<double> all;
   while (const FramePtr frame = paced.next()) {
-    EXPECT_EQ(frame->index, all.size() + first) << "pictures are numbered";
+    EXPECT_EQ(frame->index, all.size()) << "pictures are numbered";
     all.push_back(frame->time_s);
   }
   return all;
@@ -87,7 +87,20 @@ TEST(Pace, PicturesAreEvenlyInTimeUpToTheLastFrame) {
     EXPECT_NEAR(film[i], static_cast<double>(i) / 24, 1e-12);
   }
   EXPECT_EQ(times({60, 3}, 10).size(), 4u) << "every third";
-  EXPECT_EQ(times({60, 0.1}, 4, 15).front(), 1.5 * kFrame_s) << "the first may be left out";
+}
+
+TEST(Pace, WhatIsPassedOverIsOnePictureAFrame) {
+  const auto pictures = [](const Pace& pace, std::uint64_t first) {
+    Given given(run(4));
+    PacedSource paced(given, pace, first);
+    std::vector<std::uint64_t> all;
+    while (const FramePtr frame = paced.next()) all.push_back(frame->index);
+    return all;
+  };
+  using Pictures = std::vector<std::uint64_t>;
+  EXPECT_EQ(pictures({60, 0.25}, 10), (Pictures{0, 1, 4, 8, 10, 11, 12}));
+  EXPECT_EQ(pictures({60, 1}, 2), (Pictures{0, 1, 2, 3}));
+  EXPECT_EQ(pictures({60, 3}, 1), (Pictures{0, 1}));
 }
 
 TEST(Pace, PicturesOfAPartOfARunAreThoseOfTheWhole) {

@@ -307,6 +307,12 @@ TEST(Program, WhatIsStoppedKeepsWhatItHasAndLeavesNothingElse) {
             143);
   for (const auto& picture : std::filesystem::directory_iterator(pictures))
     EXPECT_EQ(picture.path().extension(), ".png");
+  const std::string none = folder / "n/";
+  EXPECT_EQ(stopped("render brick_wall --frames 350: --speed 0.5 --size 64x48 -o " + none,
+                    "[ -d " + none + " ]", "TERM"),
+            143)
+      << "on the way to the first picture, too";
+  EXPECT_TRUE(std::filesystem::is_empty(none));
   const std::string take = folder / "t.take";
   EXPECT_EQ(stopped("simulate brick_wall --take " + take,
                     "[ \"$(stat -c %s " + take + " 2>/dev/null || echo 0)\" -gt 100000 ]", "TERM"),
