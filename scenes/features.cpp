@@ -43,8 +43,12 @@ bool is_made_of(const Scene& scene, const Solid& solid, const Predicate& is) {
 template <class Predicate>
 bool any_material(const Scene& scene, const Predicate& is) {
   const auto of_ball = [&](const Ball& ball) { return is(scene.materials[ball.material.value]); };
+  const auto of_ground = [&](const GroundMesh& mesh) {
+    return is(scene.materials[mesh.material.value]);
+  };
   return any_solid(scene, [&](const Solid& solid) { return is_made_of(scene, solid, is); }) ||
          std::ranges::any_of(scene.balls, of_ball) ||
+         std::ranges::any_of(scene.ground.meshes, of_ground) ||
          std::ranges::any_of(scene.shots, of_ball, &Shot::ball);
 }
 

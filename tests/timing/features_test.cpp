@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/io/state_hash.h"
 #include "engine/io/statistics.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
@@ -72,6 +73,34 @@ TEST(Features, AreOnWhereTheSceneSaysSo) {
   EXPECT_EQ(state(load_scene("house", {"realtime", {"limits.ageing=500"}}), "ageing"), "on");
   EXPECT_EQ(state(load_scene("house", {"reference", {}}), "conjugate_gradients"), "on");
   EXPECT_EQ(find_feature("no such thing"), nullptr);
+}
+
+/// Over the first frames.
+std::string state_of_run(const Scene& scene) {
+  constexpr int kFrames = 30;
+  const auto simulation = make_simulation(scene);
+  StateHash hash;
+  for (int i = 0; i <= kFrames; ++i) hash.take(simulation->next());
+  return hash.hex(kFrames);
+}
+
+TEST(Features, ThoseThatASceneDoesNotNeedChangeNoBitOfIt) {
+  // Loose things that stand: nothing breaks, crumbles or hangs.
+  for (const char* name : {"stack", "brick_wall", "dominoes"}) {
+    const Scene scene = load_scene(name, {"draft", {"script.enabled=false"}});
+    const std::string as_it_is = state_of_run(scene);
+    Scene more = scene;
+    more.limits.ageing = more.limits.bodies;
+    more.limits.debris += 1000, more.limits.dust += 1000;
+    EXPECT_EQ(state_of_run(more), as_it_is) << name << " with ageing, debris and dust";
+    for (const char* feature :
+         {"fracture", "own_weight", "yielding", "debris", "dust", "ageing", "joints"}) {
+      Scene less = scene;
+      if (find_feature(feature)->state(less) != "on") continue;
+      find_feature(feature)->turn_off(less);
+      EXPECT_EQ(state_of_run(less), as_it_is) << name << " without " << feature;
+    }
+  }
 }
 
 TEST(Features, WithoutSleepNothingSleeps) {
