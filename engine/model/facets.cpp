@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <unordered_map>
 
 #include "engine/base/parallel.h"
 #include "engine/geometry/bvh.h"
@@ -206,11 +207,17 @@ std::vector<std::shared_ptr<const Mesh>> make_meshes(const GroundMesh& ground) {
     for (std::size_t t = first; t < last; ++t)
       for (std::size_t i = 0; i < 3; ++i) box.extend(surface.corner(t, i));
     mesh->origin_T = box.center();
+    std::unordered_map<std::uint32_t, std::uint32_t> latest;  // drawn, of each of its vertices
     for (std::size_t t = first; t < last; ++t) {
       for (std::size_t i = 0; i < 3; ++i) {
-        mesh->indices.push_back(static_cast<std::uint32_t>(mesh->vertices.size()));
-        const Vec3f position = (surface.corner(t, i) - mesh->origin_T).cast<float>();
-        mesh->vertices.push_back({position, normals[t][i], 0});
+        const auto next = static_cast<std::uint32_t>(mesh->vertices.size());
+        std::uint32_t& drawn = latest.try_emplace(ground.triangles[t][i], next).first->second;
+        if (drawn == next || mesh->vertices[drawn].normal != normals[t][i]) {
+          drawn = next;
+          const Vec3f position = (surface.corner(t, i) - mesh->origin_T).cast<float>();
+          mesh->vertices.push_back({position, normals[t][i], 0});
+        }
+        mesh->indices.push_back(drawn);
       }
     }
     meshes.push_back(std::move(mesh));
