@@ -145,6 +145,8 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   const int h = options.height;
   const int half_w = (w + 1) / 2;
   const int half_h = (h + 1) / 2;
+  // What is read back alone needs no unit: these are bound where others take their place.
+  if (!options.layers.empty()) layers.emplace(gl, options.layers, w, h);
   picture = {make_framebuffer(gl, make_texture(gl, GL_RGBA8, w, h), 0), w, h};
   shadow = make_shadow_target(gl, kShadowUnit, kShadowTexels);
   zenith = make_shadow_target(gl, kZenithUnit, kZenithTexels);
@@ -155,7 +157,6 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   blurred = make_target(gl, kBlurUnit, GL_RG16F, half_w, half_h);
   dust = make_target(gl, kDustUnit, GL_RGBA16F, half_w, half_h);
   if (gathers()) sum = make_target(gl, kSumUnit, GL_RGBA32F, w, h);
-  if (!options.layers.empty()) layers.emplace(gl, options.layers, w, h);
   pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
 
   upload_tiles(gl);

@@ -95,8 +95,6 @@ struct Paint {
   /// Whether texture coordinates count from the picture's lowest row up, as in OBJ, or from its
   /// highest down, as in glTF.
   bool from_below = false;
-
-  bool operator==(const Paint&) const = default;
 };
 
 }  // namespace sunder

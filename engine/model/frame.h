@@ -87,7 +87,7 @@ struct FrameBody {
 /// A mesh drawn on a body: world = X_WB * (X_RT * (origin_T + position) − com_R).
 struct Instance {
   MeshIndex mesh;
-  std::uint32_t body = 0;  ///< Index in Frame::bodies.
+  std::uint32_t body = 0;       ///< Index in Frame::bodies.
   MaterialIndex material = {};  ///< That it is drawn as; none(): the mesh's.
 };
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <sstream>
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
 #include "engine/geometry/approximate_hull.h"
+#include "engine/geometry/polygon_mesh.h"
 #include "engine/io/mesh/mesh_reader.h"
 #include "fracture/solids.h"
 #include "scenes/file/keys.h"
@@ -121,6 +123,39 @@ fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const Me
   return attempt(std::move(copy));
 }
 
+/// By group of a file, the number that its paint has among those of the scene, from 1; 0: none.
+std::vector<std::uint32_t> add_paints(const std::vector<std::optional<Paint>>& of_groups,
+                                      std::vector<Paint>& paints) {
+  std::vector<std::uint32_t> numbers;
+  for (const std::optional<Paint>& paint : of_groups) {
+    numbers.push_back(0);
+    if (!paint) continue;
+    const auto known = std::ranges::find_if(paints, [&](const Paint& other) {
+      const bool one_picture = paint->picture && other.picture
+                                   ? *paint->picture == *other.picture  // of two readings
+                                   : paint->picture == other.picture;
+      return one_picture && paint->color == other.color && paint->from_below == other.from_below;
+    });
+    numbers.back() = static_cast<std::uint32_t>(known - paints.begin()) + 1;
+    if (known == paints.end()) paints.push_back(*paint);
+  }
+  return numbers;
+}
+
+/// The same convexes, their faces marked by paints in place of groups.
+void set_paints(Compound& compound, const std::vector<std::uint32_t>& paints) {
+  for (ConvexPtr& convex : compound.convexes) {
+    if (!convex->visual) continue;
+    auto mesh = std::make_shared<PolygonMesh>(*convex->visual);
+    for (PolygonMesh::Face& face : mesh->faces) {
+      face.mark = face.mark > 0 && face.mark <= paints.size() ? paints[face.mark - 1] : 0;
+    }
+    const auto changed = std::make_shared<Convex>(*convex);
+    changed->visual = std::move(mesh);
+    convex = changed;
+  }
+}
+
 /// Reads, repairs and decomposes a file, or recalls what that once gave.
 MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   fracture::VacdOptions vacd_of = vacd_options(options);
@@ -132,22 +167,24 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   scale_mesh(raw, options, vacd_of);
   if (!options.materials.empty()) vacd_of.marked = materials_of(raw, file, options);
   std::vector<std::optional<Paint>> paints;
-  for (const RawMesh::Group& group : raw.groups) paints.push_back(group.paint);
-  for (const std::optional<Paint>& paint : paints) {
-    if (options.paints) vacd_of.painted.push_back(paint ? 1 : 0);
+  for (const RawMesh::Group& group : raw.groups) {
+    paints.push_back(group.paint);
+    if (options.paints) vacd_of.painted.push_back(group.paint ? 1 : 0);
   }
   const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
   std::optional<MeshSolid> known = options.cached ? recall(key) : std::nullopt;
   MeshSolid solid = known ? std::move(*known) : MeshSolid();
+  if (!known) {
+    solid.vertices = raw.vertices.size();
+    solid.faces = raw.polygons.size();
+    fracture::Vacd vacd = decompose_repaired(std::move(raw), file, options, vacd_of, solid);
+    solid.compound = std::move(vacd.compound);
+    solid.vacd = vacd.figures;
+    if (options.cached) keep(key, solid);
+  }
   solid.name = std::filesystem::path(file).filename().string();
-  solid.paints = std::move(paints);
-  if (known) return solid;
-  solid.vertices = raw.vertices.size();
-  solid.faces = raw.polygons.size();
-  fracture::Vacd vacd = decompose_repaired(std::move(raw), file, options, vacd_of, solid);
-  solid.compound = std::move(vacd.compound);
-  solid.vacd = vacd.figures;
-  if (options.cached) keep(key, solid);
+  set_paints(solid.compound,
+             options.paints ? add_paints(paints, *options.paints) : std::vector<std::uint32_t>());
   return solid;
 }
 

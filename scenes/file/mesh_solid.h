@@ -17,11 +17,10 @@
 namespace sunder::scenes {
 
 /// A compound, and what it was made of. Its materials are numbers: 0, and from 1 on those of
-/// MeshOptions::materials.
+/// MeshOptions::materials. Its faces are marked by MeshOptions::paints, if at all.
 struct MeshSolid {
   Compound compound;
   std::string name;
-  std::vector<std::optional<Paint>> paints;  ///< By group of the file: its faces' marks, less 1.
   std::size_t vertices = 0;                  ///< As it was given, as are:
   std::size_t faces = 0;
   bool closed = true;

@@ -92,13 +92,18 @@ TEST(StressBreaks, UtilisationIsWorstAtTheRootAndGrowsWithTheLoad) {
   for (const double part : {0.3, 0.9, 1.5}) {  // beyond the limit it is told, and nothing breaks
     const std::vector<Load> loads = at_tip(compound, part * kSnaps_N);
     const std::vector<float> worst =
-        utilisation_by_stress(structure, {materials, loads, kDown, Vec3::Zero(), kPlenty});
+        utilisation_by_stress(structure, {materials, loads, kDown, Vec3::Zero(), kPlenty, nullptr});
     ASSERT_EQ(worst.size(), structure.slot_count());
     const auto most = std::ranges::max_element(worst);
-    EXPECT_NEAR(double{*most}, part, 0.1 * part);
+    EXPECT_NEAR(double{*most}, part, 0.15 * part);
     const ConvexSlot at(static_cast<std::size_t>(most - worst.begin()));
     EXPECT_LT(structure.convex(at)->solid.centroid.x(), 0.05 * kLength);
-    EXPECT_LT(worst.back(), 0.1f * *most) << "the tip bears little";
+    float half_way = 0;  // where it is bent half as much
+    structure.for_each([&](ConvexSlot slot, const Convex& convex) {
+      const double x = convex.solid.centroid.x() / kLength;
+      if (x > 0.48 && x < 0.52) half_way = std::max(half_way, worst[slot.value]);
+    });
+    EXPECT_NEAR(double{half_way / *most}, 0.5, 0.1);
   }
 }
 

@@ -70,7 +70,9 @@ TEST(Layers, DoNotChangeThePictureNorDoesItsNumberOfSamplesChangeThem) {
   RenderOptions many = with_layers({"depth"});
   many.samples = 4;
   Renderer sampled(many);
-  sampled.draw(frame);
+  const Image mean = sampled.draw(frame);
+  many.layers.clear();
+  EXPECT_EQ(Renderer(many).draw(frame), mean);
   EXPECT_EQ(sampled.layers()[0].image.values, layered.layers()[1].image.values);
 }
 

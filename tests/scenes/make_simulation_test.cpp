@@ -42,11 +42,12 @@ TEST(MakeSimulation, GivesTheSolverTheScenesGravity) {
 
 TEST(MakeSimulation, WhoLooksInsideSeesTheWeightThatContactsBearAndChangesNothing) {
   for (const char* planar : {"", "planar = true\n"}) {
-    const Scene scene = parse_scene(std::string(kHead) + planar +
-                                        "[[solid]]\nstructure = \"stack\"\ncount = 3\n"
-                                        "[[solid]]\nstructure = \"stack\"\ncount = 1\n"
-                                        "position = [5, 0, 0]\n",
-                                    "stack.toml");
+    const Scene scene =
+        parse_scene(std::string(kHead) + planar +
+                        "[[solid]]\nstructure = \"stack\"\ncount = 3\nmaterial = \"steel\"\n"
+                        "[[solid]]\nstructure = \"stack\"\ncount = 1\nmaterial = \"steel\"\n"
+                        "position = [5, 0, 0]\n",
+                    "stack.toml");
     SimulationOptions look;
     look.inspect = true;
     const FramePtr last = end_of(scene, look), unseen = end_of(scene);

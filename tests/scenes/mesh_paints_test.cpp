@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/geometry/polygon_mesh.h"
+#include "scenes/file/mesh_solid.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
 
@@ -75,10 +76,27 @@ TEST_F(MeshPaints, AreTheScenesOncePerLook) {
   }
 }
 
+TEST_F(MeshPaints, OfTwoBodiesShareTheirPictures) {
+  write("box.mtl", "newmtl red\nmap_Kd a.png\nnewmtl blue\nmap_Kd b.png\n");
+  write("a.png", "one");
+  write("b.png", "two");
+  const Scene scene = load(kBody + kBody + "position = [5, 0, 0]\n");
+  ASSERT_EQ(scene.paints.size(), 2u);
+  EXPECT_NE(*scene.paints[0].picture, *scene.paints[1].picture);
+}
+
 TEST_F(MeshPaints, AreLeftOutWhereTheMaterialsLookIsAskedFor) {
   const Scene scene = load(kBody + "look = \"material\"\n");
   EXPECT_TRUE(scene.paints.empty());
   for (const ConvexPtr& convex : scene.solids.at(0).compound.convexes) {
+    for (const PolygonMesh::Face& face : convex->visual->faces) EXPECT_EQ(face.mark, 0u);
+  }
+}
+
+TEST_F(MeshPaints, AreNotOfASolidThatNoSceneAskedFor) {
+  const MeshSolid solid = make_mesh_solid((folder_ / "box.obj").string(), {});
+  for (const ConvexPtr& convex : solid.compound.convexes) {
+    ASSERT_TRUE(convex->visual);
     for (const PolygonMesh::Face& face : convex->visual->faces) EXPECT_EQ(face.mark, 0u);
   }
 }
