@@ -86,7 +86,7 @@ TEST(Golden, EveryTextureAndEveryPassIsInOne) {
     view_modes.insert(recipe["view_mode"]);
   }
   EXPECT_TRUE(has_hud);
-  EXPECT_EQ(view_modes.size(), 6u);
+  EXPECT_EQ(view_modes.size(), 10u);
 }
 
 TEST(Golden, TheBookHasStatesOfEveryPresetOfEveryGoldenThatIsSimulatedAndOfNoOther) {
