@@ -50,7 +50,7 @@ if(SUNDER_STRICT)
     -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough -Werror>)
   # GCC 12 sees overlaps and overruns in std::string's operator+ that are not there (GCC bug 105651),
   # and warns that wide vectors are passed otherwise without AVX; they stay inside the solver.
-  set(gnu -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-psabi)
+  set(gnu -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-psabi)
   target_compile_options(sunder_options INTERFACE
     $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:${gnu}>>)
 endif()

@@ -52,19 +52,6 @@ Target make_shadow_target(const GlTable& gl, Unit unit, int texels) {
   return {make_framebuffer(gl, 0, texture), texels, texels};
 }
 
-void upload_tiles(const GlTable& gl) {
-  GLuint texture = 0;
-  gl.GenTextures(1, &texture);
-  take_unit(gl, kTileUnit);
-  gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
-  const std::vector<std::uint8_t> texels = bake_tiles();
-  gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, kTileSize, kTileSize, kTiles, 0, GL_RGBA,
-                GL_UNSIGNED_BYTE, texels.data());
-  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl.GenerateMipmap(GL_TEXTURE_2D_ARRAY);
-}
-
 /// From its middle; the first few fill it as evenly as many do (Roberts 2018, the R2 sequence).
 Vec2 place_in_pixel(int sample) {
   const auto of = [&](double step) {
@@ -159,6 +146,7 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   if (gathers()) sum = make_target(gl, kSumUnit, GL_RGBA32F, w, h);
   pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
 
+  take_unit(gl, kTileUnit);
   upload_tiles(gl);
   take_unit(gl, kPictureUnit);
   pictures.emplace(gl);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/model/cubic.h"
+#include "engine/base/cubic.h"
 
 namespace sunder {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/model/cubic.h"
+#include "engine/base/cubic.h"
 
 namespace sunder {
 namespace {

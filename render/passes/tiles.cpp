@@ -236,4 +236,16 @@ std::vector<std::uint8_t> bake_tiles() {
   return bytes;
 }
 
+void upload_tiles(const GlTable& gl) {
+  GLuint texture = 0;
+  gl.GenTextures(1, &texture);
+  gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
+  const std::vector<std::uint8_t> texels = bake_tiles();
+  gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, kTileSize, kTileSize, kTiles, 0, GL_RGBA,
+                GL_UNSIGNED_BYTE, texels.data());
+  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.GenerateMipmap(GL_TEXTURE_2D_ARRAY);
+}
+
 }  // namespace sunder::render

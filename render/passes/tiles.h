@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/gl/table.h"
+
 namespace sunder::render {
 
 /// The layers of the tile array, in order.
@@ -30,5 +32,8 @@ inline constexpr float kSteepest = 2;
 /// RGBA8 texels of every layer, one after the other. Red: brightness, 0.5 is neutral. Green: how
 /// much of the second colour (joints, pits, stones). Blue, alpha: slope along u and v.
 std::vector<std::uint8_t> bake_tiles();
+
+/// As the texture of the unit that is current.
+void upload_tiles(const GlTable& gl);
 
 }  // namespace sunder::render

@@ -21,7 +21,7 @@ namespace sunder::scenes {
 struct MeshSolid {
   Compound compound;
   std::string name;
-  std::size_t vertices = 0;                  ///< As it was given, as are:
+  std::size_t vertices = 0;  ///< As it was given, as are:
   std::size_t faces = 0;
   bool closed = true;
   std::vector<Repair> repairs;

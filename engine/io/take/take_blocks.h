@@ -1,6 +1,6 @@
-// The blocks a take consists of. Layout of the file: "SUNDERT6" (or 5: without names and lights, and
-// nobody knows what came off what), blocks one after the other, and, where the run came to its end,
-// an index of them, of which the last 16 bytes say where it begins.
+// The blocks a take consists of. Layout of the file: "SUNDERT6" (or 5: without names and lights,
+// and nobody knows what came off what), blocks one after the other, and, where the run came to its
+// end, an index of them, of which the last 16 bytes say where it begins.
 //
 // A block is a header and bytes in zstd. Blocks of one chunk of frames (a key frame and those that
 // are changes of it) are one zstd stream, flushed after every frame.

@@ -26,7 +26,7 @@ struct World {
   const Scene scene;  ///< As it was given.
   const std::shared_ptr<const std::vector<Material>> materials;
   const std::shared_ptr<const std::vector<std::string>> names;  ///< Solids, balls, then shots.
-  const std::shared_ptr<const std::vector<Paint>> paints;  ///< Null: none.
+  const std::shared_ptr<const std::vector<Paint>> paints;       ///< Null: none.
   const std::unique_ptr<Physics> physics;
   Clock clock;
   Actors actors;

@@ -1,4 +1,5 @@
-// Read first: ContactSolver::Stages::plan(), the list of the stages of a solve.
+// Long because the list of the stages of a solve and what each of them does belong together. Read
+// first: ContactSolver::Stages::plan(), that list.
 #include "solver/rigid/contact/contact_solver.h"
 
 #include <algorithm>
