@@ -49,7 +49,13 @@ TEST(Moves, ARamBreaksWhatItHitsAndNotItself) {
   scene.solids = {box_solid(Vec3(-2, 0, 0), Vec3(1, 1, 1)),
                   box_solid(Vec3(1, 0, 0), Vec3(1, 1, 1))};
   Trial trial(moved(scene, straight(0.5, Vec3(5, 0, 0))));
-  while (trial.frame->time_s < 0.4) trial.step();
+  while (trial.frame->time_s < 0.4) {
+    trial.step();
+    for (const FrameBody& body : trial.frame->bodies) {
+      const Vec3 way_W = body.X_WB.position - trial.body(0).X_WB.position;
+      EXPECT_TRUE(body.key == 0 || way_W.cwiseAbs().maxCoeff() > 0.48) << "it is run over";
+    }
+  }
   EXPECT_FALSE(trial.breaks.empty());
   for (const BreakEvent& event : trial.breaks) EXPECT_NE(event.body_key, 0u);
   EXPECT_NEAR(trial.body(0).velocity_W.x(), 10, 1e-9) << "whatever it broke";

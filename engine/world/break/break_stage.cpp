@@ -276,6 +276,9 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
     for (Trial& trial : trials) {
       if (trial.planned.empty() || (in_time && take_on(world, breaker, trial.planned))) {
         taken_on.push_back(std::move(trial));
+      } else if (!waiting_room_.may_wait(world, trial.probe)) {
+        trial.planned.clear();  // all holds
+        taken_on.push_back(std::move(trial));
       } else {
         trial.probe.pause();
         take_over(world, trial.probe);
@@ -303,9 +306,10 @@ void BreakStage::run(World& world, const Breaker& breaker, std::span<const Impac
   const auto collide = [&] {
     const WorkSpan span(world.ledger.work, Stage::kBreak, "contacts found anew");
     world.physics->collide(world.clock.horizon_s());
+    waiting_room_.forget_driven();
   };
   if (break_by_blasts(world, breaker, impacts)) collide();
-  waiting_room_.begin_step(world.actors);
+  waiting_room_.begin_step(world);
   held_.clear();
   for (int round = 0; round <= kRounds; ++round) {
     const bool in_time = round < kRounds;

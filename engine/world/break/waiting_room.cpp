@@ -17,13 +17,47 @@ void pause_all(World& world, std::span<const Waiter> waiters) {
   world.physics->pause(bodies);
 }
 
+bool moves(const BodyState& state) {
+  return !state.velocity_W.isZero(0) || !state.angular_velocity_W.isZero(0);
+}
+
+std::set<std::uint32_t> find_driven(const World& world) {
+  std::set<std::uint32_t> driven;
+  std::vector<BodyId> layer;
+  const BodyStates states = world.physics->states();
+  for (const Actor& actor : world.actors) {
+    if (!actor.is_kinematic || !moves(states[actor.body])) continue;
+    driven.insert(actor.key);
+    layer.push_back(actor.body);
+  }
+  while (!layer.empty()) {
+    const std::vector<TouchingBodies> touching = world.physics->touching(layer);
+    layer.clear();
+    for (const TouchingBodies& touch : touching) {
+      for (const std::uint32_t key : {touch.tag_a, touch.tag_b}) {
+        const Actor* actor = world.actors.find(key);
+        if (!actor || actor->is_static || !driven.insert(key).second) continue;
+        layer.push_back(actor->body);
+      }
+    }
+  }
+  return driven;
+}
+
 }  // namespace
 
-void WaitingRoom::begin_step(const Actors& actors) {
+void WaitingRoom::begin_step(const World& world) {
   clusters_ = 0;
   waiters_.clear();
+  forget_driven();
   queue_ = last_;
-  std::erase_if(queue_, [&](const Waiter& waiter) { return !actors.find(waiter.key); });
+  std::erase_if(queue_, [&](const Waiter& waiter) { return !world.actors.find(waiter.key); });
+  if (queue_.empty()) return;
+  driven_ = find_driven(world);
+  std::set<std::uint64_t> leave;
+  for (const Waiter& waiter : queue_)
+    if (driven_->contains(waiter.key)) leave.insert(waiter.cluster);
+  std::erase_if(queue_, [&](const Waiter& waiter) { return leave.contains(waiter.cluster); });
   std::ranges::sort(queue_, {}, [](const Waiter& waiter) {
     return std::tuple(waiter.since_step, waiter.cluster, waiter.key);
   });
@@ -36,6 +70,12 @@ void WaitingRoom::admit() {
     while (end < queue_.size() && queue_[end].cluster == cluster) ++end;
   }
   queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+bool WaitingRoom::may_wait(const World& world, const BreakProbe& cluster) {
+  if (!driven_) driven_ = find_driven(world);
+  return std::ranges::none_of(cluster.bodies(),
+                              [&](const ProbeBody& body) { return driven_->contains(body.key); });
 }
 
 void WaitingRoom::add(World& world, const BreakProbe& cluster) {

@@ -1,10 +1,12 @@
-// Clusters that sit steps out, at the place of the impact, until it can be decided. Internal to
-// engine/world.
+// Clusters that sit steps out, at the place of the impact, until it can be decided. What a moved
+// body drives cannot: it would be run over. Internal to engine/world.
 //
 // Read first: the order of calls, which is that of the functions.
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include "engine/world/actors/world.h"
@@ -22,10 +24,14 @@ struct Waiter {
 class WaitingRoom {
  public:
   /// A step begins: who waited in the last one queues, the longest waiting first.
-  void begin_step(const Actors& actors);
+  void begin_step(const World& world);
   /// Lets the first clusters out of the queue: they are looked at again.
   void admit();
   bool queue_empty() const { return queue_.empty(); }
+  /// Contacts have been found anew.
+  void forget_driven() { driven_.reset(); }
+  /// Whether none of a cluster is driven by what is moved.
+  bool may_wait(const World& world, const BreakProbe& cluster);
   /// The bodies of a cluster that has ended by pause() wait until the next step.
   void add(World& world, const BreakProbe& cluster);
   /// Who is in the queue still waits on. Physics::pause() for all.
@@ -46,6 +52,8 @@ class WaitingRoom {
   std::vector<Waiter> last_;     ///< Of the last step; ascending by key.
   std::vector<Waiter> queue_;    ///< Of those, who is not admitted yet; cluster by cluster.
   std::vector<Waiter> waiters_;  ///< Since this step.
+  /// Keys of what is moved and all that it reaches by touch, if anybody has asked.
+  std::optional<std::set<std::uint32_t>> driven_;
   std::uint64_t next_cluster_ = 0;
   std::uint32_t clusters_ = 0;
 };

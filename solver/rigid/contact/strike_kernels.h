@@ -297,7 +297,6 @@ bool pass_on(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact, const 
     for (const std::int32_t row : {c.row_a[lane], c.row_b[lane]})
       if (row > 0) sweep.moved[row] = sweep.now;
   }
-
   return any((on > zero ? fastest : zero) > zero);
 }
 
