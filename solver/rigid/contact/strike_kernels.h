@@ -10,7 +10,7 @@
 namespace sunder::solver {
 
 /// Of the speed of the slowest impact: a change that is passed on.
-inline constexpr float kNoticed = 0.25f;
+inline constexpr float kNoticed = 0.1f;
 
 /// The rows of those lanes that take part, 1; of others none.
 template <std::uint32_t lanes>
