@@ -76,11 +76,14 @@ Truths speed_extremes() {
       extreme(8, "1,000 m/s at a wall of brick: mass", "", "constant", 1e-9, shot_at(kWall),
               &Run::mass_off, {1e-10, 1e-10, 1e-10, 1e-10}),
       extreme(8, "1,000 m/s at a wall of brick: overlap left", "mm", "rigid", 50, shot_at(kWall),
-              depth_left_mm, {17, 31, 59, 3.8}),
+              depth_left_mm, {43, 31, 59, 3.8}),
       extreme(8, "1,000 m/s at 90 loose bricks: energy gained", "", none, 1e-3, shot_at(kBricks),
               &Run::energy_gained, {0.0001, 0.0001, 0.0001, 0.0001}),
       extreme(8, "1,000 m/s at 90 loose bricks: overlap left", "mm", "rigid", 50, shot_at(kBricks),
-              depth_left_mm, {7.5, 21, 3.6, 1.7}, 2),
+              Measure([](const Preset& preset) {
+                return mean_of_seeds(shot_at(kBricks)(preset), depth_left_mm);
+              }),
+              {35, 16, 3.6, 1.7}, 2),
   };
 }
 
