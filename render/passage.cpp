@@ -277,6 +277,16 @@ std::vector<Particle> move_particles(const std::vector<Particle>& before,
   return all;
 }
 
+/// As all was a frame ago, if it has moved evenly.
+FramePtr moved_back(const Frame& frame) {
+  constexpr double kFrame_s = 1.0 / 60;
+  auto back = std::make_shared<Frame>(frame);
+  back->time_s -= kFrame_s;
+  for (FrameBody& body : back->bodies)
+    body.X_WB = moved(body.X_WB, -kFrame_s * body.velocity_W, -kFrame_s * body.angular_velocity_W);
+  return back;
+}
+
 View mixed(const View& from, const View& to, double part) {
   View view = to;
   view.eye_W = from.eye_W + part * (to.eye_W - from.eye_W);
@@ -290,6 +300,12 @@ View mixed(const View& from, const View& to, double part) {
 Passage passage(const Frame& before, const Frame& after) {
   return {known_bodies(before, after), known_debris(before.debris, after.debris),
           known_dust(before.dust, after.dust)};
+}
+
+Interval up_to(const Frame& after, const Frame* before) {
+  const auto lent = [](const Frame& frame) { return FramePtr(FramePtr(), &frame); };
+  const FramePtr from = before ? lent(*before) : moved_back(after);
+  return {from, lent(after), passage(*from, after)};
 }
 
 std::shared_ptr<Frame> between(const Interval& interval, double part) {

@@ -29,6 +29,10 @@ struct Interval {
   Passage into_beyond = {};
 };
 
+/// Up to a frame: from the one before or, where there is none, as if all had moved evenly. What is
+/// given has to outlive it.
+Interval up_to(const Frame& after, const Frame* before);
+
 /// The instant `part` (0 to 1) of the way from one frame to the other. Bodies go straight and turn
 /// evenly. What breaks on the way comes apart at that time: until then its pieces are where they
 /// were in the whole, and then they move to where they are after. A shot comes from where it flew.

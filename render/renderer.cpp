@@ -7,12 +7,12 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
-#include "render/between.h"
 #include "render/gl/context.h"
 #include "render/gl/objects.h"
 #include "render/gl/units.h"
 #include "render/image/antialias.h"
 #include "render/image/hud.h"
+#include "render/passage.h"
 #include "render/passes/chips.h"
 #include "render/passes/marks.h"
 #include "render/passes/material_rows.h"
@@ -364,10 +364,11 @@ Image Renderer::draw(const Frame& frame, const Frame* before) {
     r.composite();
   } else {
     const double weight = 1.0 / r.options.samples;
+    const bool blurs = frame.view.shutter > 0;
+    const Interval way = blurs ? up_to(frame, before) : Interval{};
     for (int s = 0; s < r.options.samples; ++s) {
       const double part = 1 - frame.view.shutter * (1 - (s + 0.5) * weight);
-      r.draw_light(frame.view.shutter > 0 ? between(before, frame, part) : frame,
-                   {place_in_pixel(s), weight});
+      r.draw_light(blurs ? *between(way, part) : frame, {place_in_pixel(s), weight});
       r.gather(s == 0);
     }
     r.develop();
