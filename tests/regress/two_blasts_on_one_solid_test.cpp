@@ -26,7 +26,8 @@ std::vector<double> broken_at_x(bool anchored, std::initializer_list<double> bla
   const auto simulation = make_simulation(parse_scene(text, "x.toml", {}));
   simulation->next();
   std::vector<double> at;
-  for (const BreakEvent& event : simulation->next()->breaks) at.push_back(event.point_W.x());
+  const FramePtr frame = simulation->next();
+  for (const BreakEvent& event : frame->breaks) at.push_back(event.point_W.x());
   std::ranges::sort(at);
   return at;
 }
