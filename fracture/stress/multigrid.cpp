@@ -96,9 +96,9 @@ Eigen::Matrix<double, 6, 6> stiffness(const Spring& spring, const Vec3& at, cons
 }  // namespace
 
 Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
-    : springs_(nodes, springs), unit_N_m_(0) {
+    : springs_(nodes, springs), unit_N_m_(springs.empty() ? 1 : 0) {
   for (const Spring& spring : springs) unit_N_m_ += spring.stretch_N_m;
-  unit_N_m_ /= static_cast<double>(springs.size());
+  if (!springs.empty()) unit_N_m_ /= static_cast<double>(springs.size());
   to_units(springs);
   levels_.emplace_back(nodes, std::move(springs));
   while (!factorize(false)) {
@@ -134,12 +134,13 @@ void Multigrid::to_units(std::vector<Spring>& springs) const {
 bool Multigrid::factorize(bool to_be) {
   // In double precision: how softly all of it hangs on the world is lost beside its stiffness.
   const SpringLevel<float>& last = levels_.back();
-  if (!to_be && last.size() > kDirectNodes) return false;
   std::vector<BlockCholesky::Pair> pairs;
   last.for_each_spring([&](const Spring& spring) {
     if (spring.a != Spring::kWorld && spring.b != Spring::kWorld)
       pairs.emplace_back(spring.a, spring.b);
   });
+  if (pairs.empty()) to_be = true;  // each on its own
+  if (!to_be && last.size() > kDirectNodes) return false;
   BlockCholesky matrix(last.size(), pairs);
   if (!to_be && matrix.products() > kDirectIterations * pairs.size()) return false;
   using Row = Eigen::Matrix<double, 6, 1>;
