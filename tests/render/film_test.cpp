@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "render/image/compare.h"
+#include "render/passage.h"
 #include "render/renderer.h"
 #include "tests/render/synthetic_frame.h"
 
@@ -110,6 +111,50 @@ TEST(Shutter, BlursWhatMovesAlongItsWayAndNothingElse) {
   EXPECT_LT(compare(drawn(now, 1, &before), drawn(ball_at({2, 4, 0}))).flip_mean, 0.02);
   now.bodies[0].velocity_W = Vec3(4 * 60, 0, 0);
   EXPECT_LT(compare(drawn(now, 8), blurred).flip_mean, 0.01) << "as it moves, where none is before";
+}
+
+TEST(UpTo, BodiesGoStraightAndTurnEvenlyFromTheFrameBefore) {
+  Frame first = ball_at({0, 3, 0}), second = ball_at({4, 3, 0});
+  second.time_s = first.time_s + 1.0 / 60;
+  second.bodies[0].X_WB.rotation = Quat(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
+  second.view.eye_W += Vec3(0, 2, 0);
+  const Interval way = up_to(second, &first);
+  const std::shared_ptr<Frame> half = between(way, 0.5);
+  EXPECT_LT((half->bodies[0].X_WB.position - Vec3(2, 3, 0)).norm(), 1e-12);
+  EXPECT_NEAR(half->bodies[0].X_WB.rotation.angularDistance(Quat::Identity()), 0.2, 1e-9);
+  EXPECT_EQ(half->view.eye_W, Vec3(first.view.eye_W + Vec3(0, 1, 0)));
+  const Pose end = between(way, 1)->bodies[0].X_WB, &now = second.bodies[0].X_WB;
+  EXPECT_EQ(end.position, now.position);
+  EXPECT_LT(end.rotation.angularDistance(now.rotation), 1e-15);
+}
+
+TEST(UpTo, WhatIsNewGoesBackAsFastAsItMoves) {
+  const Frame first = ball_at({0, 3, 0});
+  Frame second = ball_at({4, 3, 0});
+  second.time_s = first.time_s + 0.1;
+  second.bodies[0].key = second.bodies[0].before_key = 8;
+  second.bodies[0].velocity_W = Vec3(10, 0, 0);
+  second.bodies[0].angular_velocity_W = Vec3(0, 4, 0);
+  const std::shared_ptr<Frame> half = between(up_to(second, &first), 0.5);
+  EXPECT_LT((half->bodies[0].X_WB.position - Vec3(3.5, 3, 0)).norm(), 1e-12);
+  EXPECT_NEAR(half->bodies[0].X_WB.rotation.angularDistance(second.bodies[0].X_WB.rotation), 0.2,
+              1e-9);
+  const std::shared_ptr<Frame> alone = between(up_to(second, nullptr), 0.5);
+  EXPECT_NEAR(alone->bodies[0].X_WB.position.x(), 4 - 10 * 0.5 / 60, 1e-12);
+}
+
+TEST(UpTo, DebrisThatIsTheSameGoesStraightAndOtherStays) {
+  Frame first = ball_at({0, 3, 0}), second = first;
+  second.time_s = first.time_s + 1.0 / 60;
+  FrameDebris chip;
+  chip.radius_m = 0.1f;
+  first.debris = {chip, chip};
+  chip.position_W = Vec3f(1.5f, 0, 0);  // from 2 m on it is taken for another
+  second.debris = {chip, chip};
+  second.debris[1].radius_m = 0.2f;
+  const std::shared_ptr<Frame> half = between(up_to(second, &first), 0.5);
+  EXPECT_EQ(half->debris[0].position_W, Vec3f(0.75f, 0, 0));
+  EXPECT_EQ(half->debris[1].position_W, Vec3f(1.5f, 0, 0));
 }
 
 }  // namespace
