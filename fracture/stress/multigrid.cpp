@@ -93,20 +93,23 @@ Eigen::Matrix<double, 6, 6> stiffness(const Spring& spring, const Vec3& at, cons
   return block;
 }
 
+/// 1 if there are none.
+double mean_stretch_N_m(std::span<const Spring> springs) {
+  if (springs.empty()) return 1;
+  double sum = 0;
+  for (const Spring& spring : springs) sum += spring.stretch_N_m;
+  return sum / static_cast<double>(springs.size());
+}
+
 }  // namespace
 
 Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
-    : springs_(nodes, springs), unit_N_m_(springs.empty() ? 1 : 0) {
-  for (const Spring& spring : springs) unit_N_m_ += spring.stretch_N_m;
-  if (!springs.empty()) unit_N_m_ /= static_cast<double>(springs.size());
+    : springs_(nodes, springs), unit_N_m_(mean_stretch_N_m(springs)) {
   to_units(springs);
   levels_.emplace_back(nodes, std::move(springs));
   while (!factorize(false)) {
     SpringGroups groups(levels_.back(), kGroup);
-    if (groups.count() == levels_.back().size()) {  // no two hang together
-      factorize(true);
-      break;
-    }
+    SUNDER_CHECK(groups.count() < levels_.back().size());
     levels_.push_back(groups.coarsen(levels_.back()));
     groups_.push_back(std::move(groups));
   }
