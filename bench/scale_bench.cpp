@@ -21,7 +21,7 @@
 #include "scenes/make_simulation.h"
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/collide/contacts.h"
-#include "solver/rigid/contact/constraint_block.h"
+#include "solver/rigid/contact/kernels/constraint_block.h"
 
 namespace sunder::bench {
 namespace {

@@ -23,7 +23,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
 #include "solver/rigid/collide/contacts.h"
-#include "solver/rigid/contact/constraint_block.h"
+#include "solver/rigid/contact/kernels/constraint_block.h"
 #include "solver/rigid/rigid_physics.h"
 
 namespace sunder::solver {

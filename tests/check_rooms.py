@@ -21,7 +21,8 @@ FLOORS = {
                ("io/mesh", "io/take")),
     "fracture": (("pattern",), ("adjacency",), ("cut",), ("stress", "vacd", "check"), ("",)),
     "solver": (("base",), ("rigid/tolerances.h",), ("rigid/body",), ("rigid/collide",),
-               ("rigid/joint",), ("rigid/contact",), ("rigid", "planar", "particles")),
+               ("rigid/joint",), ("rigid/contact/kernels",), ("rigid/contact",),
+               ("rigid", "planar", "particles")),
     "render": (("gl", "shaders"), ("image",), ("passes",), ("",)),
     "scenes": (("sculpture",), ("file",), ("structures",), ("",), ("app",)),
 }

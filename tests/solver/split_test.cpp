@@ -7,7 +7,7 @@
 
 #include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
-#include "solver/rigid/contact/sweep_kernels.h"
+#include "solver/rigid/contact/kernels/sweep_kernels.h"
 
 namespace sunder::solver {
 namespace {

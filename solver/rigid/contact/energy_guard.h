@@ -10,7 +10,7 @@
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
-#include "solver/rigid/contact/constraint_block.h"
+#include "solver/rigid/contact/kernels/constraint_block.h"
 
 namespace sunder::solver {
 

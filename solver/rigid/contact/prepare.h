@@ -7,8 +7,8 @@
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/contacts.h"
+#include "solver/rigid/contact/kernels/sweep.h"
 #include "solver/rigid/contact/mass_splitting.h"
-#include "solver/rigid/contact/sweep.h"
 #include "solver/rigid/contact/sweep_order.h"
 
 namespace sunder::solver {

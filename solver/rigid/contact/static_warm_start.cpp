@@ -8,9 +8,9 @@
 
 #include "engine/base/nncg.h"
 #include "solver/base/lanes.h"
+#include "solver/rigid/contact/kernels/sweep.h"
 #include "solver/rigid/contact/load_path.h"
 #include "solver/rigid/contact/prepare.h"
-#include "solver/rigid/contact/sweep.h"
 #include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {

@@ -3,7 +3,7 @@
 // inlined by force, or code for one instruction set would stand in for that of another.
 #pragma once
 
-#include "solver/rigid/contact/sweep.h"
+#include "solver/rigid/contact/kernels/sweep.h"
 
 namespace sunder::solver {
 

@@ -2,7 +2,7 @@
 // Included by sweep_1.cpp and so on alone, under the same rule as sweep_kernels.h.
 #pragma once
 
-#include "solver/rigid/contact/sweep_kernels.h"
+#include "solver/rigid/contact/kernels/sweep_kernels.h"
 
 namespace sunder::solver {
 

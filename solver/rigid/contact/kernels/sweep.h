@@ -2,7 +2,7 @@
 // so on, each compiled for the instruction set it needs). Read first: sweep() in sweep_kernels.h.
 #pragma once
 
-#include "solver/rigid/contact/constraint_block.h"
+#include "solver/rigid/contact/kernels/constraint_block.h"
 
 namespace sunder::solver {
 

@@ -1,4 +1,4 @@
-#include "solver/rigid/contact/softness.h"
+#include "solver/rigid/contact/kernels/softness.h"
 
 #include <numbers>
 

@@ -14,7 +14,7 @@
 
 #include "solver/base/wide.h"
 #include "solver/rigid/body/body_row.h"
-#include "solver/rigid/contact/softness.h"
+#include "solver/rigid/contact/kernels/softness.h"
 
 namespace sunder::solver {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "solver/rigid/contact/derive_kernels.h"
+#include "solver/rigid/contact/kernels/derive_kernels.h"
 
 namespace sunder::solver {
 
