@@ -233,34 +233,42 @@ struct Motion6 {
   Triple<V> linear, angular;
 };
 
+/// The eight floats at `offset` of every row, a row a lane.
+template <class V>
+SUNDER_INLINE void load_eight(const float* const* row, std::uint32_t offset, V (&v)[8]) {
+  if constexpr (kLanesOf<V> == 1) {
+    for (std::uint32_t i = 0; i < 8; ++i) v[i] = V{row[0][offset + i]};
+  } else {
+    for (std::uint32_t i = 0; i < 8; ++i) v[i] = detail::quads<V>(row + i % 4, offset + i / 4 * 4);
+    detail::transpose(v[0], v[1], v[2], v[3]);
+    detail::transpose(v[4], v[5], v[6], v[7]);
+  }
+}
+/// The way back.
+template <class V>
+SUNDER_INLINE void store_eight(V (&v)[8], float* const* row, std::uint32_t offset) {
+  if constexpr (kLanesOf<V> == 1) {
+    for (std::uint32_t i = 0; i < 8; ++i) row[0][offset + i] = v[i][0];
+  } else {
+    detail::transpose(v[0], v[1], v[2], v[3]);
+    detail::transpose(v[4], v[5], v[6], v[7]);
+    for (std::uint32_t i = 0; i < 8; ++i)
+      detail::store_quads(v[i], row + i % 4, offset + i / 4 * 4);
+  }
+}
+
 /// The first six of the eight floats of a row, a lane each.
 template <class V>
 SUNDER_INLINE Motion6<V> load_rows(const float* const* row) {
-  if constexpr (kLanesOf<V> == 1) {
-    const float* r = row[0];
-    return {{V{r[0]}, V{r[1]}, V{r[2]}}, {V{r[3]}, V{r[4]}, V{r[5]}}};
-  } else {
-    V v[8];
-    for (std::uint32_t i = 0; i < 8; ++i) v[i] = detail::quads<V>(row + i % 4, i / 4 * 4);
-    detail::transpose(v[0], v[1], v[2], v[3]);
-    detail::transpose(v[4], v[5], v[6], v[7]);
-    return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
-  }
+  V v[8];
+  load_eight(row, 0, v);
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 /// The way back; the last two of eight become 0.
 template <class V>
 SUNDER_INLINE void store_rows(const Motion6<V>& m, float* const* row) {
-  if constexpr (kLanesOf<V> == 1) {
-    const float values[8] = {m.linear.x[0],  m.linear.y[0],  m.linear.z[0],
-                             m.angular.x[0], m.angular.y[0], m.angular.z[0]};
-    for (int i = 0; i < 8; ++i) row[0][i] = values[i];
-  } else {
-    V v[8] = {m.linear.x, m.linear.y, m.linear.z, m.angular.x, m.angular.y, m.angular.z};
-    v[6] = v[7] = V{};
-    detail::transpose(v[0], v[1], v[2], v[3]);
-    detail::transpose(v[4], v[5], v[6], v[7]);
-    for (std::uint32_t i = 0; i < 8; ++i) detail::store_quads(v[i], row + i % 4, i / 4 * 4);
-  }
+  V v[8] = {m.linear.x, m.linear.y, m.linear.z, m.angular.x, m.angular.y, m.angular.z, V{}, V{}};
+  store_eight(v, row, 0);
 }
 
 }  // namespace sunder::solver

@@ -97,18 +97,14 @@ class BlocksOf final : public ContactBlocks {
       any |= solver::strike(blocks_[i], arms_[i], step.rows, h_s);
     return any;
   }
-  void expect_impacts() override {
-    if (impacts_.size() < used_) impacts_.resize(used_);  // written over, not cleared
+  void expect_impacts(std::size_t manifolds) override {
+    // Written over, not cleared.
+    if (impacts_.size() < used_) impacts_.resize(used_);
+    if (pairs_.size() < manifolds) pairs_.resize(manifolds), contacts_.resize(manifolds);
   }
   void prepare_impact(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i)
       solver::prepare_impact(step, blocks_[i], impacts_[i]);
-  }
-  void begin_impact(std::uint32_t begin, std::uint32_t end) override {
-    for (std::uint32_t i = begin; i < end; ++i) solver::begin_impact(blocks_[i], impacts_[i]);
-  }
-  void end_impact(std::uint32_t begin, std::uint32_t end) override {
-    for (std::uint32_t i = begin; i < end; ++i) solver::end_impact(blocks_[i], impacts_[i]);
   }
   bool meet(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     bool any = false;
@@ -116,12 +112,20 @@ class BlocksOf final : public ContactBlocks {
       any |= solver::meet(blocks_[i], impacts_[i], step.rows, step.soft.inverse_h);
     return any;
   }
-  bool pass_on(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+  void begin_impact(std::uint32_t begin, std::uint32_t end) override {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const std::uint32_t first = blocks_[i].first;
+      solver::begin_impact(blocks_[i], impacts_[i], &pairs_[first], &contacts_[first]);
+    }
+  }
+  bool pass_on(std::uint32_t first, std::uint32_t count, const ContactStep& step,
                const ImpactSweep& sweep) override {
-    bool any = false;
+    return solver::pass_on<kWidth>(&pairs_[first], &contacts_[first], count, step.rows, step.soft,
+                                   sweep);
+  }
+  void end_impact(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i)
-      any |= solver::pass_on(blocks_[i], impacts_[i], step.rows, step.soft, sweep);
-    return any;
+      solver::end_impact(blocks_[i], impacts_[i], &contacts_[blocks_[i].first], step.rows);
   }
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -162,6 +166,8 @@ class BlocksOf final : public ContactBlocks {
   std::vector<ArmLanes<kWidth>> arms_;
   std::vector<SearchLanes<kWidth>> search_;
   std::vector<ImpactLanes<kWidth>> impacts_;
+  std::vector<ImpactPair> pairs_;  ///< By manifold of those to solve, as the next.
+  std::vector<ImpactContact> contacts_;
   std::uint32_t used_ = 0;
 };
 

@@ -47,15 +47,16 @@ class ContactBlocks {
                      float beta) = 0;
   /// False if nothing was struck.
   virtual bool strike(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
-  /// Makes room for what impacts need, once all blocks are added.
-  virtual void expect_impacts() = 0;
+  /// Makes room for what impacts need, once all blocks are added, of so many manifolds.
+  virtual void expect_impacts(std::size_t manifolds) = 0;
   // Of blocks near an impact, which are not split (see sweep.h).
   virtual void prepare_impact(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
   virtual bool meet(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
   virtual void begin_impact(std::uint32_t begin, std::uint32_t end) = 0;
-  virtual bool pass_on(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+  /// Of `count` manifolds of one colour from `first` of those to solve.
+  virtual bool pass_on(std::uint32_t first, std::uint32_t count, const ContactStep& step,
                        const ImpactSweep& sweep) = 0;
-  virtual void end_impact(std::uint32_t begin, std::uint32_t end) = 0;
+  virtual void end_impact(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
   virtual void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
 
   /// On bodies, over the step, from what cannot move.

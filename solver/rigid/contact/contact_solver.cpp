@@ -382,7 +382,7 @@ void ContactSolver::make_blocks() {
     const bool split = color + 1 == order_.colors();
     const std::uint32_t first = blocks_->size();
     blocks_->add(order_.begin(color, true), order_.count(color, true), split);
-    impact_pass_.add(first, blocks_->size(), order_.count(color, true));
+    impact_pass_.add(first, blocks_->size(), order_.begin(color, true), order_.count(color, true));
     blocks_->add(order_.begin(color, false), order_.count(color, false), split);
     const std::uint32_t count = blocks_->size() - first;
     if (count == 0) continue;

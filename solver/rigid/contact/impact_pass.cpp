@@ -11,20 +11,21 @@ constexpr int kMostWork = 150000;      // sweeps of a manifold in a substep
 }  // namespace
 
 void ImpactPass::clear() {
-  blocks_.clear();
+  colors_.clear();
   bodies_.clear();
   manifolds_ = 0;
 }
 
-void ImpactPass::add(std::uint32_t first, std::uint32_t end, std::uint32_t manifolds) {
-  if (manifolds > 0) blocks_.emplace_back(first, end);
+void ImpactPass::add(std::uint32_t first, std::uint32_t end, std::uint32_t manifold,
+                     std::uint32_t manifolds) {
+  if (manifolds > 0) colors_.push_back({first, end, manifold, manifolds});
   manifolds_ += static_cast<int>(manifolds);
 }
 
 void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active, std::size_t rows,
                        std::size_t kinematic, ContactBlocks& blocks) {
   if (empty()) return;
-  blocks.expect_impacts();
+  blocks.expect_impacts(colors_.back().manifold + colors_.back().manifolds);
   for (const BodySlot body : active)
     if (impacts.moves(body)) bodies_.push_back(body);
   velocity_.resize(bodies_.size());
@@ -38,12 +39,13 @@ void ImpactPass::prepare(const ContactStep& step, ContactBlocks& blocks) const {
 
 void ImpactPass::run(const ContactStep& step, ContactBlocks& blocks) {
   set_aside(step.rows.rows);
-  if (any_block([&](auto first, auto end) { return blocks.meet(first, end, step); })) {
+  bool meet = false;
+  for_blocks([&](auto first, auto end) { meet |= blocks.meet(first, end, step); });
+  if (meet) {
     for_blocks([&](auto first, auto end) { blocks.begin_impact(first, end); });
     sweep(step, blocks);
     take_back(step.rows.rows);  // what many sweeps round off would add up
-    for_blocks([&](auto first, auto end) { blocks.warm_start(first, end, step); });
-    for_blocks([&](auto first, auto end) { blocks.end_impact(first, end); });
+    for_blocks([&](auto first, auto end) { blocks.end_impact(first, end, step); });
   }
   put_back(step.rows.rows);
 }
@@ -53,7 +55,10 @@ void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
   ImpactSweep sweep{moved_.data() + kinematic_};
   const auto once = [&](const ContactStep& with) {
     ++sweep.now;
-    return any_block([&](auto first, auto end) { return blocks.pass_on(first, end, with, sweep); });
+    bool closes = false;
+    for (const Color& color : colors_)
+      closes |= blocks.pass_on(color.manifold, color.manifolds, with, sweep);
+    return closes;
   };
   ContactStep over_relaxed = step;
   over_relaxed.soft.omega = kOverRelaxed;

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "solver/rigid/collide/impacts.h"
@@ -19,9 +18,10 @@ class ImpactPass {
   static constexpr int kMostSweeps = 64;
 
   void clear();
-  /// Blocks of so many manifolds of one colour, that are near an impact.
-  void add(std::uint32_t first, std::uint32_t end, std::uint32_t manifolds);
-  bool empty() const { return blocks_.empty(); }
+  /// What of a colour is near an impact: `manifolds` from `manifold` of those to solve, in blocks
+  /// from `first` to `end`.
+  void add(std::uint32_t first, std::uint32_t end, std::uint32_t manifold, std::uint32_t manifolds);
+  bool empty() const { return colors_.empty(); }
   /// Once all blocks are added; `active` are the awake bodies in contact, of so
   /// many rows.
   void begin(const Impacts& impacts, std::span<const BodySlot> active, std::size_t rows,
@@ -33,15 +33,13 @@ class ImpactPass {
   void run(const ContactStep& step, ContactBlocks& blocks);
 
  private:
+  struct Color {
+    std::uint32_t first, end;           ///< Blocks.
+    std::uint32_t manifold, manifolds;  ///< Of those to solve; how many.
+  };
   template <class Visit>
   void for_blocks(const Visit& visit) const {
-    for (const auto& [first, end] : blocks_) visit(first, end);
-  }
-  template <class Visit>
-  bool any_block(const Visit& visit) const {
-    bool any = false;
-    for (const auto& [first, end] : blocks_) any |= visit(first, end);
-    return any;
+    for (const Color& color : colors_) visit(color.first, color.end);
   }
   void sweep(const ContactStep& step, ContactBlocks& blocks);
   /// Lets velocities be those before the impulses of the substep; lets them be those again; and
@@ -50,11 +48,11 @@ class ImpactPass {
   void take_back(BodyRow* rows) const;
   void put_back(BodyRow* rows) const;
 
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> blocks_;  ///< First and end, by colour.
-  std::vector<BodySlot> bodies_;                                 ///< That they may move.
-  std::vector<Wide> velocity_;                                   ///< Of these, with all impulses.
-  std::vector<std::uint8_t> moved_;                              ///< See ImpactSweep.
-  std::size_t kinematic_ = 0;                                    ///< Rows below 0.
+  std::vector<Color> colors_;
+  std::vector<BodySlot> bodies_;     ///< That they may move.
+  std::vector<Wide> velocity_;       ///< Of these, with all impulses.
+  std::vector<std::uint8_t> moved_;  ///< See ImpactSweep.
+  std::size_t kinematic_ = 0;        ///< Rows below 0.
   int manifolds_ = 0;
 };
 

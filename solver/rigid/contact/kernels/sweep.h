@@ -120,27 +120,39 @@ struct alignas(64) ImpactLanes {
   WideOf<lanes> gap_m_s[4] = {};  ///< With which a point may close within the substep, by its gap.
   WideOf<lanes> aside[9] = {};    ///< Impulses it has nothing to do with, rolling last.
 };
+/// A contact as a sweep of an impact wants it, which takes it from its block: rows of eight floats.
+struct alignas(64) ImpactContact {
+  float row[13][8] = {};
+  std::uint32_t points = 0;
+  bool rolls = false;
+};
+/// The rows of its bodies.
+struct ImpactPair {
+  std::int32_t row_a = 0, row_b = 0;
+};
 /// A sweep of what is near an impact.
 struct ImpactSweep {
   std::uint8_t* moved = nullptr;  ///< By row: the last sweep that changed it; 0: none.
   std::uint8_t now = 0;
-  std::uint8_t since = 0;  ///< Manifolds are swept that have a body that moved since then.
+  std::uint8_t since = 0;  ///< Contacts are swept that have a body that moved since then.
 };
 /// Finds the gaps. Whether some point of a block, that is not split, closes as fast as impacts do.
 template <std::uint32_t lanes>
 bool meet(const ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact, const SolverRows& bodies,
           float inverse_h);
-/// Sets impulses aside, so that sweeps find those of the impact.
+/// Sets impulses aside, and takes the contacts out.
 template <std::uint32_t lanes>
-void begin_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact);
-/// One pass as sweep_relaxed(), over manifolds whose bodies moved. Whether some point closed as
-/// fast as impacts do when its turn came.
+void begin_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact, ImpactPair* pairs,
+                  ImpactContact* contacts);
+/// One pass as sweep_relaxed(), over those of so many contacts of one colour whose bodies moved.
+/// Whether some point closed as fast as impacts do when its turn came.
 template <std::uint32_t lanes>
-bool pass_on(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
+bool pass_on(const ImpactPair* pairs, ImpactContact* contacts, std::uint32_t count,
              const SolverRows& bodies, const SoftStep& soft, const ImpactSweep& sweep);
-/// Puts impulses back; those of the impact go to the sum of the step.
+/// Applies what the impact did, adds it to the sum of the step, and puts impulses back.
 template <std::uint32_t lanes>
-void end_impact(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact);
+void end_impact(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
+                ImpactContact* contacts, const SolverRows& bodies);
 /// Writes the separation of every point now, by point and lane.
 template <std::uint32_t lanes>
 void separations_now(const ConstraintBlock<lanes>& block, const SolverRows& bodies,

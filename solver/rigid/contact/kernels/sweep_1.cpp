@@ -1,5 +1,5 @@
 // The kernels for one lane: the reference that the others must equal, and what debuggers like.
-#include "solver/rigid/contact/kernels/strike_kernels.h"
+#include "solver/rigid/contact/kernels/impact_kernels.h"
 
 namespace sunder::solver {
 

@@ -1,5 +1,5 @@
 // The kernels for sixteen lanes: AVX-512 (x86-64-v4).
-#include "solver/rigid/contact/kernels/strike_kernels.h"
+#include "solver/rigid/contact/kernels/impact_kernels.h"
 
 namespace sunder::solver {
 

@@ -1,5 +1,5 @@
 // The kernels for four lanes: any x86-64 processor.
-#include "solver/rigid/contact/kernels/strike_kernels.h"
+#include "solver/rigid/contact/kernels/impact_kernels.h"
 
 namespace sunder::solver {
 

@@ -1,5 +1,5 @@
 // The kernels for eight lanes: AVX2 (x86-64-v3).
-#include "solver/rigid/contact/kernels/strike_kernels.h"
+#include "solver/rigid/contact/kernels/impact_kernels.h"
 
 namespace sunder::solver {
 
