@@ -178,6 +178,21 @@ TEST(ParticleStage, PiecesThatGoOnAsTheirSolidSpunDoNotPart) {
   }
 }
 
+TEST(ParticleStage, FacesOfWhatSpinsAreWhereItWas) {
+  // Within a frame it turns ten times: a face that flew straight on would be as far away as that.
+  ParticleRun run(1.0 / 60, 0, 10, false, Vec3::Zero(), 3, Vec3(3700, 0, 0));
+  for (int i = 0; i < 4; ++i) run.simulation->next();
+  ASSERT_EQ(run.particles->faces.size(), 2u);
+  for (const RecordingParticles::Face& face : run.particles->faces) {
+    const Vec3 normal_W =
+        (face.corners_W[1] - face.corners_W[0]).cross(face.corners_W[2] - face.corners_W[0]);
+    EXPECT_NEAR(normal_W.norm(), 1, 1e-9) << "a square, as before";
+    EXPECT_LT((normal_W - face.emission.normal_W).norm(), 1e-9);
+    for (const Vec3& corner_W : face.corners_W)
+      EXPECT_LT((face.emission.motion(corner_W) - Vec3(0, 0, 2)).norm(), 3700 * 1.2);
+  }
+}
+
 TEST(ParticleStage, AVisualMeshCrumblesWhereItsCapsAre) {
   ParticleRun run(1.0 / 60, 0, 10, true);
   run.simulation->next();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/rotation.h"
 
 namespace sunder {
 namespace {
@@ -31,12 +32,14 @@ Emission emission_of(const World& world, const BodyStates& states, const Exposed
     emission.parting_m_s = (velocity_W - parent.motion.field(was_W)).norm();
     back_s = world.clock.frame_s();
   }
-  emission.normal_W = X_WR.rotation * face.normal_R;
-  for (const Vec3& corner_R : corners_R) {
-    const Vec3 corner_W = X_WR * corner_R;
-    corners_W.push_back(corner_W - back_s * emission.motion(corner_W));
-  }
-  emission.motion.at_W -= back_s * emission.motion.velocity_W;
+  // Turned back, too: going on straight, the corners of what spins would fly off.
+  VelocityField& motion = emission.motion;
+  const Mat3 turn(rotation_by(-back_s * motion.angular_velocity_W));
+  const Vec3 was_at_W = motion.at_W - back_s * motion.velocity_W;
+  emission.normal_W = turn * (X_WR.rotation * face.normal_R);
+  for (const Vec3& corner_R : corners_R)
+    corners_W.push_back(was_at_W + turn * (X_WR * corner_R - motion.at_W));
+  motion.at_W = was_at_W;
   return emission;
 }
 
