@@ -21,7 +21,7 @@ std::string state_hash(const std::string& arguments) {
 TEST_P(EveryScene, HasTheSameStateOnAnyThreadsAndLanes) {
   // What falls into hundreds of pieces and more, until it does; of the arena, two blows.
   const std::map<std::string, std::string> shorter = {
-      {"temple", "60"},  {"pile", "60"},   {"arena", "40"},  {"apartments", "24"},
+      {"temple", "60"},  {"pile", "60"},   {"arena", "40"},  {"apartments", "40"},
       {"chimney", "45"}, {"street", "40"}, {"bunker", "45"}, {"crusher", "45"}};
   const auto given = shorter.find(GetParam());
   const std::string frames = given == shorter.end() ? "120" : given->second;
