@@ -22,18 +22,33 @@ std::string Ended::how() const {
   return (crashed() ? "crashed: " : "ended by ") + std::string(strsignal(signal));
 }
 
-Ended run_apart(const std::function<int()>& work) {
-  const pid_t parent = getpid(), child = fork();
-  if (child < 0) throw FileError(std::string("no process can be started: ") + std::strerror(errno));
-  if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    _exit(getppid() == parent ? work() : 1);
+Ended run_apart(const std::function<int()>& work) { return run_apart(std::span(&work, 1)).front(); }
+
+std::vector<Ended> run_apart(std::span<const std::function<int()>> works) {
+  std::vector<pid_t> children;
+  for (const std::function<int()>& work : works) {
+    const pid_t parent = getpid(), child = fork();
+    if (child < 0) {
+      throw FileError(std::string("no process can be started: ") + std::strerror(errno));
+    }
+    if (child == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      _exit(getppid() == parent ? work() : 1);
+    }
+    children.push_back(child);
   }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  std::vector<Ended> ended;
+  for (const pid_t child : children) {
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (WIFSIGNALED(status)) {
+      ended.push_back({0, WTERMSIG(status)});
+    } else {
+      ended.push_back({WEXITSTATUS(status), 0});
+    }
   }
-  if (WIFSIGNALED(status)) return {0, WTERMSIG(status)};
-  return {WEXITSTATUS(status), 0};
+  return ended;
 }
 
 }  // namespace sunder::app

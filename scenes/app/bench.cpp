@@ -3,14 +3,17 @@
 //
 // Read first: bench(), then measure(). Every run is a process of its own and leaves an object of
 // figures; everything reported is made of those.
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
 
 #include "bench/timing/compare.h"
@@ -102,22 +105,50 @@ int become(const BenchOptions& options, const Timed& timed, std::FILE* file) {
   return 1;
 }
 
-/// Its figures as JSON. In a process of its own, so that its peak memory is its own.
-std::string run_once(const BenchOptions& options, const Timed& timed, bool warn) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), &std::fclose);
-  if (!file) throw FileError("no temporary file can be made: set TMPDIR to where there is room");
-  const Ended ended = run_apart([&] {
-    return timed.program.empty() ? run_here(options, timed, warn, file.get())
-                                 : become(options, timed, file.get());
-  });
-  if (ended.signal != 0 || ended.exit_code != 0) {
-    throw std::runtime_error(title_of(timed) + " has no timing: " + ended.how());
-  }
-  std::fseek(file.get(), 0, SEEK_END);
-  std::string text(static_cast<std::size_t>(std::ftell(file.get())), ' ');
-  std::rewind(file.get());
-  text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+std::string text_of(std::FILE* file) {
+  std::fseek(file, 0, SEEK_END);
+  std::string text(static_cast<std::size_t>(std::ftell(file)), ' ');
+  std::rewind(file);
+  text.resize(std::fread(text.data(), 1, text.size(), file));
   return text;
+}
+
+/// From now on this process runs on that processor alone.
+void stay_on(int processor) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(processor, &set);
+  sched_setaffinity(0, sizeof set, &set);
+}
+
+/// Their figures as JSON. Each in a process of its own, so that its peak memory is its own; several
+/// at once on one processor, so that what slows it, such as others at the memory, slows all alike.
+std::vector<std::string> run_once(const BenchOptions& options, std::span<const Timed> runs,
+                                  bool warn) {
+  std::vector<File> files;
+  std::vector<std::function<int()>> works;
+  const int processor = runs.size() > 1 ? sched_getcpu() : -1;
+  for (const Timed& timed : runs) {
+    files.emplace_back(std::tmpfile(), &std::fclose);
+    std::FILE* const file = files.back().get();
+    if (!file) throw FileError("no temporary file can be made: set TMPDIR to where there is room");
+    works.emplace_back([&options, &timed, warn, file, processor] {
+      if (processor >= 0) stay_on(processor);
+      return timed.program.empty() ? run_here(options, timed, warn, file)
+                                   : become(options, timed, file);
+    });
+  }
+  const std::vector<Ended> ended = run_apart(works);
+  std::vector<std::string> figures;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (ended[i].signal != 0 || ended[i].exit_code != 0) {
+      throw std::runtime_error(title_of(runs[i]) + " has no timing: " + ended[i].how());
+    }
+    figures.push_back(text_of(files[i].get()));
+  }
+  return figures;
 }
 
 /// What was measured: an object a scene, and those of the other program, if there is one.
@@ -135,18 +166,22 @@ Figures median_of(const Timed& timed) {
 }
 
 /// Repeats go in turns, everything once a turn, so that what slows the machine for a while slows
-/// all of it.
+/// all of it; a scene by this program and by the other go at once, if by one thread each.
 Measured measure(const BenchOptions& options) {
   set_threads(1);  // a process that has begun others cannot be copied
   std::vector<Timed> all = timed_runs(options);
   const int turns = options.warm_up + options.repeats;
   WorkProgress progress("bench", options.quiet);
   for (int turn = 0; turn < turns; ++turn) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t i = 0, count = 0; i < all.size(); i += count) {
       const double done = static_cast<double>(i) / static_cast<double>(all.size());
       progress(title_of(all[i]).c_str(), (turn + done) / turns);
-      std::string figures = run_once(options, all[i], turn == 0 && all[i].run.without.empty());
-      if (turn >= options.warm_up) all[i].repeats.push_back(std::move(figures));
+      const bool has_other = i + 1 < all.size() && !all[i + 1].program.empty();
+      count = has_other && options.threads == 1 ? 2 : 1;
+      const auto figures = run_once(options, std::span(all).subspan(i, count),
+                                    turn == 0 && all[i].run.without.empty());
+      if (turn < options.warm_up) continue;
+      for (std::size_t k = 0; k < count; ++k) all[i + k].repeats.push_back(figures[k]);
     }
   }
   Measured measured;

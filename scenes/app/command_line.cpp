@@ -167,7 +167,7 @@ void add_bench(CLI::App& program, Command& chosen) {
   auto* against =
       command.app
           ->add_option("--against", options.against,
-                       "Another sunder, timed in the same turns: compares as --compare does")
+                       "Another sunder, timed at the same time: compares as --compare does")
           ->type_name("PROGRAM")
           ->excludes(compare);
   command.app

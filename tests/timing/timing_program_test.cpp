@@ -2,6 +2,7 @@
 // in the files that it wrote.
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -121,6 +122,22 @@ TEST_F(Bench, AnotherProgramIsTimedInTheSameTurnsAndCompared) {
   EXPECT_NE(other.err.find("the state differs"), std::string::npos) << other.err;
   EXPECT_EQ(bench(fall + folder_ / "fall.toml").exit_code, 2) << "no program";
   EXPECT_EQ(bench(fall + "/bin/false").exit_code, 1);
+}
+
+TEST_F(Bench, AnotherProgramSharesOneProcessorWithThisOne) {
+  const std::string seen = folder_ / "seen";
+  std::ofstream(folder_ / "other") << "#!/bin/sh\ngrep Cpus_allowed_list /proc/self/status >> \""
+                                   << seen << "\"\nexec \"" SUNDER_PROGRAM "\" \"$@\"\n";
+  std::filesystem::permissions(folder_ / "other", std::filesystem::perms::owner_all);
+  const Outcome outcome =
+      bench(folder_ / "fall.toml" + " --repeats 3 --warm-up 0 --against " + folder_ / "other");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::istringstream lines(scenes::read_text(seen));
+  int runs = 0;
+  for (std::string line; std::getline(lines, line); ++runs) {
+    EXPECT_EQ(line.find_first_of(",-", line.find(':')), std::string::npos) << line;
+  }
+  EXPECT_EQ(runs, 3);
 }
 
 TEST_F(Bench, TellsWhatFeaturesSaveAndWritesPageAndJunit) {
