@@ -11,7 +11,7 @@ namespace sunder::truths {
 namespace {
 
 constexpr double kSilo_m = 0.15, kGrain_m = 0.02;  // radii
-constexpr int kGrains = 1500, kSides = 16, kBands = 8;
+constexpr int kSilos = 4, kGrains = 750, kSides = 16, kBands = 8;
 using Bands = std::array<double, kBands>;
 
 /// What is left of the variance of `y` over x = 0.5 ... when A (1 − e^(−x/λ)) is fitted to it.
@@ -31,7 +31,8 @@ double unexplained(const Bands& y) {
   return least / variance;
 }
 
-double silo(const Preset& preset) {
+/// What presses on the wall of one of them, from the top down.
+Bands filled(const Preset& preset, std::uint64_t seed) {
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), 0.5));
   for (int i = 0; i < kSides; ++i) {
@@ -42,7 +43,7 @@ double silo(const Preset& preset) {
     wall.reports_load = true;
     world.add(wall);
   }
-  Random random(18);
+  Random random(seed, 18);
   std::vector<BodyId> grains;
   for (int i = 0; i < kGrains; ++i) {
     const SinCos turn = sin_cos(2.4 * i);  // the golden angle
@@ -52,7 +53,7 @@ double silo(const Preset& preset) {
         W::sphere(size_m, Vec3(radius_m * turn.cos, 0.03 + 0.05 * (i / 20), radius_m * turn.sin)),
         0.5)));
   }
-  world.run(3);
+  world.run(2);
   double top_m = 0;
   for (const BodyId id : grains) top_m = std::max(top_m, world.state(id).X_WB.position.y());
   Bands pressure{};
@@ -63,15 +64,25 @@ double silo(const Preset& preset) {
       pressure[band] += std::hypot(load.impulse_W.x(), load.impulse_W.z());
     }
   });
-  return unexplained(pressure);
+  return pressure;
+}
+
+/// Of the mean of several: each has arches of its own, by chance.
+double silo(const Preset& preset) {
+  Bands mean{};
+  for (std::uint64_t seed = 1; seed <= kSilos; ++seed) {
+    const Bands one = filled(preset, seed);
+    for (std::size_t band = 0; band < kBands; ++band) mean[band] += one[band] / kSilos;
+  }
+  return unexplained(mean);
 }
 
 }  // namespace
 
 Truths silo_truths() {
   return {
-      truth(18, "silo of 1,500 balls: 1 − R² of the wall's pressure over depth", "",
-            "A (1 − e^(−z/λ)), Janssen 1895", 0.02, silo, {0.069, 0.066, 0.11, 0.24}, 2),
+      truth(18, "4 silos of 750 balls: 1 − R² of the walls' mean pressure over depth", "",
+            "A (1 − e^(−z/λ)), Janssen 1895", 0.02, silo, {0.08, 0.05, 0.05, 0.05}, 2),
   };
 }
 
