@@ -52,6 +52,22 @@ Target make_shadow_target(const GlTable& gl, Unit unit, int texels) {
   return {make_framebuffer(gl, 0, texture), texels, texels};
 }
 
+/// As uniforms have it.
+Eigen::Matrix4f matrix_of(const float (&columns)[16]) {
+  return Eigen::Map<const Eigen::Matrix4f>(columns);
+}
+
+SeenFrom seen_by_light(const float (&picture_of_eye)[16], int texels) {
+  const Eigen::Matrix4f to = matrix_of(picture_of_eye);
+  return {to, to.block<1, 3>(2, 0).transpose().normalized(), texels, texels, 16};
+}
+
+SeenFrom seen_by_eye(const float (&clip_of_eye)[16], int width, int height) {
+  Eigen::Matrix4f to = matrix_of(clip_of_eye);
+  to.topRows<3>() = (0.5f * (to.topRows<3>() + to.row(3).replicate<3, 1>())).eval();
+  return {to, to.block<1, 3>(3, 0).transpose().normalized(), width, height, 24};
+}
+
 /// From its middle; the first few fill it as evenly as many do (Roberts 2018, the R2 sequence).
 Vec2 place_in_pixel(int sample) {
   const auto of = [&](double step) {
@@ -92,6 +108,7 @@ struct Renderer::Impl {
   const GlTable& gl;
   Programs programs;
   Pieces pieces;
+  CoveredTiles covered;
   Chips chips;
   Puffs puffs;
   std::optional<Pictures> pictures;
@@ -107,6 +124,7 @@ struct Renderer::Impl {
   Target open;
   Target blurred;
   Target dust;
+  SeenFrom from_sun, from_above, from_eye;
   Target sum;  ///< Of samples.
   Target picture;
   std::shared_ptr<const std::vector<Material>> materials;
@@ -124,6 +142,7 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
       gl(context->gl()),
       programs(make_programs(gl, wanted.samples > 1 || wanted.transparent, wanted.transparent)),
       pieces(gl),
+      covered(gl),
       chips(gl),
       puffs(gl) {
   check_layers(options.layers);
@@ -202,6 +221,9 @@ void Renderer::Impl::upload(const Frame& frame, const Sample& sample) {
   FrameUniforms uniforms =
       make_uniforms(frame.view, pieces.casters(), options.width, options.height, sample);
   uniforms.ground_offset[2] = static_cast<float>(kTexelsAMaterial * materials->size());
+  from_sun = seen_by_light(uniforms.shadow_of_eye, kShadowTexels);
+  from_above = seen_by_light(uniforms.zenith_of_eye, kZenithTexels);
+  from_eye = seen_by_eye(uniforms.clip_of_eye, options.width, options.height);
   gl.BindBuffer(GL_UNIFORM_BUFFER, uniform_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
   chips.update(frame, uniforms.lens[1], uniforms.to_sun[3]);
@@ -213,19 +235,19 @@ void Renderer::Impl::draw_shadows() {
   gl.Enable(GL_DEPTH_TEST);
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_BACK);
-  gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5f, 2);
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
   begin(shadow, programs.shadow);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  pieces.draw(Pieces::Group::kMatte);
-  pieces.draw(Pieces::Group::kPainted);
-  pieces.draw(Pieces::Group::kShiny);
+  covered.start(from_sun);
+  pieces.draw_depths(Pieces::Group::kOpaque, covered);
   chips.draw_shadows();
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   done("shadows");
   begin(zenith, programs.zenith);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  pieces.draw(Pieces::Group::kLarge);
+  covered.start(from_above);
+  pieces.draw_depths(Pieces::Group::kLarge, covered);
   done("zenith");
 }
 
@@ -234,13 +256,14 @@ void Renderer::Impl::draw_pieces() {
   gl.ClearColor(0, 0, 0, 1);  // of what is transparent: all of what is behind it shows
   gl.Clear(GL_DEPTH_BUFFER_BIT | (options.transparent ? GL_COLOR_BUFFER_BIT : 0u));
   gl.PolygonMode(GL_FRONT_AND_BACK, view_mode.edges() ? GL_LINE : GL_FILL);
-  pieces.draw(Pieces::Group::kMatte);
+  covered.start(from_eye);
+  pieces.draw(Pieces::Group::kMatte, covered);
   if (pieces.has(Pieces::Group::kPainted)) {
     begin(light, programs.painted);
-    pieces.draw(Pieces::Group::kPainted);
+    pieces.draw(Pieces::Group::kPainted, covered);
   }
   begin(light, programs.shiny);
-  pieces.draw(Pieces::Group::kShiny);
+  pieces.draw(Pieces::Group::kShiny, covered);
   gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   chips.draw();
 }

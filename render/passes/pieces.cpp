@@ -1,10 +1,12 @@
 #include "render/passes/pieces.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
-#include <span>
 
 #include "engine/base/check.h"
+#include "engine/base/hash.h"
+#include "engine/base/parallel.h"
 #include "render/gl/objects.h"
 
 namespace sunder::render {
@@ -12,6 +14,9 @@ namespace {
 
 constexpr std::size_t kFloatsPerSlot = 16;
 constexpr float kLarge_m = 0.25f;  // radius
+// How many are looked through for what is covered, and how often.
+constexpr std::size_t kMany = 400;
+constexpr int kRounds = 3;
 
 struct GpuVertex {
   float position[3];
@@ -20,6 +25,50 @@ struct GpuVertex {
   float uv[2];
   std::uint32_t paint;  ///< From 1; 0: none.
 };
+
+/// Of each vertex, the first in the same place: where only places matter, faces share it.
+std::vector<std::uint32_t> first_in_place(const Mesh& mesh) {
+  constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> first(mesh.vertices.size());
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * first.size() + 1), kNone);
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    const Vec3f& place = mesh.vertices[v].position;
+    std::uint64_t key = 0;
+    for (int i = 0; i < 3; ++i) key = combine(key, std::bit_cast<std::uint32_t>(place[i]));
+    std::size_t at = key & (table.size() - 1);
+    while (table[at] != kNone && mesh.vertices[table[at]].position != place) {
+      at = (at + 1) & (table.size() - 1);
+    }
+    if (table[at] == kNone) table[at] = v;
+    first[v] = table[at];
+  }
+  return first;
+}
+
+/// Which of `instances` are likely to cover others: in each part of the picture the nearest, and
+/// what is as near but for half its size.
+std::vector<std::uint8_t> in_front(const std::vector<std::uint32_t>& instances,
+                                   const std::vector<TurnedBox>& boxes, const SeenFrom& seen) {
+  constexpr std::size_t kParts = 64;  // along each side
+  std::vector<float> nearest(kParts * kParts, 1e30f);
+  std::vector<std::size_t> part_of;
+  part_of.reserve(instances.size());
+  for (const std::uint32_t i : instances) {
+    const Eigen::Vector4f at = seen.picture_of_eye * boxes[i].center.homogeneous();
+    const auto part = [&](float x) {
+      return static_cast<std::size_t>(std::clamp(x / at.w() * kParts, 0.f, kParts - 1.f));
+    };
+    part_of.push_back(part(at.y()) * kParts + part(at.x()));
+    float& least = nearest[part_of.back()];
+    least = std::min(least, seen.ahead.dot(boxes[i].center));
+  }
+  std::vector<std::uint8_t> front(instances.size());
+  for (std::size_t k = 0; k < instances.size(); ++k) {
+    const TurnedBox& box = boxes[instances[k]];
+    front[k] = seen.ahead.dot(box.center) <= nearest[part_of[k]] + box.half_axes.norm();
+  }
+  return front;
+}
 
 GLsizeiptr bytes(std::size_t count, std::size_t size) {
   return static_cast<GLsizeiptr>(count * size);
@@ -86,7 +135,7 @@ bool Pieces::assign_slots(const Frame& frame) {
   std::size_t indices = indices_;
   for (std::size_t s = uploaded_slots_; s < slots_.size(); ++s) {
     vertices += slots_[s].mesh->vertices.size();
-    indices += slots_[s].mesh->indices.size();
+    indices += 2 * slots_[s].mesh->indices.size();
   }
   return vertices <= vertex_room_ && indices <= index_room_;
 }
@@ -101,7 +150,7 @@ std::uint32_t Pieces::find_slot(std::uint32_t mesh_index, const std::shared_ptr<
     copies.unused = slots_[slot].next_copy;
     return slot;
   }
-  slots_.push_back({mesh, 0, copies.first, Vec3f::Zero(), 0, false});
+  slots_.push_back({mesh, 0, copies.first});
   copies.first = static_cast<std::uint32_t>(slots_.size() - 1);
   return copies.first;
 }
@@ -111,7 +160,7 @@ void Pieces::forget(const Frame& frame) {
   std::size_t indices = 0;
   for (const Instance& instance : frame.instances) {
     vertices += (*frame.meshes)[instance.mesh.value]->vertices.size();
-    indices += (*frame.meshes)[instance.mesh.value]->indices.size();
+    indices += 2 * (*frame.meshes)[instance.mesh.value]->indices.size();
   }
   slots_.clear();
   copies_.clear();
@@ -132,7 +181,9 @@ void Pieces::upload_new() {
     Slot& slot = slots_[s];
     slot.first_index = static_cast<std::uint32_t>(indices_ + indices.size());
     const auto base = static_cast<std::uint32_t>(vertices_ + vertices.size());
+    const std::vector<std::uint32_t> first = first_in_place(*slot.mesh);
     for (const std::uint32_t index : slot.mesh->indices) indices.push_back(base + index);
+    for (const std::uint32_t index : slot.mesh->indices) indices.push_back(base + first[index]);
     Box box;
     for (std::size_t i = 0; i < slot.mesh->vertices.size(); ++i) {
       const Mesh::Vertex& v = slot.mesh->vertices[i];
@@ -150,7 +201,7 @@ void Pieces::upload_new() {
     }
     if (box.empty()) continue;
     slot.center = box.center().cast<float>();
-    slot.radius = static_cast<float>(0.5 * box.extent().norm());
+    slot.half_extent = (0.5 * box.extent()).cast<float>();
   }
   uploaded_slots_ = slots_.size();
   if (indices.empty()) return;
@@ -167,6 +218,7 @@ void Pieces::upload_new() {
 void Pieces::place(const Frame& frame) {
   slot_texels_.resize(std::max<std::size_t>(1, slots_.size()) * kFloatsPerSlot);
   casters_.clear();
+  boxes_.clear();
   std::array<std::vector<Placed>, kGroups> placed;
   const Vec3 forward = (frame.view.target_W - frame.view.eye_W).normalized();
   for (std::size_t i = 0; i < frame.instances.size(); ++i) {
@@ -189,17 +241,29 @@ void Pieces::place(const Frame& frame) {
     texels[15] = static_cast<float>(material);
 
     const Vec3f center = rotation * slot.center + translation;
+    boxes_.push_back({center, rotation * slot.half_extent.asDiagonal()});
+    const float radius = slot.half_extent.norm();
     const float distance = center.dot(forward.cast<float>());
     const Group group = group_of((*frame.materials)[material]);
     const auto add = [&](Group to) {
-      placed[static_cast<std::size_t>(to)].push_back({distance, static_cast<std::uint32_t>(i), s});
+      placed[static_cast<std::size_t>(to)].push_back({distance, static_cast<std::uint32_t>(i)});
     };
     add(slot.painted && given.none() && group != Group::kGlass ? Group::kPainted : group);
-    if (group == Group::kMatte && slot.radius > kLarge_m) add(Group::kLarge);
-    if (group != Group::kGlass) casters_.push_back({center, slot.radius});
+    if (group == Group::kMatte && radius > kLarge_m) add(Group::kLarge);
+    if (group == Group::kGlass) continue;
+    add(Group::kOpaque);
+    casters_.push_back({center, radius});
   }
   for (std::size_t g = 0; g < placed.size(); ++g) {
-    draws_[g] = ordered(placed[g], static_cast<Group>(g) != Group::kGlass);
+    const bool near_first = static_cast<Group>(g) != Group::kGlass;
+    if (static_cast<Group>(g) < Group::kOpaque) {
+      std::sort(placed[g].begin(), placed[g].end(), [&](const Placed& a, const Placed& b) {
+        if (a.distance != b.distance) return (a.distance < b.distance) == near_first;
+        return a.instance < b.instance;
+      });
+    }
+    placed_[g].clear();
+    for (const Placed& p : placed[g]) placed_[g].push_back(p.instance);
   }
   fill_buffer(gl_, GL_TEXTURE_BUFFER, slot_buffer_, slot_texels_, GL_STREAM_DRAW);
 }
@@ -212,35 +276,71 @@ void Pieces::name_bodies(const Frame& frame) {
   fill_buffer(gl_, GL_TEXTURE_BUFFER, slot_buffer_, slot_texels_, GL_STREAM_DRAW);
 }
 
-Pieces::Draws Pieces::ordered(std::vector<Placed>& placed, bool near_first) const {
-  std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) {
-    if (a.distance != b.distance) return (a.distance < b.distance) == near_first;
-    return a.instance < b.instance;
-  });
-  Draws draws;
-  for (const Placed& p : placed) {
-    const Slot& slot = slots_[p.slot];
-    draws.counts.push_back(static_cast<GLsizei>(slot.mesh->indices.size()));
-    draws.offsets.push_back(buffer_offset(slot.first_index * sizeof(std::uint32_t)));
-  }
-  return draws;
-}
-
 void Pieces::draw(Group group) const {
-  if (!has(group)) return;
-  const Draws& d = draws(group);
+  if (group != Group::kGlass) return draw(placed(group), Faces::kLit);
   gl_.BindVertexArray(vertex_array_);
-  if (group != Group::kGlass) {
-    gl_.MultiDrawElements(GL_TRIANGLES, d.counts.data(), GL_UNSIGNED_INT, d.offsets.data(),
-                          static_cast<GLsizei>(d.counts.size()));
-    return;
-  }
-  for (std::size_t i = 0; i < d.counts.size(); ++i) {
+  for (const std::uint32_t instance : placed(group)) {
+    const Slot& slot = slots_[slot_of_instance_[instance]];
     for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
       gl_.CullFace(hidden);
-      gl_.DrawElements(GL_TRIANGLES, d.counts[i], GL_UNSIGNED_INT, d.offsets[i]);
+      gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(slot.mesh->indices.size()),
+                       GL_UNSIGNED_INT, buffer_offset(slot.first_index * sizeof(std::uint32_t)));
     }
   }
+}
+
+void Pieces::draw(Group group, CoveredTiles& covered) const {
+  draw_seen(group, Faces::kLit, covered);
+}
+
+void Pieces::draw_depths(Group group, CoveredTiles& covered) const {
+  draw_seen(group, Faces::kDepths, covered);
+}
+
+void Pieces::draw_seen(Group group, Faces faces, CoveredTiles& covered) const {
+  std::vector<std::uint32_t> left = placed(group);
+  leave_out_hidden(left, covered);
+  for (int round = 0; round < kRounds && left.size() >= kMany; ++round) {
+    const std::vector<std::uint8_t> front = in_front(left, boxes_, covered.seen_from());
+    std::vector<std::uint32_t> first, rest;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      (front[k] != 0 ? first : rest).push_back(left[k]);
+    }
+    draw(first, faces);
+    covered.read();
+    left = std::move(rest);
+    leave_out_hidden(left, covered);
+  }
+  draw(left, faces);
+}
+
+void Pieces::leave_out_hidden(std::vector<std::uint32_t>& instances,
+                              const CoveredTiles& covered) const {
+  std::vector<std::uint8_t> hidden(instances.size());
+  for_chunks(hidden.size(), 512, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t k = begin; k < end; ++k) hidden[k] = covered.hides(boxes_[instances[k]]);
+  });
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < hidden.size(); ++k) {
+    if (hidden[k] == 0) instances[kept++] = instances[k];
+  }
+  instances.resize(kept);
+}
+
+void Pieces::draw(const std::vector<std::uint32_t>& instances, Faces faces) const {
+  if (instances.empty()) return;
+  std::vector<GLsizei> counts;
+  std::vector<const void*> offsets;
+  for (const std::uint32_t instance : instances) {
+    const Slot& slot = slots_[slot_of_instance_[instance]];
+    const std::size_t count = slot.mesh->indices.size();
+    const std::size_t first = slot.first_index + (faces == Faces::kDepths ? count : 0);
+    counts.push_back(static_cast<GLsizei>(count));
+    offsets.push_back(buffer_offset(first * sizeof(std::uint32_t)));
+  }
+  gl_.BindVertexArray(vertex_array_);
+  gl_.MultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),
+                        static_cast<GLsizei>(counts.size()));
 }
 
 }  // namespace sunder::render

@@ -8,6 +8,7 @@
 
 #include "engine/model/frame.h"
 #include "render/gl/table.h"
+#include "render/passes/covered.h"
 #include "render/passes/viewpoint.h"
 
 namespace sunder::render {
@@ -25,12 +26,18 @@ class Pieces {
     kMatte,
     kPainted,  ///< Matte ones, of which a file says how they look.
     kShiny,
-    kGlass,  ///< For each piece its back faces, then its front faces.
-    kLarge,  ///< Of the matte and painted ones again those that keep light from rooms.
+    kGlass,   ///< For each piece its back faces, then its front faces.
+    kOpaque,  ///< Again, all that is no glass.
+    kLarge,   ///< Of the matte and painted ones again those that keep light from rooms.
   };
-  static constexpr int kGroups = 5;
-  bool has(Group group) const { return !draws(group).counts.empty(); }
+  static constexpr int kGroups = 6;
+  bool has(Group group) const { return !placed(group).empty(); }
+  /// All of them.
   void draw(Group group) const;
+  /// What is seen of them: what is covered by then in the picture is left out.
+  void draw(Group group, CoveredTiles& covered) const;
+  /// The same, of which only depths matter.
+  void draw_depths(Group group, CoveredTiles& covered) const;
 
   /// Until the next update, slots have the key of their body, and 1, in place of a material.
   void name_bodies(const Frame& frame);
@@ -44,10 +51,10 @@ class Pieces {
   /// uploaded twice.
   struct Slot {
     std::shared_ptr<const Mesh> mesh;
-    std::uint32_t first_index = 0;
+    std::uint32_t first_index = 0;  ///< As many follow for depths.
     std::uint32_t next_copy = kNone;
-    Vec3f center = Vec3f::Zero();  ///< Of a ball around the vertices, in the mesh's coordinates.
-    float radius = 0;
+    Vec3f center = Vec3f::Zero();  ///< Of a box around the vertices, in the mesh's coordinates.
+    Vec3f half_extent = Vec3f::Zero();
     bool painted = false;
   };
   /// The copies of a mesh, and the first that this frame does not use yet.
@@ -56,14 +63,9 @@ class Pieces {
     std::uint32_t unused = kNone;
     std::uint64_t frame = 0;
   };
-  struct Draws {
-    std::vector<GLsizei> counts;
-    std::vector<const void*> offsets;
-  };
   struct Placed {
     float distance;          ///< Along the view.
     std::uint32_t instance;  ///< Decides ties, as slots depend on what was drawn before.
-    std::uint32_t slot;
   };
 
   bool assign_slots(const Frame& frame);
@@ -71,8 +73,13 @@ class Pieces {
   void forget(const Frame& frame);
   void upload_new();
   void place(const Frame& frame);
-  const Draws& draws(Group group) const { return draws_[static_cast<std::size_t>(group)]; }
-  Draws ordered(std::vector<Placed>& placed, bool near_first) const;
+  const std::vector<std::uint32_t>& placed(Group group) const {
+    return placed_[static_cast<std::size_t>(group)];
+  }
+  enum class Faces : std::uint8_t { kLit, kDepths };
+  void draw_seen(Group group, Faces faces, CoveredTiles& covered) const;
+  void leave_out_hidden(std::vector<std::uint32_t>& instances, const CoveredTiles& covered) const;
+  void draw(const std::vector<std::uint32_t>& instances, Faces faces) const;
 
   const GlTable& gl_;
   GLuint vertex_array_ = 0;
@@ -93,7 +100,8 @@ class Pieces {
   std::vector<std::uint32_t> slot_of_instance_;
   std::vector<float> slot_texels_;
   std::vector<Caster> casters_;
-  std::array<Draws, kGroups> draws_;
+  std::vector<TurnedBox> boxes_;                            ///< Of each instance.
+  std::array<std::vector<std::uint32_t>, kGroups> placed_;  ///< Instances, in order.
 };
 
 }  // namespace sunder::render
