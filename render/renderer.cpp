@@ -52,22 +52,6 @@ Target make_shadow_target(const GlTable& gl, Unit unit, int texels) {
   return {make_framebuffer(gl, 0, texture), texels, texels};
 }
 
-/// As uniforms have it.
-Eigen::Matrix4f matrix_of(const float (&columns)[16]) {
-  return Eigen::Map<const Eigen::Matrix4f>(columns);
-}
-
-SeenFrom seen_by_light(const float (&picture_of_eye)[16], int texels) {
-  const Eigen::Matrix4f to = matrix_of(picture_of_eye);
-  return {to, to.block<1, 3>(2, 0).transpose().normalized(), texels, texels, 16};
-}
-
-SeenFrom seen_by_eye(const float (&clip_of_eye)[16], int width, int height) {
-  Eigen::Matrix4f to = matrix_of(clip_of_eye);
-  to.topRows<3>() = (0.5f * (to.topRows<3>() + to.row(3).replicate<3, 1>())).eval();
-  return {to, to.block<1, 3>(3, 0).transpose().normalized(), width, height, 24};
-}
-
 /// From its middle; the first few fill it as evenly as many do (Roberts 2018, the R2 sequence).
 Vec2 place_in_pixel(int sample) {
   const auto of = [&](double step) {
@@ -115,6 +99,7 @@ struct Renderer::Impl {
   std::optional<Layers> layers;  ///< None unless asked for.
   std::vector<Layer> drawn_layers;
   std::optional<Marks> marks;  ///< None unless the view mode has some.
+  FrameUniforms uniforms = {};
   GLuint uniform_buffer = 0;
   GLuint material_buffer = 0;
   GLuint empty_vertex_array = 0;  ///< For passes that need no vertices.
@@ -124,7 +109,6 @@ struct Renderer::Impl {
   Target open;
   Target blurred;
   Target dust;
-  SeenFrom from_sun, from_above, from_eye;
   Target sum;  ///< Of samples.
   Target picture;
   std::shared_ptr<const std::vector<Material>> materials;
@@ -218,12 +202,8 @@ void Renderer::Impl::upload(const Frame& frame, const Sample& sample) {
     }
     fill_buffer(gl, GL_TEXTURE_BUFFER, material_buffer, rows, GL_STATIC_DRAW);
   }
-  FrameUniforms uniforms =
-      make_uniforms(frame.view, pieces.casters(), options.width, options.height, sample);
+  uniforms = make_uniforms(frame.view, pieces.casters(), options.width, options.height, sample);
   uniforms.ground_offset[2] = static_cast<float>(kTexelsAMaterial * materials->size());
-  from_sun = seen_by_light(uniforms.shadow_of_eye, kShadowTexels);
-  from_above = seen_by_light(uniforms.zenith_of_eye, kZenithTexels);
-  from_eye = seen_by_eye(uniforms.clip_of_eye, options.width, options.height);
   gl.BindBuffer(GL_UNIFORM_BUFFER, uniform_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
   chips.update(frame, uniforms.lens[1], uniforms.to_sun[3]);
@@ -235,19 +215,19 @@ void Renderer::Impl::draw_shadows() {
   gl.Enable(GL_DEPTH_TEST);
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_BACK);
-  gl.PolygonOffset(1.5f, 2);
   gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(1.5f, 2);
   begin(shadow, programs.shadow);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  covered.start(from_sun);
-  pieces.draw_depths(Pieces::Group::kOpaque, covered);
+  covered.start(seen_by_light(uniforms.shadow_of_eye, kShadowTexels));
+  pieces.draw_shadows(covered);
   chips.draw_shadows();
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   done("shadows");
   begin(zenith, programs.zenith);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  covered.start(from_above);
-  pieces.draw_depths(Pieces::Group::kLarge, covered);
+  covered.start(seen_by_light(uniforms.zenith_of_eye, kZenithTexels));
+  pieces.draw_heights(covered);
   done("zenith");
 }
 
@@ -256,7 +236,7 @@ void Renderer::Impl::draw_pieces() {
   gl.ClearColor(0, 0, 0, 1);  // of what is transparent: all of what is behind it shows
   gl.Clear(GL_DEPTH_BUFFER_BIT | (options.transparent ? GL_COLOR_BUFFER_BIT : 0u));
   gl.PolygonMode(GL_FRONT_AND_BACK, view_mode.edges() ? GL_LINE : GL_FILL);
-  covered.start(from_eye);
+  covered.start(seen_by_camera(uniforms.clip_of_eye, options.width, options.height));
   pieces.draw(Pieces::Group::kMatte, covered);
   if (pieces.has(Pieces::Group::kPainted)) {
     begin(light, programs.painted);

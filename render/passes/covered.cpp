@@ -13,7 +13,22 @@ namespace {
 constexpr float kSlack_px = 1;
 constexpr float kSlackOfDepth = 4e-6f;
 
+Eigen::Matrix4f matrix_of(const float (&columns)[16]) {
+  return Eigen::Map<const Eigen::Matrix4f>(columns);
+}
+
 }  // namespace
+
+SeenFrom seen_by_light(const float (&picture_of_eye)[16], int texels) {
+  const Eigen::Matrix4f to = matrix_of(picture_of_eye);
+  return {to, to.block<1, 3>(2, 0).transpose().normalized(), texels, texels, 16};
+}
+
+SeenFrom seen_by_camera(const float (&clip_of_eye)[16], int width, int height) {
+  Eigen::Matrix4f to = matrix_of(clip_of_eye);
+  to.topRows<3>() = (0.5f * (to.topRows<3>() + to.row(3).replicate<3, 1>())).eval();
+  return {to, to.block<1, 3>(3, 0).transpose().normalized(), width, height, 24};
+}
 
 void CoveredTiles::start(const SeenFrom& seen) {
   seen_ = seen;

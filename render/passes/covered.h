@@ -26,6 +26,10 @@ struct SeenFrom {
   int depth_bits;  ///< 16 or 24.
 };
 
+/// By the matrices of FrameUniforms.
+SeenFrom seen_by_light(const float (&picture_of_eye)[16], int texels);
+SeenFrom seen_by_camera(const float (&clip_of_eye)[16], int width, int height);
+
 /// The farthest depth that a picture has so far, in each of its tiles.
 class CoveredTiles {
  public:

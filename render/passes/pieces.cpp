@@ -1,7 +1,9 @@
 #include "render/passes/pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 
 #include "engine/base/check.h"
@@ -14,8 +16,9 @@ namespace {
 
 constexpr std::size_t kFloatsPerSlot = 16;
 constexpr float kLarge_m = 0.25f;  // radius
+constexpr float kHeightDetail_m = 0.06f;
 // How many are looked through for what is covered, and how often.
-constexpr std::size_t kMany = 400;
+constexpr std::size_t kMany = 2000;
 constexpr int kRounds = 3;
 
 struct GpuVertex {
@@ -26,23 +29,56 @@ struct GpuVertex {
   std::uint32_t paint;  ///< From 1; 0: none.
 };
 
-/// Of each vertex, the first in the same place: where only places matter, faces share it.
-std::vector<std::uint32_t> first_in_place(const Mesh& mesh) {
+using Key = std::array<std::int32_t, 3>;
+
+/// Of each vertex, the first with the same key.
+template <class KeyOf>
+std::vector<std::uint32_t> first_alike(const Mesh& mesh, const KeyOf& key_of) {
   constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  std::vector<std::uint32_t> first(mesh.vertices.size());
-  std::vector<std::uint32_t> table(std::bit_ceil(2 * first.size() + 1), kNone);
-  for (std::uint32_t v = 0; v < first.size(); ++v) {
-    const Vec3f& place = mesh.vertices[v].position;
-    std::uint64_t key = 0;
-    for (int i = 0; i < 3; ++i) key = combine(key, std::bit_cast<std::uint32_t>(place[i]));
-    std::size_t at = key & (table.size() - 1);
-    while (table[at] != kNone && mesh.vertices[table[at]].position != place) {
-      at = (at + 1) & (table.size() - 1);
-    }
+  std::vector<Key> keys;
+  for (const Mesh::Vertex& vertex : mesh.vertices) keys.push_back(key_of(vertex.position));
+  std::vector<std::uint32_t> first(keys.size());
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * keys.size() + 1), kNone);
+  for (std::uint32_t v = 0; v < keys.size(); ++v) {
+    std::uint64_t hash = 0;
+    for (const std::int32_t part : keys[v]) hash = combine(hash, static_cast<std::uint32_t>(part));
+    std::size_t at = hash & (table.size() - 1);
+    while (table[at] != kNone && keys[table[at]] != keys[v]) at = (at + 1) & (table.size() - 1);
     if (table[at] == kNone) table[at] = v;
     first[v] = table[at];
   }
   return first;
+}
+
+/// Triangles by corners of which some stand for others; those without an area are left out.
+std::vector<std::uint32_t> joined(const Mesh& mesh, const std::vector<std::uint32_t>& first) {
+  std::vector<std::uint32_t> indices;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const std::uint32_t a = first[mesh.indices[i]];
+    const std::uint32_t b = first[mesh.indices[i + 1]];
+    const std::uint32_t c = first[mesh.indices[i + 2]];
+    if (a != b && b != c && c != a) indices.insert(indices.end(), {a, b, c});
+  }
+  return indices;
+}
+
+/// Corners in the same place are one: where only depths matter, faces share them.
+std::vector<std::uint32_t> for_depths(const Mesh& mesh) {
+  return joined(mesh, first_alike(mesh, [](const Vec3f& place) {
+                  return Key{std::bit_cast<std::int32_t>(place.x()),
+                             std::bit_cast<std::int32_t>(place.y()),
+                             std::bit_cast<std::int32_t>(place.z())};
+                }));
+}
+
+/// Corners in the same small cube are one: finer than what the sky's light is asked of.
+std::vector<std::uint32_t> for_heights(const Mesh& mesh) {
+  return joined(mesh, first_alike(mesh, [](const Vec3f& place) {
+                  const auto cube = [](float x) {
+                    return static_cast<std::int32_t>(std::floor(x / kHeightDetail_m));
+                  };
+                  return Key{cube(place.x()), cube(place.y()), cube(place.z())};
+                }));
 }
 
 /// Which of `instances` are likely to cover others: in each part of the picture the nearest, and
@@ -113,17 +149,18 @@ Pieces::Pieces(const GlTable& gl) : gl_(gl) {
 
 void Pieces::update(const Frame& frame) {
   SUNDER_CHECK(frame.meshes && frame.materials);
-  if (!assign_slots(frame)) {
+  assign_slots(frame);
+  if (!upload_new()) {
     // No room: begin again with what this frame shows, which also drops what is gone.
-    forget(frame);
+    forget();
     assign_slots(frame);
+    upload_new();
   }
-  upload_new();
   place(frame);
 }
 
-/// Gives every instance a slot; false if the buffers are too small for the new ones.
-bool Pieces::assign_slots(const Frame& frame) {
+/// Gives every instance a slot.
+void Pieces::assign_slots(const Frame& frame) {
   ++frame_number_;
   copies_.resize(std::max(copies_.size(), frame.meshes->size()));
   slot_of_instance_.clear();
@@ -131,13 +168,6 @@ bool Pieces::assign_slots(const Frame& frame) {
     slot_of_instance_.push_back(
         find_slot(instance.mesh.value, (*frame.meshes)[instance.mesh.value]));
   }
-  std::size_t vertices = vertices_;
-  std::size_t indices = indices_;
-  for (std::size_t s = uploaded_slots_; s < slots_.size(); ++s) {
-    vertices += slots_[s].mesh->vertices.size();
-    indices += 2 * slots_[s].mesh->indices.size();
-  }
-  return vertices <= vertex_room_ && indices <= index_room_;
 }
 
 std::uint32_t Pieces::find_slot(std::uint32_t mesh_index, const std::shared_ptr<const Mesh>& mesh) {
@@ -150,40 +180,36 @@ std::uint32_t Pieces::find_slot(std::uint32_t mesh_index, const std::shared_ptr<
     copies.unused = slots_[slot].next_copy;
     return slot;
   }
-  slots_.push_back({mesh, 0, copies.first});
+  slots_.push_back({mesh, copies.first});
   copies.first = static_cast<std::uint32_t>(slots_.size() - 1);
   return copies.first;
 }
 
-void Pieces::forget(const Frame& frame) {
-  std::size_t vertices = 0;
-  std::size_t indices = 0;
-  for (const Instance& instance : frame.instances) {
-    vertices += (*frame.meshes)[instance.mesh.value]->vertices.size();
-    indices += 2 * (*frame.meshes)[instance.mesh.value]->indices.size();
-  }
+void Pieces::forget() {
   slots_.clear();
   copies_.clear();
   uploaded_slots_ = vertices_ = indices_ = 0;
-  vertex_room_ = 2 * vertices + 65536;
-  index_room_ = 2 * indices + 131072;
-  gl_.BindVertexArray(vertex_array_);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
-  gl_.BufferData(GL_ARRAY_BUFFER, bytes(vertex_room_, sizeof(GpuVertex)), nullptr, GL_STATIC_DRAW);
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, bytes(index_room_, sizeof(std::uint32_t)), nullptr,
-                 GL_STATIC_DRAW);
 }
 
-void Pieces::upload_new() {
+/// False if the buffers are too small, unless nothing is in them yet: then they grow.
+bool Pieces::upload_new() {
   std::vector<GpuVertex> vertices;
   std::vector<std::uint32_t> indices;
   for (std::size_t s = uploaded_slots_; s < slots_.size(); ++s) {
     Slot& slot = slots_[s];
-    slot.first_index = static_cast<std::uint32_t>(indices_ + indices.size());
     const auto base = static_cast<std::uint32_t>(vertices_ + vertices.size());
-    const std::vector<std::uint32_t> first = first_in_place(*slot.mesh);
-    for (const std::uint32_t index : slot.mesh->indices) indices.push_back(base + index);
-    for (const std::uint32_t index : slot.mesh->indices) indices.push_back(base + first[index]);
+    const auto added = [&](const std::vector<std::uint32_t>& corners) {
+      const Range range = {static_cast<std::uint32_t>(indices_ + indices.size()),
+                           static_cast<std::uint32_t>(corners.size())};
+      for (const std::uint32_t corner : corners) indices.push_back(base + corner);
+      return range;
+    };
+    const std::vector<std::uint32_t> depths = for_depths(*slot.mesh);
+    const std::vector<std::uint32_t> heights = for_heights(*slot.mesh);
+    auto& [lit, cast, high] = slot.indices;
+    lit = added(slot.mesh->indices);
+    cast = depths == slot.mesh->indices ? lit : added(depths);
+    high = 2 * heights.size() > depths.size() ? cast : added(heights);
     Box box;
     for (std::size_t i = 0; i < slot.mesh->vertices.size(); ++i) {
       const Mesh::Vertex& v = slot.mesh->vertices[i];
@@ -203,16 +229,26 @@ void Pieces::upload_new() {
     slot.center = box.center().cast<float>();
     slot.half_extent = (0.5 * box.extent()).cast<float>();
   }
-  uploaded_slots_ = slots_.size();
-  if (indices.empty()) return;
   gl_.BindVertexArray(vertex_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
+  if (vertices_ + vertices.size() > vertex_room_ || indices_ + indices.size() > index_room_) {
+    if (uploaded_slots_ > 0) return false;
+    vertex_room_ = 2 * vertices.size() + 65536;
+    index_room_ = 2 * indices.size() + 131072;
+    gl_.BufferData(GL_ARRAY_BUFFER, bytes(vertex_room_, sizeof(GpuVertex)), nullptr,
+                   GL_STATIC_DRAW);
+    gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, bytes(index_room_, sizeof(std::uint32_t)), nullptr,
+                   GL_STATIC_DRAW);
+  }
+  uploaded_slots_ = slots_.size();
+  if (indices.empty()) return true;
   gl_.BufferSubData(GL_ARRAY_BUFFER, bytes(vertices_, sizeof(GpuVertex)),
                     bytes(vertices.size(), sizeof(GpuVertex)), vertices.data());
   gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, bytes(indices_, sizeof(std::uint32_t)),
                     bytes(indices.size(), sizeof(std::uint32_t)), indices.data());
   vertices_ += vertices.size();
   indices_ += indices.size();
+  return true;
 }
 
 void Pieces::place(const Frame& frame) {
@@ -280,11 +316,11 @@ void Pieces::draw(Group group) const {
   if (group != Group::kGlass) return draw(placed(group), Faces::kLit);
   gl_.BindVertexArray(vertex_array_);
   for (const std::uint32_t instance : placed(group)) {
-    const Slot& slot = slots_[slot_of_instance_[instance]];
+    const Range lit = slots_[slot_of_instance_[instance]].indices.front();
     for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
       gl_.CullFace(hidden);
-      gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(slot.mesh->indices.size()),
-                       GL_UNSIGNED_INT, buffer_offset(slot.first_index * sizeof(std::uint32_t)));
+      gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(lit.count), GL_UNSIGNED_INT,
+                       buffer_offset(lit.first * sizeof(std::uint32_t)));
     }
   }
 }
@@ -293,8 +329,12 @@ void Pieces::draw(Group group, CoveredTiles& covered) const {
   draw_seen(group, Faces::kLit, covered);
 }
 
-void Pieces::draw_depths(Group group, CoveredTiles& covered) const {
-  draw_seen(group, Faces::kDepths, covered);
+void Pieces::draw_shadows(CoveredTiles& covered) const {
+  draw_seen(Group::kOpaque, Faces::kDepths, covered);
+}
+
+void Pieces::draw_heights(CoveredTiles& covered) const {
+  draw_seen(Group::kLarge, Faces::kHeights, covered);
 }
 
 void Pieces::draw_seen(Group group, Faces faces, CoveredTiles& covered) const {
@@ -333,10 +373,9 @@ void Pieces::draw(const std::vector<std::uint32_t>& instances, Faces faces) cons
   std::vector<const void*> offsets;
   for (const std::uint32_t instance : instances) {
     const Slot& slot = slots_[slot_of_instance_[instance]];
-    const std::size_t count = slot.mesh->indices.size();
-    const std::size_t first = slot.first_index + (faces == Faces::kDepths ? count : 0);
-    counts.push_back(static_cast<GLsizei>(count));
-    offsets.push_back(buffer_offset(first * sizeof(std::uint32_t)));
+    const Range range = slot.indices[static_cast<std::size_t>(faces)];
+    counts.push_back(static_cast<GLsizei>(range.count));
+    offsets.push_back(buffer_offset(range.first * sizeof(std::uint32_t)));
   }
   gl_.BindVertexArray(vertex_array_);
   gl_.MultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),

@@ -27,7 +27,7 @@ class Pieces {
     kPainted,  ///< Matte ones, of which a file says how they look.
     kShiny,
     kGlass,   ///< For each piece its back faces, then its front faces.
-    kOpaque,  ///< Again, all that is no glass.
+    kOpaque,  ///< Again all that is no glass, in no order.
     kLarge,   ///< Of the matte and painted ones again those that keep light from rooms.
   };
   static constexpr int kGroups = 6;
@@ -36,8 +36,9 @@ class Pieces {
   void draw(Group group) const;
   /// What is seen of them: what is covered by then in the picture is left out.
   void draw(Group group, CoveredTiles& covered) const;
-  /// The same, of which only depths matter.
-  void draw_depths(Group group, CoveredTiles& covered) const;
+  /// All that casts shadows, and the large ones as heights seen from above: depths alone.
+  void draw_shadows(CoveredTiles& covered) const;
+  void draw_heights(CoveredTiles& covered) const;
 
   /// Until the next update, slots have the key of their body, and 1, in place of a material.
   void name_bodies(const Frame& frame);
@@ -47,12 +48,21 @@ class Pieces {
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
+  /// Of the triangles of a mesh, those for light, which have all corners; for depths, which share
+  /// corners in the same place; and for the heights of large pieces, without what is small.
+  enum class Faces : std::uint8_t { kLit, kDepths, kHeights };
+  static constexpr int kKindsOfFaces = 3;
+  struct Range {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+  };
+
   /// One uploaded copy of a mesh. Vertices name their slot, so a mesh drawn twice in a frame is
   /// uploaded twice.
   struct Slot {
     std::shared_ptr<const Mesh> mesh;
-    std::uint32_t first_index = 0;  ///< As many follow for depths.
     std::uint32_t next_copy = kNone;
+    std::array<Range, kKindsOfFaces> indices = {};
     Vec3f center = Vec3f::Zero();  ///< Of a box around the vertices, in the mesh's coordinates.
     Vec3f half_extent = Vec3f::Zero();
     bool painted = false;
@@ -68,15 +78,14 @@ class Pieces {
     std::uint32_t instance;  ///< Decides ties, as slots depend on what was drawn before.
   };
 
-  bool assign_slots(const Frame& frame);
+  void assign_slots(const Frame& frame);
   std::uint32_t find_slot(std::uint32_t mesh_index, const std::shared_ptr<const Mesh>& mesh);
-  void forget(const Frame& frame);
-  void upload_new();
+  void forget();
+  bool upload_new();
   void place(const Frame& frame);
   const std::vector<std::uint32_t>& placed(Group group) const {
     return placed_[static_cast<std::size_t>(group)];
   }
-  enum class Faces : std::uint8_t { kLit, kDepths };
   void draw_seen(Group group, Faces faces, CoveredTiles& covered) const;
   void leave_out_hidden(std::vector<std::uint32_t>& instances, const CoveredTiles& covered) const;
   void draw(const std::vector<std::uint32_t>& instances, Faces faces) const;

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
+#include "engine/geometry/hull.h"
+#include "engine/model/compound.h"
+#include "engine/model/piece_mesh.h"
 #include "render/image/compare.h"
 #include "tests/render/synthetic_frame.h"
 
@@ -36,6 +39,49 @@ TEST(Renderer, TheSameFrameGivesTheSameBytesWhateverWasDrawnBefore) {
   EXPECT_EQ(renderer().draw(frame), first) << "after another frame";
   Renderer fresh(small());
   EXPECT_EQ(fresh.draw(frame), first) << "in a new context";
+}
+
+/// Six thousand chunks over a floor, close together, in so many meshes. Places are multiples of
+/// powers of two, so that floats have them exactly whichever mesh they are in.
+Frame crowd(std::size_t meshes) {
+  SyntheticFrame s;
+  s.add_box({-32, -2, -32}, {32, -1, 32}, Stuff::kConcrete);  // what the sun's map is laid out by
+  Random random(5);
+  std::vector<Mesh> parts(meshes);
+  for (std::size_t i = 0; i < 6000; ++i) {
+    const Vec3 place(0.5 * static_cast<double>(i % 20) - 5, 0.5 * static_cast<double>(i / 400),
+                     0.5 * static_cast<double>(i / 20 % 20) - 5);
+    std::vector<Vec3> points;
+    for (int k = 0; k < 12; ++k) {
+      points.push_back((1024 * random.direction()).array().round().matrix() / 4096);
+    }
+    const auto chunk = make_convex(make_hull(points), MaterialIndex(0));
+    const auto mesh = make_mesh(*chunk, std::vector<std::uint8_t>(chunk->polyhedron.faces.size()));
+    Mesh& part = parts[i % meshes];
+    if (part.vertices.empty()) part.origin_T = place + mesh->origin_T;
+    const auto first = static_cast<std::uint32_t>(part.vertices.size());
+    const Vec3f moved = (place + mesh->origin_T - part.origin_T).cast<float>();
+    for (Mesh::Vertex vertex : mesh->vertices) {
+      vertex.position += moved;
+      part.vertices.push_back(vertex);
+    }
+    for (const std::uint32_t index : mesh->indices) part.indices.push_back(first + index);
+    part.material = mesh->material;
+  }
+  auto store = std::make_shared<MeshStore>(*s.frame.meshes);
+  for (Mesh& part : parts) {
+    s.frame.instances.push_back({MeshIndex(store->size()), 1});
+    store->push_back(std::make_shared<const Mesh>(std::move(part)));
+  }
+  s.frame.bodies.emplace_back();
+  s.frame.meshes = store;
+  s.frame.view.eye_W = Vec3(2, 5, 8);
+  s.frame.view.target_W = Vec3(0, 4, 0);
+  return s.frame;
+}
+
+TEST(Renderer, WhatIsLeftOutOfACrowdAsCoveredWouldNotBeSeen) {
+  EXPECT_EQ(renderer().draw(crowd(6000)), renderer().draw(crowd(20)));
 }
 
 TEST(Renderer, EveryKindOfContextGivesTheSameBytes) {
