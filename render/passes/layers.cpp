@@ -70,9 +70,7 @@ std::vector<Layer> Layers::draw(const Frame& frame, Pieces& pieces, const Chips&
     gl_.Enable(GL_CULL_FACE);
     gl_.CullFace(GL_BACK);
     gl_.UseProgram(pass.pieces);
-    for (const auto group : {Pieces::Group::kMatte, Pieces::Group::kShiny, Pieces::Group::kGlass}) {
-      pieces.draw(group);
-    }
+    for (const auto group : {Pieces::Group::kOpaque, Pieces::Group::kGlass}) pieces.draw(group);
     chips.draw(pass.chips);
     gl_.Disable(GL_CULL_FACE);
     gl_.UseProgram(pass.ground);

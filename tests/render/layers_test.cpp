@@ -60,6 +60,18 @@ TEST(Layers, SayHowFarWhichWayAndOfWhatEveryPixelIs) {
   EXPECT_EQ(at(ids, 2, kHeight - 2), (std::vector<std::uint16_t>{0, 0, 0})) << "the ground";
 }
 
+TEST(Layers, HaveWhatIsPaintedToo) {
+  Frame frame = wall();
+  auto mesh = std::make_shared<Mesh>(*frame.meshes->front());
+  for (Mesh::Vertex& vertex : mesh->vertices) vertex.look = Mesh::kFirstPaint;
+  frame.meshes = std::make_shared<const MeshStore>(MeshStore{std::move(mesh)});
+  frame.paints = std::make_shared<const std::vector<Paint>>(1);
+  Renderer renderer(with_layers({"ids"}));
+  renderer.draw(frame);
+  EXPECT_EQ(at(renderer.layers().front().image, kWidth / 2, kHeight / 2),
+            (std::vector<std::uint16_t>{70001 - 65536, 1, 0}));
+}
+
 TEST(Layers, DoNotChangeThePictureNorDoesItsNumberOfSamplesChangeThem) {
   const Frame frame = wall();
   Renderer plain(with_layers({})), layered(with_layers({"ids", "depth"}));
