@@ -87,14 +87,20 @@ struct Id {
   constexpr auto operator<=>(const Id&) const = default;
 };
 
-/// A colour, and a picture that it is multiplied by.
+/// PNG or JPEG, as it was in its file, repeated beyond its edges; null: none.
+using Picture = std::shared_ptr<const std::vector<std::byte>>;
+
+/// A colour, a picture that it is multiplied by, and what is too small for the mesh.
 struct Paint {
   Vec3f color = Vec3f::Ones();  ///< Linear RGB.
-  /// PNG or JPEG, as it was in its file, repeated beyond its edges; null: none.
-  std::shared_ptr<const std::vector<std::byte>> picture;
-  /// Whether texture coordinates count from the picture's lowest row up, as in OBJ, or from its
+  Picture picture;
+  /// Whether texture coordinates count from a picture's lowest row up, as in OBJ, or from its
   /// highest down, as in glTF.
   bool from_below = false;
+  /// Normals as colours: red to the right of the picture, green up in it, blue off the face; or, if
+  /// it is all grey, heights.
+  Picture relief = nullptr;
+  float relief_scale = 1;  ///< How much steeper it is than the picture says.
 };
 
 }  // namespace sunder

@@ -7,6 +7,9 @@ namespace {
 
 constexpr std::uint32_t kNoPicture = ~std::uint32_t{0};
 
+// What a paint says of itself, so that one takes no more bytes than it needs.
+constexpr unsigned kFromBelow = 1, kRelief = 2;
+
 }  // namespace
 
 void put(ByteWriter& out, const View& view) {
@@ -80,32 +83,44 @@ void check_looks(const Mesh& mesh, const std::string& file, std::size_t paints) 
 
 void put(ByteWriter& out, const std::vector<Paint>& paints) {
   std::vector<const std::vector<std::byte>*> pictures;  // each once
+  const auto put_picture = [&](const Picture& picture) {
+    const auto known = std::find(pictures.begin(), pictures.end(), picture.get());
+    out.put(picture ? static_cast<std::uint32_t>(known - pictures.begin()) : kNoPicture);
+    if (!picture || known != pictures.end()) return;
+    pictures.push_back(picture.get());
+    out.put_list(*picture);
+  };
   out.put(static_cast<std::uint32_t>(paints.size()));
   for (const Paint& paint : paints) {
-    const auto known = std::find(pictures.begin(), pictures.end(), paint.picture.get());
-    const auto number = static_cast<std::uint32_t>(known - pictures.begin());
-    const bool is_new = paint.picture && known == pictures.end();
-    out.put(paint.color, static_cast<std::uint8_t>(paint.from_below ? 1 : 0),
-            paint.picture ? number : kNoPicture);
-    if (!is_new) continue;
-    pictures.push_back(paint.picture.get());
-    out.put_list(*paint.picture);
+    out.put(paint.color, static_cast<std::uint8_t>((paint.from_below ? kFromBelow : 0) |
+                                                   (paint.relief ? kRelief : 0)));
+    put_picture(paint.picture);
+    if (!paint.relief) continue;
+    put_picture(paint.relief);
+    out.put(paint.relief_scale);
   }
 }
 
 std::vector<Paint> take_paints(ByteReader& in, const std::string& file) {
-  std::vector<std::shared_ptr<const std::vector<std::byte>>> pictures;
-  std::vector<Paint> paints(in.take_count(17));
-  for (Paint& paint : paints) {
-    in.take_to(paint.color);
-    paint.from_below = in.take<std::uint8_t>() != 0;
+  std::vector<Picture> pictures;
+  const auto take_picture = [&]() -> Picture {
     const auto number = in.take<std::uint32_t>();
-    if (number == kNoPicture) continue;
+    if (number == kNoPicture) return nullptr;
     if (number > pictures.size()) throw InputError(file + ": corrupt: a paint has no picture");
     if (number == pictures.size()) {
       pictures.push_back(std::make_shared<const std::vector<std::byte>>(in.take_list<std::byte>()));
     }
-    paint.picture = pictures[number];
+    return pictures[number];
+  };
+  std::vector<Paint> paints(in.take_count(17));
+  for (Paint& paint : paints) {
+    in.take_to(paint.color);
+    const auto flags = in.take<std::uint8_t>();
+    paint.from_below = (flags & kFromBelow) != 0;
+    paint.picture = take_picture();
+    if ((flags & kRelief) == 0) continue;
+    paint.relief = take_picture();
+    in.take_to(paint.relief_scale);
   }
   return paints;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -21,14 +22,28 @@ class Pictures {
   /// Uploads those of `paints`, in place of what was there; on the same unit. Throws InputError for
   /// what is neither PNG nor JPEG.
   void update(const std::vector<Paint>& paints);
-  /// Texels (RGBA, float) of paints in pieces.vert, one a paint: its colour, and the layer of its
-  /// picture counted from 1; 0: none.
+  /// Texels (RGBA, float) of paints in pieces.vert, two a paint: its colour, and the layer of its
+  /// picture counted from 1, 0: none; the layer of its relief likewise.
   std::vector<float> rows(const std::vector<Paint>& paints) const;
 
  private:
+  /// A picture, either way up.
+  struct Layer {
+    Picture picture;
+    bool from_below = false;
+    std::optional<float> relief_scale = std::nullopt;  ///< None: it shows colours.
+    bool operator==(const Layer&) const = default;
+  };
+  static Layer color_layer(const Paint& paint) { return {paint.picture, paint.from_below}; }
+  static Layer relief_layer(const Paint& paint) {
+    return {paint.relief, paint.from_below, paint.relief_scale};
+  }
+  /// Its number from 1; 0: it is not shown.
+  float layer_of(const Layer& layer) const;
+
   const GlTable& gl_;
   GLuint texture_ = 0;
-  std::vector<Paint> layers_;  ///< The first paint of each picture, either way up.
+  std::vector<Layer> layers_;
 };
 
 }  // namespace sunder::render

@@ -5,6 +5,7 @@ uniform sampler2DArray tiles;
 uniform sampler2DArray pictures;
 in vec2 picture_uv;
 flat in vec4 paint;
+flat in float relief;
 #endif
 
 in vec3 rest;
@@ -23,6 +24,27 @@ const float kCloudLayer = 6.0;
 const float kCloudsPerMetre = 1.0 / 7.3;
 const float kSteepest = 2.0;
 const vec3 kPlaster = vec3(0.56, 0.52, 0.45);
+
+#ifdef PAINTED
+// The normal that a picture says, on a face with normal n. What its two coordinates grow along
+// follows from how they and the place change from pixel to pixel: of the changes `across` and `down`
+// of the place, the gradient g of what changes by a and d has g.across = a and g.down = d, and no
+// part along n.
+vec3 in_relief(vec3 n, vec3 place) {
+  vec3 across = dFdx(place), down = dFdy(place);
+  vec2 a = dFdx(picture_uv), d = dFdy(picture_uv);
+  vec3 by_across = cross(down, n), by_down = cross(n, across);
+  float side = sign(dot(across, by_across));
+  vec3 right = side * (a.x * by_across + d.x * by_down);
+  vec3 along = side * (a.y * by_across + d.y * by_down);
+  vec3 told = texture(pictures, vec3(picture_uv, relief - 1.0)).xyz;
+  told = (told * 255.0 - 128.0) / 127.0;
+  // Where coordinates stand still there is no direction, and the face is flat.
+  right *= inversesqrt(max(dot(right, right), 1e-37));
+  along *= inversesqrt(max(dot(along, along), 1e-37));
+  return normalize(told.x * right + told.y * along + told.z * n);
+}
+#endif
 
 void main() {
   vec3 n = normalize(normal_rest);
@@ -58,6 +80,9 @@ void main() {
                                   : (a.x > 1.01 * a.z ? vec3(0.0, slope.y, slope.x)
                                                       : vec3(slope, 0.0));
   vec3 bumped = normalize(n - tilt + n * dot(n, tilt));
+#ifdef PAINTED
+  if (relief > 0.0) bumped = in_relief(n, rest - eye_rest);
+#endif
 
   float facing = dot(bumped, sun_rest) * smoothstep(0.0, 0.12, dot(n, sun_rest));
   float sunlit_here = sunlit(shadow);

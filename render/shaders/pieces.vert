@@ -6,7 +6,8 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) in uint paint_number;  // from 1; 0: none
 
 out vec2 picture_uv;
-flat out vec4 paint;  // linear colour; w: layer of the picture from 1, 0: none, -1: not painted
+flat out vec4 paint;   // linear colour; w: layer of the picture from 1, 0: none, -1: not painted
+flat out float relief;  // layer of that picture from 1, 0: none
 #endif
 
 out vec3 rest;
@@ -43,6 +44,11 @@ void main() {
 #ifdef PAINTED
   picture_uv = uv;
   paint = vec4(0.0, 0.0, 0.0, -1.0);
-  if (paint_number > 0u) paint = texelFetch(materials, int(ground_offset.z) + int(paint_number) - 1);
+  relief = 0.0;
+  if (paint_number > 0u) {
+    int paint_row = int(ground_offset.z) + 2 * (int(paint_number) - 1);
+    paint = texelFetch(materials, paint_row);
+    relief = texelFetch(materials, paint_row + 1).x;
+  }
 #endif
 }

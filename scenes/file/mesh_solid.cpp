@@ -123,6 +123,15 @@ fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const Me
   return attempt(std::move(copy));
 }
 
+bool same(const Picture& a, const Picture& b) {
+  return a && b ? *a == *b : a == b;  // maybe of two readings
+}
+
+bool same(const Paint& a, const Paint& b) {
+  return a.color == b.color && same(a.picture, b.picture) && a.from_below == b.from_below &&
+         same(a.relief, b.relief) && a.relief_scale == b.relief_scale;
+}
+
 /// By group of a file, the number that its paint has among those of the scene, from 1; 0: none.
 std::vector<std::uint32_t> add_paints(const std::vector<std::optional<Paint>>& of_groups,
                                       std::vector<Paint>& paints) {
@@ -130,12 +139,8 @@ std::vector<std::uint32_t> add_paints(const std::vector<std::optional<Paint>>& o
   for (const std::optional<Paint>& paint : of_groups) {
     numbers.push_back(0);
     if (!paint) continue;
-    const auto known = std::ranges::find_if(paints, [&](const Paint& other) {
-      const bool one_picture = paint->picture && other.picture
-                                   ? *paint->picture == *other.picture  // of two readings
-                                   : paint->picture == other.picture;
-      return one_picture && paint->color == other.color && paint->from_below == other.from_below;
-    });
+    const auto known =
+        std::ranges::find_if(paints, [&](const Paint& other) { return same(*paint, other); });
     numbers.back() = static_cast<std::uint32_t>(known - paints.begin()) + 1;
     if (known == paints.end()) paints.push_back(*paint);
   }

@@ -37,7 +37,8 @@ std::shared_ptr<Frame> painted_frame() {
       std::vector<Paint>{{Vec3f(1, 0.5f, 0.25f), shared, true},
                          {Vec3f(0, 0, 1), nullptr, false},
                          {Vec3f(1, 1, 1), picture(9), false},
-                         {Vec3f(0.5f, 1, 1), shared, true}});
+                         {Vec3f(0.5f, 1, 1), shared, true, picture(5), 0.5f},
+                         {Vec3f(0.5f, 1, 1), nullptr, true, shared, -2}});
   auto mesh = std::make_shared<Mesh>(*make_ball_mesh(1, MaterialIndex(0)));
   mesh->vertices[3].look = Mesh::kFirstPaint;
   mesh->vertices[5].look = Mesh::kFirstPaint + 3;
@@ -62,8 +63,14 @@ void expect_same(const Frame& read, const Frame& frame) {
     if (given.picture) {
       EXPECT_EQ(*got.picture, *given.picture);
     }
+    ASSERT_EQ(got.relief == nullptr, given.relief == nullptr);
+    if (given.relief) {
+      EXPECT_EQ(*got.relief, *given.relief);
+    }
+    EXPECT_EQ(got.relief_scale, given.relief_scale);
   }
   EXPECT_EQ((*read.paints)[0].picture, (*read.paints)[3].picture) << "one picture is read once";
+  EXPECT_EQ((*read.paints)[0].picture, (*read.paints)[4].relief);
   ASSERT_EQ(read.meshes->size(), 2u);
   EXPECT_TRUE(read.meshes->at(0)->uvs.empty());
   const Mesh &got = *read.meshes->at(1), &given = *frame.meshes->at(1);

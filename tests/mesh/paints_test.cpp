@@ -26,13 +26,21 @@ class Paints : public testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
   RawMesh read(const std::string& name) const { return read_mesh(folder_ / name); }
+  void expect_refused(const std::string& name, const std::string& why) const {
+    try {
+      read(name);
+      FAIL() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  }
 
   fs::path outside_, folder_;
 };
 
-std::string text_of(const Paint& paint) {
+std::string text_of(const Picture& picture) {
   std::string text;
-  for (const std::byte b : *paint.picture) text.push_back(static_cast<char>(b));
+  for (const std::byte b : *picture) text.push_back(static_cast<char>(b));
   return text;
 }
 
@@ -62,7 +70,7 @@ TEST_F(Paints, OfAnObjAreThoseOfTheMtlBesideIt) {
   EXPECT_FALSE(paint(1)->picture);
   ASSERT_TRUE(paint(2));
   ASSERT_TRUE(paint(2)->picture);
-  EXPECT_EQ(text_of(*paint(2)), "PNG!");
+  EXPECT_EQ(text_of(paint(2)->picture), "PNG!");
   EXPECT_TRUE(paint(2)->from_below);
   EXPECT_EQ(paint(2)->color, Vec3f(1, 1, 1)) << "black times a picture is not meant";
   EXPECT_FALSE(paint(3));
@@ -86,13 +94,71 @@ TEST_F(Paints, WhatIsMissingOrElsewhereIsLeftOut) {
 TEST_F(Paints, AFaultOfAnMtlIsNamedWithItsLine) {
   write("a.mtl", "newmtl m\nKd 1 red 0\n");
   write("a.obj", "mtllib a.mtl\n" + kTriangle + "usemtl m\nf 1 2 3\n");
-  try {
-    read("a.obj");
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("a.mtl:2: 'red' is not a number"), std::string::npos)
-        << error.what();
+  expect_refused("a.obj", "a.mtl:2: 'red' is not a number");
+}
+
+TEST_F(Paints, OfAnMtlHaveReliefFromNormalsOrElseFromHeights) {
+  write("a.mtl",
+        "newmtl both\nnorm normals.png\nmap_Bump heights.png\n"
+        "newmtl either\nmap_bump -s 2 2 1 -bm 0.25 heights.png\nnorm -bm 3 pictures\\n 2.png\n"
+        "newmtl heights\nbump -bm 2 -imfchan l heights.png\n"
+        "newmtl missing\nKd 1 1 1\nnorm none.png\n");
+  write("normals.png", "N");
+  write("pictures/n 2.png", "N2");
+  write("heights.png", "H");
+  std::string faces;
+  for (const std::string name : {"both", "either", "heights", "missing"}) {
+    faces += "usemtl " + name + "\nf 1 2 3\n";
   }
+  write("a.obj", "mtllib a.mtl\n" + kTriangle + faces);
+  const RawMesh mesh = read("a.obj");
+  ASSERT_EQ(mesh.groups.size(), 4u);
+  const auto relief = [&](std::size_t g) {
+    const Paint& paint = *mesh.groups[g].paint;
+    return (paint.relief ? text_of(paint.relief) : "none") + std::to_string(paint.relief_scale);
+  };
+  EXPECT_EQ(relief(0), "N1.000000");
+  EXPECT_EQ(relief(1), "N23.000000");
+  EXPECT_EQ(relief(2), "H2.000000");
+  EXPECT_EQ(relief(3), "none1.000000");
+  EXPECT_TRUE(mesh.groups[0].paint->from_below);
+  EXPECT_FALSE(mesh.groups[0].paint->picture);
+
+  write("a.mtl", "newmtl m\nnorm -bm steep normals.png\n");
+  expect_refused("a.obj", "a.mtl:2: 'steep' is not a number");
+}
+
+TEST_F(Paints, OfAGltfHaveItsNormalPicturesAndTheirScale) {
+  std::string points;
+  for (const float f : {0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) {
+    points.append(reinterpret_cast<const char*>(&f), 4);
+  }
+  write("points.bin", points);
+  write("n.png", "N");
+  const auto gltf = [](const std::string& materials) {
+    return R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[
+{"attributes":{"POSITION":0},"material":0},{"attributes":{"POSITION":0},"material":1},
+{"attributes":{"POSITION":0},"material":2}]}],"materials":[)" +
+           materials + R"(],"textures":[{"source":0},{"source":1}],
+"images":[{"uri":"n.png"},{"uri":"none.png"}],
+"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],
+"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"points.bin"}]})";
+  };
+  write("a.gltf", gltf(R"({"normalTexture":{"index":0,"scale":0.5}},
+{"pbrMetallicRoughness":{"baseColorFactor":[0,0,1,1]},"normalTexture":{"index":1}},
+{"normalTexture":{"index":0,"texCoord":1}})"));
+  const RawMesh mesh = read("a.gltf");
+  const auto paint = [&](std::size_t g) { return mesh.groups.at(g).paint; };
+  ASSERT_TRUE(paint(0));
+  EXPECT_EQ(text_of(paint(0)->relief), "N");
+  EXPECT_EQ(paint(0)->relief_scale, 0.5f);
+  EXPECT_EQ(paint(0)->color, Vec3f(1, 1, 1)) << "which is what the format says of none";
+  EXPECT_FALSE(paint(1)->relief) << "it is not there";
+  EXPECT_EQ(paint(1)->color, Vec3f(0, 0, 1));
+  EXPECT_FALSE(paint(2)->relief) << "of other coordinates than those that are read";
+
+  write("a.gltf", gltf(R"({"normalTexture":{"index":0,"scale":"much"}},{},{})"));
+  expect_refused("a.gltf", "a.gltf: scale must be a number");
 }
 
 TEST_F(Paints, OfAGltfAreBaseColoursAndPicturesWhereverTheyLie) {
@@ -125,9 +191,9 @@ TEST_F(Paints, OfAGltfAreBaseColoursAndPicturesWhereverTheyLie) {
   ASSERT_EQ(mesh.groups.size(), 6u);
   const auto paint = [&](std::size_t g) { return mesh.groups[g].paint; };
   EXPECT_EQ(paint(0)->color, Vec3f(0.25f, 0.5f, 1));
-  EXPECT_EQ(text_of(*paint(1)), "PNG!");
-  EXPECT_EQ(text_of(*paint(2)), "PNG!");
-  EXPECT_EQ(text_of(*paint(3)), "JPEG");
+  EXPECT_EQ(text_of(paint(1)->picture), "PNG!");
+  EXPECT_EQ(text_of(paint(2)->picture), "PNG!");
+  EXPECT_EQ(text_of(paint(3)->picture), "JPEG");
   EXPECT_FALSE(paint(3)->from_below);
   ASSERT_TRUE(paint(4));
   EXPECT_FALSE(paint(4)->picture);

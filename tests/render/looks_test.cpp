@@ -57,6 +57,25 @@ void paint_all(Frame& frame, const Paint& paint) {
   frame.paints = std::make_shared<const std::vector<Paint>>(std::vector{paint});
 }
 
+Picture as_png(const Image& image) {
+  const std::vector<std::uint8_t> png = encode_png(image);
+  const auto* begin = reinterpret_cast<const std::byte*>(png.data());
+  return std::make_shared<const std::vector<std::byte>>(begin, begin + png.size());
+}
+
+/// A picture of equal rows, or columns, of these colours.
+Picture stripes(const std::vector<Vec3f>& colors, bool rows, int each = 8) {
+  const int count = static_cast<int>(colors.size());
+  Image image{count * each, count * each, {}};
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      for (const float level : colors[static_cast<std::size_t>((rows ? y : x) / each)])
+        image.rgb.push_back(static_cast<std::uint8_t>(level));
+    }
+  }
+  return as_png(image);
+}
+
 /// Red and green above, blue and white below, 8 x 8.
 Paint four_colors(bool from_below) {
   Image image{8, 8, {}};
@@ -69,10 +88,7 @@ Paint four_colors(bool from_below) {
       image.rgb.insert(image.rgb.end(), rgb, rgb + 3);
     }
   }
-  const std::vector<std::uint8_t> png = encode_png(image);
-  const auto* begin = reinterpret_cast<const std::byte*>(png.data());
-  return {Vec3f::Ones(), std::make_shared<const std::vector<std::byte>>(begin, begin + png.size()),
-          from_below};
+  return {Vec3f::Ones(), as_png(image), from_below};
 }
 
 TEST(Paint, AFilesColorIsSeenInPlaceOfTheMaterials) {
@@ -96,6 +112,88 @@ TEST(Paint, APictureLiesWhereItsCoordinatesSayEitherWayUp) {
     EXPECT_GT(blue.z(), 2 * blue.x()) << blue.transpose();
     EXPECT_LT(white.maxCoeff(), 1.3f * white.minCoeff()) << white.transpose();
   }
+}
+
+const Vec3f kFlat(128, 128, 255);
+
+/// A white wall in relief, lit from the right and above.
+Frame relief_frame(const Picture& relief, bool from_below = false, float scale = 1) {
+  Frame frame = wall_frame(Stuff::kPlaster);
+  paint_all(frame, {Vec3f(0.4f, 0.4f, 0.4f), nullptr, from_below, relief, scale});
+  frame.view.to_sun_W = {1, 1, 1};
+  return frame;
+}
+
+float brightness(const Image& image, int x, int y) {
+  return mean(image, x - 6, y - 6, x + 6, y + 6).sum() / 3;
+}
+
+TEST(Relief, TurnsTheFaceToTheLightOrAwayEitherWayUp) {
+  const Vec3f left(48, 128, 228), right(208, 128, 228), up(128, 208, 228), low(128, 48, 228);
+  for (const bool from_below : {false, true}) {
+    const Image flat = drawn(relief_frame(stripes({kFlat}, false), from_below));
+    const Image columns = drawn(relief_frame(stripes({left, right}, false), from_below));
+    EXPECT_LT(brightness(columns, 120, 90), brightness(flat, 120, 90) - 15) << from_below;
+    EXPECT_GT(brightness(columns, 200, 90), brightness(flat, 200, 90) + 15) << from_below;
+    // The wall's coordinates begin at its top; read from below, the picture stands on its head, and
+    // what is up in it is down.
+    const Image rows = drawn(relief_frame(stripes({up, low}, true), from_below));
+    EXPECT_GT(brightness(rows, 160, 40), brightness(flat, 160, 40) + 15) << from_below;
+    EXPECT_LT(brightness(rows, 160, 140), brightness(flat, 160, 140) - 15) << from_below;
+  }
+}
+
+TEST(Relief, FollowsTextureCoordinatesThatAreMirroredOrTurned) {
+  const Picture right = stripes({Vec3f(208, 128, 228)}, false);
+  const auto seen = [&](const Eigen::Matrix2f& turn) {
+    Frame frame = relief_frame(right);
+    frame.view.to_sun_W = {1, 0.2, 1};
+    auto mesh = std::make_shared<Mesh>(*(*frame.meshes)[0]);
+    for (Eigen::Vector2f& uv : mesh->uvs) uv = Eigen::Vector2f(turn * uv);
+    frame.meshes = std::make_shared<const MeshStore>(MeshStore{std::move(mesh)});
+    return brightness(drawn(frame), 160, 90);
+  };
+  const float given = seen(Eigen::Matrix2f{{1, 0}, {0, 1}});
+  EXPECT_LT(seen(Eigen::Matrix2f{{-1, 0}, {0, 1}}), given - 30) << "mirrored: right is left";
+  EXPECT_NEAR(seen(Eigen::Matrix2f{{1, 0}, {0, -1}}), given, 1) << "right stays right";
+  EXPECT_NEAR(seen(Eigen::Matrix2f{{30, 0}, {0, 0.1f}}), given, 1) << "however it is stretched";
+  const float up = seen(Eigen::Matrix2f{{0, -1}, {1, 0}}),
+              down = seen(Eigen::Matrix2f{{0, 1}, {1, 0}});
+  EXPECT_GT(up, down + 5) << "turned: the sun is a little above";
+  EXPECT_LT(up, given - 10);
+}
+
+TEST(Relief, OfScaleNoneOrOfFlatColorIsTheFaceItself) {
+  const Image flat = drawn(relief_frame(stripes({kFlat}, false)));
+  EXPECT_EQ(
+      drawn(relief_frame(stripes({Vec3f(208, 128, 228), Vec3f(48, 128, 228)}, false), false, 0)),
+      flat);
+  Frame without = relief_frame(nullptr);
+  auto mesh = std::make_shared<Mesh>(*(*without.meshes)[0]);
+  mesh->uvs.clear();  // a picture of which nobody says where it lies
+  Frame nowhere = relief_frame(stripes({kFlat}, false));
+  nowhere.meshes = std::make_shared<const MeshStore>(MeshStore{std::move(mesh)});
+  EXPECT_EQ(drawn(nowhere), flat);
+  const float steep =
+      brightness(drawn(relief_frame(stripes({Vec3f(208, 128, 228)}, false))), 160, 90);
+  const float steeper =
+      brightness(drawn(relief_frame(stripes({Vec3f(168, 128, 248)}, false), false, 0.1f)), 160, 90);
+  EXPECT_GT(steep, steeper + 5);
+}
+
+TEST(Relief, OfGreyIsHeights) {
+  // From black to white and back: a roof along the picture, whose left side looks left.
+  std::vector<Vec3f> roof;
+  for (int i = 0; i < 64; ++i)
+    roof.push_back(Vec3f::Constant(static_cast<float>(i < 32 ? 8 * i : 8 * (63 - i))));
+  const float scale = 10;
+  const Image columns = drawn(relief_frame(stripes(roof, false, 4), false, scale));
+  const Image flat = drawn(relief_frame(stripes({kFlat}, false)));
+  EXPECT_LT(brightness(columns, 120, 90), brightness(flat, 120, 90) - 5);
+  EXPECT_GT(brightness(columns, 200, 90), brightness(flat, 200, 90) + 5);
+  const Image rows = drawn(relief_frame(stripes(roof, true, 4), false, scale));
+  EXPECT_GT(brightness(rows, 160, 50), brightness(flat, 160, 50) + 5) << "its upper side looks up";
+  EXPECT_LT(brightness(rows, 160, 130), brightness(flat, 160, 130) - 5);
 }
 
 TEST(Paint, WhatBrokeLooksAsItsMaterialDoes) {

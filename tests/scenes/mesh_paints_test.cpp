@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,25 @@ class MeshPaints : public testing::Test {
 };
 
 const std::string kBody = "[[body]]\nmesh = \"box.obj\"\n";
+const std::string kShot =
+    "material = \"stone\"\n[script]\n[[script.shot]]\ntime_s = 0.05\nfrom = [-3, 1, 0]\n"
+    "at = [0, 1, 0]\nspeed_m_s = 60\nradius_m = 0.3\n";
+const Vec3 kMiddle(0.5, 1, 0.5);
+
+/// Painted vertices, all of which should have normals that point away from the box's middle.
+std::size_t count_painted_as_a_ball(const Frame& frame) {
+  std::size_t count = 0;
+  for (const Instance& instance : frame.instances) {
+    const Mesh& mesh = *(*frame.meshes)[instance.mesh.value];
+    for (const Mesh::Vertex& vertex : mesh.vertices) {
+      if (vertex.look < Mesh::kFirstPaint) continue;
+      const Vec3 away = mesh.origin_T + vertex.position.cast<double>() - kMiddle;
+      EXPECT_GT(vertex.normal.cast<double>().dot(away.normalized()), 0.9);
+      ++count;
+    }
+  }
+  return count;
+}
 
 TEST_F(MeshPaints, AreTheScenesOncePerLook) {
   const Scene scene = load(kBody + kBody + "position = [5, 0, 0]\n");
@@ -85,6 +105,17 @@ TEST_F(MeshPaints, OfTwoBodiesShareTheirPictures) {
   EXPECT_NE(*scene.paints[0].picture, *scene.paints[1].picture);
 }
 
+TEST_F(MeshPaints, ThatDifferInReliefAloneAreTwo) {
+  const std::string same_color = "newmtl red\nKd 1 0 0\nnorm n.png\nnewmtl blue\nKd 1 0 0\n";
+  write("n.png", "N");
+  write("box.mtl", same_color);
+  ASSERT_EQ(load(kBody).paints.size(), 2u);
+  write("box.mtl", same_color + "norm -bm 2 n.png\n");
+  ASSERT_EQ(load(kBody).paints.size(), 2u);
+  write("box.mtl", same_color + "norm n.png\n");
+  EXPECT_EQ(load(kBody).paints.size(), 1u);
+}
+
 TEST_F(MeshPaints, AreLeftOutWhereTheMaterialsLookIsAskedFor) {
   const Scene scene = load(kBody + "look = \"material\"\n");
   EXPECT_TRUE(scene.paints.empty());
@@ -101,10 +132,42 @@ TEST_F(MeshPaints, AreNotOfASolidThatNoSceneAskedFor) {
   }
 }
 
+TEST_F(MeshPaints, OwnNormalsShadeThemCutAndUncut) {
+  // Those of a ball about the box's middle, on its flat faces.
+  std::ifstream given(folder_ / "box.obj");
+  std::string text;
+  for (std::string line; std::getline(given, line);) {
+    if (line.starts_with("v ")) {
+      std::istringstream numbers(line.substr(2));
+      Vec3 at;
+      numbers >> at.x() >> at.y() >> at.z();
+      const Vec3 normal = at - kMiddle;
+      line += "\nvn " + std::to_string(normal.x()) + " " + std::to_string(normal.y()) + " " +
+              std::to_string(normal.z());
+    }
+    if (line.starts_with("f ")) {
+      std::istringstream corners(line.substr(2));
+      line = "f";
+      for (std::string corner; corners >> corner;)
+        line += " " + corner + corner.substr(corner.find('/'));
+    }
+    text += line + "\n";
+  }
+  write("box.obj", text);
+  const auto simulation = make_simulation(load(kBody + kShot));
+  std::size_t uncut = 0, cut = 0;
+  FramePtr last;
+  while (FramePtr frame = simulation->next()) {
+    if (!last) uncut = count_painted_as_a_ball(*frame);
+    last = std::move(frame);
+  }
+  cut = count_painted_as_a_ball(*last);
+  EXPECT_GE(uncut, 24u);
+  EXPECT_GT(cut, uncut);
+}
+
 TEST_F(MeshPaints, StayOnTheOutsideThroughABreakAndNeverGetInside) {
-  const Scene scene = load(kBody +
-                           "material = \"stone\"\n[script]\n[[script.shot]]\ntime_s = 0.05\n"
-                           "from = [-3, 1, 0]\nat = [0, 1, 0]\nspeed_m_s = 60\nradius_m = 0.3\n");
+  const Scene scene = load(kBody + kShot);
   const auto simulation = make_simulation(scene);
   FramePtr last;
   while (FramePtr frame = simulation->next()) last = std::move(frame);

@@ -229,6 +229,12 @@ std::vector<double> GltfData::numbers(const json& parent, const char* name,
   return numbers;
 }
 
+double GltfData::number(const json& parent, const char* name, double fallback) const {
+  if (!parent.is_object() || !parent.contains(name)) return fallback;
+  if (!parent[name].is_number()) fail(std::string(name) + " must be a number: export it again");
+  return parent[name].get<double>();
+}
+
 std::string GltfData::view(const json& thing) const {
   const json& views = array(document_, "bufferViews");
   const json& view = views[index(thing, "bufferView", views.size())];

@@ -29,6 +29,8 @@ class GltfData {
   /// The member of that name, as many numbers as `fallback` has.
   std::vector<double> numbers(const nlohmann::json& parent, const char* name,
                               std::initializer_list<double> fallback) const;
+  /// The member of that name, a number; `fallback` if there is none.
+  double number(const nlohmann::json& parent, const char* name, double fallback) const;
   /// What the accessor of an attribute points to, `width` numbers an item; empty if it is absent.
   std::vector<double> floats(const nlohmann::json& attributes, const char* name,
                              std::size_t width) const;

@@ -6,21 +6,29 @@ using nlohmann::json;
 
 std::optional<Paint> GltfPaints::of(const json& material) {
   const json& base = data_.object(material, "pbrMetallicRoughness");
-  if (!base.contains("baseColorFactor") && !base.contains("baseColorTexture")) return std::nullopt;
+  const json& relief = data_.object(material, "normalTexture");
+  if (!base.contains("baseColorFactor") && !base.contains("baseColorTexture") && relief.empty()) {
+    return std::nullopt;
+  }
   Paint paint;
   const std::vector<double> color = data_.numbers(base, "baseColorFactor", {1, 1, 1, 1});
   paint.color = Vec3(color[0], color[1], color[2]).cwiseMax(0).cwiseMin(1).cast<float>();
-  const json& use = data_.object(base, "baseColorTexture");
-  if (use.empty() || data_.index(use, "texCoord", 64, 0) != 0) return paint;
-  const json& textures = data_.array(data_.document(), "textures");
-  const json& texture = textures[data_.index(use, "index", textures.size())];
-  if (!texture.is_object() || !texture.contains("source")) return paint;  // an extension's
-  const json& images = data_.array(data_.document(), "images");
-  paint.picture = picture(data_.index(texture, "source", images.size()));
+  paint.picture = used(data_.object(base, "baseColorTexture"));
+  paint.relief = used(relief);
+  paint.relief_scale = static_cast<float>(data_.number(relief, "scale", 1));
   return paint;
 }
 
-GltfPaints::Picture GltfPaints::picture(std::size_t image) {
+Picture GltfPaints::used(const json& use) {
+  if (use.empty() || data_.index(use, "texCoord", 64, 0) != 0) return nullptr;
+  const json& textures = data_.array(data_.document(), "textures");
+  const json& texture = textures[data_.index(use, "index", textures.size())];
+  if (!texture.is_object() || !texture.contains("source")) return nullptr;  // an extension's
+  const json& images = data_.array(data_.document(), "images");
+  return picture(data_.index(texture, "source", images.size()));
+}
+
+Picture GltfPaints::picture(std::size_t image) {
   const auto [entry, is_new] = pictures_.try_emplace(image);
   if (!is_new) return entry->second;
   const json& given = data_.array(data_.document(), "images")[image];

@@ -15,13 +15,13 @@ class GltfPaints {
  public:
   explicit GltfPaints(const GltfData& data) : data_(data) {}
 
-  /// Base colour and its picture; none where a material has neither. A picture that is not there,
-  /// or uses other texture coordinates than the first, is left out.
+  /// Base colour, its picture and that of normals; none where a material has none of these. A
+  /// picture that is not there, or uses other texture coordinates than the first, is left out.
   std::optional<Paint> of(const nlohmann::json& material);
 
  private:
-  using Picture = std::shared_ptr<const std::vector<std::byte>>;
-
+  /// What a use of a texture shows; null if that is not there, or is used otherwise.
+  Picture used(const nlohmann::json& use);
   Picture picture(std::size_t image);
 
   const GltfData& data_;

@@ -6,8 +6,6 @@
 namespace sunder {
 namespace {
 
-using Picture = std::shared_ptr<const std::vector<std::byte>>;
-
 /// From a share of what a screen shows, as MTL has colours, to one of light; within 0.002, and of
 /// products alone, so that it is the same everywhere.
 float linear(double shown) {
@@ -20,20 +18,49 @@ bool is_option_value(std::string_view word) {
          word.find_first_not_of("+-.0123456789e") == std::string_view::npos;
 }
 
-/// What is left of a line that names a picture, without its options.
-std::string picture_name(MeshText& text) {
+/// A line that names a picture: what is left of it without its options, and one of these.
+struct PictureUse {
   std::string name;
+  double steeper = 1;  ///< -bm.
+};
+
+PictureUse take_picture_use(MeshText& text) {
+  PictureUse use;
   bool in_option = false;
   for (std::string_view word; !(word = text.word()).empty();) {
-    if (name.empty() && word.starts_with('-')) {
+    if (use.name.empty() && word == "-bm") {
+      use.steeper = text.number();
+    } else if (use.name.empty() && (word == "-imfchan" || word == "-type")) {
+      text.word();  // a word, and no number
+    } else if (use.name.empty() && word.starts_with('-')) {
       in_option = true;
-    } else if (!name.empty() || !in_option || !is_option_value(word)) {
-      name += (name.empty() ? "" : " ") + std::string(word);
+    } else if (!use.name.empty() || !in_option || !is_option_value(word)) {
+      use.name += (use.name.empty() ? "" : " ") + std::string(word);
     }
   }
-  std::replace(name.begin(), name.end(), '\\', '/');
-  return name;
+  std::replace(use.name.begin(), use.name.end(), '\\', '/');
+  return use;
 }
+
+/// The pictures beside a file, each read once.
+class PicturesBeside {
+ public:
+  explicit PicturesBeside(const MeshSource& source) : source_(source) {}
+
+  /// Null if there is none of that name.
+  Picture find(const std::string& name) {
+    const auto [entry, is_new] = known_.try_emplace(name);
+    if (const auto found = is_new ? source_.beside(name) : std::nullopt) {
+      const auto* begin = reinterpret_cast<const std::byte*>(found->data());
+      entry->second = std::make_shared<const std::vector<std::byte>>(begin, begin + found->size());
+    }
+    return entry->second;
+  }
+
+ private:
+  const MeshSource& source_;
+  std::map<std::string, Picture> known_;
+};
 
 }  // namespace
 
@@ -42,7 +69,7 @@ std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::strin
   const std::optional<std::string> bytes = source.beside(name);
   if (!bytes) return paints;
   const MeshSource file{*bytes, source.file.parent_path() / name, source.limits};
-  std::map<std::string, Picture> pictures;
+  PicturesBeside pictures(source);
   MeshText text(file);
   Paint none;
   Paint* paint = &none;
@@ -57,15 +84,14 @@ std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::strin
       const double r = text.to_number(red), g = text.number();
       paint->color = Vec3f(linear(r), linear(g), linear(text.number()));
     } else if (keyword == "map_Kd") {
-      const std::string picture = picture_name(text);
-      const auto [entry, is_new] = pictures.try_emplace(picture);
-      if (const auto found = is_new ? source.beside(picture) : std::nullopt) {
-        const auto* begin = reinterpret_cast<const std::byte*>(found->data());
-        entry->second =
-            std::make_shared<const std::vector<std::byte>>(begin, begin + found->size());
-      }
-      paint->picture = entry->second;
+      paint->picture = pictures.find(take_picture_use(text).name);
       if (paint->picture && paint->color.isZero()) paint->color.setOnes();  // as exporters mean it
+    } else if (keyword == "norm" ||
+               (!paint->relief &&
+                (keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump"))) {
+      const PictureUse use = take_picture_use(text);
+      paint->relief = pictures.find(use.name);
+      paint->relief_scale = static_cast<float>(use.steeper);
     }
   }
   return paints;
