@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -90,6 +91,13 @@ struct Id {
 /// PNG or JPEG, as it was in its file, repeated beyond its edges; null: none.
 using Picture = std::shared_ptr<const std::vector<std::byte>>;
 
+/// How smooth a surface is, and how much of a metal.
+struct Gloss {
+  float roughness = 1;        ///< From 0, which mirrors, to 1.
+  float metallic = 0;         ///< From 0 to 1, which has colour only in what it mirrors.
+  Picture picture = nullptr;  ///< Its green is multiplied into the one, its blue into the other.
+};
+
 /// A colour, a picture that it is multiplied by, and what is too small for the mesh.
 struct Paint {
   Vec3f color = Vec3f::Ones();  ///< Linear RGB.
@@ -100,7 +108,8 @@ struct Paint {
   /// Normals as colours: red to the right of the picture, green up in it, blue off the face; or, if
   /// it is all grey, heights.
   Picture relief = nullptr;
-  float relief_scale = 1;  ///< How much steeper it is than the picture says.
+  float relief_scale = 1;                     ///< How much steeper it is than the picture says.
+  std::optional<Gloss> gloss = std::nullopt;  ///< None: light shows its colour alone.
 };
 
 }  // namespace sunder

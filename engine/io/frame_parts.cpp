@@ -8,7 +8,7 @@ namespace {
 constexpr std::uint32_t kNoPicture = ~std::uint32_t{0};
 
 // What a paint says of itself, so that one takes no more bytes than it needs.
-constexpr unsigned kFromBelow = 1, kRelief = 2;
+constexpr unsigned kFromBelow = 1, kRelief = 2, kGloss = 4;
 
 }  // namespace
 
@@ -92,12 +92,18 @@ void put(ByteWriter& out, const std::vector<Paint>& paints) {
   };
   out.put(static_cast<std::uint32_t>(paints.size()));
   for (const Paint& paint : paints) {
-    out.put(paint.color, static_cast<std::uint8_t>((paint.from_below ? kFromBelow : 0) |
-                                                   (paint.relief ? kRelief : 0)));
+    out.put(paint.color,
+            static_cast<std::uint8_t>((paint.from_below ? kFromBelow : 0) |
+                                      (paint.relief ? kRelief : 0) | (paint.gloss ? kGloss : 0)));
     put_picture(paint.picture);
-    if (!paint.relief) continue;
-    put_picture(paint.relief);
-    out.put(paint.relief_scale);
+    if (paint.relief) {
+      put_picture(paint.relief);
+      out.put(paint.relief_scale);
+    }
+    if (paint.gloss) {
+      out.put(paint.gloss->roughness, paint.gloss->metallic);
+      put_picture(paint.gloss->picture);
+    }
   }
 }
 
@@ -118,9 +124,15 @@ std::vector<Paint> take_paints(ByteReader& in, const std::string& file) {
     const auto flags = in.take<std::uint8_t>();
     paint.from_below = (flags & kFromBelow) != 0;
     paint.picture = take_picture();
-    if ((flags & kRelief) == 0) continue;
-    paint.relief = take_picture();
-    in.take_to(paint.relief_scale);
+    if ((flags & kRelief) != 0) {
+      paint.relief = take_picture();
+      in.take_to(paint.relief_scale);
+    }
+    if ((flags & kGloss) != 0) {
+      paint.gloss.emplace();
+      in.take_to(paint.gloss->roughness, paint.gloss->metallic);
+      paint.gloss->picture = take_picture();
+    }
   }
   return paints;
 }

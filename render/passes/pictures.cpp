@@ -127,6 +127,7 @@ void Pictures::update(const std::vector<Paint>& paints) {
   };
   for (const Paint& paint : paints) add(color_layer(paint));
   for (const Paint& paint : paints) add(relief_layer(paint));
+  for (const Paint& paint : paints) add(gloss_layer(paint));
   const auto wanted = static_cast<int>(std::bit_ceil(static_cast<unsigned>(largest)));
   const int side = std::min(wanted, kMostPictureTexels);
   std::vector<std::uint8_t> texels(images.empty() ? 4 : 0);
@@ -145,9 +146,11 @@ void Pictures::update(const std::vector<Paint>& paints) {
 std::vector<float> Pictures::rows(const std::vector<Paint>& paints) const {
   std::vector<float> texels;
   for (const Paint& paint : paints) {
-    texels.insert(texels.end(),
-                  {paint.color.x(), paint.color.y(), paint.color.z(), layer_of(color_layer(paint)),
-                   layer_of(relief_layer(paint)), 0, 0, 0});
+    texels.insert(
+        texels.end(),
+        {paint.color.x(), paint.color.y(), paint.color.z(), layer_of(color_layer(paint)),
+         layer_of(relief_layer(paint)), layer_of(gloss_layer(paint)),
+         paint.gloss ? paint.gloss->roughness : -1, paint.gloss ? paint.gloss->metallic : 0});
   }
   return texels;
 }

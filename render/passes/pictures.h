@@ -23,7 +23,8 @@ class Pictures {
   /// what is neither PNG nor JPEG.
   void update(const std::vector<Paint>& paints);
   /// Texels (RGBA, float) of paints in pieces.vert, two a paint: its colour, and the layer of its
-  /// picture counted from 1, 0: none; the layer of its relief likewise.
+  /// picture counted from 1, 0: none; those of its relief and gloss likewise, how rough it is, -1:
+  /// without gloss, and how much of a metal.
   std::vector<float> rows(const std::vector<Paint>& paints) const;
 
  private:
@@ -37,6 +38,9 @@ class Pictures {
   static Layer color_layer(const Paint& paint) { return {paint.picture, paint.from_below}; }
   static Layer relief_layer(const Paint& paint) {
     return {paint.relief, paint.from_below, paint.relief_scale};
+  }
+  static Layer gloss_layer(const Paint& paint) {
+    return {paint.gloss ? paint.gloss->picture : nullptr, paint.from_below};
   }
   /// Its number from 1; 0: it is not shown.
   float layer_of(const Layer& layer) const;

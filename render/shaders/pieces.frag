@@ -5,7 +5,7 @@ uniform sampler2DArray tiles;
 uniform sampler2DArray pictures;
 in vec2 picture_uv;
 flat in vec4 paint;
-flat in float relief;
+flat in vec4 detail;
 #endif
 
 in vec3 rest;
@@ -23,6 +23,7 @@ out vec4 color;
 const float kCloudLayer = 6.0;
 const float kCloudsPerMetre = 1.0 / 7.3;
 const float kSteepest = 2.0;
+const float kDielectric = 0.04;  // what is no metal mirrors of what is straight before it
 const vec3 kPlaster = vec3(0.56, 0.52, 0.45);
 
 #ifdef PAINTED
@@ -37,12 +38,41 @@ vec3 in_relief(vec3 n, vec3 place) {
   float side = sign(dot(across, by_across));
   vec3 right = side * (a.x * by_across + d.x * by_down);
   vec3 along = side * (a.y * by_across + d.y * by_down);
-  vec3 told = texture(pictures, vec3(picture_uv, relief - 1.0)).xyz;
+  vec3 told = texture(pictures, vec3(picture_uv, detail.x - 1.0)).xyz;
   told = (told * 255.0 - 128.0) / 127.0;
   // Where coordinates stand still there is no direction, and the face is flat.
   right *= inversesqrt(max(dot(right, right), 1e-37));
   along *= inversesqrt(max(dot(along, along), 1e-37));
   return normalize(told.x * right + told.y * along + told.z * n);
+}
+
+// The sun in a face with normal n, times the face's slant to it. The slopes of a rough face are
+// distributed as Trowbridge and Reitz have it (GGX), and hide each other as in Smith's theory, which
+// Hammon (2017) made short; the last factor is Schlick's (1994) of Fresnel's.
+vec3 sun_in(vec3 n, vec3 view, float slant, float roughness, vec3 mirror) {
+  vec3 half_way = normalize(sun_rest - view);
+  float spread = max(roughness * roughness, 0.015);  // what the sun itself is wide, and a pixel
+  float square = spread * spread;
+  float off = dot(n, half_way);
+  float peak = off * off * (square - 1.0) + 1.0;
+  float facing = max(-dot(n, view), 1e-3);
+  float seen = 0.5 / max(mix(2.0 * slant * facing, slant + facing, spread), 1e-4);
+  float grazing = 1.0 - max(-dot(view, half_way), 0.0);
+  float grazing2 = grazing * grazing;
+  vec3 fresnel = mix(mirror, vec3(1.0), grazing2 * grazing2 * grazing);
+  return fresnel * (slant * seen * square / (peak * peak));
+}
+
+// What is around, as a face that is so rough mirrors it: the less of a picture, the rougher.
+vec3 world_in(vec3 n, vec3 view, float roughness, vec3 mirror) {
+  vec3 mirrored = reflect(view, n);
+  vec3 world = mirrored_at(dot(mirrored, up_rest), dot(mirrored, sun_rest) * (1.0 - roughness),
+                           0.04 + 0.5 * roughness);
+  world = mix(world, ambient_light(dot(n, up_rest)), roughness * roughness);
+  float grazing = 1.0 - max(-dot(n, view), 0.0);
+  float grazing2 = grazing * grazing;
+  vec3 most = max(vec3(1.0 - roughness), mirror);
+  return mix(mirror, most, grazing2 * grazing2 * grazing) * world;
 }
 #endif
 
@@ -72,7 +102,7 @@ void main() {
   shown = shown * (shown * (shown * 0.305306011 + 0.682171111) + 0.012522878);  // from sRGB
   if (paint.w >= 0.0) {
     albedo = paint.rgb * (paint.w > 0.0 ? shown : vec3(1.0));
-    slope *= 0.3;
+    slope *= 0.3 * (detail.z < 0.0 ? 1.0 : detail.z);
   }
 #endif
 
@@ -81,7 +111,7 @@ void main() {
                                                       : vec3(slope, 0.0));
   vec3 bumped = normalize(n - tilt + n * dot(n, tilt));
 #ifdef PAINTED
-  if (relief > 0.0) bumped = in_relief(n, rest - eye_rest);
+  if (detail.x > 0.0) bumped = in_relief(n, rest - eye_rest);
 #endif
 
   float facing = dot(bumped, sun_rest) * smoothstep(0.0, 0.12, dot(n, sun_rest));
@@ -116,8 +146,23 @@ void main() {
   direct = sun_light.rgb * sunlit_here * (0.12 * tint * max(facing, 0.0) +
                                       mirror * mix(1.6 * sharp, 0.6 * shine, rough));
 #else
+#ifdef PAINTED
+  vec3 mirror_of_sun = vec3(0.0), mirror_of_world = vec3(0.0);
+  if (detail.z >= 0.0) {
+    vec2 gloss = detail.zw;
+    if (detail.y > 0.0) gloss *= texture(pictures, vec3(picture_uv, detail.y - 1.0)).gb;
+    vec3 view = from_eye / metres;
+    vec3 mirror = mix(vec3(kDielectric), albedo, gloss.y);
+    mirror_of_sun = sun_light.rgb * sunlit_here * sun_in(bumped, view, max(facing, 0.0), gloss.x, mirror);
+    mirror_of_world = world_in(bumped, view, gloss.x, mirror);
+    albedo *= 1.0 - gloss.y;
+  }
+  around = around * albedo + mirror_of_world;
+  direct = direct * albedo + mirror_of_sun;
+#else
   around *= albedo;
   direct *= albedo;
+#endif
 #endif
   vec3 light = direct + around;
   float ambient_share = dot(around, vec3(0.33)) / max(dot(light, vec3(0.33)), 1e-4);

@@ -7,7 +7,7 @@ layout(location = 4) in uint paint_number;  // from 1; 0: none
 
 out vec2 picture_uv;
 flat out vec4 paint;   // linear colour; w: layer of the picture from 1, 0: none, -1: not painted
-flat out float relief;  // layer of that picture from 1, 0: none
+flat out vec4 detail;  // layers of relief and gloss from 1, 0: none; roughness, -1: no gloss; metallic
 #endif
 
 out vec3 rest;
@@ -44,11 +44,11 @@ void main() {
 #ifdef PAINTED
   picture_uv = uv;
   paint = vec4(0.0, 0.0, 0.0, -1.0);
-  relief = 0.0;
+  detail = vec4(0.0, 0.0, -1.0, 0.0);
   if (paint_number > 0u) {
     int paint_row = int(ground_offset.z) + 2 * (int(paint_number) - 1);
     paint = texelFetch(materials, paint_row);
-    relief = texelFetch(materials, paint_row + 1).x;
+    detail = texelFetch(materials, paint_row + 1);
   }
 #endif
 }

@@ -127,9 +127,14 @@ bool same(const Picture& a, const Picture& b) {
   return a && b ? *a == *b : a == b;  // maybe of two readings
 }
 
+bool same(const std::optional<Gloss>& a, const std::optional<Gloss>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->roughness == b->roughness && a->metallic == b->metallic && same(a->picture, b->picture);
+}
+
 bool same(const Paint& a, const Paint& b) {
   return a.color == b.color && same(a.picture, b.picture) && a.from_below == b.from_below &&
-         same(a.relief, b.relief) && a.relief_scale == b.relief_scale;
+         same(a.relief, b.relief) && a.relief_scale == b.relief_scale && same(a.gloss, b.gloss);
 }
 
 /// By group of a file, the number that its paint has among those of the scene, from 1; 0: none.

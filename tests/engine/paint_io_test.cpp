@@ -7,6 +7,7 @@
 
 #include "engine/base/check.h"
 #include "engine/io/frame_file.h"
+#include "engine/io/frame_parts.h"
 #include "engine/io/take/take.h"
 #include "engine/model/piece_mesh.h"
 
@@ -33,12 +34,13 @@ std::shared_ptr<Frame> painted_frame() {
   auto frame = std::make_shared<Frame>();
   frame->materials = std::make_shared<const std::vector<Material>>(1);
   const auto shared = picture(7);
-  frame->paints = std::make_shared<const std::vector<Paint>>(
-      std::vector<Paint>{{Vec3f(1, 0.5f, 0.25f), shared, true},
-                         {Vec3f(0, 0, 1), nullptr, false},
-                         {Vec3f(1, 1, 1), picture(9), false},
-                         {Vec3f(0.5f, 1, 1), shared, true, picture(5), 0.5f},
-                         {Vec3f(0.5f, 1, 1), nullptr, true, shared, -2}});
+  frame->paints = std::make_shared<const std::vector<Paint>>(std::vector<Paint>{
+      {Vec3f(1, 0.5f, 0.25f), shared, true},
+      {Vec3f(0, 0, 1), nullptr, false},
+      {Vec3f(1, 1, 1), picture(9), false},
+      {Vec3f(0.5f, 1, 1), shared, true, picture(5), 0.5f},
+      {Vec3f(0.5f, 1, 1), nullptr, true, shared, -2, Gloss{0.25f, 1, picture(3)}},
+      {Vec3f(0.5f, 1, 1), nullptr, true, nullptr, 1, Gloss{0.5f, 0}}});
   auto mesh = std::make_shared<Mesh>(*make_ball_mesh(1, MaterialIndex(0)));
   mesh->vertices[3].look = Mesh::kFirstPaint;
   mesh->vertices[5].look = Mesh::kFirstPaint + 3;
@@ -68,6 +70,14 @@ void expect_same(const Frame& read, const Frame& frame) {
       EXPECT_EQ(*got.relief, *given.relief);
     }
     EXPECT_EQ(got.relief_scale, given.relief_scale);
+    ASSERT_EQ(got.gloss.has_value(), given.gloss.has_value());
+    if (!given.gloss) continue;
+    EXPECT_EQ(got.gloss->roughness, given.gloss->roughness);
+    EXPECT_EQ(got.gloss->metallic, given.gloss->metallic);
+    ASSERT_EQ(got.gloss->picture == nullptr, given.gloss->picture == nullptr);
+    if (given.gloss->picture) {
+      EXPECT_EQ(*got.gloss->picture, *given.gloss->picture);
+    }
   }
   EXPECT_EQ((*read.paints)[0].picture, (*read.paints)[3].picture) << "one picture is read once";
   EXPECT_EQ((*read.paints)[0].picture, (*read.paints)[4].relief);
@@ -96,6 +106,13 @@ TEST_F(PaintIo, TakesKeepThemAlso) {
   const FramePtr read = reader.next();
   ASSERT_TRUE(read);
   expect_same(*read, *frame);
+}
+
+TEST_F(PaintIo, APaintWithoutReliefOrGlossTakesTheBytesItAlwaysDid) {
+  ByteWriter out;
+  put(out,
+      std::vector<Paint>{{Vec3f(1, 0.5f, 0.25f), picture(7), true}, {Vec3f(0, 0, 1), nullptr}});
+  EXPECT_EQ(out.bytes.size(), 4 + (12 + 1 + 4 + 4 + 3) + (12 + 1 + 4u));
 }
 
 TEST_F(PaintIo, AVertexOfAPaintThatIsNotThereIsRefused) {

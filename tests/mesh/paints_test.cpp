@@ -128,6 +128,33 @@ TEST_F(Paints, OfAnMtlHaveReliefFromNormalsOrElseFromHeights) {
   expect_refused("a.obj", "a.mtl:2: 'steep' is not a number");
 }
 
+TEST_F(Paints, OfAnMtlHaveItsRoughnessOrOneOfItsExponent) {
+  write("a.mtl",
+        "newmtl said\nNs 1000\nPr 0.25\nPm 1\n"
+        "newmtl exponent\nKs 0.5 0.5 0.5\nNs 30\n"
+        "newmtl dull\nKs 0 0 0\nNs 30\n"
+        "newmtl metal\nPm 2\n"
+        "newmtl silent\nKd 1 1 1\nKs spectral file.rfl\n");
+  std::string faces;
+  for (const std::string name : {"said", "exponent", "dull", "metal", "silent"}) {
+    faces += "usemtl " + name + "\nf 1 2 3\n";
+  }
+  write("a.obj", "mtllib a.mtl\n" + kTriangle + faces);
+  const RawMesh mesh = read("a.obj");
+  const auto gloss = [&](std::size_t g) { return mesh.groups.at(g).paint->gloss; };
+  EXPECT_EQ(gloss(0)->roughness, 0.25f);
+  EXPECT_EQ(gloss(0)->metallic, 1);
+  EXPECT_NEAR(gloss(1)->roughness, 0.5, 1e-6) << "the fourth root of 2 / (30 + 2)";
+  EXPECT_EQ(gloss(1)->metallic, 0);
+  EXPECT_FALSE(gloss(2)) << "an exponent of highlights that are black";
+  EXPECT_EQ(gloss(3)->metallic, 1) << "at most";
+  EXPECT_EQ(gloss(3)->roughness, 1);
+  EXPECT_FALSE(gloss(4));
+
+  write("a.mtl", "newmtl m\nKd 1 1 1\n\nPr smooth\n");
+  expect_refused("a.obj", "a.mtl:4: 'smooth' is not a number");
+}
+
 TEST_F(Paints, OfAGltfHaveItsNormalPicturesAndTheirScale) {
   std::string points;
   for (const float f : {0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) {
@@ -145,7 +172,8 @@ TEST_F(Paints, OfAGltfHaveItsNormalPicturesAndTheirScale) {
 "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"points.bin"}]})";
   };
   write("a.gltf", gltf(R"({"normalTexture":{"index":0,"scale":0.5}},
-{"pbrMetallicRoughness":{"baseColorFactor":[0,0,1,1]},"normalTexture":{"index":1}},
+{"pbrMetallicRoughness":{"baseColorFactor":[0,0,1,1],"roughnessFactor":0.5,"metallicFactor":-1,
+"metallicRoughnessTexture":{"index":0}},"normalTexture":{"index":1}},
 {"normalTexture":{"index":0,"texCoord":1}})"));
   const RawMesh mesh = read("a.gltf");
   const auto paint = [&](std::size_t g) { return mesh.groups.at(g).paint; };
@@ -155,10 +183,18 @@ TEST_F(Paints, OfAGltfHaveItsNormalPicturesAndTheirScale) {
   EXPECT_EQ(paint(0)->color, Vec3f(1, 1, 1)) << "which is what the format says of none";
   EXPECT_FALSE(paint(1)->relief) << "it is not there";
   EXPECT_EQ(paint(1)->color, Vec3f(0, 0, 1));
+  EXPECT_EQ(paint(0)->gloss->roughness, 1) << "likewise";
+  EXPECT_EQ(paint(0)->gloss->metallic, 1);
+  EXPECT_FALSE(paint(0)->gloss->picture);
+  EXPECT_EQ(paint(1)->gloss->roughness, 0.5f);
+  EXPECT_EQ(paint(1)->gloss->metallic, 0);
+  EXPECT_EQ(paint(1)->gloss->picture, paint(0)->relief) << "one picture is read once";
   EXPECT_FALSE(paint(2)->relief) << "of other coordinates than those that are read";
 
   write("a.gltf", gltf(R"({"normalTexture":{"index":0,"scale":"much"}},{},{})"));
   expect_refused("a.gltf", "a.gltf: scale must be a number");
+  write("a.gltf", gltf(R"({"pbrMetallicRoughness":{"roughnessFactor":[1]}},{},{})"));
+  expect_refused("a.gltf", "a.gltf: roughnessFactor must be a number");
 }
 
 TEST_F(Paints, OfAGltfAreBaseColoursAndPicturesWhereverTheyLie) {
@@ -180,7 +216,7 @@ TEST_F(Paints, OfAGltfAreBaseColoursAndPicturesWhereverTheyLie) {
 {"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}},
 {"pbrMetallicRoughness":{"baseColorTexture":{"index":2}}},
 {"pbrMetallicRoughness":{"baseColorTexture":{"index":3}}},
-{"pbrMetallicRoughness":{"roughnessFactor":0.5}}],
+{"name":"a"}],
 "textures":[{"source":0},{"source":1},{"source":2},{"source":3}],
 "images":[{"uri":"pictures/a%20b.png"},{"uri":"data:image/png;base64,UE5HIQ=="},
 {"bufferView":1,"mimeType":"image/jpeg"},{"uri":"../secret.png"}],
@@ -197,7 +233,7 @@ TEST_F(Paints, OfAGltfAreBaseColoursAndPicturesWhereverTheyLie) {
   EXPECT_FALSE(paint(3)->from_below);
   ASSERT_TRUE(paint(4));
   EXPECT_FALSE(paint(4)->picture);
-  EXPECT_FALSE(paint(5)) << "it says nothing of its colour";
+  EXPECT_FALSE(paint(5)) << "it says nothing of its look";
 }
 
 }  // namespace

@@ -196,6 +196,93 @@ TEST(Relief, OfGreyIsHeights) {
   EXPECT_LT(brightness(rows, 160, 130), brightness(flat, 160, 130) - 5);
 }
 
+/// A ball of a paint, the sun behind the eye, above and to the right.
+Frame ball_frame(const Paint& paint, Stuff stuff = Stuff::kPlaster) {
+  SyntheticFrame s;
+  s.add_ball({0, 3, 0}, 1, stuff);
+  s.frame.view.eye_W = {0, 3, 4};
+  s.frame.view.target_W = {0, 3, 0};
+  s.frame.view.to_sun_W = {0.5, 0.7, 1};
+  paint_all(s.frame, paint);
+  return s.frame;
+}
+
+Paint glossy(float roughness, float metallic, const Vec3f& color = Vec3f(0.3f, 0.05f, 0.05f)) {
+  return {color, nullptr, false, nullptr, 1, Gloss{roughness, metallic}};
+}
+
+/// Where on the picture of a ball the sun is mirrored, about.
+Vec3f highlight(const Image& image) { return mean(image, 176, 60, 186, 70); }
+
+TEST(Gloss, ShowsTheSunInAHighlightThatIsNarrowerTheSmootherAndDimmerTheRougher) {
+  const auto highest = [](const Image& image) {
+    float most = 0;
+    for (int y = 55; y < 95; ++y) {
+      for (int x = 155; x < 195; ++x) most = std::max(most, pixel(image, x, y).y());
+    }
+    return most;
+  };
+  const auto wide = [&](const Image& image) {
+    int count = 0;
+    for (int y = 55; y < 95; ++y) {
+      for (int x = 155; x < 195; ++x) count += pixel(image, x, y).y() > 0.7f * highest(image);
+    }
+    return count;
+  };
+  const Image none = drawn(ball_frame({Vec3f(0.3f, 0.05f, 0.05f), nullptr}));
+  const Image smooth = drawn(ball_frame(glossy(0.2f, 0)));
+  const Image medium = drawn(ball_frame(glossy(0.5f, 0)));
+  const Image rough = drawn(ball_frame(glossy(1, 0)));
+  EXPECT_GT(highest(smooth), highest(medium) + 30);
+  EXPECT_GT(highest(medium), highest(rough) + 10);
+  EXPECT_LT(highest(rough), highest(none) + 30) << "which is hardly more than without";
+  EXPECT_LT(wide(smooth), wide(medium));
+  EXPECT_GT(wide(smooth), 4);
+}
+
+TEST(Gloss, OfAMetalHasItsColorAndTheRestOfItMirrors) {
+  const Vec3f gold(0.8f, 0.5f, 0.1f);
+  const Vec3f metal = highlight(drawn(ball_frame(glossy(0.5f, 1, gold))));
+  const Vec3f lacquer = highlight(drawn(ball_frame(glossy(0.5f, 0, Vec3f(0, 0, 0)))));
+  EXPECT_GT(metal.x(), 1.5f * metal.z());
+  EXPECT_LT(lacquer.x(), 1.5f * lacquer.z()) << "the sun itself is warm";
+  // Below, a mirror shows the ground, above the sky.
+  const Image image = drawn(ball_frame(glossy(0.1f, 1, Vec3f(0.9f, 0.9f, 0.9f))));
+  const Vec3f above = mean(image, 130, 55, 140, 60), below = mean(image, 155, 122, 165, 130);
+  EXPECT_GT(above.z() / above.x(), below.z() / below.x() + 0.1f);
+}
+
+TEST(Gloss, IsTheFilesInPlaceOfTheMaterials) {
+  const Paint dull = glossy(1, 0);
+  const auto off = [](const Image& a, const Image& b) {
+    return (mean(a, 120, 50, 200, 130) - mean(b, 120, 50, 200, 130)).cwiseAbs().maxCoeff();
+  };
+  const Image steel = drawn(ball_frame(dull, Stuff::kSteel));
+  EXPECT_LT(off(steel, drawn(ball_frame(dull))), 3);
+  EXPECT_GT(off(steel, drawn(ball_frame(glossy(0.2f, 1), Stuff::kSteel))), 10);
+}
+
+TEST(Gloss, OfAPictureIsGreenTimesRoughnessAndBlueTimesMetallic) {
+  // Left it is smooth lacquer, right rough metal; red says nothing.
+  Paint paint = glossy(1, 1, Vec3f(0.8f, 0.5f, 0.1f));
+  const auto image = [&](const std::vector<Vec3f>& halves) {
+    paint.gloss->picture = stripes(halves, false, 32);
+    return drawn(ball_frame(paint));
+  };
+  const Vec3f lacquer(255, 51, 0), metal(0, 255, 255);
+  const Image both = image({lacquer, metal});
+  const auto near = [](const Image& a, const Image& b, int left, int right) {
+    return (mean(a, left, 60, right, 120) - mean(b, left, 60, right, 120)).cwiseAbs().maxCoeff();
+  };
+  const Image all_lacquer = image({lacquer}), all_metal = image({metal});
+  EXPECT_LT(near(both, all_lacquer, 125, 150), 1);
+  EXPECT_LT(near(both, all_metal, 170, 195), 1);
+  EXPECT_GT(near(all_lacquer, all_metal, 125, 150), 10);
+  EXPECT_GT(near(all_lacquer, all_metal, 170, 195), 10);
+  paint.gloss = Gloss{0.2f, 0};
+  EXPECT_LT(near(all_lacquer, drawn(ball_frame(paint)), 125, 195), 1) << "51 of 255 is 0.2";
+}
+
 TEST(Paint, WhatBrokeLooksAsItsMaterialDoes) {
   Frame plain = wall_frame(Stuff::kConcrete);
   auto mesh = std::make_shared<Mesh>(*(*plain.meshes)[0]);

@@ -105,7 +105,7 @@ TEST_F(MeshPaints, OfTwoBodiesShareTheirPictures) {
   EXPECT_NE(*scene.paints[0].picture, *scene.paints[1].picture);
 }
 
-TEST_F(MeshPaints, ThatDifferInReliefAloneAreTwo) {
+TEST_F(MeshPaints, ThatDifferInReliefOrGlossAloneAreTwo) {
   const std::string same_color = "newmtl red\nKd 1 0 0\nnorm n.png\nnewmtl blue\nKd 1 0 0\n";
   write("n.png", "N");
   write("box.mtl", same_color);
@@ -114,6 +114,8 @@ TEST_F(MeshPaints, ThatDifferInReliefAloneAreTwo) {
   ASSERT_EQ(load(kBody).paints.size(), 2u);
   write("box.mtl", same_color + "norm n.png\n");
   EXPECT_EQ(load(kBody).paints.size(), 1u);
+  write("box.mtl", same_color + "norm n.png\nPr 0.5\n");
+  EXPECT_EQ(load(kBody).paints.size(), 2u);
 }
 
 TEST_F(MeshPaints, AreLeftOutWhereTheMaterialsLookIsAskedFor) {

@@ -1,5 +1,7 @@
 #include "engine/io/mesh/mesh_gltf_paints.h"
 
+#include <algorithm>
+
 namespace sunder {
 
 using nlohmann::json;
@@ -7,15 +9,18 @@ using nlohmann::json;
 std::optional<Paint> GltfPaints::of(const json& material) {
   const json& base = data_.object(material, "pbrMetallicRoughness");
   const json& relief = data_.object(material, "normalTexture");
-  if (!base.contains("baseColorFactor") && !base.contains("baseColorTexture") && relief.empty()) {
-    return std::nullopt;
-  }
+  if (base.empty() && relief.empty()) return std::nullopt;
   Paint paint;
   const std::vector<double> color = data_.numbers(base, "baseColorFactor", {1, 1, 1, 1});
   paint.color = Vec3(color[0], color[1], color[2]).cwiseMax(0).cwiseMin(1).cast<float>();
   paint.picture = used(data_.object(base, "baseColorTexture"));
   paint.relief = used(relief);
   paint.relief_scale = static_cast<float>(data_.number(relief, "scale", 1));
+  const auto share = [&](const char* name) {
+    return static_cast<float>(std::clamp(data_.number(base, name, 1), 0.0, 1.0));
+  };
+  paint.gloss = {share("roughnessFactor"), share("metallicFactor"),
+                 used(data_.object(base, "metallicRoughnessTexture"))};
   return paint;
 }
 

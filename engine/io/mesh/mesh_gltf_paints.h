@@ -15,8 +15,9 @@ class GltfPaints {
  public:
   explicit GltfPaints(const GltfData& data) : data_(data) {}
 
-  /// Base colour, its picture and that of normals; none where a material has none of these. A
-  /// picture that is not there, or uses other texture coordinates than the first, is left out.
+  /// Base colour, gloss and normals, what it does not say as the format has it; none where a
+  /// material says nothing of these. A picture that is not there, or uses other texture coordinates
+  /// than the first, is left out.
   std::optional<Paint> of(const nlohmann::json& material);
 
  private:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <optional>
 
 namespace sunder {
 namespace {
@@ -11,6 +13,39 @@ namespace {
 float linear(double shown) {
   const double c = std::clamp(shown, 0.0, 1.0);
   return static_cast<float>(c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878));
+}
+
+/// The roughness of which highlights are as wide as those of an exponent of Blinn and Phong.
+float roughness_of(double exponent) {
+  return static_cast<float>(std::sqrt(std::sqrt(2 / (std::max(exponent, 0.0) + 2))));
+}
+
+float share(double number) { return static_cast<float>(std::clamp(number, 0.0, 1.0)); }
+
+/// What an MTL says of a material.
+struct MtlMaterial {
+  Paint paint;
+  std::optional<float> roughness, metallic;  ///< Pr and Pm.
+  std::optional<double> exponent;            ///< Ns.
+  bool shines = true;                        ///< Unless Ks is black.
+
+  Paint finished() const {
+    Paint result = paint;
+    if (!roughness && !metallic && !(exponent && shines)) return result;
+    result.gloss.emplace().metallic = metallic.value_or(0);
+    if (roughness || (exponent && shines)) {
+      result.gloss->roughness = roughness ? *roughness : roughness_of(*exponent);
+    }
+    return result;
+  }
+};
+
+/// Red, green and blue; none if they are said otherwise.
+std::optional<Vec3> take_color(MeshText& text) {
+  const std::string_view red = text.word();
+  if (red == "spectral" || red == "xyz") return std::nullopt;
+  const double r = text.to_number(red), g = text.number();
+  return Vec3(r, g, text.number());
 }
 
 bool is_option_value(std::string_view word) {
@@ -69,31 +104,38 @@ std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::strin
   const std::optional<std::string> bytes = source.beside(name);
   if (!bytes) return paints;
   const MeshSource file{*bytes, source.file.parent_path() / name, source.limits};
+  std::map<std::string, MtlMaterial> materials;
   PicturesBeside pictures(source);
   MeshText text(file);
-  Paint none;
-  Paint* paint = &none;
+  MtlMaterial none;
+  MtlMaterial* material = &none;
   while (text.next_line()) {
     const std::string_view keyword = text.word();
+    Paint& paint = material->paint;
     if (keyword == "newmtl") {
-      paint = &paints[text.words()];
-      paint->from_below = true;
+      material = &materials[text.words()];
+      material->paint.from_below = true;
     } else if (keyword == "Kd") {
-      const std::string_view red = text.word();
-      if (red == "spectral" || red == "xyz") continue;
-      const double r = text.to_number(red), g = text.number();
-      paint->color = Vec3f(linear(r), linear(g), linear(text.number()));
+      if (const auto color = take_color(text)) paint.color = color->unaryExpr(&linear);
     } else if (keyword == "map_Kd") {
-      paint->picture = pictures.find(take_picture_use(text).name);
-      if (paint->picture && paint->color.isZero()) paint->color.setOnes();  // as exporters mean it
-    } else if (keyword == "norm" ||
-               (!paint->relief &&
-                (keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump"))) {
+      paint.picture = pictures.find(take_picture_use(text).name);
+      if (paint.picture && paint.color.isZero()) paint.color.setOnes();  // as exporters mean it
+    } else if (keyword == "norm" || (!paint.relief && (keyword == "bump" || keyword == "map_bump" ||
+                                                       keyword == "map_Bump"))) {
       const PictureUse use = take_picture_use(text);
-      paint->relief = pictures.find(use.name);
-      paint->relief_scale = static_cast<float>(use.steeper);
+      paint.relief = pictures.find(use.name);
+      paint.relief_scale = static_cast<float>(use.steeper);
+    } else if (keyword == "Ks") {
+      if (const auto color = take_color(text)) material->shines = !color->isZero();
+    } else if (keyword == "Ns") {
+      material->exponent = text.number();
+    } else if (keyword == "Pr") {
+      material->roughness = share(text.number());
+    } else if (keyword == "Pm") {
+      material->metallic = share(text.number());
     }
   }
+  for (const auto& [called, found] : materials) paints.emplace(called, found.finished());
   return paints;
 }
 
