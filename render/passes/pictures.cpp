@@ -2,67 +2,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "render/image/image.h"
+#include "render/image/relief.h"
 
 namespace sunder::render {
 namespace {
-
-/// Where all is grey: how much higher than black white is, in parts of the picture's width.
-constexpr float kHeight = 0.02f;
-constexpr float kMostSteeper = 100;  ///< Paint::relief_scale, in files that nobody has seen.
-
-std::size_t texel_at(const Image& image, int x, int y) {
-  return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-              static_cast<std::size_t>(x));
-}
-
-bool is_grey(const Image& image) {
-  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
-    if (image.rgb[i] != image.rgb[i + 1] || image.rgb[i] != image.rgb[i + 2]) return false;
-  }
-  return true;
-}
-
-/// The normal at a pixel, right, up in the picture and off it, which goes on at its edges.
-Vec3f normal_at(const Image& image, bool heights, int x, int y) {
-  const auto level = [&](int column, int row, std::size_t channel) {
-    const std::size_t at =
-        texel_at(image, (column + image.width) % image.width, (row + image.height) % image.height);
-    return static_cast<float>(image.rgb[at + channel]) / 255;
-  };
-  if (heights) {
-    const float steep = 0.5f * kHeight * static_cast<float>(image.width);
-    return Vec3f(steep * (level(x - 1, y, 0) - level(x + 1, y, 0)),
-                 steep * (level(x, y + 1, 0) - level(x, y - 1, 0)), 1);
-  }
-  // 128 is 0, that a flat picture is flat.
-  const auto signed_level = [&](std::size_t channel) {
-    return (255 * level(x, y, channel) - 128) / 127;
-  };
-  return Vec3f(signed_level(0), signed_level(1), std::max(signed_level(2), 0.01f));
-}
-
-/// The picture's normals along its texture coordinates, so much steeper.
-Image relief_image(const Image& given, bool from_below, float scale) {
-  if (!(std::abs(scale) <= kMostSteeper)) scale = kMostSteeper;
-  const Vec3f steeper(scale, from_below ? scale : -scale, 1);
-  const bool heights = is_grey(given);
-  Image image{given.width, given.height, {}};
-  image.rgb.reserve(given.rgb.size());
-  for (int y = 0; y < given.height; ++y) {
-    for (int x = 0; x < given.width; ++x) {
-      const Vec3f n = normal_at(given, heights, x, y).cwiseProduct(steeper).normalized();
-      for (const float level : n) {
-        image.rgb.push_back(static_cast<std::uint8_t>(std::lround(128 + 127 * level)));
-      }
-    }
-  }
-  return image;
-}
 
 /// RGBA texels of a picture scaled to `side` x `side`: the mean of what each covers, and of its
 /// nearest pixels where that is less than one; the row where texture coordinates begin comes first.
@@ -81,7 +28,9 @@ std::vector<std::uint8_t> scaled(const Image& image, int side, bool from_below) 
       std::uint32_t sum[3] = {};
       for (int y = top; y < bottom; ++y) {
         for (int x = left; x < right; ++x) {
-          const std::size_t at = texel_at(image, x, y);
+          const std::size_t at =
+              3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                   static_cast<std::size_t>(x));
           for (std::size_t c = 0; c < 3; ++c) sum[c] += image.rgb[at + c];
         }
       }
@@ -120,7 +69,8 @@ void Pictures::update(const std::vector<Paint>& paints) {
     if (!layer.picture || layers_.size() == kMostPictures || layer_of(layer) > 0) return;
     images.push_back(decode_picture(*layer.picture));
     if (layer.relief_scale) {
-      images.back() = relief_image(images.back(), layer.from_below, *layer.relief_scale);
+      const float scale = *layer.relief_scale;
+      images.back() = normals_of(images.back(), scale, layer.from_below ? scale : -scale);
     }
     layers_.push_back(layer);
     largest = std::max({largest, images.back().width, images.back().height});

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
@@ -215,13 +216,14 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
 }
 
 fracture::BreakCase case_of(const FractureOptions& options, scenes::MeshSolid& solid,
-                            WorkProgress& progress) {
+                            std::vector<Paint>& paints, WorkProgress& progress) {
   if (!options.mesh.ends_with(".case")) {
     if (options.pattern.empty()) {
       throw InputError("--pattern is missing: " + std::string(kPatternHelp));
     }
     parse_pattern(options.pattern);  // before work that may take long
     scenes::MeshOptions mesh = options.solid;
+    mesh.paints = &paints;
     mesh.progress = [&](const char* step, double share) { progress(step, kMeshShare * share); };
     solid = scenes::make_mesh_solid(options.mesh, mesh);
     return {solid.compound, command_of(options, solid.compound)};
@@ -243,13 +245,14 @@ int fracture_mesh(const FractureOptions& options) {
   options.apply();
   check_output(options.output);
   scenes::MeshSolid solid;
+  std::vector<Paint> paints;
   std::optional<WorkProgress> progress(std::in_place, options.mesh, options.quiet);
-  const fracture::BreakCase example = case_of(options, solid, *progress);
+  const fracture::BreakCase example = case_of(options, solid, paints, *progress);
   const Broken broken = carry_out(example.compound, example.command, *progress);
   progress.reset();
   options.say(summary(solid, broken));
   if (!options.output.empty()) {
-    write_solids(options.output, broken.plan.pieces, stone(), options.explode);
+    write_solids(options.output, broken.plan.pieces, stone(), std::move(paints), options.explode);
     options.say("wrote " + options.output + "\n");
   }
   options.write_json(format_figures(figures_of(solid, broken)));

@@ -2,10 +2,13 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/io/mesh/glb_writer.h"
 #include "engine/io/mesh/obj_writer.h"
+#include "render/image/relief.h"
 #include "scenes/app/picture.h"
 
 namespace sunder::app {
@@ -65,13 +68,21 @@ void check_output(const std::string& output) {
 }
 
 void write_solids(const std::string& output, const std::vector<Compound>& solids,
-                  const std::vector<Material>& materials, std::optional<double> explode) {
+                  const std::vector<Material>& materials, std::vector<Paint> paints,
+                  std::optional<double> explode) {
   if (output.ends_with(".png")) {
     constexpr double kApart = 0.3;  // that cracks are seen
-    draw_solids(output, solids, materials, explode.value_or(kApart));
+    draw_solids(output, solids, materials, std::move(paints), explode.value_or(kApart));
     return;
   }
-  const Model model = make_model(solids, materials, explode.value_or(0));
+  std::map<Picture, Picture> normals;  // what other programs take for relief
+  for (Paint& paint : paints) {
+    if (!paint.relief) continue;
+    Picture& known = normals[paint.relief];
+    if (!known) known = render::as_normals(paint.relief);
+    paint.relief = known;
+  }
+  const Model model = make_model(solids, materials, explode.value_or(0), paints);
   if (is_folder(output)) {
     write_obj_folder(output, model);
   } else {

@@ -24,10 +24,11 @@ void add_doubled(const std::optional<fracture::DoubledVolume>& doubled, Figures&
 /// Throws InputError unless -o names something that can be written; nothing is fine.
 void check_output(const std::string& output);
 /// Writes solids as X.glb, X.png, or as a folder of .obj files, moved apart by `explode` times
-/// their distance from the middle of all; if that is not said, in a picture only. Throws
-/// InputError.
+/// their distance from the middle of all; if that is not said, in a picture only. Faces are marked
+/// by `paints`. Throws InputError.
 void write_solids(const std::string& output, const std::vector<Compound>& solids,
-                  const std::vector<Material>& materials, std::optional<double> explode);
+                  const std::vector<Material>& materials, std::vector<Paint> paints,
+                  std::optional<double> explode);
 /// Limestone, for solids that nobody gave a material.
 std::vector<Material> stone();
 /// Colours that are easily told apart.

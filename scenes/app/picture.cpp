@@ -1,6 +1,7 @@
 #include "scenes/app/picture.h"
 
 #include <cmath>
+#include <utility>
 
 #include "engine/model/frame.h"
 #include "engine/model/piece_mesh.h"
@@ -25,7 +26,8 @@ View view_of(const Box& box) {
 }  // namespace
 
 void draw_solids(const std::filesystem::path& file, std::span<const Compound> solids,
-                 const std::vector<Material>& materials, double explode) {
+                 const std::vector<Material>& materials, std::vector<Paint> paints,
+                 double explode) {
   Box all, shown;
   for (const Compound& solid : solids) all.extend(bounds(solid));
   Frame frame;
@@ -50,6 +52,7 @@ void draw_solids(const std::filesystem::path& file, std::span<const Compound> so
   frame.view = view_of(shown);
   frame.meshes = std::move(meshes);
   frame.materials = std::make_shared<std::vector<Material>>(materials);
+  if (!paints.empty()) frame.paints = std::make_shared<const std::vector<Paint>>(std::move(paints));
   const auto sink = render::make_picture_sink(file, render::RenderOptions());
   sink->take(std::make_shared<Frame>(std::move(frame)));
   sink->finish();

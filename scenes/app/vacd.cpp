@@ -64,7 +64,7 @@ void decompose_once(const VacdOptions& options) {
   options.say(summary(solid, doubled));
   if (!options.output.empty()) {
     const std::vector<Material> colors = palette();
-    write_solids(options.output, one_by_one(solid.compound, colors.size()), colors,
+    write_solids(options.output, one_by_one(solid.compound, colors.size()), colors, {},
                  options.explode);
     options.say("wrote " + options.output + "\n");
   }

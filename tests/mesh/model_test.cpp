@@ -177,6 +177,87 @@ TEST(Glb, KeepsTheRulesOfTheFormat) {
   }
 }
 
+Picture bytes_of(const std::string& text) {
+  const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+  return std::make_shared<const std::vector<std::byte>>(begin, begin + text.size());
+}
+
+TEST(Glb, KeepsPaintsTheirPicturesAndWhereTheyLie) {
+  const Picture png = bytes_of("\x89PNG5"), jpeg = bytes_of("\xff\xd8\xff"), other = bytes_of("N");
+  const std::vector<Paint> paints = {
+      {Vec3f(1, 0.5f, 0.25f), png, true, other, 0.5f, Gloss{0.25f, 1, jpeg}},
+      {Vec3f(0, 0, 1), jpeg, false, png, -2}};
+  std::vector<Compound> pieces = two_pieces();
+  for (Compound& piece : pieces) {
+    const auto convex = std::make_shared<Convex>(*piece.convexes[0]);
+    PolygonMesh mesh = polygon_mesh(convex->polyhedron);
+    for (const std::uint32_t corner : mesh.corners) {
+      const Vec3& at = mesh.vertices[corner];
+      mesh.corner_uvs.emplace_back(static_cast<float>(at.x() + 4 * at.z()),
+                                   static_cast<float>(at.y()));
+    }
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) mesh.faces[f].mark = f % 3;
+    convex->visual = std::make_shared<const PolygonMesh>(std::move(mesh));
+    piece.convexes[0] = convex;
+  }
+  const Folder folder;
+  write_glb(folder / "x.glb", make_model(pieces, stone(), 0, paints));
+  const RawMesh read = read_mesh(folder / "x.glb");
+  std::size_t seen[3] = {};
+  for (const RawMesh::Polygon& polygon : read.polygons) {
+    const RawMesh::Group& group = read.groups.at(polygon.group);
+    const std::string& name = group.names.back();
+    const std::size_t number = name == "paint 1" ? 1 : name == "paint 2" ? 2 : 0;
+    ++seen[number];
+    if (number == 0) {
+      EXPECT_FALSE(group.paint->picture);
+      continue;
+    }
+    const Paint &given = paints[number - 1], &got = group.paint.value();
+    EXPECT_EQ(got.color, given.color);
+    EXPECT_EQ(*got.picture, *given.picture);
+    EXPECT_EQ(*got.relief, *given.relief);
+    EXPECT_EQ(got.relief_scale, given.relief_scale);
+    EXPECT_EQ(got.gloss->metallic, given.gloss ? given.gloss->metallic : 0);
+    EXPECT_EQ(got.gloss->roughness, given.gloss ? given.gloss->roughness : 0.9f);
+    EXPECT_EQ(got.gloss->picture != nullptr, given.gloss.has_value());
+    EXPECT_FALSE(got.from_below);
+    for (std::uint32_t c = polygon.first_corner; c < polygon.first_corner + 3; ++c) {
+      const Vec3& at = read.vertices[read.corners[c]];
+      const double up = given.from_below ? 1 - at.y() : at.y();
+      EXPECT_NEAR(read.corner_uvs[c].x(), at.x() + 4 * at.z(), 1e-5);
+      EXPECT_NEAR(read.corner_uvs[c].y(), up, 1e-5);
+    }
+  }
+  EXPECT_EQ(seen[1], 8u);
+  EXPECT_EQ(seen[2], 8u);
+  EXPECT_EQ(seen[0], 8u) << "among them the broken side";
+  const std::vector<std::byte> bytes = read_file(folder / "x.glb");
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  EXPECT_EQ(text.find("\x89PNG5"), text.rfind("\x89PNG5")) << "each is written once";
+  EXPECT_NE(text.find("image/png"), std::string::npos);
+  EXPECT_NE(text.find("image/jpeg"), std::string::npos);
+}
+
+TEST(ObjFolder, KeepsTheColorsOfPaints) {
+  std::vector<Compound> pieces = two_pieces();
+  const auto convex = std::make_shared<Convex>(*pieces[0].convexes[0]);
+  PolygonMesh mesh = polygon_mesh(convex->polyhedron);
+  mesh.faces[1].mark = 1;
+  convex->visual = std::make_shared<const PolygonMesh>(std::move(mesh));
+  pieces[0].convexes[0] = convex;
+  const Folder folder;
+  const std::vector<Paint> paints = {{Vec3f(1, 0, 0), nullptr}};
+  write_obj_folder(folder / "out", make_model(pieces, stone(), 0, paints));
+  const RawMesh read = read_mesh(folder / "out/piece_0.obj");
+  std::size_t red = 0;
+  for (const RawMesh::Polygon& polygon : read.polygons) {
+    const Vec3f color = read.groups.at(polygon.group).paint->color;
+    red += (color - Vec3f(1, 0, 0)).norm() < 0.01f;
+  }
+  EXPECT_EQ(red, 2u);
+}
+
 TEST(ObjFolder, HoldsEveryPieceInFullPrecision) {
   const Folder folder;
   std::vector<Compound> pieces = two_pieces();

@@ -1,8 +1,10 @@
 #include "engine/io/mesh/export_model.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
+#include "engine/base/check.h"
 #include "engine/geometry/triangulate_face.h"
 
 namespace sunder {
@@ -14,15 +16,25 @@ std::string part_name(std::size_t index, std::size_t count) {
   return "piece_" + std::string(most.size() - digits.size(), '0') + digits;
 }
 
+std::uint32_t material_of(const Model::Shell& shell, const PolygonMesh::Face& face) {
+  if (face.kind == FaceKind::kInterior) return shell.interior;
+  return face.mark > 0 ? shell.first_paint + face.mark - 1 : shell.surface;
+}
+
 }  // namespace
 
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
-                 double explode) {
+                 double explode, std::span<const Paint> paints) {
   Model model;
   for (const Material& material : materials) {
-    model.materials.push_back({material.name, material.surface.color});
-    model.materials.push_back({material.name + " inside", material.interior.color});
+    model.materials.push_back({material.name, {material.surface.color, nullptr}});
+    model.materials.push_back({material.name + " inside", {material.interior.color, nullptr}});
   }
+  const auto first_paint = static_cast<std::uint32_t>(model.materials.size());
+  for (std::size_t p = 0; p < paints.size(); ++p) {
+    model.materials.push_back({"paint " + std::to_string(p + 1), paints[p]});
+  }
+  const auto is_known = [&](const PolygonMesh::Face& face) { return face.mark <= paints.size(); };
   Box all;
   for (const Compound& piece : pieces) all.extend(bounds(piece));
   for (std::size_t p = 0; p < pieces.size(); ++p) {
@@ -31,18 +43,20 @@ Model make_model(std::span<const Compound> pieces, std::span<const Material> mat
     part.center = bounds(pieces[p]).center();
     part.offset = explode * (part.center - all.center());
     for (const ConvexPtr& convex : pieces[p].convexes) {
+      SUNDER_CHECK(!convex->visual || std::ranges::all_of(convex->visual->faces, is_known));
       auto mesh = convex->visual
                       ? convex->visual
                       : std::make_shared<const PolygonMesh>(polygon_mesh(convex->polyhedron));
-      part.shells.push_back(
-          {std::move(mesh), 2 * convex->material.value, 2 * convex->material.value + 1});
+      part.shells.push_back({std::move(mesh), 2 * convex->material.value,
+                             2 * convex->material.value + 1, first_paint});
     }
     model.parts.push_back(std::move(part));
   }
   return model;
 }
 
-ShellTriangles triangles_of(const PolygonMesh& mesh) {
+ShellTriangles triangles_of(const Model::Shell& shell) {
+  const PolygonMesh& mesh = *shell.mesh;
   using Key = std::array<float, 5>;
   ShellTriangles result;
   std::map<std::pair<std::uint32_t, Key>, std::uint32_t> known;
@@ -60,7 +74,7 @@ ShellTriangles triangles_of(const PolygonMesh& mesh) {
   };
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const PolygonMesh::Face& face = mesh.faces[f];
-    auto& indices = face.kind == FaceKind::kInterior ? result.interior : result.surface;
+    auto& indices = result.faces[material_of(shell, face)];
     for (const Triangle& corners : triangulate(mesh, f)) {
       for (const std::uint32_t corner : corners) indices.push_back(vertex(face, corner));
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,12 +18,13 @@ namespace sunder {
 struct Model {
   struct Material {
     std::string name;
-    Vec3f color = Vec3f::Ones();  ///< Linear RGB.
+    Paint look;
   };
   /// A watertight surface, and what it is made of outside and where it broke.
   struct Shell {
     std::shared_ptr<const PolygonMesh> mesh;
     std::uint32_t surface = 0, interior = 0;  ///< Materials.
+    std::uint32_t first_paint = 0;            ///< The material of faces marked 1.
   };
   /// What moves as one.
   struct Part {
@@ -36,9 +38,10 @@ struct Model {
 };
 
 /// A part a compound, a shell a convex: its visual mesh, or itself if it has none. Parts are moved
-/// away from the middle of all by `explode` times their distance from it.
+/// away from the middle of all by `explode` times their distance from it. Faces are marked by
+/// `paints`, which are materials of their own.
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
-                 double explode);
+                 double explode, std::span<const Paint> paints = {});
 
 /// A shell as triangles to draw.
 struct ShellTriangles {
@@ -47,9 +50,9 @@ struct ShellTriangles {
     Vec3f normal = Vec3f::Zero();
     Vec2f uv = Vec2f::Zero();  ///< In metres of the rest frame where the mesh has none.
   };
-  std::vector<Vertex> vertices;  ///< Each once.
-  std::vector<std::uint32_t> surface, interior;
+  std::vector<Vertex> vertices;                               ///< Each once.
+  std::map<std::uint32_t, std::vector<std::uint32_t>> faces;  ///< By material.
 };
-ShellTriangles triangles_of(const PolygonMesh& mesh);
+ShellTriangles triangles_of(const Model::Shell& shell);
 
 }  // namespace sunder

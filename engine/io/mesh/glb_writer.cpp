@@ -1,6 +1,7 @@
 // Read first: write_glb(). Each kind of data has one buffer view; primitives are ranges of them.
 #include "engine/io/mesh/glb_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -28,6 +29,9 @@ struct Primitive {
   std::vector<std::uint32_t> indices;
 };
 
+/// Up to where what follows may begin.
+std::size_t filled(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
+
 class GlbWriter {
  public:
   explicit GlbWriter(const Model& model) {
@@ -46,6 +50,7 @@ class GlbWriter {
     text.append((4 - text.size() % 4) % 4, ' ');
     std::size_t binary_size = 0;
     for (const ByteWriter& view : views_) binary_size += view.bytes.size();
+    for (const Picture& picture : pictures_) binary_size += filled(picture->size());
     ByteWriter out;
     for (const std::size_t value :
          {std::size_t{kMagic}, std::size_t{2}, 28 + text.size() + binary_size, text.size(),
@@ -58,26 +63,55 @@ class GlbWriter {
     for (const ByteWriter& view : views_) {
       out.bytes.insert(out.bytes.end(), view.bytes.begin(), view.bytes.end());
     }
+    for (const Picture& picture : pictures_) {
+      out.bytes.insert(out.bytes.end(), picture->begin(), picture->end());
+      out.bytes.resize(out.bytes.size() + filled(picture->size()) - picture->size());
+    }
     return out;
   }
 
  private:
   void add_material(const Model::Material& material) {
-    const Vec3f& c = material.color;
-    document_["materials"].push_back({{"name", material.name},
-                                      {"pbrMetallicRoughness",
-                                       {{"baseColorFactor", {c.x(), c.y(), c.z(), 1.0}},
-                                        {"metallicFactor", 0.0},
-                                        {"roughnessFactor", 0.9}}}});
+    const Paint& look = material.look;
+    const Vec3f& c = look.color;
+    json base = {{"baseColorFactor", {c.x(), c.y(), c.z(), 1.0}},
+                 {"metallicFactor", look.gloss ? double{look.gloss->metallic} : 0.0},
+                 {"roughnessFactor", look.gloss ? double{look.gloss->roughness} : 0.9}};
+    if (look.picture) base["baseColorTexture"] = use(look.picture);
+    if (look.gloss && look.gloss->picture) {
+      base["metallicRoughnessTexture"] = use(look.gloss->picture);
+    }
+    json described = {{"name", material.name}, {"pbrMetallicRoughness", std::move(base)}};
+    if (look.relief) {
+      described["normalTexture"] = use(look.relief);
+      described["normalTexture"]["scale"] = look.relief_scale;
+    }
+    document_["materials"].push_back(std::move(described));
+    from_below_.push_back(look.from_below);
+  }
+
+  /// A use of the texture of a picture, which is written once.
+  json use(const Picture& picture) {
+    const auto known = std::find(pictures_.begin(), pictures_.end(), picture);
+    const auto number = static_cast<std::size_t>(known - pictures_.begin());
+    if (known == pictures_.end()) {
+      const bool is_png = !picture->empty() && picture->front() == std::byte{0x89};
+      pictures_.push_back(picture);
+      document_["textures"].push_back({{"source", number}});
+      document_["images"].push_back(
+          {{"bufferView", kViews + number}, {"mimeType", is_png ? "image/png" : "image/jpeg"}});
+    }
+    return {{"index", number}};
   }
 
   /// False if there is nothing to see of it.
   bool add_part(const Model::Part& part) {
     std::map<std::uint32_t, Primitive> primitives;
     for (const Model::Shell& shell : part.shells) {
-      const ShellTriangles triangles = triangles_of(*shell.mesh);
-      add_triangles(shell, triangles, triangles.surface, part, primitives[shell.surface]);
-      add_triangles(shell, triangles, triangles.interior, part, primitives[shell.interior]);
+      const ShellTriangles triangles = triangles_of(shell);
+      for (const auto& [material, indices] : triangles.faces) {
+        add_triangles(shell, triangles, indices, from_below_[material], part, primitives[material]);
+      }
     }
     json list = json::array();
     for (const auto& [material, primitive] : primitives) {
@@ -93,8 +127,8 @@ class GlbWriter {
   }
 
   static void add_triangles(const Model::Shell& shell, const ShellTriangles& triangles,
-                            const std::vector<std::uint32_t>& indices, const Model::Part& part,
-                            Primitive& primitive) {
+                            const std::vector<std::uint32_t>& indices, bool from_below,
+                            const Model::Part& part, Primitive& primitive) {
     constexpr std::uint32_t kNone = 0xffffffff;
     std::vector<std::uint32_t> new_of_old(triangles.vertices.size(), kNone);
     for (const std::uint32_t old : indices) {
@@ -104,7 +138,7 @@ class GlbWriter {
         const Vec3 position = shell.mesh->vertices[vertex.point] - part.center;
         primitive.positions.push_back(position.cast<float>());
         primitive.normals.push_back(vertex.normal);
-        primitive.uvs.push_back(vertex.uv);
+        primitive.uvs.push_back(from_below ? Vec2f(vertex.uv.x(), 1 - vertex.uv.y()) : vertex.uv);
       }
       primitive.indices.push_back(new_of_old[old]);
     }
@@ -151,11 +185,18 @@ class GlbWriter {
       document_["bufferViews"].push_back(std::move(described));
       offset += views_[view].bytes.size();
     }
+    for (const Picture& picture : pictures_) {
+      document_["bufferViews"].push_back(
+          {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", picture->size()}});
+      offset += filled(picture->size());
+    }
     document_["buffers"] = {{{"byteLength", offset}}};
   }
 
   json document_;
   std::array<ByteWriter, kViews> views_;
+  std::vector<Picture> pictures_;  ///< Whose views follow those.
+  std::vector<bool> from_below_;   ///< Of each material; the format counts from above.
 };
 
 }  // namespace

@@ -8,7 +8,8 @@
 namespace sunder {
 
 /// A node a part, a primitive a material, with normals and texture coordinates; single precision
-/// around each part's centre. Written under a temporary name and renamed. Throws FileError.
+/// around each part's centre. Pictures are written as they are, those of relief too, though the
+/// format knows no heights. Written under a temporary name and renamed. Throws FileError.
 void write_glb(const std::filesystem::path& file, const Model& model);
 
 }  // namespace sunder

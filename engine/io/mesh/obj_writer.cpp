@@ -48,7 +48,7 @@ std::string as_word(std::string name) {
 void write_materials(const fs::path& file, const Model& model) {
   Text out;
   for (const Model::Material& material : model.materials) {
-    out << "newmtl " << as_word(material.name) << "\nKd " << material.color << "\n";
+    out << "newmtl " << as_word(material.name) << "\nKd " << material.look.color << "\n";
   }
   out.write(file);
 }
@@ -56,7 +56,6 @@ void write_materials(const fs::path& file, const Model& model) {
 void write_triangles(Text& out, const std::string& material,
                      const std::vector<std::uint32_t>& indices, const ShellTriangles& triangles,
                      std::size_t first_point, std::size_t first_vertex) {
-  if (indices.empty()) return;
   out << "usemtl " << as_word(material) << "\n";
   for (std::size_t i = 0; i < indices.size(); ++i) {
     const std::size_t point = first_point + triangles.vertices[indices[i]].point;
@@ -71,17 +70,17 @@ void write_part(const fs::path& file, const Model::Part& part, const Model& mode
   out << "mtllib " << kMaterials << "\no " << part.name << "\n";
   std::size_t first_point = 1, first_vertex = 1;
   for (const Model::Shell& shell : part.shells) {
-    const ShellTriangles triangles = triangles_of(*shell.mesh);
+    const ShellTriangles triangles = triangles_of(shell);
     for (const Vec3& vertex : shell.mesh->vertices) {
       out << "v " << Vec3(vertex + part.offset) << "\n";
     }
     for (const ShellTriangles::Vertex& vertex : triangles.vertices) {
       out << "vt " << vertex.uv << "\nvn " << vertex.normal << "\n";
     }
-    write_triangles(out, model.materials[shell.surface].name, triangles.surface, triangles,
-                    first_point, first_vertex);
-    write_triangles(out, model.materials[shell.interior].name, triangles.interior, triangles,
-                    first_point, first_vertex);
+    for (const auto& [material, indices] : triangles.faces) {
+      write_triangles(out, model.materials[material].name, indices, triangles, first_point,
+                      first_vertex);
+    }
     first_point += shell.mesh->vertices.size();
     first_vertex += triangles.vertices.size();
   }
