@@ -10,7 +10,7 @@ namespace sunder::scenes {
 namespace {
 
 /// To be counted up whenever reading, repair, decomposition or this layout give something else.
-constexpr std::uint64_t kVersion = 4;
+constexpr std::uint64_t kVersion = 5;
 
 template <class Vectors>
 void put_all(ByteWriter& out, const Vectors& vectors) {

@@ -234,22 +234,45 @@ std::size_t drop_duplicates(RawMesh& mesh) {
 }
 
 void insert_in_edges(RawMesh& mesh, const std::vector<Insertion>& sorted) {
-  // The corners are rewritten as copies of the edge's start, then get their own vertices.
+  // The corners are rewritten as copies of the edge's start, then get their own vertices, and what
+  // else corners have by where these are on the edge.
+  struct Between {
+    std::size_t corner, start, end;
+  };
+  std::vector<Between> inserted;
   std::vector<std::uint32_t> vertices;
   rewrite_polygons(mesh, [&](std::size_t, std::vector<std::uint32_t>& corners) {
     const std::vector<std::uint32_t> old = corners;
+    const std::size_t first = vertices.size();
     corners.clear();
     for (const std::uint32_t c : old) {
+      const std::size_t start = vertices.size(), known = inserted.size();
       corners.push_back(c);
       vertices.push_back(mesh.corners[c]);
       auto it = std::lower_bound(sorted.begin(), sorted.end(), Insertion{c, -1, 0});
       for (; it != sorted.end() && it->half_edge == c; ++it) {
+        inserted.push_back({vertices.size(), start, 0});
         corners.push_back(c);
         vertices.push_back(it->vertex);
       }
+      const std::size_t end = c == old.back() ? first : vertices.size();
+      for (std::size_t i = known; i < inserted.size(); ++i) inserted[i].end = end;
     }
   });
   mesh.corners = std::move(vertices);
+  for (const Between& b : inserted) {
+    const Vec3& start = mesh.vertices[mesh.corners[b.start]];
+    const Vec3 edge = mesh.vertices[mesh.corners[b.end]] - start;
+    const double along = (mesh.vertices[mesh.corners[b.corner]] - start).dot(edge);
+    const auto share =
+        static_cast<float>(std::clamp(along / std::max(edge.squaredNorm(), 1e-300), 0.0, 1.0));
+    const auto blend = [&](auto& values) {
+      if (values.empty()) return;
+      values[b.corner] = (1 - share) * values[b.start] + share * values[b.end];
+    };
+    blend(mesh.corner_normals);
+    blend(mesh.corner_uvs);
+  }
 }
 
 std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_half_edges,

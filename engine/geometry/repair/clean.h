@@ -42,7 +42,7 @@ struct Insertion {
   std::uint32_t vertex;
   auto operator<=>(const Insertion&) const = default;
 };
-/// Puts vertices into edges; texture coordinates and normals are those of the edge's start.
+/// Puts vertices into edges; texture coordinates and normals are between those of the edge's ends.
 void insert_in_edges(RawMesh& mesh, const std::vector<Insertion>& sorted);
 /// Puts open vertices that lie on open edges into those edges; returns how many were put.
 std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_half_edges,
