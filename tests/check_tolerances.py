@@ -24,7 +24,7 @@ MATHEMATICS = {
     "contact/impact_pass.cpp": {"kOverRelaxed"},  # of successive over-relaxation in a row
     "contact/load_path.cpp": {"1e-3f"},
     "contact/prepare.cpp": {"0.999f"},
-    "contact/kernels/strike_kernels.h": {"kNoticed"},  # where a sweep stops: of its threshold
+    "contact/kernels/impact_kernels.h": {"kNoticed"},  # where a sweep stops: of its threshold
     "contact/kernels/sweep.h": {"kNow"},  # as good as none
     "contact/static_warm_start.cpp": {"kWork", "kNearlyDone", "kDone", "kNoBounce"},
     "joint/joint_group.cpp": {"kSoftness"},
