@@ -73,7 +73,9 @@ TEST(InsertInEdges, GivesCornersWhatIsBetweenThoseOfTheEdge) {
   RawMesh mesh;
   mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {3, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   for (int copy = 0; copy < 2; ++copy) append_polygon(mesh, std::vector{0u, 1u, 2u, 3u}, 0);
-  const auto uv_at = [](const Vec3& at) { return Vec2(at.x() / 4, at.y() / 8).cast<float>(); };
+  const auto uv_at = [](const Vec3& at) -> Vec2f {
+    return Vec2(at.x() / 4, at.y() / 8).cast<float>();
+  };
   for (const std::uint32_t v : mesh.corners) {
     mesh.corner_uvs.emplace_back(uv_at(mesh.vertices[v]));
     mesh.corner_normals.emplace_back(static_cast<float>(mesh.vertices[v].x()), 0.0f, 1.0f);
@@ -82,7 +84,7 @@ TEST(InsertInEdges, GivesCornersWhatIsBetweenThoseOfTheEdge) {
   ASSERT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 1, 2, 3, 0, 5, 4, 1, 2, 3, 6}));
   for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
     const Vec3& at = mesh.vertices[mesh.corners[c]];
-    EXPECT_EQ(mesh.corner_uvs[c], Vec2f(uv_at(at))) << at.transpose();
+    EXPECT_EQ(mesh.corner_uvs[c], uv_at(at)) << at.transpose();
     EXPECT_EQ(mesh.corner_normals[c].x(), static_cast<float>(at.x())) << at.transpose();
   }
 }
