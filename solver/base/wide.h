@@ -69,15 +69,6 @@ SUNDER_INLINE Wide load(const float* from) {
   typedef float Floats __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
   return *reinterpret_cast<const Floats*>(from);
 }
-/// As many numbers, side by side, as floats.
-template <class V>
-SUNDER_INLINE V floats(const std::int32_t* from) {
-  float to[kLanesOf<V>];
-  for (std::uint32_t i = 0; i < kLanesOf<V>; ++i) to[i] = static_cast<float>(from[i]);
-  V v;
-  __builtin_memcpy(&v, to, sizeof v);
-  return v;
-}
 template <class V>
 SUNDER_INLINE V min(V a, V b) {
   return a < b ? a : b;
