@@ -75,6 +75,17 @@ TEST(BreakProbe, FindsTheWorkOfABlowPassedOnByAPlate) {
   EXPECT_LT((loads[0].direction_W + Vec3::UnitY()).norm(), 1e-9);
 }
 
+TEST(BreakProbe, KnowsHowMuchItHasLookedAt) {
+  BreakProbe probe({ball(1, Vec3(0, -3, 0)), pane()}, {contact(0, 1)}, kStep_s, kStill_m_s);
+  EXPECT_EQ(probe.work(), 1u) << "its contact";
+  ASSERT_EQ(probe.next().size(), 1u);
+  const std::uint64_t once = probe.work();
+  EXPECT_GT(once, 2u) << "an event, and what it does";
+  probe.hold();
+  EXPECT_TRUE(probe.next().empty());
+  EXPECT_GT(probe.work(), once);
+}
+
 TEST(BreakProbe, TellsWhichWayABlowGoesWhicheverBodyComesFirst) {
   for (const bool first : {false, true}) {
     const Vec3 way = first ? Vec3(Vec3::UnitY()) : Vec3(-Vec3::UnitY());

@@ -52,6 +52,7 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
     linkage.join(rows_.back(), bodies_.size());
     gaps_m_.push_back(c.separation_m);
   }
+  work_ = contacts_.size();
   first_rows_.assign(rows_.begin(), rows_.end());
   speeds_m_s_.resize(rows_.size());
   double least = std::numeric_limits<double>::infinity();
@@ -156,6 +157,7 @@ void BreakProbe::fall(double time_s) {
 /// Moves on to when the next contact closes; false if none does within the step.
 bool BreakProbe::advance_to_event() {
   if (++events_ > kMostEvents) return false;
+  work_ += contacts_.size();
   for (std::size_t i = 0; i < rows_.size(); ++i) speeds_m_s_[i] = rows_[i].speed(velocities_);
   find_falling();
   const double wait = wait_s();
@@ -180,12 +182,14 @@ bool BreakProbe::advance_to_event() {
 }
 
 /// The closed contacts solved, those of `removed` bodies left out.
-ClusterMotion BreakProbe::solve(const std::vector<std::uint8_t>& removed) const {
+ClusterMotion BreakProbe::solve(const std::vector<std::uint8_t>& removed) {
   std::vector<std::uint32_t> in_way;  // of closed_
   for (std::uint32_t i = 0; i < closed_.size(); ++i) {
     if (!rows_[closed_[i]].touches(removed)) in_way.push_back(i);
   }
-  return solve_cluster(rows_, closed_, in_way, give_, fastest_m_s_, velocities_);
+  ClusterMotion solved = solve_cluster(rows_, closed_, in_way, give_, fastest_m_s_, velocities_);
+  work_ += solved.work;
+  return solved;
 }
 
 /// Whether the impulses are enough to load an undecided body beyond its least.

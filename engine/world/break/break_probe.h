@@ -77,6 +77,8 @@ class BreakProbe {
   /// The event has to wait: all stays as it is but for where bodies are by then. Ends the probe.
   void pause();
 
+  /// How much it has looked at so far: visits of a contact.
+  std::uint64_t work() const { return work_; }
   /// After release() or pause(): per body; without meaning where it has not changed.
   const std::vector<ProbeMotion>& motions() const { return motions_; }
   const std::vector<ProbeBody>& bodies() const { return bodies_; }
@@ -97,7 +99,7 @@ class BreakProbe {
   void fall(double time_s);
   bool advance_to_event();
   bool may_load() const;
-  ClusterMotion solve(const std::vector<std::uint8_t>& removed) const;
+  ClusterMotion solve(const std::vector<std::uint8_t>& removed);
   std::uint32_t charged(const ProbeContact& c) const;
   std::vector<ProbeLoad> loads(const ClusterMotion& without) const;
   void add_pushes(ProbeLoad& load) const;
@@ -116,6 +118,7 @@ class BreakProbe {
   double give_ = 0;                                           ///< Speed per impulse.
   double time_s_ = 0;
   int events_ = 0;
+  std::uint64_t work_ = 0;
   std::vector<BodyVelocity> velocities_;  ///< Now.
   std::vector<BodyVelocity> way_;        ///< Displacement and rotation since the start of the step.
   std::vector<std::uint8_t> falls_;      ///< Per body, since the last event.

@@ -16,6 +16,8 @@ namespace {
 
 // A part takes about as long to cut as so many visits of bonds in a solve for stress.
 constexpr std::uint64_t kVisitsAPart = 160;
+// And as a probe's visits of contacts.
+constexpr std::uint64_t kLooksAPart = 1000;
 constexpr int kRounds = 8;  // solids that can break one behind the other within one step
 
 /// The impacts that a probe's loads amount to, if they are strong enough for the material.
@@ -131,7 +133,8 @@ std::vector<Trial> find_trials(World& world, const WaitingRoom& waiting) {
 
 /// The next loads of the probes that have not been asked. Those without any are done, and so are
 /// those that come again as they were when they `held`: what has broken since is no part of them.
-void ask_all(World& world, std::vector<Trial>& trials, std::set<std::uint64_t>& held) {
+/// How much was looked at: visits of a contact.
+std::uint64_t ask_all(World& world, std::vector<Trial>& trials, std::set<std::uint64_t>& held) {
   WorkSpan span(world.ledger.work, Stage::kBreak, "clusters asked");
   std::vector<Trial*> due;
   for (Trial& trial : trials) {
@@ -149,7 +152,14 @@ void ask_all(World& world, std::vector<Trial>& trials, std::set<std::uint64_t>& 
     if (trial.loads.empty() && !held.insert(trial.fingerprint).second) --asked;
   }
   span.count(asked);
+  WorkItem visits{Stage::kBreak, "contacts visited"};
+  for (Trial* trial : due) {
+    const std::uint64_t work = trial->probe.work();
+    visits.count += work - std::exchange(trial->charged, work);
+  }
+  world.ledger.work.add(visits);
   std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
+  return visits.count;
 }
 
 void plan(World& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
@@ -196,12 +206,12 @@ bool find_again(const World& world, std::uint32_t root_key, Impact& impact) {
 }  // namespace
 
 bool BreakBudget::try_spend(std::uint32_t parts) {
-  const bool untouched = left_ == a_frame_;
-  if (parts > left_ && !untouched) {
+  if (parts > left_ && !untouched_) {
     left_ = 0;
     return false;
   }
-  left_ -= std::min(left_, parts);
+  untouched_ = false;
+  charge(parts);
   return true;
 }
 
@@ -266,7 +276,7 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
   bool again = false;
   std::vector<std::uint32_t> broken;  // since the stale ones were sorted out
   while (!trials.empty()) {
-    ask_all(world, trials, held_);
+    budget_.charge(ask_all(world, trials, held_) / kLooksAPart);
     const auto stale = [&](const Trial& trial) { return is_stale(world, trial, broken); };
     again |= std::erase_if(trials, stale) > 0;
     broken.clear();
@@ -288,6 +298,7 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
     const std::vector<PlannedBreak*> all = planned_in(taken_on);
     plan(world, breaker, all);
     for (const PlannedBreak* planned : all) budget_.charge(planned->stressed.work / kVisitsAPart);
+    const std::uint32_t first_key = world.actors.next_key();
     for (Trial& trial : taken_on) {
       if (stale(trial) || settle(world, trial, broken)) {
         again = true;
@@ -297,6 +308,8 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
       trial.asked = false;
       next.push_back(std::move(trial));
     }
+    // A piece takes about as long to become a body and meet the others.
+    budget_.charge(world.actors.next_key() - first_key);
     trials = std::move(next);
   }
   return again;

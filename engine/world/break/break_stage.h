@@ -23,13 +23,13 @@
 
 namespace sunder {
 
-/// Parts to cut that a frame allows for.
+/// What a frame allows for of all that breaking takes, in parts to cut.
 class BreakBudget {
  public:
   explicit BreakBudget(std::uint32_t a_frame) : a_frame_(a_frame) {}
 
-  void begin_frame() { left_ = a_frame_; }
-  bool spent() const { return left_ == 0; }
+  void begin_frame() { left_ = a_frame_, untouched_ = true; }
+  bool spent() const { return left_ == 0 && !untouched_; }
   /// False if that is more than is left: then nothing is left for what comes later, too, however
   /// cheap. A frame that has spent none yet can afford anything, or what costs more than a frame
   /// has would wait for ever.
@@ -42,6 +42,7 @@ class BreakBudget {
  private:
   std::uint32_t a_frame_;
   std::uint32_t left_ = 0;
+  bool untouched_ = true;  ///< Nothing has been taken on yet.
 };
 
 /// A probe under way.
@@ -49,6 +50,7 @@ struct Trial {
   BreakProbe probe;
   std::uint64_t fingerprint = 0;  ///< Of the probe as it began; 0: not known yet.
   bool asked = false;             ///< What it has to bear is known, but not decided.
+  std::uint64_t charged = 0;      ///< Of the probe's work.
   std::vector<ProbeLoad> loads = {};
   std::vector<PlannedBreak> planned = {};
 };

@@ -20,17 +20,22 @@ class Group {
   Group(std::vector<const ContactRow*> rows, double give) : rows_(std::move(rows)), give_(give) {}
 
   /// Impulses per row, which are added to the velocities.
-  std::vector<double> solve(double fastest_m_s, std::vector<BodyVelocity>& v) const {
+  std::vector<double> solve(double fastest_m_s, std::vector<BodyVelocity>& v,
+                            std::uint64_t& work) const {
     const auto closes = [&](const ContactRow* row) {
       return row->speed(v) > kConverged * fastest_m_s;
     };
+    work += rows_.size();
     if (std::ranges::none_of(rows_, closes)) return std::vector<double>(rows_.size(), 0);
-    return rows_.size() <= kMostExact ? solve_exactly(v) : solve_by_sweeps(fastest_m_s, v);
+    if (rows_.size() > kMostExact) return solve_by_sweeps(fastest_m_s, v, work);
+    work += rows_.size() * rows_.size();
+    return solve_exactly(v);
   }
 
  private:
   std::vector<double> solve_exactly(std::vector<BodyVelocity>& v) const;
-  std::vector<double> solve_by_sweeps(double fastest_m_s, std::vector<BodyVelocity>& v) const;
+  std::vector<double> solve_by_sweeps(double fastest_m_s, std::vector<BodyVelocity>& v,
+                                      std::uint64_t& work) const;
   void sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns,
              std::vector<double>& change) const;
 
@@ -74,11 +79,13 @@ void Group::sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns
 }
 
 /// Conjugate gradients over sweeps: see nncg.h.
-std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyVelocity>& v) const {
+std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyVelocity>& v,
+                                           std::uint64_t& work) const {
   const std::size_t n = rows_.size();
   std::vector<double> impulses_Ns(n, 0), change(n, 0), direction(n, 0);
   Nncg nncg;
   for (int round = 0; round < kMostRounds; ++round) {
+    work += 3 * n;
     sweep(v, impulses_Ns, change);
     double square = 0, worst = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -142,7 +149,7 @@ ClusterMotion solve_cluster(const std::vector<ContactRow>& rows,
       group.push_back(&rows[closed[grouped[end].second]]);
     }
     const std::vector<double> impulses_Ns =
-        Group(std::move(group), give).solve(fastest_m_s, solved.velocities);
+        Group(std::move(group), give).solve(fastest_m_s, solved.velocities, solved.work);
     for (std::size_t i = begin; i < end; ++i) {
       solved.impulses_Ns[grouped[i].second] = impulses_Ns[i - begin];
     }

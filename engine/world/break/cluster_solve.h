@@ -63,6 +63,7 @@ struct ContactRow : RowJacobian {
 struct ClusterMotion {
   std::vector<BodyVelocity> velocities;  ///< Per body.
   std::vector<double> impulses_Ns;       ///< Per closed contact.
+  std::uint64_t work = 0;                ///< Visits of a contact.
 };
 
 /// Solves those of the `closed` rows that are listed in `in_way` (by place in `closed`), each group
