@@ -6,7 +6,6 @@
 
 #include "engine/base/parallel.h"
 #include "engine/model/piece_mesh.h"
-#include "engine/world/break/break_stage.h"
 #include "tests/engine/scripted.h"
 
 namespace sunder {
@@ -211,20 +210,6 @@ TEST(BreakStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   EXPECT_EQ(second->breaks.size(), 1u);
   EXPECT_EQ(second->report.carried_over, 0u);
   EXPECT_NEAR(before - sum_of(*run.physics).kinetic, 400, 1e-6);
-}
-
-TEST(BreakStage, LooksAndNewBodiesCountAgainstTheBudgetButOneBreakIsAlwaysTakenOn) {
-  BreakBudget budget(10);
-  budget.begin_frame();
-  budget.charge(100);
-  EXPECT_FALSE(budget.spent()) << "or a frame of much to look at would break nothing";
-  EXPECT_TRUE(budget.try_spend(50));
-  EXPECT_TRUE(budget.spent());
-  EXPECT_FALSE(budget.try_spend(1));
-  budget.begin_frame();
-  budget.charge(4);
-  EXPECT_TRUE(budget.try_spend(6));
-  EXPECT_FALSE(budget.try_spend(1)) << "4 are gone";
 }
 
 TEST(BreakStage, AsksNothingTwiceInAStepThatBreaksElsewhere) {
