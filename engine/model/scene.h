@@ -119,7 +119,7 @@ struct Limits {
   std::uint32_t ageing = 0;
   /// Parts to cut, about: cells of a pattern, and eight for each convex in its reach; breaks beyond
   /// it wait a frame.
-  std::uint32_t parts_a_frame = 700;
+  std::uint32_t parts_a_frame = 1000;
   /// Visits of bonds to find out what load breaks; what is beyond it waits a frame.
   std::uint32_t load_work_a_frame = 200000;
   std::uint32_t debris = 20000;  ///< Pieces of debris alive at once.
