@@ -1,27 +1,53 @@
 #include "fracture/stress/block_cholesky.h"
 
 #include <algorithm>
-#include <iterator>
+#include <bit>
 
 #include <Eigen/Cholesky>
 
 namespace sunder::fracture {
 namespace {
 
-using Nodes = std::vector<std::uint32_t>;
+/// Which of some nodes are beside which, a bit for each two.
+class Graph {
+ public:
+  explicit Graph(std::size_t nodes) : words_((nodes + 63) / 64), bits_(nodes * words_) {}
 
-std::vector<Nodes> neighbours(std::size_t nodes, std::span<const BlockCholesky::Pair> pairs) {
-  std::vector<Nodes> beside(nodes);
-  for (const auto& [a, b] : pairs) {
-    beside[a].push_back(b);
-    beside[b].push_back(a);
+  void join(std::uint32_t a, std::uint32_t b) {
+    row(a)[b / 64] |= bit(b);
+    row(b)[a / 64] |= bit(a);
   }
-  for (Nodes& list : beside) {
-    std::ranges::sort(list);
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+  std::uint32_t degree(std::uint32_t node) const {
+    int sum = 0;
+    for (std::size_t w = 0; w < words_; ++w) sum += std::popcount(row(node)[w]);
+    return static_cast<std::uint32_t>(sum);
   }
-  return beside;
-}
+  /// Calls `visit` for what is beside a node, ascending.
+  template <class Visit>
+  void for_each_beside(std::uint32_t node, const Visit& visit) const {
+    for (std::size_t w = 0; w < words_; ++w) {
+      for (std::uint64_t rest = row(node)[w]; rest != 0; rest &= rest - 1)
+        visit(static_cast<std::uint32_t>(64 * w) +
+              static_cast<std::uint32_t>(std::countr_zero(rest)));
+    }
+  }
+  /// Makes neighbours of a node's neighbours, which lose it.
+  void eliminate(std::uint32_t node) {
+    for_each_beside(node, [&](std::uint32_t other) {
+      for (std::size_t w = 0; w < words_; ++w) row(other)[w] |= row(node)[w];
+      row(other)[node / 64] &= ~bit(node);
+      row(other)[other / 64] &= ~bit(other);
+    });
+  }
+
+ private:
+  static std::uint64_t bit(std::uint32_t node) { return std::uint64_t{1} << (node % 64); }
+  std::uint64_t* row(std::uint32_t node) { return bits_.data() + node * words_; }
+  const std::uint64_t* row(std::uint32_t node) const { return bits_.data() + node * words_; }
+
+  std::size_t words_;
+  std::vector<std::uint64_t> bits_;
+};
 
 /// y -= factor · x
 void subtract(const Six<double>& x, double factor, Six<double>& y) {
@@ -59,31 +85,41 @@ Six<double> transposed_times(const Columns& a, const Six<double>& x) {
 }  // namespace
 
 BlockCholesky::BlockCholesky(std::size_t nodes, std::span<const Pair> pairs) : place_(nodes) {
-  std::vector<Nodes> beside = neighbours(nodes, pairs);
-  Nodes left;
-  for (std::uint32_t node = 0; node < nodes; ++node)
-    (beside[node].empty() ? order_ : left).push_back(node);
-  // What goes makes neighbours of its neighbours.
-  Nodes merged;
-  while (!left.empty()) {
-    const auto least = std::ranges::min_element(
-        left, {}, [&](std::uint32_t node) { return std::pair(beside[node].size(), node); });
-    const std::uint32_t node = *least;
-    *least = left.back();
-    left.pop_back();
-    order_.push_back(node);
-    for (const std::uint32_t other : beside[node]) {
-      merged.clear();
-      std::ranges::set_union(beside[other], beside[node], std::back_inserter(merged));
-      std::erase_if(merged, [&](std::uint32_t n) { return n == node || n == other; });
-      beside[other] = merged;
+  // Those on their own go first; the others have numbers of their own, in the same order.
+  std::vector<std::uint32_t> number(nodes, 0), node_of, left, degree;
+  for (const auto& [a, b] : pairs) number[a] = number[b] = 1;
+  for (std::uint32_t node = 0; node < nodes; ++node) {
+    if (number[node] == 0) {
+      order_.push_back(node);
+    } else {
+      number[node] = static_cast<std::uint32_t>(node_of.size());
+      node_of.push_back(node);
     }
   }
+  const std::size_t alone = order_.size();
+  Graph graph(node_of.size());
+  for (const auto& [a, b] : pairs) graph.join(number[a], number[b]);
+  for (std::uint32_t n = 0; n < node_of.size(); ++n) {
+    left.push_back(n);
+    degree.push_back(graph.degree(n));
+  }
+  while (!left.empty()) {
+    const auto least = std::ranges::min_element(
+        left, {}, [&](std::uint32_t n) { return std::pair(degree[n], n); });
+    const std::uint32_t goes = *least;
+    *least = left.back();
+    left.pop_back();
+    order_.push_back(node_of[goes]);
+    graph.eliminate(goes);
+    graph.for_each_beside(goes, [&](std::uint32_t other) { degree[other] = graph.degree(other); });
+  }
   for (std::uint32_t place = 0; place < nodes; ++place) place_[order_[place]] = place;
-  for (const std::uint32_t node : order_) {
+  for (std::uint32_t place = 0; place < nodes; ++place) {
     columns_.push_back(static_cast<std::uint32_t>(rows_.size()));
-    rows_.push_back(place_[node]);
-    for (const std::uint32_t other : beside[node]) rows_.push_back(place_[other]);
+    rows_.push_back(place);
+    if (place < alone) continue;
+    graph.for_each_beside(number[order_[place]],
+                          [&](std::uint32_t other) { rows_.push_back(place_[node_of[other]]); });
     std::sort(rows_.begin() + columns_.back(), rows_.end());
   }
   columns_.push_back(static_cast<std::uint32_t>(rows_.size()));
