@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
@@ -26,6 +28,7 @@ constexpr double kSpinTrifle = 0.03;
 // Work to reserve for an actor, in visits of each of its bonds; what is left over goes to others.
 constexpr std::uint64_t kReserve = 300;
 constexpr std::size_t kLarge = 1000;  // convexes of an actor that takes all threads for itself
+constexpr std::size_t kActors = 256;  // looked at by one thread
 constexpr ConvexSlot kAfterAll;       // none() is greater than any slot
 
 bool is_large(const Actor& actor) { return actor.structure.size() >= kLarge; }
@@ -34,26 +37,33 @@ double weight_N(const World& world, double mass_kg) {
   return mass_kg * world.scene.gravity_W.norm();
 }
 
+/// What presses on a convex of the actor at this place in World::actors.
+struct PressOn {
+  std::size_t place = 0;
+  Press press;
+};
+
 /// The mean of what presses on the actor, moved on by one step in which `now` pressed.
-std::vector<Press> averaged(const World& world, const Actor& actor, const std::vector<Press>& now) {
+std::vector<Press> averaged(const World& world, const Actor& actor, std::span<const PressOn> now) {
   const double dt = world.clock.dt_s, share = dt / (kAverage_s + dt);
   const double trifle = kTrifle * weight_N(world, actor.weight.mass_kg);
   const double size_m = std::cbrt(actor.volume_m3);
   std::vector<Press> mean;
+  if (now.empty() && actor.stress.pressing.empty()) return mean;
   auto old = actor.stress.pressing.begin();
   const auto end = actor.stress.pressing.end();
   for (auto it = now.begin(); it != now.end() || old != end;) {
     Press press;
-    press.convex =
-        std::min(it != now.end() ? it->convex : kAfterAll, old != end ? old->convex : kAfterAll);
+    press.convex = std::min(it != now.end() ? it->press.convex : kAfterAll,
+                            old != end ? old->convex : kAfterAll);
     if (old != end && old->convex == press.convex) {
       press.force_R += (1 - share) * old->force_R;
       press.torque_R += (1 - share) * old->torque_R;
       ++old;
     }
-    for (; it != now.end() && it->convex == press.convex; ++it) {
-      press.force_R += share * it->force_R;
-      press.torque_R += share * it->torque_R;
+    for (; it != now.end() && it->press.convex == press.convex; ++it) {
+      press.force_R += share * it->press.force_R;
+      press.torque_R += share * it->press.torque_R;
     }
     if (press.force_R.norm() > 0.1 * trifle || press.torque_R.norm() > 0.1 * trifle * size_m)
       mean.push_back(press);
@@ -97,10 +107,10 @@ bool spin_changed(const StressState& stress) {
   return (after - before).norm() * (after + before).norm() > allowed;
 }
 
-/// What presses and pulls on each actor in this step, in the order of actors; forces are in the
-/// rest frame, torques about the convex's centroid.
-std::vector<std::vector<Press>> presses(const World& world) {
-  std::vector<std::vector<Press>> all(world.actors.size());
+/// What presses and pulls on actors in this step, by their order and that of convexes; forces are
+/// in the rest frame, torques about the convex's centroid.
+std::vector<PressOn> presses(const World& world) {
+  std::vector<PressOn> all;
   const BodyStates states = world.physics->states();
   const double dt = world.clock.dt_s;
   const auto point_R = [&](const Actor& actor, const Vec3& point_W) -> Vec3 {
@@ -111,8 +121,8 @@ std::vector<std::vector<Press>> presses(const World& world) {
     const Quat rotation_BW = states[actor.body].X_WB.rotation.conjugate();
     const Vec3 force_R = rotation_BW * impulse_W / dt;
     const Vec3 arm = at_R - actor.structure.convex(slot)->solid.centroid;
-    all[world.actors.place_of(actor)].push_back(
-        {slot, force_R, arm.cross(force_R) + rotation_BW * angular_impulse_W / dt});
+    all.push_back({world.actors.place_of(actor),
+                   {slot, force_R, arm.cross(force_R) + rotation_BW * angular_impulse_W / dt}});
   };
   for (const ContactLoad& contact : world.physics->contact_loads()) {
     const Actor* actor = world.actors.find(contact.body_tag);
@@ -126,35 +136,44 @@ std::vector<std::vector<Press>> presses(const World& world) {
     const Vec3 at_R = point_R(*actor, joint.point_W);
     add(*actor, nearest(actor->structure, at_R), joint.impulse_W, at_R, joint.angular_impulse_W);
   }
-  for (std::vector<Press>& of_actor : all) {
-    std::stable_sort(of_actor.begin(), of_actor.end(),
-                     [](const Press& x, const Press& y) { return x.convex < y.convex; });
-  }
+  std::stable_sort(all.begin(), all.end(), [](const PressOn& x, const PressOn& y) {
+    return std::tie(x.place, x.press.convex) < std::tie(y.place, y.press.convex);
+  });
   return all;
 }
 
 /// Takes note of what presses; the keys of those to be judged, the longest waiting first.
 std::vector<std::uint32_t> due(World& world) {
-  const std::vector<std::vector<Press>> now = presses(world);
+  const std::vector<PressOn> now = presses(world);
   const BodyStates states = world.physics->states();
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> waiting;
-  for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    Actor& actor = world.actors[i];
-    StressState& stress = actor.stress;
-    if (!stress.breakable) continue;
-    stress.pressing = averaged(world, actor, now[i]);
-    stress.spin_R = spin_felt(actor, states[actor.body]);
-    // What falls freely feels nothing but its spin.
-    if (!actor.is_static && stress.pressing.empty() && stress.spin_R.isZero()) continue;
-    if (stress.settled && (changed(world, actor) || spin_changed(stress))) {
-      stress.settled = false;
-      stress.since_step = world.clock.step;
+  using Waiting = std::pair<std::uint64_t, std::uint32_t>;
+  std::vector<std::vector<Waiting>> waiting((world.actors.size() + kActors - 1) / kActors);
+  for_chunks(world.actors.size(), kActors, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    auto first = std::ranges::lower_bound(now, begin, {}, &PressOn::place);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto last =
+          std::find_if(first, now.end(), [i](const PressOn& on) { return on.place > i; });
+      const std::span<const PressOn> on_it(first, last);
+      first = last;
+      Actor& actor = world.actors[i];
+      StressState& stress = actor.stress;
+      if (!stress.breakable) continue;
+      stress.pressing = averaged(world, actor, on_it);
+      stress.spin_R = spin_felt(actor, states[actor.body]);
+      // What falls freely feels nothing but its spin.
+      if (!actor.is_static && stress.pressing.empty() && stress.spin_R.isZero()) continue;
+      if (stress.settled && (changed(world, actor) || spin_changed(stress))) {
+        stress.settled = false;
+        stress.since_step = world.clock.step;
+      }
+      if (!stress.settled) waiting[c].emplace_back(stress.since_step, actor.key);
     }
-    if (!stress.settled) waiting.emplace_back(stress.since_step, actor.key);
-  }
-  std::sort(waiting.begin(), waiting.end());
+  });
+  std::vector<Waiting> all;
+  for (const std::vector<Waiting>& part : waiting) all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end());
   std::vector<std::uint32_t> keys;
-  for (const auto& [since, key] : waiting) keys.push_back(key);
+  for (const auto& [since, key] : all) keys.push_back(key);
   return keys;
 }
 

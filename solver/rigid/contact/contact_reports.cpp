@@ -1,19 +1,32 @@
 #include "solver/rigid/contact/contact_reports.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "engine/base/parallel.h"
 
 namespace sunder::solver {
 namespace {
 
+constexpr std::size_t kChunk = 4096;
+
 /// Manifolds that are there and fit, in the order of their pairs' keys.
 template <class Fits>
 std::vector<const Manifold*> by_key(const Contacts& contacts, const Fits& fits) {
-  std::vector<const Manifold*> all;
-  for (const Manifold& m : contacts.manifolds)
-    if (m.count > 0 && fits(m)) all.push_back(&m);
-  std::sort(all.begin(), all.end(), [&](const Manifold* m, const Manifold* n) {
-    return contacts.pairs[m->pair].key() < contacts.pairs[n->pair].key();
+  using Keyed = std::pair<std::uint64_t, const Manifold*>;
+  const std::size_t count = contacts.manifolds.size();
+  std::vector<std::vector<Keyed>> found((count + kChunk - 1) / kChunk);
+  for_chunks(count, kChunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Manifold& m = contacts.manifolds[ManifoldSlot(static_cast<std::uint32_t>(i))];
+      if (m.count > 0 && fits(m)) found[chunk].emplace_back(contacts.pairs[m.pair].key(), &m);
+    }
   });
+  std::vector<Keyed> keyed;
+  for (const std::vector<Keyed>& part : found) keyed.insert(keyed.end(), part.begin(), part.end());
+  std::ranges::sort(keyed, {}, &Keyed::first);
+  std::vector<const Manifold*> all(keyed.size());
+  std::ranges::transform(keyed, all.begin(), &Keyed::second);
   return all;
 }
 
