@@ -362,12 +362,12 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   last_h_s_ = step.h_s;
   report.external_impulse_Ns += solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
+  paused_.release(bodies_);  // no sleepers: what presses on them now wakes nobody
   if (options_.sleeping) {
     const WorkSpan span(work_, Stage::kSolve, "sleep");
     sleep_.wake_changed(step, contacts_, bodies_);
     report.external_impulse_Ns += sleep_.put_to_sleep(step, joints_, bodies_, contacts_);
   }
-  paused_.release(bodies_);
   contacts_of_bodies_.clear();
   report.contacts = solved.manifolds;
   report.contact_points = solved.points;
