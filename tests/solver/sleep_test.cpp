@@ -1,6 +1,7 @@
 // Sleep below the level of an island: what rests sleeps, beside what moves, and wakes in time.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -176,6 +177,23 @@ TEST(Sleep, WhatSleepersTakeUpIsInTheBooks) {
     const Vec3 residual = world.momentum() - before - report.external_impulse_Ns;
     EXPECT_LT(residual.norm(), 2e-3) << "step " << i;  // of 1,200 Ns in the ball alone
   }
+}
+
+TEST(Sleep, WhatSitsSolvesOutComesToRestUnderWhatMoves) {
+  RigidWorld world;
+  world.add(W::ground());
+  const BodyId plate = world.add(W::box(Vec3(2, 0.2, 2), Vec3(0, 0.1, 0), 100));
+  BodyDesc top = W::with_friction(W::sphere(0.3, Vec3(0, 0.5, 0), 5000), 0);
+  top.angular_velocity_W = Vec3(0, 20, 0);
+  const BodyId spinning = world.add(top);
+  world.run(0.25, kDt_s, kSubsteps);
+  ASSERT_FALSE(world.state(plate).asleep);
+  for (int i = 0; i < 180; ++i) {
+    world.physics().pause(std::span(&plate, 1));
+    world.step(kDt_s, kSubsteps);
+  }
+  EXPECT_FALSE(world.state(spinning).asleep);
+  EXPECT_TRUE(world.state(plate).asleep) << "woken by a load that it has had all along";
 }
 
 TEST(Sleep, GivesTheSameBitsForAnyNumberOfThreads) {
