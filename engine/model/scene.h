@@ -121,7 +121,7 @@ struct Limits {
   /// it wait a frame.
   std::uint32_t parts_a_frame = 1000;
   /// Visits of bonds to find out what load breaks; what is beyond it waits a frame.
-  std::uint32_t load_work_a_frame = 200000;
+  std::uint32_t load_work_a_frame = 40000;
   std::uint32_t debris = 20000;  ///< Pieces of debris alive at once.
   std::uint32_t dust = 4000;     ///< Puffs of dust alive at once.
 };

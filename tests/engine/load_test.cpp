@@ -265,6 +265,23 @@ TEST(LoadStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   EXPECT_EQ(allowed, (std::vector<std::uint64_t>{10, 10}));
 }
 
+TEST(LoadStage, AFrameMaySpendWhatTheOneBeforeSaved) {
+  Scene scene = scene_of(two_boxes(true));
+  scene.limits.load_work_a_frame = 10;
+  std::vector<std::uint64_t> allowed;
+  LoadRun run(scene, [&](const Structure&, const LoadCase& load) {
+    allowed.push_back(load.most_work);
+    StressAnswer answer;
+    answer.settled = true;
+    answer.work = load.most_work;
+    return answer;
+  });
+  run.frames(5);
+  run.press(1e6);
+  run.frames(1);
+  EXPECT_EQ(allowed, (std::vector<std::uint64_t>{10, 20})) << "of one frame before, and no more";
+}
+
 TEST(LoadStage, GivesTheMemoryBack) {
   struct Marked final : StressMemory {};
   const auto memory = std::make_shared<const Marked>();

@@ -26,10 +26,11 @@ constexpr double kTrifle = 1e-5;
 // crooked.
 constexpr double kSpinTrifle = 0.03;
 // Work to reserve for an actor, in visits of each of its bonds; what is left over goes to others.
-constexpr std::uint64_t kReserve = 300;
-constexpr std::size_t kLarge = 1000;  // convexes of an actor that takes all threads for itself
-constexpr std::size_t kActors = 256;  // looked at by one thread
-constexpr ConvexSlot kAfterAll;       // none() is greater than any slot
+constexpr std::uint64_t kReserve = 30;
+constexpr std::int64_t kSavedFrames = 2;  // whose work a frame may have, those that spent less
+constexpr std::size_t kLarge = 1000;      // convexes of an actor that takes all threads for itself
+constexpr std::size_t kActors = 256;      // looked at by one thread
+constexpr ConvexSlot kAfterAll;           // none() is greater than any slot
 
 bool is_large(const Actor& actor) { return actor.structure.size() >= kLarge; }
 
@@ -263,7 +264,9 @@ void LoadStage::prepare(World& world, const Breaker& breaker) const {
   }
 }
 
-void LoadStage::begin_frame() { work_left_ = std::min(work_a_frame_, work_left_ + work_a_frame_); }
+void LoadStage::begin_frame() {
+  work_left_ = std::min(kSavedFrames * work_a_frame_, work_left_ + work_a_frame_);
+}
 
 void LoadStage::run(World& world, const Breaker& breaker) {
   const bool any = std::any_of(world.actors.begin(), world.actors.end(),
