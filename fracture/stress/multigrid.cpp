@@ -223,11 +223,16 @@ SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double no
                              int most_iterations, Nodal<double>& x, Nodal<double>& way) const {
   std::vector<Scratch> memory = scratch();
   Nodal<double> r = springs_.zero(), z = r, p = std::exchange(way, {}), product = r;
+  springs_.residual(f, x, r);
+  if (!(dot(x, f) + dot(x, r) >= 0)) {  // a guess of more energy, xᵀKx / 2 - fᵀx, than none has
+    x = springs_.zero();
+    r = f;
+    p.clear();
+  }
   const bool goes_on = !p.empty();
   p.resize(r.size());
   if (goes_on) springs_.multiply(p, product);
   Nodal<float> r_f = levels_.front().zero(), z_f = r_f;
-  springs_.residual(f, x, r);
   SolveResult result;
   const double force = std::sqrt(dot(f, f));
   double rz = 0;

@@ -32,6 +32,9 @@ constexpr std::uint64_t kAnswerWork = 2, kAnswerSprings = 50;
 // Stress at a bond's own corners is at most so many times that of its section: those well below
 // the limit need no closer look.
 constexpr double kWorthALook = 0.6;
+// A bond with less than this share of the width squared of the smaller convex bears nothing: it is
+// what rounding left of two cuts, and of what hung by it alone no solve would find the stress.
+constexpr double kFrail = 1e-4;
 
 struct Limits {
   double tensile_Pa, shear_Pa, compressive_Pa;
@@ -45,6 +48,12 @@ double weaker(double x, double y) {
 Limits limits_of(const Material& a, const Material& b) {
   return {weaker(a.tensile_Pa, b.tensile_Pa), weaker(a.shear_Pa, b.shear_Pa),
           weaker(a.compressive_Pa, b.compressive_Pa)};
+}
+
+bool breaks(const Material& a, const Material& b) {
+  const Limits limits = limits_of(a, b);
+  return yield_Pa(a, b) > 0 ||
+         std::isfinite(std::min({limits.tensile_Pa, limits.shear_Pa, limits.compressive_Pa}));
 }
 
 /// Stress in parts of the limit.
@@ -71,6 +80,10 @@ class StressBreaks {
         impulses_(by_convex(load.blow.impulses)),
         blow_J_(load.blow.energy_J),
         hinged_(slots_.size(), 0) {
+    std::erase_if(compound_.bonds, [this](const Bond& bond) {
+      if (is_frail(bond)) frail_.push_back(bond);
+      return is_frail(bond);
+    });
     for (std::size_t c = 0; c < slots_.size(); ++c)
       hinged_[c] = std::ranges::binary_search(load.hinged, slots_[c]) ? 1 : 0;
   }
@@ -103,6 +116,8 @@ class StressBreaks {
       if (!hinges_.empty()) break;  // what moves feels its hinges only in the next step
       if (!impulses_.empty() && parted()) break;  // what is struck is another body now
     }
+    if (!frail_.empty() && (!cut_.empty() || parted()))
+      cut_.insert(cut_.end(), frail_.begin(), frail_.end());
     answer.edit = part(compound_, slots_, cut_, std::move(hinges_));
     memory_->slots = slots_;
     memory_->bonds = compound_.bonds;
@@ -129,6 +144,14 @@ class StressBreaks {
   }
 
  private:
+  bool is_frail(const Bond& bond) const {
+    if (!breaks(material_of(bond.a), material_of(bond.b))) return false;
+    const double smaller_m3 = std::min(compound_.convexes[bond.a]->solid.volume_m3,
+                                       compound_.convexes[bond.b]->solid.volume_m3);
+    const double least = kFrail / bond.area_m2;
+    return least * least * least * smaller_m3 * smaller_m3 > 1;
+  }
+
   std::vector<ConvexLoad> by_convex(std::span<const Load> loads) const {
     std::vector<ConvexLoad> all;
     for (const Load& one : loads) {
@@ -312,7 +335,7 @@ class StressBreaks {
     memory_->way.clear();
   }
 
-  Compound compound_;              ///< Less the bonds that are cut.
+  Compound compound_;              ///< Less the bonds that are frail or cut.
   std::vector<ConvexSlot> slots_;  ///< Per convex.
   const LoadCase& load_;
   std::vector<ConvexLoad> loads_;
@@ -324,7 +347,7 @@ class StressBreaks {
   std::shared_ptr<KnownStress> memory_;
   std::uint64_t most_work_ = 0;
   std::vector<std::uint8_t> hinged_;  ///< Per convex: beside a hinge.
-  std::vector<Bond> cut_;
+  std::vector<Bond> cut_, frail_;
   std::vector<PlasticHinge> hinges_;
 };
 

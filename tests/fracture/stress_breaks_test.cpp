@@ -208,6 +208,26 @@ TEST(StressBreaks, WhatHangsOnNothingIsAPieceOfItsOwn) {
   EXPECT_EQ(answer.plan.pieces[1].bonds.size(), 1u);
 }
 
+TEST(StressBreaks, WhatHangsByNextToNothingComesOffAndTheRestIsJudged) {
+  for (const double overlap_m : {1e-6, 1e-5, 1e-4, 1e-3}) {  // of a block beneath the tip
+    std::vector<Part> parts;
+    add_grid(Vec3(-0.1, 0, 0), Vec3(0, kWidth, kWidth), 1, 4, 4, true, parts);
+    add_grid(Vec3::Zero(), Vec3(kLength, kWidth, kWidth), 40, 4, 4, false, parts);
+    const Vec3 low(kLength - overlap_m, -0.3, kWidth - overlap_m);
+    add_grid(low, low + Vec3(0.3, 0.3, 0.3), 2, 2, 2, false, parts);
+    const Compound compound = make_compound(std::move(parts));
+    const std::vector<Material> materials = weightless(kRootStrength);
+    const Outcome alone = loaded(compound, materials);
+    EXPECT_TRUE(alone.settled) << overlap_m;
+    ASSERT_EQ(alone.plan.pieces.size(), 2u) << overlap_m;
+    EXPECT_EQ(alone.plan.pieces[1].convexes.size(), 8u) << overlap_m;
+    const Outcome bent =
+        loaded(alone.plan.pieces[0], materials, at_tip(alone.plan.pieces[0], 1.1 * kSnaps_N));
+    EXPECT_TRUE(bent.settled) << overlap_m;
+    expect_snapped_at_root(bent.plan);
+  }
+}
+
 TEST(StressBreaks, MaterialsWithoutLimitsNeverBreak) {
   const Compound compound = bar(kLength, kWidth, 20, 2);
   EXPECT_EQ(loaded(compound, stone(0), at_tip(compound, 1e12)).cut, 0u);

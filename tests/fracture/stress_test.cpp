@@ -1,5 +1,6 @@
 // Stress on bonds against the theory of beams, frames and arches.
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -203,6 +204,22 @@ TEST(Stress, AWarmStartHasNothingLeftToDo) {
   std::vector<Displacement> displacements;
   EXPECT_GT(system.solve({}, kDown, 1e-3, 500, displacements).iterations, 0);
   EXPECT_EQ(system.solve({}, kDown, 1e-3, 500, displacements).iterations, 0);
+}
+
+TEST(Stress, AGuessThatIsWorseThanNoneIsNone) {
+  const Compound compound = bar(4, 0.4, 30, 3);
+  const StressSystem system = system_of(compound, stone());
+  std::vector<Displacement> from_nothing;
+  const SolveResult known = system.solve({}, kDown, 1e-3, 500, from_nothing);
+  for (const double far_m : {1.0, 1e150, std::numeric_limits<double>::quiet_NaN()}) {
+    std::vector<Displacement> displacements(compound.convexes.size());
+    for (Displacement& displacement : displacements) displacement.shift_R.y() = far_m;
+    const SolveResult result = system.solve({}, kDown, 1e-3, 500, displacements);
+    EXPECT_TRUE(result.converged);
+    EXPECT_EQ(result.iterations, known.iterations);
+    EXPECT_EQ(displacements[compound.convexes.size() / 2].shift_R,
+              from_nothing[compound.convexes.size() / 2].shift_R);
+  }
 }
 
 TEST(Stress, SpreadOverManySolvesTakesNoMoreIterations) {
