@@ -59,7 +59,7 @@ THIRD_PARTY = [
     (r"(bullet/.*|bt[A-Z]\w*\.h|ode/.*)", ("bench/",)),
     (r"(gtest|gmock|rapidcheck)(/.*|\.h)", ("tests/",)),
 ]
-SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|sched|signal|spawn|unistd|poll|"
+SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|malloc|sched|signal|spawn|unistd|poll|"
                     r"errno|(imm|x86|arm_neo)intrin|cpuid)\.h")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 # A file spelled from the root, in a page or a comment.
