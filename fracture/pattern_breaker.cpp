@@ -8,6 +8,7 @@
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
 #include "fracture/fracture.h"
+#include "fracture/plug.h"
 #include "fracture/rejoin.h"
 #include "fracture/stress/stress_breaks.h"
 
@@ -69,6 +70,18 @@ Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direc
   }
 }
 
+/// Replaces the pattern by a plug, if the striker drives one out.
+void add_plug(const Convex& convex, const Material& material, const Hit& hit,
+              BreakCommand& command) {
+  Pose X_RP;
+  command.plug = make_plug(material, hit, axis_across(convex, hit.direction_R), X_RP);
+  if (!command.plug.exists()) return;
+  command.X_RP = X_RP;
+  double widest_m = command.plug.reach_m;
+  for (const Vec2& corner : command.plug.section_m) widest_m = std::max(widest_m, corner.norm());
+  command.radius_m = 1.1 * std::hypot(widest_m, command.plug.thickness_m);
+}
+
 class PatternBreaker final : public Breaker {
  public:
   explicit PatternBreaker(std::shared_ptr<FailureLog> log) : log_(std::move(log)) {}
@@ -94,6 +107,7 @@ class PatternBreaker final : public Breaker {
     }
     command.X_RP = {hit.point_R,
                     orientation(command.pattern.kind, convex, hit.direction_R, random)};
+    add_plug(convex, material, hit, command);
     return command;
   }
 
@@ -133,7 +147,9 @@ ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternL
   ready.sphere = {command.X_RP.position, command.radius_m, command.spared, command.smallest_m3};
   const bool whole = ready.sphere.is_endless();
   const double unit = whole ? reach(bounds_R, ready.sphere.center_R) : ready.sphere.radius_m;
-  ready.pattern = library.find(command.pattern, {unit, whole}, command.seed);
+  ready.pattern = command.plug.exists()
+                      ? std::make_shared<const Pattern>(plug_pattern(command.plug, unit, command.seed))
+                      : library.find(command.pattern, {unit, whole}, command.seed);
   ready.placement = {command.X_RP.rotation.toRotationMatrix() * (unit * command.stretch_P),
                      command.X_RP.position};
   return ready;

@@ -59,8 +59,8 @@ THIRD_PARTY = [
     (r"(bullet/.*|bt[A-Z]\w*\.h|ode/.*)", ("bench/",)),
     (r"(gtest|gmock|rapidcheck)(/.*|\.h)", ("tests/",)),
 ]
-SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|malloc|sched|signal|spawn|unistd|poll|"
-                    r"errno|(imm|x86|arm_neo)intrin|cpuid)\.h")
+SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|malloc|sched|signal|spawn|"
+                    r"unistd|poll|errno|(imm|x86|arm_neo)intrin|cpuid)\.h")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 # A file spelled from the root, in a page or a comment.
 MENTION = re.compile(r"(?<![\w./*])((?:%s|docs|cmake)/[\w/-]+\.(?:h|cpp|py|md|toml|sh|cmake))\b"

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <vector>
 
 #include "engine/base/trace.h"
 
@@ -62,6 +63,18 @@ void for_chunks(std::size_t n, std::size_t chunk_size, const Work& work) {
     }
   });
   if (failure) std::rethrow_exception(failure);
+}
+
+/// What `find(begin, end, found)` adds to `found` for each of these chunks, in the chunks' order.
+template <class Item, class Find>
+std::vector<Item> collect_chunks(std::size_t n, std::size_t chunk_size, const Find& find) {
+  std::vector<std::vector<Item>> found((n + chunk_size - 1) / chunk_size);
+  for_chunks(n, chunk_size, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    find(begin, end, found[chunk]);
+  });
+  std::vector<Item> all;
+  for (const std::vector<Item>& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 }  // namespace sunder

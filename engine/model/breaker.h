@@ -48,6 +48,34 @@ struct Hit {
   Vec3 direction_R = Vec3::UnitY();  ///< Unit, the way the impact pushes (into the solid).
   ConvexSlot convex;                 ///< That was hit.
   double energy_J = 0;               ///< That the solid would have to take up.
+  double speed_m_s = 0;              ///< Closing speed of the striker; 0: not known.
+  double striker_kg = 0;             ///< Effective mass of the striker.
+  double thickness_m = 0;            ///< Of the solid along `direction_R` behind the point.
+  /// Corners of the striker's cross-section, in order about `direction_R` through `point_R`; empty
+  /// if no plug can form.
+  std::vector<Vec3> section_R = {};
+};
+
+/// A prism that a striker drives out of a solid, with its sides parallel to the axis y of the
+/// pattern's frame, and the rings of cracks around it.
+struct Plug {
+  /// Convex cross-section about the origin, in (x, z) and counter-clockwise; empty: no plug.
+  std::vector<Vec2> section_m = {};
+  double thickness_m = 0;  ///< Of what it is driven out of, or how deep the pieces end.
+  bool through = true;     ///< It comes out on the other side.
+  double slice_m = 0;  ///< Distance of cracks across the axis; 0: none.
+  bool split = false;  ///< The prism comes out as a core and sectors around it.
+  int rings = 0;       ///< Rings of sectors around the prism, out to `reach_m` from the origin.
+  double reach_m = 0;
+  double energy_J = 0;  ///< That driving it out takes.
+  double mass_kg = 0;
+
+  bool exists() const { return !section_m.empty(); }
+  /// Number of its cells and those of its rings, about.
+  int cell_count() const {
+    const int slices = slice_m > 0 ? 1 + static_cast<int>(thickness_m / slice_m) : 1;
+    return slices * (1 + static_cast<int>(section_m.size()) * (rings + (split ? 1 : 0)));
+  }
 };
 
 /// Everything a break depends on besides the compound: the same command gives the same pieces.
@@ -59,6 +87,7 @@ struct BreakCommand {
   Pose X_RP;                          ///< Pose of the pattern; its origin is the impact.
   double radius_m = 1;                ///< Of the impact sphere; infinity breaks the whole compound.
   Fit fit;                            ///< How new convexes are fitted to their visual meshes.
+  Plug plug;  ///< Takes the place of `pattern` if it exists.
   /// Materials that do not break: the pattern leaves their convexes whole.
   std::vector<MaterialIndex> spared;
   double smallest_m3 = 0;  ///< What is smaller, and overlaps such a convex, is left whole as well.

@@ -83,6 +83,8 @@ struct Material {
   double tensile_Pa = 0;
   double shear_Pa = 0;
   double compressive_Pa = 0;
+  /// Reinforcement against being driven through, per cent of the section each way in each face.
+  double reinforcement_percent = 0;
   /// Stiffness: how convexes share a load between them.
   double youngs_Pa = 3e10;
   /// Stress at which it flows in place of breaking, where both sides of a bond do; 0: it does not.

@@ -58,8 +58,7 @@ std::vector<Bond> contacts(std::span<const ConvexPtr> convexes, std::size_t item
     }
     add(begin, end, flat[chunk]);
   });
-  std::vector<std::vector<Bond>> found(bins);
-  for_chunks(bins, 1, [&](std::size_t b, std::size_t, std::size_t) {
+  const auto sweep = [&](std::size_t b, std::size_t, std::vector<Bond>& found) {
     std::vector<FlatFace> in_bin;
     std::size_t count = 0;
     for (const std::vector<Bin>& chunk : flat) count += chunk[b].faces.size();
@@ -70,10 +69,9 @@ std::vector<Bond> contacts(std::span<const ConvexPtr> convexes, std::size_t item
         in_bin.push_back(face);
       }
     }
-    sweep_planes(convexes, in_bin, found[b]);
-  });
-  std::vector<Bond> bonds;
-  for (const std::vector<Bond>& part : found) bonds.insert(bonds.end(), part.begin(), part.end());
+    sweep_planes(convexes, in_bin, found);
+  };
+  auto bonds = collect_chunks<Bond>(bins, 1, sweep);
   sort_bonds(bonds);
   return bonds;
 }

@@ -14,6 +14,7 @@
 
 #include "engine/geometry/bvh.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "engine/model/breaker.h"
 #include "engine/model/material.h"
 
 namespace sunder::fracture {
@@ -76,6 +77,8 @@ Pattern brick_pattern(const Vec3& size);
 inline constexpr int kMostBricks = 7000;
 /// `count` splinters along x that fill [-1, 1]³: split by planes mostly across y.
 Pattern slab_pattern(int count, double jitter, std::uint64_t seed);
+/// Cells of a plug and the rings around it (see Plug), in units of `unit_m`.
+Pattern plug_pattern(const Plug& plug, double unit_m, std::uint64_t seed);
 /// Cells from an .obj: one convex cell a group (`g` or `o`), which fill their bounding box around
 /// the origin; groups of one material (`usemtl`) share a colour. `name` is for messages. Throws
 /// InputError if it is anything else.

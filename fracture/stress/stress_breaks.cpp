@@ -50,12 +50,6 @@ Limits limits_of(const Material& a, const Material& b) {
           weaker(a.compressive_Pa, b.compressive_Pa)};
 }
 
-bool breaks(const Material& a, const Material& b) {
-  const Limits limits = limits_of(a, b);
-  return yield_Pa(a, b) > 0 ||
-         std::isfinite(std::min({limits.tensile_Pa, limits.shear_Pa, limits.compressive_Pa}));
-}
-
 /// Stress in parts of the limit.
 double part_of(const BondStress& stress, const Limits& limits) {
   return std::max({stress.tension_Pa / limits.tensile_Pa, stress.shear_Pa / limits.shear_Pa,
@@ -80,10 +74,9 @@ class StressBreaks {
         impulses_(by_convex(load.blow.impulses)),
         blow_J_(load.blow.energy_J),
         hinged_(slots_.size(), 0) {
-    std::erase_if(compound_.bonds, [this](const Bond& bond) {
-      if (is_frail(bond)) frail_.push_back(bond);
-      return is_frail(bond);
-    });
+    const auto is_frail = [this](const Bond& bond) { return this->is_frail(bond); };
+    std::ranges::copy_if(compound_.bonds, std::back_inserter(frail_), is_frail);
+    if (!frail_.empty()) std::erase_if(compound_.bonds, is_frail);
     for (std::size_t c = 0; c < slots_.size(); ++c)
       hinged_[c] = std::ranges::binary_search(load.hinged, slots_[c]) ? 1 : 0;
   }
@@ -145,11 +138,11 @@ class StressBreaks {
 
  private:
   bool is_frail(const Bond& bond) const {
-    if (!breaks(material_of(bond.a), material_of(bond.b))) return false;
     const double smaller_m3 = std::min(compound_.convexes[bond.a]->solid.volume_m3,
                                        compound_.convexes[bond.b]->solid.volume_m3);
     const double least = kFrail / bond.area_m2;
-    return least * least * least * smaller_m3 * smaller_m3 > 1;
+    return least * least * least * smaller_m3 * smaller_m3 > 1 &&
+           (material_of(bond.a).breaks_by_load() || material_of(bond.b).breaks_by_load());
   }
 
   std::vector<ConvexLoad> by_convex(std::span<const Load> loads) const {

@@ -31,6 +31,9 @@ void add_impacts(const World& world, Trial& trial) {
     const Material& material = world.material(actor.structure.convex(slot)->material);
     PlannedBreak planned;
     planned.load = i;
+    planned.striker = trial.probe.bodies()[load.striker].key;
+    planned.speed_m_s = load.speed_m_s;
+    planned.impulse_Ns = load.impulse_Ns;
     planned.by_pattern = material.breakable() && load.impulse_Ns >= material.strength_Ns &&
                          load.work_J > actor.least_J;
     planned.by_stress = load.work_J > actor.stress.least_J;

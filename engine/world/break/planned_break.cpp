@@ -1,6 +1,7 @@
 #include "engine/world/break/planned_break.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "engine/base/trace.h"
 #include "engine/world/actors/bearing.h"
 #include "engine/world/actors/replace.h"
+#include "engine/world/break/striker.h"
 
 namespace sunder {
 namespace {
@@ -24,6 +26,8 @@ constexpr std::uint64_t kMostBlowWork = 100, kMostWorkOfFrames = 1200;
 // And in all, where a pattern is: what 8,000 convexes take (docs/decisions/012). More of them come
 // to no answer within a frame.
 constexpr std::uint64_t kMostVisits = 500000;
+// Widths of a striker's section; what is thicker is not driven through.
+constexpr double kFarthest = 8;
 // What cracks at its bonds takes this much of a blow at most: it is stress that decides.
 constexpr double kMostTaken = 0.9;
 
@@ -58,6 +62,23 @@ double area_m2(const PlannedBreak& planned) {
   return area;
 }
 
+/// True if the waves of the impact load the solid at the striker beyond its shear strength: it
+/// breaks there before what is far has felt anything. The shear wave takes away less than the
+/// momentum that the striker brings from v = τ / (ρ c) on, with c = √(G / ρ) and G = E / 2.4.
+bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
+  if (!(material.shear_Pa > 0)) return speed_m_s > 0;
+  const double impedance = std::sqrt(material.youngs_Pa * material.density_kg_m3 / 2.4);
+  return speed_m_s * impedance > material.shear_Pa;
+}
+
+/// True if the break where the solid is struck comes before anything far from there: it can be
+/// paid for, and the impact is faster than waves carry it away.
+bool breaks_locally(const World& world, const Structure& structure, const PlannedBreak& planned) {
+  const Convex& convex = *structure.convex(planned.impact.convex);
+  return planned.by_pattern && planned.edit.changed && planned.needed_J < planned.impact.energy_J &&
+         breaks_before_waves_arrive(world.material(convex.material), planned.speed_m_s);
+}
+
 /// Of both ways to break the one that would come first if the blow grew from nothing: at this
 /// share of its energy the pattern can be paid for, by what stays where the blow lands; at that
 /// some bond is overloaded. What is overloaded where the pattern reaches is the pattern's.
@@ -80,13 +101,42 @@ void choose(const World& world, const Structure& structure, PlannedBreak& planne
       std::min(kMostTaken * energy_J, crack_energy_J(world, structure, planned.edit.cut));
 }
 
+/// Distance from the point struck to the farthest corner of the section.
+double reach_of(const Hit& hit) {
+  double reach_m = 0;
+  for (const Vec3& corner : hit.section_R)
+    reach_m = std::max(reach_m, (corner - hit.point_R).norm());
+  return reach_m;
+}
+
+/// Describes the striker and the way that it has to take through the actor; leaves that out where
+/// no plug can form, as the striker is wider than a break by pattern reaches.
+void add_striker(const World& world, const PlannedBreak& planned, const Actor& actor,
+                 const Pose& X_WB, Hit& hit) {
+  const Actor* striker = world.actors.find(planned.striker);
+  if (!striker || !(planned.speed_m_s > 0)) return;
+  const Impact& impact = planned.impact;
+  const Material& material = world.material(actor.structure.convex(impact.convex)->material);
+  const std::vector<Vec3> section_W = cross_section(
+      world, *striker, impact.point_W, impact.direction_W, material.impact_radius_m);
+  for (const Vec3& corner : section_W)
+    hit.section_R.push_back(X_WB.inverse() * corner + actor.weight.com_R);
+  if (hit.section_R.empty()) return;
+  hit.speed_m_s = planned.speed_m_s;
+  hit.striker_kg = planned.impulse_Ns / planned.speed_m_s;
+  hit.thickness_m =
+      thickness_along(actor.structure, hit.point_R, hit.direction_R, kFarthest * reach_of(hit));
+}
+
 /// The impact as the actor's rest frame sees it.
-Hit hit_of(const Impact& impact, const Actor& actor, const Pose& X_WB) {
+Hit hit_of(const World& world, const PlannedBreak& planned, const Actor& actor, const Pose& X_WB) {
+  const Impact& impact = planned.impact;
   Hit hit;
   hit.point_R = X_WB.inverse() * impact.point_W + actor.weight.com_R;
   hit.direction_R = X_WB.rotation.conjugate() * impact.direction_W;
   hit.convex = impact.convex;
   hit.energy_J = impact.energy_J;
+  add_striker(world, planned, actor, X_WB, hit);
   return hit;
 }
 
@@ -96,7 +146,7 @@ void prepare(const World& world, const Breaker& breaker, std::uint64_t event,
              PlannedBreak& planned) {
   const Impact& impact = planned.impact;
   const Actor& actor = *world.actors.find(impact.key);
-  const Hit hit = hit_of(impact, actor, world.physics->state(actor.body).X_WB);
+  const Hit hit = hit_of(world, planned, actor, world.physics->state(actor.body).X_WB);
   // Of the actor: hit once more, it would break the same way, or an impact that comes in several
   // steps would be given several chances.
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
@@ -109,7 +159,8 @@ std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
   const BreakCommand& command = planned.command;
   const Structure& structure = world.actors.find(planned.impact.key)->structure;
   const std::size_t reached = structure.within(command.X_RP.position, command.radius_m).size();
-  const auto cells = static_cast<std::size_t>(command.pattern.cell_count());
+  const auto cells = static_cast<std::size_t>(command.plug.exists() ? command.plug.cell_count()
+                                                                    : command.pattern.cell_count());
   return static_cast<std::uint32_t>(cells + kPartsOfConvex * reached);
 }
 
@@ -122,7 +173,13 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
       const Actor& actor = *world.actors.find(planned.impact.key);
       if (planned.by_pattern) {
         planned.edit = breaker.plan(actor.structure, planned.command);
-        planned.needed_J = crack_energy_J(world, planned.edit);
+        planned.needed_J =
+            std::max(crack_energy_J(world, planned.edit), planned.command.plug.energy_J);
+      }
+      if (breaks_locally(world, actor.structure, planned)) {
+        planned.breaks = true;
+        planned.plan_ms = watch.ms();
+        continue;
       }
       if (planned.by_stress) {
         std::vector<Load> loads;
@@ -141,6 +198,58 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
     }
   });
 }
+
+namespace {
+
+/// True if a point of the pattern's frame lies in the prism that a plug is.
+bool is_in(const Plug& plug, const Vec3& point_P) {
+  const std::vector<Vec2>& section = plug.section_m;
+  for (std::size_t i = 0; i < section.size(); ++i) {
+    const Vec2 &a = section[i], &b = section[(i + 1) % section.size()];
+    const Vec2 along = b - a, to = Vec2(point_P.x(), point_P.z()) - a;
+    if (along.x() * to.y() - along.y() * to.x() < 0) return false;
+  }
+  return plug.through || point_P.y() < plug.thickness_m;
+}
+
+/// Lets the striker and the plug that it has driven out go on at one speed: a plastic collision
+/// along the plug, in which momentum is kept (Recht and Ipson 1963). What of the plug is no body
+/// takes its share of the momentum along.
+void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_key) {
+  const Plug& plug = planned.command.plug;
+  const Actor* striker = world.actors.find(planned.striker);
+  if (!plug.exists() || !striker) return;
+  const BodyStates states = world.physics->states();
+  std::vector<const Actor*> pieces;
+  double plug_kg = 0;
+  Vec3 axis_W = planned.impact.direction_W;
+  double at_rest_m_s = 0;
+  for (const Actor& actor : world.actors) {
+    if (actor.key < first_key || actor.is_static) continue;
+    if (!is_in(plug, planned.command.X_RP.inverse() * actor.weight.com_R)) continue;
+    pieces.push_back(&actor);
+    plug_kg += actor.weight.mass_kg;
+    axis_W = rest_pose(actor, states[actor.body].X_WB).rotation *
+             planned.command.X_RP.rotation * Vec3::UnitY();
+    at_rest_m_s += actor.weight.mass_kg * states[actor.body].velocity_W.dot(axis_W);
+  }
+  plug_kg = std::max(plug_kg, plug.mass_kg);
+  const BodyState state = states[striker->body];
+  const double closing_m_s = state.field()(planned.impact.point_W).dot(axis_W) - at_rest_m_s / plug_kg;
+  const double striker_kg = planned.impulse_Ns / planned.speed_m_s;
+  if (!(closing_m_s > 0)) return;
+  const double gain_m_s = closing_m_s * striker_kg / (striker_kg + plug_kg);
+  std::vector<std::pair<BodyId, BodyState>> changed;
+  for (const Actor* piece : pieces) {
+    BodyState moved = states[piece->body];
+    moved.velocity_W += gain_m_s * axis_W;
+    changed.emplace_back(piece->body, moved);
+  }
+  for (const auto& [body, moved] : changed) world.physics->set_state(body, moved);
+  world.physics->apply_impulse(striker->body, -plug_kg * gain_m_s * axis_W, planned.impact.point_W);
+}
+
+}  // namespace
 
 Verdict verdict_on(const World& world, const PlannedBreak& planned, std::size_t to_come) {
   if (!planned.breaks) return Verdict::kHolds;
@@ -179,7 +288,9 @@ void break_actor(World& world, PlannedBreak& planned) {
   if (!planned.only_bends()) world.ledger.breaks.push_back(event);
   world.ledger.report.failed += planned.edit.loose.failed;
   if (planned.edit.changed) {
+    const std::uint32_t first_key = world.actors.next_key();
     carry_out(world, impact.key, planned.edit);
+    if (!planned.at_bonds) drive_out(world, planned, first_key);
   } else {  // it is cracked, and hangs together still
     actor.structure.apply(planned.edit);
   }

@@ -17,6 +17,9 @@ namespace sunder {
 struct PlannedBreak {
   Impact impact;
   std::uint32_t load = 0;      ///< Index in the probe's answer.
+  std::uint32_t striker = kNobodyKey;  ///< Key of the body that strikes.
+  double speed_m_s = 0;        ///< Closing speed of that; 0: not known.
+  double impulse_Ns = 0;       ///< Sum over the contacts that load the actor.
   std::vector<Load> impulses;  ///< All that the actor feels, N·s in place of N.
   bool by_pattern = true;      ///< Strong enough for the material,
   bool by_stress = false;      ///< and for some bond.

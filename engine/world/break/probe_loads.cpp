@@ -18,7 +18,7 @@ std::uint32_t BreakProbe::charged(const ProbeContact& c) const {
 
 std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
   std::vector<ProbeLoad> all(bodies_.size());
-  std::vector<double> most(bodies_.size(), 0);
+  std::vector<double> most(bodies_.size(), 0), flux(bodies_.size(), 0), most_flux(bodies_.size(), 0);
   for (std::uint32_t b = 0; b < all.size(); ++b) all[b].body = b;
   for (ProbeLoad& load : all) load.direction_W.setZero();
   for (std::size_t i = 0; i < closed_.size(); ++i) {
@@ -32,6 +32,13 @@ std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
     load.impulse_Ns += impulse;
     load.arm_W += impulse * (body == c.b ? c.arm_b_W : c.arm_a_W);
     load.direction_W += (body == c.b ? impulse : -impulse) * c.normal_W;
+    const double speed = std::max(0.0, row.speed(velocities_));
+    load.speed_m_s += impulse * speed * speed;
+    flux[body] += impulse * speed;
+    if (impulse * speed > most_flux[body]) {
+      most_flux[body] = impulse * speed;
+      load.striker = body == c.b ? c.a : c.b;
+    }
     if (impulse <= most[body]) continue;
     most[body] = impulse;
     load.shape = body == c.b ? c.shape_b : c.shape_a;
@@ -43,6 +50,7 @@ std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
   });
   for (ProbeLoad& load : all) {
     load.arm_W /= load.impulse_Ns;
+    if (flux[load.body] > 0) load.speed_m_s /= flux[load.body];
     load.direction_W.normalize();
     add_pushes(load);
   }

@@ -46,11 +46,11 @@ struct PressOn {
 
 /// The mean of what presses on the actor, moved on by one step in which `now` pressed.
 std::vector<Press> averaged(const World& world, const Actor& actor, std::span<const PressOn> now) {
+  if (now.empty() && actor.stress.pressing.empty()) return {};
   const double dt = world.clock.dt_s, share = dt / (kAverage_s + dt);
   const double trifle = kTrifle * weight_N(world, actor.weight.mass_kg);
   const double size_m = std::cbrt(actor.volume_m3);
   std::vector<Press> mean;
-  if (now.empty() && actor.stress.pressing.empty()) return mean;
   auto old = actor.stress.pressing.begin();
   const auto end = actor.stress.pressing.end();
   for (auto it = now.begin(); it != now.end() || old != end;) {
@@ -148,8 +148,7 @@ std::vector<std::uint32_t> due(World& world) {
   const std::vector<PressOn> now = presses(world);
   const BodyStates states = world.physics->states();
   using Waiting = std::pair<std::uint64_t, std::uint32_t>;
-  std::vector<std::vector<Waiting>> waiting((world.actors.size() + kActors - 1) / kActors);
-  for_chunks(world.actors.size(), kActors, [&](std::size_t begin, std::size_t end, std::size_t c) {
+  const auto look = [&](std::size_t begin, std::size_t end, std::vector<Waiting>& found) {
     auto first = std::ranges::lower_bound(now, begin, {}, &PressOn::place);
     for (std::size_t i = begin; i < end; ++i) {
       const auto last =
@@ -167,14 +166,13 @@ std::vector<std::uint32_t> due(World& world) {
         stress.settled = false;
         stress.since_step = world.clock.step;
       }
-      if (!stress.settled) waiting[c].emplace_back(stress.since_step, actor.key);
+      if (!stress.settled) found.emplace_back(stress.since_step, actor.key);
     }
-  });
-  std::vector<Waiting> all;
-  for (const std::vector<Waiting>& part : waiting) all.insert(all.end(), part.begin(), part.end());
-  std::sort(all.begin(), all.end());
+  };
+  auto waiting = collect_chunks<Waiting>(world.actors.size(), kActors, look);
+  std::sort(waiting.begin(), waiting.end());
   std::vector<std::uint32_t> keys;
-  for (const auto& [since, key] : all) keys.push_back(key);
+  for (const auto& [since, key] : waiting) keys.push_back(key);
   return keys;
 }
 

@@ -93,23 +93,22 @@ std::vector<Approach> Approaches::find(const Contacts& contacts, const Bodies& b
     return !bodies.contains(a) || !bodies.contains(b) || forgotten_[BodySlot(a.slot)] ||
            forgotten_[BodySlot(b.slot)];
   });
-  std::vector<std::vector<Keyed>> found((contacts.manifolds.size() + kChunk - 1) / kChunk);
-  for_chunks(contacts.manifolds.size(), kChunk,
-             [&](std::size_t begin, std::size_t end, std::size_t c) {
-               for (std::size_t i = begin; i < end; ++i) {
-                 const Manifold& m = contacts.manifolds[ManifoldSlot(i)];
-                 if (m.count == 0 || !(forgotten_[m.body_a] || forgotten_[m.body_b])) continue;
-                 if (!touches_awake(m, bodies) || rests(m, bodies, step)) continue;
-                 const Pair& pair = contacts.pairs[m.pair];
-                 Approach approach;
-                 if (make_approach(pair, m, bodies, shapes, step, approach))
-                   found[c].emplace_back(pair.key(), approach);
-               }
-             });
-  const auto kept = static_cast<std::ptrdiff_t>(known_.size());
-  for (const auto& chunk : found) known_.insert(known_.end(), chunk.begin(), chunk.end());
+  const auto look = [&](std::size_t begin, std::size_t end, std::vector<Keyed>& found) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Manifold& m = contacts.manifolds[ManifoldSlot(i)];
+      if (m.count == 0 || !(forgotten_[m.body_a] || forgotten_[m.body_b])) continue;
+      if (!touches_awake(m, bodies) || rests(m, bodies, step)) continue;
+      const Pair& pair = contacts.pairs[m.pair];
+      Approach approach;
+      if (make_approach(pair, m, bodies, shapes, step, approach))
+        found.emplace_back(pair.key(), approach);
+    }
+  };
+  auto fresh = collect_chunks<Keyed>(contacts.manifolds.size(), kChunk, look);
   const auto by_key = [](const Keyed& a, const Keyed& b) { return a.first < b.first; };
-  std::sort(known_.begin() + kept, known_.end(), by_key);
+  std::sort(fresh.begin(), fresh.end(), by_key);
+  const auto kept = static_cast<std::ptrdiff_t>(known_.size());
+  known_.insert(known_.end(), fresh.begin(), fresh.end());
   std::inplace_merge(known_.begin(), known_.begin() + kept, known_.end(), by_key);
   std::fill(forgotten_.begin(), forgotten_.end(), std::uint8_t{0});
   std::vector<Approach> approaches;

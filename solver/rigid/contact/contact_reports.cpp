@@ -8,25 +8,20 @@
 namespace sunder::solver {
 namespace {
 
-constexpr std::size_t kChunk = 4096;
+using Keyed = std::pair<std::uint64_t, const Manifold*>;
 
 /// Manifolds that are there and fit, in the order of their pairs' keys.
 template <class Fits>
-std::vector<const Manifold*> by_key(const Contacts& contacts, const Fits& fits) {
-  using Keyed = std::pair<std::uint64_t, const Manifold*>;
-  const std::size_t count = contacts.manifolds.size();
-  std::vector<std::vector<Keyed>> found((count + kChunk - 1) / kChunk);
-  for_chunks(count, kChunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+std::vector<Keyed> by_key(const Contacts& contacts, const Fits& fits) {
+  constexpr std::size_t kChunk = 4096;
+  const auto find = [&](std::size_t begin, std::size_t end, std::vector<Keyed>& found) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Manifold& m = contacts.manifolds[ManifoldSlot(static_cast<std::uint32_t>(i))];
-      if (m.count > 0 && fits(m)) found[chunk].emplace_back(contacts.pairs[m.pair].key(), &m);
+      const Manifold& m = contacts.manifolds[ManifoldSlot(i)];
+      if (m.count > 0 && fits(m)) found.emplace_back(contacts.pairs[m.pair].key(), &m);
     }
-  });
-  std::vector<Keyed> keyed;
-  for (const std::vector<Keyed>& part : found) keyed.insert(keyed.end(), part.begin(), part.end());
-  std::ranges::sort(keyed, {}, &Keyed::first);
-  std::vector<const Manifold*> all(keyed.size());
-  std::ranges::transform(keyed, all.begin(), &Keyed::second);
+  };
+  auto all = collect_chunks<Keyed>(contacts.manifolds.size(), kChunk, find);
+  std::ranges::sort(all, {}, &Keyed::first);
   return all;
 }
 
@@ -38,8 +33,8 @@ std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodi
     return bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b];
   };
   std::vector<ContactLoad> loads;
-  for (const Manifold* loaded_m : by_key(contacts, is_reported)) {
-    const Manifold& m = *loaded_m;
+  for (const auto& [key, manifold] : by_key(contacts, is_reported)) {
+    const Manifold& m = *manifold;
     const Pair& pair = contacts.pairs[m.pair];
     const Vec3 impulse = m.step_impulse_W.cast<double>();
     if (impulse.isZero(0)) continue;
@@ -58,8 +53,8 @@ std::vector<PressPoint> find_presses(const Contacts& contacts, const Bodies& bod
   std::vector<PressPoint> presses;
   if (!(h_s > 0)) return presses;
   const auto is_pressed = [](const Manifold& m) { return m.normal_impulse() > 0; };
-  for (const Manifold* pressed : by_key(contacts, is_pressed)) {
-    const Manifold& m = *pressed;
+  for (const auto& [key, manifold] : by_key(contacts, is_pressed)) {
+    const Manifold& m = *manifold;
     // Friction acts at their middle: each point has its part of it.
     const Vec3 force_W = m.impulse_W().cast<double>() / (h_s * double{m.normal_impulse()});
     for (std::size_t i = 0; i < m.count; ++i) {

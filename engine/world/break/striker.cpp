@@ -1,0 +1,128 @@
+#include "engine/world/break/striker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "engine/base/trigonometry.h"
+
+namespace sunder {
+namespace {
+
+constexpr int kRoundCorners = 10;    // of the section of a sphere
+constexpr std::size_t kMostCorners = 12;
+constexpr double kClearance = 1.04;  // a hole is wider than what goes through
+// Parts of a solid that are no farther apart than this share of its thickness are one.
+constexpr double kGap = 1e-3;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Convex hull in counter-clockwise order (Andrew 1979).
+std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
+  std::ranges::sort(points, [](const Vec2& a, const Vec2& b) {
+    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
+  });
+  std::vector<Vec2> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const Vec2& point : points) {
+      while (hull.size() >= first + 2 &&
+             cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(point);
+    }
+    if (!hull.empty()) hull.pop_back();
+    std::ranges::reverse(points);
+  }
+  return hull;
+}
+
+/// Takes out corners until few are left, those first that cut off least.
+void simplify(std::vector<Vec2>& hull) {
+  while (hull.size() > kMostCorners) {
+    std::size_t least = 0;
+    double least_m2 = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const Vec2& before = hull[(i + hull.size() - 1) % hull.size()];
+      const Vec2& after = hull[(i + 1) % hull.size()];
+      const double cut_m2 = cross(hull[i] - before, after - hull[i]);
+      if (cut_m2 < least_m2) least_m2 = cut_m2, least = i;
+    }
+    hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+}
+
+/// Two unit vectors across a direction, right-handed with it as the third.
+std::pair<Vec3, Vec3> axes_across(const Vec3& direction) {
+  const Vec3 any = std::abs(direction.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ();
+  const Vec3 first = any.cross(direction).normalized();
+  return {first, direction.cross(first)};
+}
+
+}  // namespace
+
+std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Vec3& point_W,
+                                const Vec3& direction_W, double reach_m) {
+  const auto [u, v] = axes_across(direction_W);
+  const Pose X_WB = world.physics->state(actor.body).X_WB;
+  std::vector<Vec2> hull;
+  if (actor.structure.empty()) {
+    const double half_corner_cos = sin_cos(std::numbers::pi / kRoundCorners).cos;
+    const double radius_m = kClearance * ball_radius_m(actor.volume_m3) / half_corner_cos;
+    const Vec3 center_W = X_WB.position - point_W;
+    for (int i = 0; i < kRoundCorners; ++i) {
+      const SinCos angle = sin_cos(2 * std::numbers::pi * i / kRoundCorners);
+      hull.push_back(Vec2(u.dot(center_W), v.dot(center_W)) +
+                     radius_m * Vec2(angle.cos, angle.sin));
+    }
+  } else {
+    const Pose X_WR = rest_pose(actor, X_WB);
+    const Vec3 point_R = X_WR.inverse() * point_W;
+    std::vector<Vec2> points;
+    for (const ConvexSlot slot : actor.structure.within(point_R, reach_m)) {
+      for (const Vec3& vertex : actor.structure.convex(slot)->polyhedron.vertices) {
+        const Vec3 at_W = X_WR * vertex - point_W;
+        points.emplace_back(u.dot(at_W), v.dot(at_W));
+      }
+    }
+    hull = convex_hull(std::move(points));
+    simplify(hull);
+    Vec2 middle = Vec2::Zero();
+    for (const Vec2& corner : hull) middle += corner / static_cast<double>(hull.size());
+    for (Vec2& corner : hull) corner = middle + kClearance * (corner - middle);
+  }
+  double area_m2 = 0, widest_m = 0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    area_m2 += 0.5 * cross(hull[i], hull[(i + 1) % hull.size()]);
+    for (const Vec2& other : hull) widest_m = std::max(widest_m, (hull[i] - other).norm());
+  }
+  if (hull.size() < 3 || widest_m > 2 * reach_m || !(area_m2 > 1e-2 * widest_m * widest_m))
+    return {};
+  std::vector<Vec3> section_W;
+  for (const Vec2& corner : hull) section_W.push_back(point_W + corner.x() * u + corner.y() * v);
+  return section_W;
+}
+
+double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
+                       double most_m) {
+  std::vector<std::pair<double, double>> spans;  // of the ray within convexes
+  for (const ConvexSlot slot : structure.within(point_R, most_m)) {
+    double enters = -most_m, leaves = most_m;
+    for (const ConvexPolyhedron::Face& face : structure.convex(slot)->polyhedron.faces) {
+      const double away = face.plane.normal.dot(direction_R), depth = face.plane.distance(point_R);
+      if (away > 0) leaves = std::min(leaves, -depth / away);
+      if (away < 0) enters = std::max(enters, -depth / away);
+      if (away == 0 && depth > 0) leaves = enters;
+    }
+    if (leaves > enters && leaves > 0) spans.emplace_back(enters, leaves);
+  }
+  std::ranges::sort(spans);
+  double end = 0;
+  for (const auto& [enters, leaves] : spans)
+    if (end == 0 || enters <= end * (1 + kGap)) end = std::max(end, leaves);
+  return end;
+}
+
+}  // namespace sunder

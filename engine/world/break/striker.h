@@ -1,0 +1,24 @@
+// The striker of an impact, as far as the solid that it strikes is concerned: its cross-section
+// and the thickness that it has to pass. Internal to engine/world.
+#pragma once
+
+#include <vector>
+
+#include "engine/base/types.h"
+#include "engine/model/structure.h"
+#include "engine/world/actors/world.h"
+
+namespace sunder {
+
+/// Corners of the cross-section of an actor seen along `direction_W` (unit), in counter-clockwise
+/// order about it, in the plane through `point_W`; of a structure, that of its convexes within
+/// `reach_m` of the point. Empty if the section is wider than 2 `reach_m`, or has no area.
+std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Vec3& point_W,
+                                const Vec3& direction_W, double reach_m);
+
+/// Length of a ray inside a structure, from where it enters near `point_R` to the first gap; at
+/// most about `most_m`.
+double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
+                       double most_m);
+
+}  // namespace sunder

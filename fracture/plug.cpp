@@ -1,0 +1,103 @@
+#include "fracture/plug.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace sunder::fracture {
+namespace {
+
+constexpr double kThinnest = 1 / 4.17;  // thickness over width: see perforation_energy_J()
+// Share of the energy left that goes into cracks around the plug: most stays in motion.
+constexpr double kCrackShare = 0.1;
+constexpr double kCrackSpeed = 0.45;  // of cracks, over that of shear waves (glass: 1500 m/s)
+constexpr double kSpall = 1.5;        // width of the ring around the plug, over that of the plug
+constexpr int kMostRings = 8;         // of a web around the plug
+constexpr double kSlice = 0.7;        // thickness of a slice of the plug, over its width
+
+/// Area (positive if counter-clockwise in x and z) and centroid of a polygon.
+std::pair<double, Vec2> measure(const std::vector<Vec2>& polygon) {
+  double twice_m2 = 0;
+  Vec2 moment = Vec2::Zero();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double part = a.x() * b.y() - a.y() * b.x();
+    twice_m2 += part;
+    moment += part * (a + b);
+  }
+  return {twice_m2 / 2, moment / (3 * twice_m2)};
+}
+
+/// A rotation whose second column is `y`, and whose first is as near as may be to `near_x`.
+Mat3 axes_along(const Vec3& y, const Vec3& near_x) {
+  const Vec3 x = (near_x - near_x.dot(y) * y).normalized();
+  Mat3 axes;
+  axes << x, y, x.cross(y);
+  return axes;
+}
+
+/// Length of the cracks of a web of that many rings, seen along the axis.
+double crack_length_m(const Plug& plug, double radius_m, int rings) {
+  double length_m = static_cast<double>(plug.section_m.size()) * (plug.reach_m - radius_m);
+  for (int ring = 0; ring <= rings; ++ring)
+    length_m += 2 * std::numbers::pi * radius_m *
+                std::pow(plug.reach_m / radius_m, static_cast<double>(ring) / std::max(1, rings));
+  return length_m;
+}
+
+/// Adds the rings that the energy left can pay for: of a web, as far as cracks run while the
+/// striker passes; of other patterns, one in which the far face spalls.
+void add_rings(const Material& material, const Hit& hit, double radius_m, Plug& plug) {
+  const double left_J = kCrackShare * (hit.energy_J - plug.energy_J);
+  const double affordable_m = left_J / (material.toughness_J_m2 * plug.thickness_m);
+  const PatternSpec::Kind kind = material.pattern.kind;
+  const bool is_web = kind == PatternSpec::Kind::kWeb || kind == PatternSpec::Kind::kRadial;
+  const double shear_m_s = std::sqrt(material.youngs_Pa / (2.4 * material.density_kg_m3));
+  const double run_m = kCrackSpeed * shear_m_s * plug.thickness_m / hit.speed_m_s;
+  const double most_m = is_web ? material.impact_radius_m : kSpall * radius_m;
+  plug.reach_m = std::min({radius_m + run_m, material.impact_radius_m, most_m});
+  const int most = is_web ? kMostRings : 1;
+  if (!(plug.reach_m > 1.1 * radius_m)) return;
+  while (plug.rings < most && crack_length_m(plug, radius_m, plug.rings + 1) < affordable_m)
+    ++plug.rings;
+}
+
+}  // namespace
+
+double perforation_energy_J(const Material& material, double width_m, double thickness_m,
+                            double mass_kg) {
+  if (!(material.compressive_Pa > 0) || thickness_m < kThinnest * width_m) return 0;
+  const double slenderness = width_m * thickness_m * thickness_m / mass_kg;
+  const double squared_m2_s2 = 1.7 * (material.reinforcement_percent + 0.3) *
+                               material.compressive_Pa * std::cbrt(material.density_kg_m3) *
+                               slenderness * std::cbrt(slenderness);
+  return 0.5 * mass_kg * squared_m2_s2;
+}
+
+Plug make_plug(const Material& material, const Hit& hit, const Vec3& axis_R, Pose& X_RP) {
+  Plug plug;
+  plug.thickness_m = hit.thickness_m * hit.direction_R.dot(axis_R);
+  if (hit.section_R.empty() || !(plug.thickness_m > 0)) return {};
+  const Mat3 axes = axes_along(axis_R, hit.section_R[0] - hit.point_R);
+  for (const Vec3& corner : hit.section_R) {
+    const Vec3 at_P = axes.transpose() * (corner - hit.point_R);
+    plug.section_m.emplace_back(at_P.x(), at_P.z());
+  }
+  auto [area_m2, middle_m] = measure(plug.section_m);
+  if (area_m2 < 0) std::ranges::reverse(plug.section_m);
+  area_m2 = std::abs(area_m2);
+  for (Vec2& corner : plug.section_m) corner -= middle_m;
+  X_RP = {hit.point_R + axes * Vec3(middle_m.x(), 0, middle_m.y()), Quat(axes).normalized()};
+  const double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
+  plug.energy_J = perforation_energy_J(material, width_m, plug.thickness_m, hit.striker_kg);
+  if (hit.energy_J < plug.energy_J) return {};
+  const auto parts = static_cast<double>(plug.section_m.size() + 1);
+  plug.split = area_m2 * std::min(plug.thickness_m, width_m) > parts * material.smallest_piece_m3;
+  plug.slice_m = kSlice * width_m;
+  plug.mass_kg = material.density_kg_m3 * area_m2 * plug.thickness_m;
+  add_rings(material, hit, width_m / 2, plug);
+  return plug;
+}
+
+}  // namespace sunder::fracture
