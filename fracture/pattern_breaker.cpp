@@ -75,11 +75,11 @@ void add_plug(const Convex& convex, const Material& material, const Hit& hit,
               BreakCommand& command) {
   Pose X_RP;
   command.plug = make_plug(material, hit, axis_across(convex, hit.direction_R), X_RP);
-  if (!command.plug.exists()) return;
+  if (!command.plug) return;
   command.X_RP = X_RP;
-  double widest_m = command.plug.reach_m;
-  for (const Vec2& corner : command.plug.section_m) widest_m = std::max(widest_m, corner.norm());
-  command.radius_m = 1.1 * std::hypot(widest_m, command.plug.thickness_m);
+  double widest_m = command.plug->reach_m;
+  for (const Vec2& corner : command.plug->section_m) widest_m = std::max(widest_m, corner.norm());
+  command.radius_m = 1.1 * std::hypot(widest_m, command.plug->depth_m);
 }
 
 class PatternBreaker final : public Breaker {
@@ -112,6 +112,7 @@ class PatternBreaker final : public Breaker {
   }
 
   BreakEdit plan(const Structure& structure, const BreakCommand& command) const override {
+    if (command.plug && command.plug->section_m.empty()) return {};
     const bool whole = command.radius_m == std::numeric_limits<double>::infinity();
     const ReadyBreak ready = make_ready(command, whole ? bounds(structure) : Box(), library_);
     BreakEdit edit = break_structure(structure, *ready.pattern, ready.placement, ready.sphere,
@@ -147,8 +148,8 @@ ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternL
   ready.sphere = {command.X_RP.position, command.radius_m, command.spared, command.smallest_m3};
   const bool whole = ready.sphere.is_endless();
   const double unit = whole ? reach(bounds_R, ready.sphere.center_R) : ready.sphere.radius_m;
-  ready.pattern = command.plug.exists()
-                      ? std::make_shared<const Pattern>(plug_pattern(command.plug, unit, command.seed))
+  ready.pattern = command.plug
+                      ? std::make_shared<const Pattern>(plug_pattern(*command.plug, unit, command.seed))
                       : library.find(command.pattern, {unit, whole}, command.seed);
   ready.placement = {command.X_RP.rotation.toRotationMatrix() * (unit * command.stretch_P),
                      command.X_RP.position};

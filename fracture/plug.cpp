@@ -13,7 +13,11 @@ constexpr double kThinnest = 1 / 4.17;  // thickness over width: see perforation
 constexpr double kCrackShare = 0.1;
 constexpr double kCrackSpeed = 0.45;  // of cracks, over that of shear waves (glass: 1500 m/s)
 constexpr double kSpall = 1.5;        // width of the ring around the plug, over that of the plug
+constexpr double kSpalls = 9;         // energies that drive a plug out, from which there is one
 constexpr int kMostRings = 8;         // of a web around the plug
+// A striker whose plug is more than this share of a solid breaks that as a whole.
+constexpr double kWidest = 0.3;
+constexpr double kMostTaken = 0.999;  // of the energy, so that some is left to share out
 constexpr double kSlice = 0.7;        // thickness of a slice of the plug, over its width
 
 /// Area (positive if counter-clockwise in x and z) and centroid of a polygon.
@@ -50,14 +54,14 @@ double crack_length_m(const Plug& plug, double radius_m, int rings) {
 /// striker passes; of other patterns, one in which the far face spalls.
 void add_rings(const Material& material, const Hit& hit, double radius_m, Plug& plug) {
   const double left_J = kCrackShare * (hit.energy_J - plug.energy_J);
-  const double affordable_m = left_J / (material.toughness_J_m2 * plug.thickness_m);
+  const double affordable_m = left_J / (material.toughness_J_m2 * plug.depth_m);
   const PatternSpec::Kind kind = material.pattern.kind;
   const bool is_web = kind == PatternSpec::Kind::kWeb || kind == PatternSpec::Kind::kRadial;
   const double shear_m_s = std::sqrt(material.youngs_Pa / (2.4 * material.density_kg_m3));
-  const double run_m = kCrackSpeed * shear_m_s * plug.thickness_m / hit.speed_m_s;
+  const double run_m = kCrackSpeed * shear_m_s * plug.depth_m / hit.speed_m_s;
   const double most_m = is_web ? material.impact_radius_m : kSpall * radius_m;
   plug.reach_m = std::min({radius_m + run_m, material.impact_radius_m, most_m});
-  const int most = is_web ? kMostRings : 1;
+  const int most = is_web ? kMostRings : hit.energy_J > kSpalls * plug.energy_J ? 1 : 0;
   if (!(plug.reach_m > 1.1 * radius_m)) return;
   while (plug.rings < most && crack_length_m(plug, radius_m, plug.rings + 1) < affordable_m)
     ++plug.rings;
@@ -75,10 +79,11 @@ double perforation_energy_J(const Material& material, double width_m, double thi
   return 0.5 * mass_kg * squared_m2_s2;
 }
 
-Plug make_plug(const Material& material, const Hit& hit, const Vec3& axis_R, Pose& X_RP) {
+std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Vec3& axis_R,
+                              Pose& X_RP) {
   Plug plug;
-  plug.thickness_m = hit.thickness_m * hit.direction_R.dot(axis_R);
-  if (hit.section_R.empty() || !(plug.thickness_m > 0)) return {};
+  plug.depth_m = hit.thickness_m * hit.direction_R.dot(axis_R);
+  if (hit.section_R.empty() || !(plug.depth_m > 0)) return {};
   const Mat3 axes = axes_along(axis_R, hit.section_R[0] - hit.point_R);
   for (const Vec3& corner : hit.section_R) {
     const Vec3 at_P = axes.transpose() * (corner - hit.point_R);
@@ -87,16 +92,32 @@ Plug make_plug(const Material& material, const Hit& hit, const Vec3& axis_R, Pos
   auto [area_m2, middle_m] = measure(plug.section_m);
   if (area_m2 < 0) std::ranges::reverse(plug.section_m);
   area_m2 = std::abs(area_m2);
+  if (area_m2 * plug.depth_m > kWidest * hit.volume_m3) return {};
   for (Vec2& corner : plug.section_m) corner -= middle_m;
   X_RP = {hit.point_R + axes * Vec3(middle_m.x(), 0, middle_m.y()), Quat(axes).normalized()};
-  const double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
-  plug.energy_J = perforation_energy_J(material, width_m, plug.thickness_m, hit.striker_kg);
-  if (hit.energy_J < plug.energy_J) return {};
+  double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
+  plug.energy_J = perforation_energy_J(material, width_m, plug.depth_m, hit.striker_kg);
+  plug.through = plug.energy_J <= kMostTaken * hit.energy_J;
+  if (!plug.through) {
+    const double share = kMostTaken * hit.energy_J / plug.energy_J;
+    plug.energy_J *= share;
+    plug.depth_m *= std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // E goes by e^(8/3)
+    // A round nose that has gone in so deep is so wide there.
+    const double part = std::min(1.0, 2 * plug.depth_m / width_m);
+    const double scale = std::sqrt(part * (2 - part));
+    for (Vec2& corner : plug.section_m) corner *= scale;
+    width_m *= scale, area_m2 *= scale * scale;
+  }
+  plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
+  const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);
   const auto parts = static_cast<double>(plug.section_m.size() + 1);
-  plug.split = area_m2 * std::min(plug.thickness_m, width_m) > parts * material.smallest_piece_m3;
+  if (!plug.through && smaller_m3 < parts * material.smallest_piece_m3) {
+    plug.section_m.clear();
+    return plug;
+  }
+  plug.split = smaller_m3 > parts * material.smallest_piece_m3;
   plug.slice_m = kSlice * width_m;
-  plug.mass_kg = material.density_kg_m3 * area_m2 * plug.thickness_m;
-  add_rings(material, hit, width_m / 2, plug);
+  if (plug.through) add_rings(material, hit, width_m / 2, plug);
   return plug;
 }
 

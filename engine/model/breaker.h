@@ -34,6 +34,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,29 +52,29 @@ struct Hit {
   double speed_m_s = 0;              ///< Closing speed of the striker; 0: not known.
   double striker_kg = 0;             ///< Effective mass of the striker.
   double thickness_m = 0;            ///< Of the solid along `direction_R` behind the point.
+  double volume_m3 = 0;              ///< Of the solid.
   /// Corners of the striker's cross-section, in order about `direction_R` through `point_R`; empty
-  /// if no plug can form.
+  /// if it is not known, or too wide.
   std::vector<Vec3> section_R = {};
 };
 
-/// A prism that a striker drives out of a solid, with its sides parallel to the axis y of the
-/// pattern's frame, and the rings of cracks around it.
+/// A prism that a striker narrower than the solid drives out of it, or into it, with its sides
+/// parallel to the axis y of the pattern's frame, and the rings of cracks around it.
 struct Plug {
-  /// Convex cross-section about the origin, in (x, z) and counter-clockwise; empty: no plug.
+  /// Convex cross-section about the origin, in (x, z) and counter-clockwise.
   std::vector<Vec2> section_m = {};
-  double thickness_m = 0;  ///< Of what it is driven out of, or how deep the pieces end.
-  bool through = true;     ///< It comes out on the other side.
-  double slice_m = 0;  ///< Distance of cracks across the axis; 0: none.
-  bool split = false;  ///< The prism comes out as a core and sectors around it.
-  int rings = 0;       ///< Rings of sectors around the prism, out to `reach_m` from the origin.
+  double depth_m = 0;   ///< From the struck face to where the pieces end.
+  bool through = true;  ///< The depth is the thickness of the solid: the striker goes on.
+  double slice_m = 0;   ///< Distance of cracks across the axis; 0: none.
+  bool split = false;   ///< The prism comes out as a core and sectors around it.
+  int rings = 0;        ///< Rings of sectors around the prism, out to `reach_m` from the origin.
   double reach_m = 0;
-  double energy_J = 0;  ///< That driving it out takes.
-  double mass_kg = 0;
+  double energy_J = 0;  ///< That crushing and shearing take.
+  double mass_kg = 0;   ///< Of the prism.
 
-  bool exists() const { return !section_m.empty(); }
-  /// Number of its cells and those of its rings, about.
+  /// Number of cells of the prism and its rings, about.
   int cell_count() const {
-    const int slices = slice_m > 0 ? 1 + static_cast<int>(thickness_m / slice_m) : 1;
+    const int slices = slice_m > 0 ? 1 + static_cast<int>(depth_m / slice_m) : 1;
     return slices * (1 + static_cast<int>(section_m.size()) * (rings + (split ? 1 : 0)));
   }
 };
@@ -87,7 +88,7 @@ struct BreakCommand {
   Pose X_RP;                          ///< Pose of the pattern; its origin is the impact.
   double radius_m = 1;                ///< Of the impact sphere; infinity breaks the whole compound.
   Fit fit;                            ///< How new convexes are fitted to their visual meshes.
-  Plug plug;  ///< Takes the place of `pattern` if it exists.
+  std::optional<Plug> plug = {};  ///< Takes the place of `pattern` if there is one.
   /// Materials that do not break: the pattern leaves their convexes whole.
   std::vector<MaterialIndex> spared;
   double smallest_m3 = 0;  ///< What is smaller, and overlaps such a convex, is left whole as well.

@@ -46,14 +46,13 @@ std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Rand
 }
 
 /// Planes across the axis, from the struck face inwards.
-std::vector<double> place_slices(const Plug& plug, double thickness_m, double unit_m,
-                                 Random& random) {
+std::vector<double> place_slices(const Plug& plug, double unit_m, Random& random) {
   std::vector<double> slices;
   if (!(plug.slice_m > 0)) return slices;
-  const int count = static_cast<int>(std::lround(thickness_m / plug.slice_m));
+  const int count = static_cast<int>(std::lround(plug.depth_m / plug.slice_m));
   for (int i = 1; i < count; ++i) {
     const double place = (i + kJitter * random.uniform(-1, 1)) / count;
-    slices.push_back(place * thickness_m / unit_m);
+    slices.push_back(place * plug.depth_m / unit_m);
   }
   return slices;
 }
@@ -75,8 +74,8 @@ Pattern plug_pattern(const Plug& plug, double unit_m, std::uint64_t seed) {
       pattern.planes.push_back(upright_plane(ring[s], ring[(s + 1) % spokes]));
   const auto chord = [&](std::uint32_t r, std::uint32_t s) { return first_chord + r * spokes + s; };
   const auto first_slice = static_cast<std::uint32_t>(pattern.planes.size());
-  std::vector<double> slices = place_slices(plug, plug.thickness_m, unit_m, random);
-  if (!plug.through) slices.push_back(plug.thickness_m / unit_m);
+  std::vector<double> slices = place_slices(plug, unit_m, random);
+  if (!plug.through) slices.push_back(plug.depth_m / unit_m);
   for (const double y : slices)
     pattern.planes.push_back(Plane::through(Vec3(0, y, 0), Vec3::UnitY()));
   const auto layers = static_cast<std::uint32_t>(slices.size()) + 1;

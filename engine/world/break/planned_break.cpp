@@ -75,7 +75,7 @@ bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
 /// paid for, and the impact is faster than waves carry it away.
 bool breaks_locally(const World& world, const Structure& structure, const PlannedBreak& planned) {
   const Convex& convex = *structure.convex(planned.impact.convex);
-  return planned.by_pattern && planned.edit.changed && planned.needed_J < planned.impact.energy_J &&
+  return planned.by_pattern && planned.edit.changed && planned.command.plug && planned.needed_J < planned.impact.energy_J &&
          breaks_before_waves_arrive(world.material(convex.material), planned.speed_m_s);
 }
 
@@ -124,6 +124,7 @@ void add_striker(const World& world, const PlannedBreak& planned, const Actor& a
   if (hit.section_R.empty()) return;
   hit.speed_m_s = planned.speed_m_s;
   hit.striker_kg = planned.impulse_Ns / planned.speed_m_s;
+  hit.volume_m3 = actor.volume_m3;
   hit.thickness_m =
       thickness_along(actor.structure, hit.point_R, hit.direction_R, kFarthest * reach_of(hit));
 }
@@ -159,7 +160,7 @@ std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
   const BreakCommand& command = planned.command;
   const Structure& structure = world.actors.find(planned.impact.key)->structure;
   const std::size_t reached = structure.within(command.X_RP.position, command.radius_m).size();
-  const auto cells = static_cast<std::size_t>(command.plug.exists() ? command.plug.cell_count()
+  const auto cells = static_cast<std::size_t>(command.plug ? command.plug->cell_count()
                                                                     : command.pattern.cell_count());
   return static_cast<std::uint32_t>(cells + kPartsOfConvex * reached);
 }
@@ -173,8 +174,9 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
       const Actor& actor = *world.actors.find(planned.impact.key);
       if (planned.by_pattern) {
         planned.edit = breaker.plan(actor.structure, planned.command);
-        planned.needed_J =
-            std::max(crack_energy_J(world, planned.edit), planned.command.plug.energy_J);
+        planned.needed_J = crack_energy_J(world, planned.edit);
+        if (const auto& plug = planned.command.plug)
+          planned.needed_J = std::max(planned.needed_J, plug->energy_J);
       }
       if (breaks_locally(world, actor.structure, planned)) {
         planned.breaks = true;
@@ -209,16 +211,16 @@ bool is_in(const Plug& plug, const Vec3& point_P) {
     const Vec2 along = b - a, to = Vec2(point_P.x(), point_P.z()) - a;
     if (along.x() * to.y() - along.y() * to.x() < 0) return false;
   }
-  return plug.through || point_P.y() < plug.thickness_m;
+  return true;
 }
 
 /// Lets the striker and the plug that it has driven out go on at one speed: a plastic collision
 /// along the plug, in which momentum is kept (Recht and Ipson 1963). What of the plug is no body
 /// takes its share of the momentum along.
 void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_key) {
-  const Plug& plug = planned.command.plug;
   const Actor* striker = world.actors.find(planned.striker);
-  if (!plug.exists() || !striker) return;
+  if (!planned.command.plug || !planned.command.plug->through || !striker) return;
+  const Plug& plug = *planned.command.plug;
   const BodyStates states = world.physics->states();
   std::vector<const Actor*> pieces;
   double plug_kg = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kRoundCorners = 10;    // of the section of a sphere
 constexpr std::size_t kMostCorners = 12;
-constexpr double kClearance = 1.04;  // a hole is wider than what goes through
+constexpr double kClearance = 1.1;  // a hole is wider than what goes through
 // Parts of a solid that are no farther apart than this share of its thickness are one.
 constexpr double kGap = 1e-3;
 
