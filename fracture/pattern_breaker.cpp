@@ -10,6 +10,7 @@
 #include "fracture/fracture.h"
 #include "fracture/plug.h"
 #include "fracture/rejoin.h"
+#include "fracture/stress/parting.h"
 #include "fracture/stress/stress_breaks.h"
 
 namespace sunder::fracture {
@@ -70,6 +71,33 @@ Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direc
   }
 }
 
+/// Parts the convexes whose middle is in a plug from all others, and from each other.
+BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
+  const Pose X_PR = command.X_RP.inverse();
+  const Plug& plug = *command.plug;
+  std::vector<ConvexSlot> loose;
+  for (const ConvexSlot slot : structure.within(command.X_RP.position, command.radius_m)) {
+    const Convex& convex = *structure.convex(slot);
+    if (structure.anchored(slot) != 0 ||
+        std::ranges::find(command.spared, convex.material) == command.spared.end())
+      continue;
+    if (plug.contains(X_PR * convex.solid.centroid)) loose.push_back(slot);
+  }
+  if (loose.empty()) return {};
+  Compound compound = structure.compound();
+  const std::vector<ConvexSlot> slots = structure.slots();
+  const auto is_loose = [&](std::uint32_t convex) {
+    return std::ranges::binary_search(loose, slots[convex]);
+  };
+  std::vector<Bond> cut;
+  std::erase_if(compound.bonds, [&](const Bond& bond) {
+    const bool parts = is_loose(bond.a) || is_loose(bond.b);
+    if (parts) cut.push_back(bond);
+    return parts;
+  });
+  return part(compound, slots, cut, {});
+}
+
 /// Replaces the pattern by a plug, if the striker drives one out.
 void add_plug(const Convex& convex, const Material& material, const Hit& hit,
               BreakCommand& command) {
@@ -113,6 +141,8 @@ class PatternBreaker final : public Breaker {
 
   BreakEdit plan(const Structure& structure, const BreakCommand& command) const override {
     if (command.plug && command.plug->section_m.empty()) return {};
+    if (command.pattern.kind == PatternSpec::Kind::kNone)
+      return command.plug ? part_around(structure, command) : BreakEdit{};
     const bool whole = command.radius_m == std::numeric_limits<double>::infinity();
     const ReadyBreak ready = make_ready(command, whole ? bounds(structure) : Box(), library_);
     BreakEdit edit = break_structure(structure, *ready.pattern, ready.placement, ready.sphere,

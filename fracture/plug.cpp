@@ -17,6 +17,7 @@ constexpr double kSpalls = 9;         // energies that drive a plug out, from wh
 constexpr int kMostRings = 8;         // of a web around the plug
 // A striker whose plug is more than this share of a solid breaks that as a whole.
 constexpr double kWidest = 0.3;
+constexpr double kClearance = 1.12;   // of a hole, over what goes through
 constexpr double kMostTaken = 0.999;  // of the energy, so that some is left to share out
 constexpr double kSlice = 0.7;        // thickness of a slice of the plug, over its width
 
@@ -31,6 +32,13 @@ std::pair<double, Vec2> measure(const std::vector<Vec2>& polygon) {
     moment += part * (a + b);
   }
   return {twice_m2 / 2, moment / (3 * twice_m2)};
+}
+
+double perimeter_m(const std::vector<Vec2>& polygon) {
+  double sum_m = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    sum_m += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  return sum_m;
 }
 
 /// A rotation whose second column is `y`, and whose first is as near as may be to `near_x`.
@@ -95,6 +103,7 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
   if (area_m2 * plug.depth_m > kWidest * hit.volume_m3) return {};
   for (Vec2& corner : plug.section_m) corner -= middle_m;
   X_RP = {hit.point_R + axes * Vec3(middle_m.x(), 0, middle_m.y()), Quat(axes).normalized()};
+  plug.solid_m = plug.depth_m;
   double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
   plug.energy_J = perforation_energy_J(material, width_m, plug.depth_m, hit.striker_kg);
   plug.through = plug.energy_J <= kMostTaken * hit.energy_J;
@@ -108,6 +117,9 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
     for (Vec2& corner : plug.section_m) corner *= scale;
     width_m *= scale, area_m2 *= scale * scale;
   }
+  if (plug.through)
+    for (Vec2& corner : plug.section_m) corner *= kClearance;
+  plug.sides_m2 = perimeter_m(plug.section_m) * plug.depth_m;
   plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
   const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);
   const auto parts = static_cast<double>(plug.section_m.size() + 1);

@@ -71,7 +71,11 @@ struct Plug {
   double reach_m = 0;
   double energy_J = 0;  ///< That crushing and shearing take.
   double mass_kg = 0;   ///< Of the prism.
+  double solid_m = 0;   ///< Thickness of the solid.
+  double sides_m2 = 0;  ///< Area of the prism's sides.
 
+  /// True for points, in the pattern's frame, in the prism, or beyond its ends if it goes through.
+  bool contains(const Vec3& point_P) const;
   /// Number of cells of the prism and its rings, about.
   int cell_count() const {
     const int slices = slice_m > 0 ? 1 + static_cast<int>(depth_m / slice_m) : 1;

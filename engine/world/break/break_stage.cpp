@@ -20,6 +20,10 @@ constexpr std::uint64_t kVisitsAPart = 160;
 constexpr std::uint64_t kLooksAPart = 1000;
 constexpr int kRounds = 8;  // solids that can break one behind the other within one step
 
+bool parts_at_bonds(const Material& material) {
+  return material.breaks_by_load() && !material.yields();
+}
+
 /// The impacts that a probe's loads amount to, if they are strong enough for the material.
 void add_impacts(const World& world, Trial& trial) {
   trial.planned.clear();
@@ -34,8 +38,13 @@ void add_impacts(const World& world, Trial& trial) {
     planned.striker = trial.probe.bodies()[load.striker].key;
     planned.speed_m_s = load.speed_m_s;
     planned.impulse_Ns = load.impulse_Ns;
-    planned.by_pattern = material.breakable() && load.impulse_Ns >= material.strength_Ns &&
-                         load.work_J > actor.least_J;
+    const bool is_fast = breaks_before_waves_arrive(material, load.speed_m_s);
+    planned.by_pattern = material.breakable() && load.work_J > actor.least_J &&
+                         (is_fast || load.impulse_Ns >= material.strength_Ns);
+    // What has no pattern parts at the bonds around a striker.
+    planned.by_pattern |= !material.breakable() && is_fast && parts_at_bonds(material) &&
+                          load.work_J > actor.stress.least_J;
+    planned.far_J = load.work_J;
     planned.by_stress = load.work_J > actor.stress.least_J;
     if (!planned.by_pattern && !planned.by_stress) continue;
     const Quat R_of_W = states[actor.body].X_WB.rotation.conjugate();

@@ -28,6 +28,8 @@ constexpr std::uint64_t kMostBlowWork = 100, kMostWorkOfFrames = 1200;
 constexpr std::uint64_t kMostVisits = 500000;
 // Widths of a striker's section; what is thicker is not driven through.
 constexpr double kFarthest = 8;
+// What bends most in a solid over the mean of a bar in its first mode.
+constexpr double kBendsMore = 4;
 // What cracks at its bonds takes this much of a blow at most: it is stress that decides.
 constexpr double kMostTaken = 0.9;
 
@@ -62,21 +64,37 @@ double area_m2(const PlannedBreak& planned) {
   return area;
 }
 
-/// True if the waves of the impact load the solid at the striker beyond its shear strength: it
-/// breaks there before what is far has felt anything. The shear wave takes away less than the
-/// momentum that the striker brings from v = τ / (ρ c) on, with c = √(G / ρ) and G = E / 2.4.
-bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
-  if (!(material.shear_Pa > 0)) return speed_m_s > 0;
-  const double impedance = std::sqrt(material.youngs_Pa * material.density_kg_m3 / 2.4);
-  return speed_m_s * impedance > material.shear_Pa;
-}
-
 /// True if the break where the solid is struck comes before anything far from there: it can be
 /// paid for, and the impact is faster than waves carry it away.
 bool breaks_locally(const World& world, const Structure& structure, const PlannedBreak& planned) {
   const Convex& convex = *structure.convex(planned.impact.convex);
   return planned.by_pattern && planned.edit.changed && planned.command.plug && planned.needed_J < planned.impact.energy_J &&
          breaks_before_waves_arrive(world.material(convex.material), planned.speed_m_s);
+}
+
+/// Reduces the load of an impact on what is far from it to what gets through before the solid is
+/// sheared around a narrow and fast striker: J = τ A e / c, the shear strength on the sides A of
+/// the plug until the shear wave has passed the thickness e. False if that cannot break anything.
+bool hold_back(const World& world, const Actor& actor, PlannedBreak& planned) {
+  const Material& material =
+      world.material(actor.structure.convex(planned.impact.convex)->material);
+  if (!planned.command.plug || !(material.shear_Pa > 0) ||
+      !breaks_before_waves_arrive(material, planned.speed_m_s))
+    return true;
+  const Plug& plug = *planned.command.plug;
+  const double shear_m_s = std::sqrt(material.youngs_Pa / (2.4 * material.density_kg_m3));
+  const double through_Ns =
+      material.shear_Pa * plug.sides_m2 * plug.solid_m / shear_m_s;
+  const double share = std::min(1.0, through_Ns / planned.impulse_Ns);
+  // A bar that moves at v bends by no more than √3 ρ c v (Timoshenko, first mode); twice that
+  // twice over for what is struck off its middle and as it stands.
+  const double speed_m_s = share * planned.impulse_Ns / actor.weight.mass_kg;
+  const double most_Pa =
+      kBendsMore * std::sqrt(3 * material.youngs_Pa * material.density_kg_m3) * speed_m_s;
+  if (most_Pa < material.weakest_Pa()) return false;
+  for (Load& load : planned.impulses) load.force_N *= share, load.torque_Nm *= share;
+  planned.far_J = share * share * planned.impact.energy_J;
+  return true;
 }
 
 /// Of both ways to break the one that would come first if the blow grew from nothing: at this
@@ -143,6 +161,12 @@ Hit hit_of(const World& world, const PlannedBreak& planned, const Actor& actor, 
 
 }  // namespace
 
+bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
+  if (!(material.shear_Pa > 0)) return speed_m_s > 0;
+  const double impedance = std::sqrt(material.youngs_Pa * material.density_kg_m3 / 2.4);
+  return speed_m_s * impedance > material.shear_Pa;
+}
+
 void prepare(const World& world, const Breaker& breaker, std::uint64_t event,
              PlannedBreak& planned) {
   const Impact& impact = planned.impact;
@@ -183,10 +207,11 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         planned.plan_ms = watch.ms();
         continue;
       }
+      if (planned.by_stress && !hold_back(world, actor, planned)) planned.by_stress = false;
       if (planned.by_stress) {
         std::vector<Load> loads;
         LoadCase load = bearing(world, actor, states[actor.body].X_WB.rotation, loads);
-        load.blow = {planned.impulses, planned.impact.energy_J, planned.command.X_RP.position,
+        load.blow = {planned.impulses, planned.far_J, planned.command.X_RP.position,
                      planned.by_pattern ? planned.command.radius_m : 0};
         const Convex& convex = *actor.structure.convex(planned.impact.convex);
         const bool has_pattern = world.material(convex.material).breakable();
@@ -203,17 +228,6 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
 
 namespace {
 
-/// True if a point of the pattern's frame lies in the prism that a plug is.
-bool is_in(const Plug& plug, const Vec3& point_P) {
-  const std::vector<Vec2>& section = plug.section_m;
-  for (std::size_t i = 0; i < section.size(); ++i) {
-    const Vec2 &a = section[i], &b = section[(i + 1) % section.size()];
-    const Vec2 along = b - a, to = Vec2(point_P.x(), point_P.z()) - a;
-    if (along.x() * to.y() - along.y() * to.x() < 0) return false;
-  }
-  return true;
-}
-
 /// Lets the striker and the plug that it has driven out go on at one speed: a plastic collision
 /// along the plug, in which momentum is kept (Recht and Ipson 1963). What of the plug is no body
 /// takes its share of the momentum along.
@@ -228,7 +242,7 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
   double at_rest_m_s = 0;
   for (const Actor& actor : world.actors) {
     if (actor.key < first_key || actor.is_static) continue;
-    if (!is_in(plug, planned.command.X_RP.inverse() * actor.weight.com_R)) continue;
+    if (!plug.contains(planned.command.X_RP.inverse() * actor.weight.com_R)) continue;
     pieces.push_back(&actor);
     plug_kg += actor.weight.mass_kg;
     axis_W = rest_pose(actor, states[actor.body].X_WB).rotation *
@@ -263,7 +277,7 @@ void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {
   if (verdict != Verdict::kHolds) return;
   Actor& actor = *world.actors.find(planned.impact.key);
   const double energy_J = planned.impact.energy_J;
-  if (planned.by_pattern)
+  if (planned.by_pattern && !planned.command.plug)
     actor.least_J = std::max(
         actor.least_J, planned.edit.changed ? kWorthPlanning * planned.needed_J : 1.4 * energy_J);
   if (!planned.by_stress) return;

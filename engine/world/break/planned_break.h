@@ -21,6 +21,7 @@ struct PlannedBreak {
   double speed_m_s = 0;        ///< Closing speed of that; 0: not known.
   double impulse_Ns = 0;       ///< Sum over the contacts that load the actor.
   std::vector<Load> impulses;  ///< All that the actor feels, N·s in place of N.
+  double far_J = 0;            ///< Energy of what gets through to the rest, at most.
   bool by_pattern = true;      ///< Strong enough for the material,
   bool by_stress = false;      ///< and for some bond.
   BreakCommand command;        ///< By pattern.
@@ -34,6 +35,11 @@ struct PlannedBreak {
   /// It parts at hinges and cracks nowhere.
   bool only_bends() const { return at_bonds && edit.cut.empty(); }
 };
+
+/// True if the waves of the impact load the solid at the striker beyond its shear strength: it
+/// breaks there before what is far has felt anything. The shear wave takes away less than the
+/// momentum that the striker brings from v = τ / (ρ c) on, with c = √(G / ρ) and G = E / 2.4.
+bool breaks_before_waves_arrive(const Material& material, double speed_m_s);
 
 /// Makes the command that the impact amounts to.
 void prepare(const World& world, const Breaker& breaker, std::uint64_t event,

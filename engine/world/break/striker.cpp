@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kRoundCorners = 10;    // of the section of a sphere
 constexpr std::size_t kMostCorners = 12;
-constexpr double kClearance = 1.1;  // a hole is wider than what goes through
 // Parts of a solid that are no farther apart than this share of its thickness are one.
 constexpr double kGap = 1e-3;
 
@@ -69,8 +68,10 @@ std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Ve
   const Pose X_WB = world.physics->state(actor.body).X_WB;
   std::vector<Vec2> hull;
   if (actor.structure.empty()) {
-    const double half_corner_cos = sin_cos(std::numbers::pi / kRoundCorners).cos;
-    const double radius_m = kClearance * ball_radius_m(actor.volume_m3) / half_corner_cos;
+    const SinCos corner = sin_cos(std::numbers::pi / kRoundCorners);
+    // The polygon has the area of the circle.
+    const double radius_m = ball_radius_m(actor.volume_m3) *
+                            std::sqrt(std::numbers::pi / (kRoundCorners * corner.sin * corner.cos));
     const Vec3 center_W = X_WB.position - point_W;
     for (int i = 0; i < kRoundCorners; ++i) {
       const SinCos angle = sin_cos(2 * std::numbers::pi * i / kRoundCorners);
@@ -89,9 +90,6 @@ std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Ve
     }
     hull = convex_hull(std::move(points));
     simplify(hull);
-    Vec2 middle = Vec2::Zero();
-    for (const Vec2& corner : hull) middle += corner / static_cast<double>(hull.size());
-    for (Vec2& corner : hull) corner = middle + kClearance * (corner - middle);
   }
   double area_m2 = 0, widest_m = 0;
   for (std::size_t i = 0; i < hull.size(); ++i) {
