@@ -7,6 +7,7 @@
 
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
+#include "engine/geometry/clip.h"
 #include "fracture/fracture.h"
 #include "fracture/plug.h"
 #include "fracture/rejoin.h"
@@ -71,7 +72,30 @@ Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direc
   }
 }
 
-/// Parts the convexes whose middle is in a plug from all others, and from each other.
+// A convex of which less than this share is in a plug stays.
+constexpr double kInPlug = 0.05;
+
+/// Share of a convex, given in the pattern's frame, that lies in the prism of a plug.
+double share_in(const Plug& plug, ConvexPolyhedron part_P) {
+  const double volume_m3 = mass_properties(part_P).volume_m3;
+  ConvexPolyhedron cut;
+  ClipScratch scratch;
+  const double tolerance_m = 1e-9 * std::cbrt(volume_m3);
+  const auto keep = [&](const Plane& plane) {
+    const PlaneSide side = clip(part_P, plane, PlaneId{}, tolerance_m, cut, scratch);
+    if (side == PlaneSide::kCut) std::swap(part_P, cut);
+    return side != PlaneSide::kOutside;
+  };
+  for (std::size_t i = 0; i < plug.section_m.size(); ++i) {
+    const Vec2& a = plug.section_m[i];
+    const Vec2 along = (plug.section_m[(i + 1) % plug.section_m.size()] - a).normalized();
+    if (!keep(Plane::through(Vec3(a.x(), 0, a.y()), Vec3(along.y(), 0, -along.x())))) return 0;
+  }
+  if (!plug.through && !keep(Plane::through(Vec3(0, plug.depth_m, 0), Vec3::UnitY()))) return 0;
+  return mass_properties(part_P).volume_m3 / volume_m3;
+}
+
+/// Parts the convexes that reach into a plug from all others, and from each other.
 BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
   const Pose X_PR = command.X_RP.inverse();
   const Plug& plug = *command.plug;
@@ -81,7 +105,7 @@ BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
     if (structure.anchored(slot) != 0 ||
         std::ranges::find(command.spared, convex.material) == command.spared.end())
       continue;
-    if (plug.contains(X_PR * convex.solid.centroid)) loose.push_back(slot);
+    if (share_in(plug, transformed(convex.polyhedron, X_PR)) > kInPlug) loose.push_back(slot);
   }
   if (loose.empty()) return {};
   Compound compound = structure.compound();

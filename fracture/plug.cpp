@@ -123,7 +123,7 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
   plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
   const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);
   const auto parts = static_cast<double>(plug.section_m.size() + 1);
-  if (!plug.through && smaller_m3 < parts * material.smallest_piece_m3) {
+  if (!plug.through && smaller_m3 < material.smallest_break_m3) {
     plug.section_m.clear();
     return plug;
   }

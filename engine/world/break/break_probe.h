@@ -37,7 +37,8 @@ struct ProbeLoad {
   Vec3 direction_W = Vec3::UnitY();  ///< Into the body.
   double work_J = 0;
   double impulse_Ns = 0;
-  /// Closing speed of the contacts that load it, averaged by the momentum flux of each.
+  /// Closing speed that the contacts that load it would have without it, averaged by the momentum
+  /// flux of each.
   double speed_m_s = 0;
   std::uint32_t striker = 0;  ///< Index of the body with the largest share in that.
   std::vector<ProbePush> pushes = {};  ///< All that it feels at once, what it leans on too.

@@ -230,6 +230,8 @@ bool BreakBudget::try_spend(std::uint32_t parts) {
 bool BreakStage::take_on(World& world, const Breaker& breaker, std::span<PlannedBreak> all) {
   std::uint32_t parts = 0;
   for (PlannedBreak& planned : all) {
+    if (planned.by_stress)
+      parts += static_cast<std::uint32_t>(visits_at_least(world, planned) / kVisitsAPart);
     if (!planned.by_pattern) continue;
     prepare(world, breaker, world.next_event++, planned);
     parts += parts_to_cut(world, planned);

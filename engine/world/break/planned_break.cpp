@@ -23,8 +23,8 @@ constexpr double kWorthAsking = 0.1;
 // In visits of each bond: what is not known by then is not asked about again until it is harder.
 // Where no pattern is, stress alone can answer, and slender frames take it long.
 constexpr std::uint64_t kMostBlowWork = 100, kMostWorkOfFrames = 1200;
-// And in all, where a pattern is: what 8,000 convexes take (docs/decisions/012). More of them come
-// to no answer within a frame.
+// And in all: what 8,000 convexes take (docs/decisions/012). More of them come to no answer within
+// a frame.
 constexpr std::uint64_t kMostVisits = 500000;
 // Widths of a striker's section; what is thicker is not driven through.
 constexpr double kFarthest = 8;
@@ -119,6 +119,11 @@ void choose(const World& world, const Structure& structure, PlannedBreak& planne
       std::min(kMostTaken * energy_J, crack_energy_J(world, structure, planned.edit.cut));
 }
 
+/// Effective mass of what strikes, from the work that it can do.
+double striker_kg(const PlannedBreak& planned) {
+  return 2 * planned.impact.energy_J / (planned.speed_m_s * planned.speed_m_s);
+}
+
 /// Distance from the point struck to the farthest corner of the section.
 double reach_of(const Hit& hit) {
   double reach_m = 0;
@@ -141,10 +146,14 @@ void add_striker(const World& world, const PlannedBreak& planned, const Actor& a
     hit.section_R.push_back(X_WB.inverse() * corner + actor.weight.com_R);
   if (hit.section_R.empty()) return;
   hit.speed_m_s = planned.speed_m_s;
-  hit.striker_kg = planned.impulse_Ns / planned.speed_m_s;
+  hit.striker_kg = striker_kg(planned);
   hit.volume_m3 = actor.volume_m3;
-  hit.thickness_m =
-      thickness_along(actor.structure, hit.point_R, hit.direction_R, kFarthest * reach_of(hit));
+  const double most_m = kFarthest * reach_of(hit);
+  hit.thickness_m = thickness_along(actor.structure, hit.point_R, hit.direction_R, most_m);
+  if (hit.thickness_m > 0) return;
+  // The point is the mean of several contacts, about a hole.
+  const Vec3 middle_R = actor.structure.convex(impact.convex)->solid.centroid;
+  hit.thickness_m = 2 * thickness_along(actor.structure, middle_R, hit.direction_R, most_m);
 }
 
 /// The impact as the actor's rest frame sees it.
@@ -177,6 +186,11 @@ void prepare(const World& world, const Breaker& breaker, std::uint64_t event,
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
   const Convex& convex = *actor.structure.convex(impact.convex);
   planned.command = breaker.command(convex, *world.materials, hit, event, seed);
+}
+
+std::uint64_t visits_at_least(const World& world, const PlannedBreak& planned) {
+  constexpr std::uint64_t kVisitsOfBond = 4;  // the answer set up, and two iterations
+  return kVisitsOfBond * world.actors.find(planned.impact.key)->structure.bond_count();
 }
 
 std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
@@ -217,7 +231,7 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         const bool has_pattern = world.material(convex.material).breakable();
         const std::uint64_t bonds = actor.structure.bond_count() + 1;
         load.most_work =
-            has_pattern ? std::min(kMostVisits, kMostBlowWork * bonds) : kMostWorkOfFrames * bonds;
+            std::min(kMostVisits, (has_pattern ? kMostBlowWork : kMostWorkOfFrames) * bonds);
         planned.stressed = breaker.stress(actor.structure, load);
       }
       choose(world, actor.structure, planned);
@@ -242,7 +256,10 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
   double at_rest_m_s = 0;
   for (const Actor& actor : world.actors) {
     if (actor.key < first_key || actor.is_static) continue;
-    if (!plug.contains(planned.command.X_RP.inverse() * actor.weight.com_R)) continue;
+    const bool parts = planned.command.pattern.kind == PatternSpec::Kind::kNone;
+    if (!(parts ? actor.structure.size() == 1
+                : plug.contains(planned.command.X_RP.inverse() * actor.weight.com_R)))
+      continue;
     pieces.push_back(&actor);
     plug_kg += actor.weight.mass_kg;
     axis_W = rest_pose(actor, states[actor.body].X_WB).rotation *
@@ -252,9 +269,9 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
   plug_kg = std::max(plug_kg, plug.mass_kg);
   const BodyState state = states[striker->body];
   const double closing_m_s = state.field()(planned.impact.point_W).dot(axis_W) - at_rest_m_s / plug_kg;
-  const double striker_kg = planned.impulse_Ns / planned.speed_m_s;
   if (!(closing_m_s > 0)) return;
-  const double gain_m_s = closing_m_s * striker_kg / (striker_kg + plug_kg);
+  const double mass_kg = striker_kg(planned);
+  const double gain_m_s = closing_m_s * mass_kg / (mass_kg + plug_kg);
   std::vector<std::pair<BodyId, BodyState>> changed;
   for (const Actor* piece : pieces) {
     BodyState moved = states[piece->body];

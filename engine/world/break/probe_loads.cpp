@@ -32,7 +32,7 @@ std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
     load.impulse_Ns += impulse;
     load.arm_W += impulse * (body == c.b ? c.arm_b_W : c.arm_a_W);
     load.direction_W += (body == c.b ? impulse : -impulse) * c.normal_W;
-    const double speed = std::max(0.0, row.speed(velocities_));
+    const double speed = std::max(0.0, row.speed(without.velocities));
     load.speed_m_s += impulse * speed * speed;
     flux[body] += impulse * speed;
     if (impulse * speed > most_flux[body]) {

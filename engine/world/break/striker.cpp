@@ -11,8 +11,8 @@
 namespace sunder {
 namespace {
 
-constexpr int kRoundCorners = 10;    // of the section of a sphere
-constexpr std::size_t kMostCorners = 12;
+constexpr int kRoundCorners = 8;  // of the section of a sphere
+constexpr std::size_t kMostCorners = 8;
 // Parts of a solid that are no farther apart than this share of its thickness are one.
 constexpr double kGap = 1e-3;
 
