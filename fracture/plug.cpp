@@ -19,6 +19,8 @@ constexpr int kMostRings = 8;         // of a web around the plug
 constexpr double kWidest = 0.3;
 constexpr double kClearance = 1.12;   // of a hole, over what goes through
 constexpr double kMostTaken = 0.999;  // of the energy, so that some is left to share out
+// A crater deeper than this share of its width needs a solid that goes on around it.
+constexpr double kShallow = 0.25;
 constexpr double kSlice = 0.7;        // thickness of a slice of the plug, over its width
 
 /// Area (positive if counter-clockwise in x and z) and centroid of a polygon.
@@ -66,7 +68,7 @@ void add_rings(const Material& material, const Hit& hit, double radius_m, Plug& 
   const PatternSpec::Kind kind = material.pattern.kind;
   const bool is_web = kind == PatternSpec::Kind::kWeb || kind == PatternSpec::Kind::kRadial;
   const double shear_m_s = std::sqrt(material.youngs_Pa / (2.4 * material.density_kg_m3));
-  const double run_m = kCrackSpeed * shear_m_s * plug.depth_m / hit.speed_m_s;
+  const double run_m = kCrackSpeed * shear_m_s * (plug.depth_m + 2 * radius_m) / hit.speed_m_s;
   const double most_m = is_web ? material.impact_radius_m : kSpall * radius_m;
   plug.reach_m = std::min({radius_m + run_m, material.impact_radius_m, most_m});
   const int most = is_web ? kMostRings : hit.energy_J > kSpalls * plug.energy_J ? 1 : 0;
@@ -107,10 +109,12 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
   double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
   plug.energy_J = perforation_energy_J(material, width_m, plug.depth_m, hit.striker_kg);
   plug.through = plug.energy_J <= kMostTaken * hit.energy_J;
+  if (plug.through && !hit.confined) return {};
   if (!plug.through) {
     const double share = kMostTaken * hit.energy_J / plug.energy_J;
     plug.energy_J *= share;
     plug.depth_m *= std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // E goes by e^(8/3)
+    if (!hit.confined && plug.depth_m > kShallow * width_m) return {};
     // A round nose that has gone in so deep is so wide there.
     const double part = std::min(1.0, 2 * plug.depth_m / width_m);
     const double scale = std::sqrt(part * (2 - part));

@@ -53,6 +53,7 @@ struct Hit {
   double striker_kg = 0;             ///< Effective mass of the striker.
   double thickness_m = 0;            ///< Of the solid along `direction_R` behind the point.
   double volume_m3 = 0;              ///< Of the solid.
+  bool confined = true;              ///< The solid goes on around the striker's section.
   /// Corners of the striker's cross-section, in order about `direction_R` through `point_R`; empty
   /// if it is not known, or too wide.
   std::vector<Vec3> section_R = {};

@@ -20,6 +20,14 @@ constexpr std::uint64_t kVisitsAPart = 160;
 constexpr std::uint64_t kLooksAPart = 1000;
 constexpr int kRounds = 8;  // solids that can break one behind the other within one step
 
+/// True if the stress wave of an impact, ρ c v with c = √(E / ρ), is beyond what the material bears
+/// in compression.
+bool crushes(const Material& material, double speed_m_s) {
+  return material.compressive_Pa > 0 &&
+         std::sqrt(material.youngs_Pa * material.density_kg_m3) * speed_m_s >
+             material.compressive_Pa;
+}
+
 bool parts_at_bonds(const Material& material) {
   return material.breaks_by_load() && !material.yields();
 }
@@ -38,12 +46,13 @@ void add_impacts(const World& world, Trial& trial) {
     planned.striker = trial.probe.bodies()[load.striker].key;
     planned.speed_m_s = load.speed_m_s;
     planned.impulse_Ns = load.impulse_Ns;
-    const bool is_fast = breaks_before_waves_arrive(material, load.speed_m_s);
     planned.by_pattern = material.breakable() && load.work_J > actor.least_J &&
-                         (is_fast || load.impulse_Ns >= material.strength_Ns);
+                         (load.impulse_Ns >= material.strength_Ns ||
+                          crushes(material, load.speed_m_s));
     // What has no pattern parts at the bonds around a striker.
-    planned.by_pattern |= !material.breakable() && is_fast && parts_at_bonds(material) &&
-                          load.work_J > actor.stress.least_J;
+    planned.by_pattern |= !material.breakable() && parts_at_bonds(material) &&
+                          load.work_J > actor.stress.least_J &&
+                          breaks_before_waves_arrive(material, load.speed_m_s);
     planned.far_J = load.work_J;
     planned.by_stress = load.work_J > actor.stress.least_J;
     if (!planned.by_pattern && !planned.by_stress) continue;

@@ -26,6 +26,8 @@ constexpr std::uint64_t kMostBlowWork = 100, kMostWorkOfFrames = 1200;
 // And in all: what 8,000 convexes take (docs/decisions/012). More of them come to no answer within
 // a frame.
 constexpr std::uint64_t kMostVisits = 500000;
+// Share of the surroundings of a plug that has to be there.
+constexpr double kConfined = 0.6;
 // Widths of a striker's section; what is thicker is not driven through.
 constexpr double kFarthest = 8;
 // What bends most in a solid over the mean of a bar in its first mode.
@@ -150,10 +152,13 @@ void add_striker(const World& world, const PlannedBreak& planned, const Actor& a
   hit.volume_m3 = actor.volume_m3;
   const double most_m = kFarthest * reach_of(hit);
   hit.thickness_m = thickness_along(actor.structure, hit.point_R, hit.direction_R, most_m);
-  if (hit.thickness_m > 0) return;
-  // The point is the mean of several contacts, about a hole.
-  const Vec3 middle_R = actor.structure.convex(impact.convex)->solid.centroid;
-  hit.thickness_m = 2 * thickness_along(actor.structure, middle_R, hit.direction_R, most_m);
+  if (!(hit.thickness_m > 0)) {  // the point is the mean of several contacts, about a hole
+    const Vec3 middle_R = actor.structure.convex(impact.convex)->solid.centroid;
+    hit.thickness_m = 2 * thickness_along(actor.structure, middle_R, hit.direction_R, most_m);
+  }
+  const double depth_m = 0.5 * std::min(hit.thickness_m, reach_of(hit));
+  hit.confined =
+      confinement(actor.structure, hit.section_R, hit.direction_R, depth_m) >= kConfined;
 }
 
 /// The impact as the actor's rest frame sees it.

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kRoundCorners = 8;  // of the section of a sphere
 constexpr std::size_t kMostCorners = 8;
+constexpr double kAround = 1.5;  // of a section, what is looked at around it
 // Parts of a solid that are no farther apart than this share of its thickness are one.
 constexpr double kGap = 1e-3;
 
@@ -121,6 +122,20 @@ double thickness_along(const Structure& structure, const Vec3& point_R, const Ve
   for (const auto& [enters, leaves] : spans)
     if (end == 0 || enters <= end * (1 + kGap)) end = std::max(end, leaves);
   return end;
+}
+
+double confinement(const Structure& structure, const std::vector<Vec3>& section_R,
+                   const Vec3& direction_R, double depth_m) {
+  Vec3 middle_R = Vec3::Zero();
+  for (const Vec3& corner : section_R) middle_R += corner / static_cast<double>(section_R.size());
+  const auto is_filled = [&](const Vec3& corner) {
+    const Vec3 point_R = middle_R + kAround * (corner - middle_R) + depth_m * direction_R;
+    return std::ranges::any_of(structure.within(point_R, 0), [&](ConvexSlot slot) {
+      return distance_outside(*structure.convex(slot), point_R) <= 0;
+    });
+  };
+  return static_cast<double>(std::ranges::count_if(section_R, is_filled)) /
+         static_cast<double>(section_R.size());
 }
 
 }  // namespace sunder

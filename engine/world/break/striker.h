@@ -21,4 +21,9 @@ std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Ve
 double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
                        double most_m);
 
+/// Share of the surroundings of a section, half its width from its edge and `depth_m` behind it,
+/// that a structure fills: what is struck where little is around it cannot be perforated.
+double confinement(const Structure& structure, const std::vector<Vec3>& section_R,
+                   const Vec3& direction_R, double depth_m);
+
 }  // namespace sunder
