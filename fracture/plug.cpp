@@ -120,6 +120,8 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
     const double scale = std::sqrt(part * (2 - part));
     for (Vec2& corner : plug.section_m) corner *= scale;
     width_m *= scale, area_m2 *= scale * scale;
+    const double size_m = std::cbrt(hit.volume_m3);
+    if (!hit.confined && area_m2 > kWidest * size_m * size_m) return {};
   }
   if (plug.through)
     for (Vec2& corner : plug.section_m) corner *= kClearance;
