@@ -194,7 +194,7 @@ Keys<Blast> blast_keys() {
            key<&Blast::cover>("cover",
                               "Whether what stands nearer covers what is behind it; else nothing "
                               "stands in its way."),
-           key<&Blast::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0, 1e9},
+           key<&Blast::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0.001, 1e9},
                                       "On a face turned to the centre, there; less with "
                                       "distance and slant.")}};
 }
