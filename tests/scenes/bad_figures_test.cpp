@@ -83,8 +83,26 @@ TEST(BadBlasts, ThatDoNothingAreRefused) {
                     "number from 0.001 to 1e+09, in N·s/m²"},
                    {"radius_m = 0",
                     "bad.toml:6: radius_m in [[script.blast]] is the number 0; allowed: a number "
-                    "from 0.01 to 1000, in m"}},
+                    "from 0.01 to 1000, in m"},
+                   {"tnt_kg = 0",
+                    "bad.toml:6: tnt_kg in [[script.blast]] is the number 0; allowed: a number "
+                    "from 0.001 to 1e+06, in kg"}},
                   "[[script.blast]]\ntime_s = 1\nat = [0, 0, 0]\n");
+}
+
+TEST(BadBlasts, OfTwoStrengthsAreRefused) {
+  expect_refusals({{"tnt_kg = 1\nimpulse_Ns_m2 = 100",
+                    "bad.toml:7: impulse_Ns_m2 in [[script.blast]] is given beside tnt_kg, which "
+                    "decides it; keep one"},
+                   {"tnt_kg = 1\nradius_m = 100",
+                    "bad.toml:7: radius_m in [[script.blast]] is given beside tnt_kg, which "
+                    "decides it; keep one"},
+                   {"burst = \"air\"",
+                    "bad.toml:6: burst in [[script.blast]] is for a charge; give tnt_kg, or take "
+                    "it away"}},
+                  "[[script.blast]]\ntime_s = 1\nat = [0, 0, 0]\n");
+  EXPECT_EQ(refusal("[[script.blast]]\ntime_s = 1\nat = [0, 0, 0]\ntnt_kg = 2\nburst = \"air\""),
+            "");
 }
 
 }  // namespace
