@@ -169,6 +169,7 @@ void Loader::add_materials(const Value& document, const std::filesystem::path& f
     Material material = parent == all.end() ? Material() : *parent;
     material.name = head.name;
     read_keys(*table, s.material.table, s.material.keys, {}, &material);
+    check_strengths(*table, material);
     if (const Value* v = find(*table, "pattern")) read_pattern(*v, folder, material.pattern);
     read_stronger(*table, folder, material);
     if (const Value* v = find(*table, "crumbling")) read_crumbling(*v, material.crumbling);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/model/checks/scene_posts.h"
 #include "engine/model/scene_accuracy.h"
 #include "engine/model/scene_chains.h"
 #include "engine/world/simulation.h"
@@ -71,8 +72,8 @@ std::vector<std::string> warnings_of(const Scene& scene) {
   std::vector<std::string> warnings = chain_warnings(scene, kMostSubsteps);
   const std::string standing = accuracy_warning(scene, kMostSubsteps);
   for (const std::string& warning :
-       {standing.empty() ? crush_warning(scene, kMostSubsteps) : standing, long_step_warning(scene),
-        far_warning(scene)}) {
+       {standing.empty() ? crush_warning(scene, kMostSubsteps) : standing, post_warning(scene),
+        long_step_warning(scene), far_warning(scene)}) {
     if (!warning.empty()) warnings.push_back(warning);
   }
   return warnings;

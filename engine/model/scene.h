@@ -43,14 +43,21 @@ struct Shot {
   std::vector<Solid> links = {};  ///< From the top down, in one line and equally long.
 };
 
+/// Where a charge goes off. The wave of one on the ground is hemispherical, and stronger.
+enum class BurstKind : std::uint8_t { kGround, kAir };
+
 /// An impulse on every face that sees the centre: per square metre, falling with the square of the
-/// distance left to `radius_m`, and with slant. It breaks what its energy can.
+/// distance left to `radius_m`, and with slant; or, with `tnt_kg`, that of the wave of such a
+/// charge (engine/world/act/charge.h). It breaks what its energy can.
 struct Blast {
   double time_s = 0;
   Vec3 center_W = Vec3::Zero();
   double radius_m = 4;
   double impulse_Ns_m2 = 1000;  ///< At the centre.
   bool cover = false;           ///< Whether what is nearer to the centre covers what is behind it.
+  /// Mass of a charge of TNT, in place of `radius_m` and `impulse_Ns_m2`.
+  std::optional<double> tnt_kg = std::nullopt;
+  BurstKind burst = BurstKind::kGround;  ///< Of the charge.
 };
 
 /// Supports go: solids with all that came off them, or else the anchors in a box.

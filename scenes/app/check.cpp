@@ -5,6 +5,7 @@
 
 #include "engine/io/figures.h"
 #include "scenes/app/commands.h"
+#include "scenes/make_simulation.h"
 
 namespace sunder::app {
 
@@ -23,6 +24,8 @@ int check(const CheckOptions& options) {
       options.say(name + ": good (" + std::to_string(scene.solids.size()) + " solids of " +
                   std::to_string(convexes) + " convexes, " +
                   std::to_string(scene.balls.size() + scene.shots.size()) + " balls)\n");
+      for (const std::string& warning : scenes::run_info(scene, options.load.preset).warnings)
+        std::fprintf(stderr, "warning: %s: %s\n", name.c_str(), warning.c_str());
       figures[at + "/good"] = true;
       figures[at + "/solids"] = static_cast<std::int64_t>(scene.solids.size());
       figures[at + "/convexes"] = static_cast<std::int64_t>(convexes);

@@ -1,5 +1,9 @@
 #include "scenes/file/patterns.h"
 
+#include <cmath>
+#include <string>
+#include <string_view>
+
 #include "engine/base/check.h"
 #include "fracture/pattern/pattern.h"
 #include "scenes/file/schema.h"
@@ -8,6 +12,32 @@ namespace sunder::scenes {
 namespace {
 
 constexpr int kMostAlongGrid = 30;
+
+/// The theoretical strength of a flawless solid over its Young's modulus. Bonds between atoms part
+/// at a stress of sqrt(E·gamma/a), which is E/10 within a factor of two (A. A. Griffith, Phil.
+/// Trans. R. Soc. A 221, 1921; E. Orowan, Rep. Prog. Phys. 12, 1949). No bulk solid comes near it.
+constexpr double kTheoreticalStrength = 0.1;
+
+/// A figure of a material, by the key that gives it.
+struct Figure {
+  std::string_view key;
+  double value = 0;
+
+  bool breaks() const { return value > 0 && std::isfinite(value); }
+  std::string text() const { return std::string(key) + " = " + format(value); }
+};
+
+/// Throws InputError: the figure `wrong` contradicts `limit`, as `why` says. The message names the
+/// place of each figure that the table gives; any other is inherited, or a default.
+[[noreturn]] void refuse(const Value& table, const Figure& wrong, const std::string& why,
+                         const Figure& limit, const std::string& remedy) {
+  const Value* wrong_at = find(table, wrong.key);
+  const Value* limit_at = find(table, limit.key);
+  const std::string where = (wrong_at ? *wrong_at : limit_at ? *limit_at : table).where;
+  throw InputError(where + ": " + wrong.text() + (wrong_at ? "" : " (not given here)") +
+                   " in [[material]] " + why + " " + limit.text() + " (" +
+                   (limit_at ? limit_at->where : "not given here") + "); " + remedy);
+}
 
 }  // namespace
 
@@ -49,6 +79,23 @@ void read_stronger(const Value& table, const std::filesystem::path& folder, Mate
                        ", no more than in the entry before it; let them ascend");
     }
     material.stronger.push_back(std::move(impact));
+  }
+}
+
+void check_strengths(const Value& table, const Material& material) {
+  const Figure stiffness{"youngs_Pa", material.youngs_Pa};
+  const Figure tensile{"tensile_Pa", material.tensile_Pa};
+  const Figure compressive{"compressive_Pa", material.compressive_Pa};
+  for (const Figure& strength : {tensile, Figure{"shear_Pa", material.shear_Pa}, compressive,
+                                 Figure{"yield_Pa", material.yield_Pa}}) {
+    if (!strength.breaks() || strength.value <= kTheoreticalStrength * stiffness.value) continue;
+    refuse(table, strength, "is above the theoretical strength of a solid, a tenth of", stiffness,
+           "lower " + std::string(strength.key) + ", or raise youngs_Pa");
+  }
+  // Fibres alone, as in wood along its grain, bear more tension than pressure; a material of a
+  // scene is the same in all directions, and has none.
+  if (tensile.breaks() && compressive.breaks() && compressive.value < tensile.value) {
+    refuse(table, compressive, "is below", tensile, "raise compressive_Pa, or lower tensile_Pa");
   }
 }
 

@@ -1,4 +1,4 @@
-// The tables of a material that say how it breaks.
+// What the tables of a material say about how it breaks.
 #pragma once
 
 #include <filesystem>
@@ -14,5 +14,9 @@ void read_pattern(const Value& table, const std::filesystem::path& folder, Patte
 /// Replaces what harder impacts do by the array `stronger` of a material's table, if there is one.
 /// What it leaves out is as in `material`.
 void read_stronger(const Value& table, const std::filesystem::path& folder, Material& material);
+/// Throws InputError if the strengths of a material that `table` gave contradict its stiffness or
+/// each other: a strength above a tenth of youngs_Pa, or a compressive strength below the tensile
+/// one. Strengths of 0 and inf, which never break, contradict nothing.
+void check_strengths(const Value& table, const Material& material);
 
 }  // namespace sunder::scenes

@@ -15,6 +15,7 @@ constexpr std::string_view kPatterns[] = {"none",  "voronoi", "web",  "radial",
                                           "brick", "slabs",   "grid", "file"};
 constexpr std::string_view kTextures[] = {"plain", "brick", "concrete", "plaster",
                                           "wood",  "glass", "metal"};
+constexpr std::string_view kBursts[] = {"ground", "air"};
 constexpr std::string_view kAnchored[] = {"none", "bottom", "all"};
 
 Keys<Scene> top_keys() {
@@ -194,9 +195,15 @@ Keys<Blast> blast_keys() {
            key<&Blast::cover>("cover",
                               "Whether what stands nearer covers what is behind it; else nothing "
                               "stands in its way."),
-           key<&Blast::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0, 1e9},
+           key<&Blast::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0.001, 1e9},
                                       "On a face turned to the centre, there; less with "
-                                      "distance and slant.")}};
+                                      "distance and slant."),
+           key<&Blast::tnt_kg>("tnt_kg", "kg", Range{0.001, 1e6},
+                               "Mass of a charge of TNT, in place of radius_m and impulse_Ns_m2: "
+                               "the impulse of its wave is known at every distance."),
+           choice<&Blast::burst>("burst", kBursts,
+                                 "With tnt_kg: ground: the charge lies on the ground, or just "
+                                 "above; air: it is far from any ground.")}};
 }
 
 Keys<RemoveTable> remove_keys() {

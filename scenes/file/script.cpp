@@ -28,7 +28,18 @@ void add_wrecking_ball(const Value& table, Scene& scene) {
 }
 
 void add_blast(const Value& table, Scene& scene) {
-  read(schema().blast, table, {}, scene.blasts.emplace_back());
+  const Blast& blast = scene.blasts.emplace_back();
+  read(schema().blast, table, {}, scene.blasts.back());
+  for (const char* key : {"radius_m", "impulse_Ns_m2"}) {
+    const Value* value = find(table, key);
+    if (!value || !blast.tnt_kg) continue;
+    throw InputError(value->where + ": " + key +
+                     " in [[script.blast]] is given beside tnt_kg, which decides it; keep one");
+  }
+  if (const Value* burst = find(table, "burst"); burst && !blast.tnt_kg) {
+    throw InputError(burst->where +
+                     ": burst in [[script.blast]] is for a charge; give tnt_kg, or take it away");
+  }
 }
 
 void add_removal(const Value& table, Scene& scene) {

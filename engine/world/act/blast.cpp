@@ -2,15 +2,19 @@
 #include "engine/world/act/blast.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "engine/world/act/charge.h"
 #include "engine/world/act/cover.h"
 
 namespace sunder {
 namespace {
 
 constexpr double kBreaking_s = 0.05;  // for so long a blast breaks before it pushes
+constexpr double kPartOfWay = 0.35;   // longest edge of a triangle of a face, over its distance
+constexpr int kMostHalvings = 4;      // of a face's edges
 constexpr double kTriedPart = 0.6;    // of the impact radius around a tried place is tried, too
 
 /// What a blast does to a part of an actor.
@@ -28,6 +32,41 @@ struct Push {
   Vec3 point_W() const { return weighted_point_W / weight_Ns; }
 };
 
+/// Adds what the wave of a charge gives to a triangle, counter-clockwise seen from outside: an
+/// impulse along its inward normal. Triangles that are large for their distance are divided.
+void push_triangle(Push& push, const Blast& blast, const Cover& cover, const Actor& actor,
+                   ConvexSlot slot, const std::array<Vec3, 3>& corners_W, int halvings = 0) {
+  const auto& [a, b, c] = corners_W;
+  const Vec3 middle_W = (a + b + c) / 3;
+  const double distance_m = (middle_W - blast.center_W).norm();
+  const double edge_m = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  if (edge_m > kPartOfWay * distance_m && halvings < kMostHalvings) {
+    const Vec3 ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
+    for (const std::array<Vec3, 3>& part : {std::array{a, ab, ca}, std::array{ab, b, bc},
+                                            std::array{ca, bc, c}, std::array{ab, bc, ca}}) {
+      push_triangle(push, blast, cover, actor, slot, part, halvings + 1);
+    }
+    return;
+  }
+  const Vec3 double_area = (b - a).cross(c - a);
+  const double facing = double_area.dot(blast.center_W - middle_W);
+  if (facing <= 0 || cover.covers(middle_W, actor.key, slot)) return;
+  const WaveImpulse wave = wave_impulse(*blast.tnt_kg, blast.burst, distance_m);
+  const double cosine = std::min(1.0, facing / (double_area.norm() * distance_m));
+  push.add(-0.5 * wave.at_incidence(cosine) * double_area, middle_W);
+}
+
+/// Adds what the wave of a charge gives to a face.
+void push_face(Push& push, const Blast& blast, const Cover& cover, const Actor& actor,
+               ConvexSlot slot, std::size_t face, const Pose& X_WR) {
+  const ConvexPolyhedron& hull = actor.structure.convex(slot)->polyhedron;
+  const auto corners = hull.face_corners(face);
+  const auto place_W = [&](std::size_t i) { return Vec3(X_WR * hull.vertices[corners[i]]); };
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    push_triangle(push, blast, cover, actor, slot, {place_W(0), place_W(i), place_W(i + 1)});
+  }
+}
+
 /// Impulse a square metre that faces the centre from somewhere.
 Vec3 impulse_Ns_m2(const Blast& blast, const Vec3& point_W) {
   const Vec3 away = point_W - blast.center_W;
@@ -37,6 +76,15 @@ Vec3 impulse_Ns_m2(const Blast& blast, const Vec3& point_W) {
   return blast.impulse_Ns_m2 * left * left / distance * away;
 }
 
+/// Impulse on a ball somewhere, for each square metre of its cross-section.
+Vec3 impulse_on_ball_Ns_m2(const Blast& blast, const Vec3& point_W) {
+  if (!blast.tnt_kg) return impulse_Ns_m2(blast, point_W);
+  const Vec3 away = point_W - blast.center_W;
+  const double distance_m = away.norm();
+  if (distance_m <= 0) return Vec3::Zero();
+  return wave_impulse(*blast.tnt_kg, blast.burst, distance_m).on_ball() / distance_m * away;
+}
+
 /// On the faces of a convex that nothing covers.
 Push push_on(const Blast& blast, const Cover& cover, const Actor& actor, ConvexSlot slot,
              const Pose& X_WR) {
@@ -44,6 +92,10 @@ Push push_on(const Blast& blast, const Cover& cover, const Actor& actor, ConvexS
   const ConvexPolyhedron& hull = actor.structure.convex(slot)->polyhedron;
   for (std::size_t f = 0; f < hull.faces.size(); ++f) {
     if (actor.hidden[slot.value][f] != 0) continue;
+    if (blast.tnt_kg) {
+      push_face(push, blast, cover, actor, slot, f, X_WR);
+      continue;
+    }
     Vec3 middle_R = Vec3::Zero();
     const auto corners = hull.face_corners(f);
     for (const std::uint32_t corner : corners) middle_R += hull.vertices[corner];
@@ -62,7 +114,7 @@ bool reaches(const Blast& blast, const Actor& actor, const Pose& X_WR) {
   const Box box_R = bounds(actor.structure);
   const Vec3 center_R = X_WR.inverse() * blast.center_W;
   const Vec3 nearest_R = center_R.cwiseMax(box_R.min).cwiseMin(box_R.max);
-  return (nearest_R - center_R).norm() < blast.radius_m;
+  return (nearest_R - center_R).norm() < reach_m(blast);
 }
 
 bool was_tried(const World& world, const Burst& burst, const Convex& convex, const Push& push) {
@@ -126,7 +178,7 @@ void push_away(World& world, const Blast& blast, const Cover& cover, const Actor
   });
   if (actor.structure.empty() && !cover.covers(X_WR.position)) {
     const double radius = ball_radius_m(actor.volume_m3);
-    push.add(std::numbers::pi * radius * radius * impulse_Ns_m2(blast, X_WR.position),
+    push.add(std::numbers::pi * radius * radius * impulse_on_ball_Ns_m2(blast, X_WR.position),
              X_WR.position);
   }
   if (push.weight_Ns <= 0) return;
@@ -138,7 +190,7 @@ void push_away(const World& world, const Blast& blast, const Cover& cover, Chip&
   const double elapsed_s = world.clock.elapsed_s();
   const Vec3 place_W = chip.center_W + elapsed_s * chip.velocity_W;
   if (cover.covers(place_W)) return;
-  const Vec3 impulse_Ns = impulse_Ns_m2(blast, place_W);
+  const Vec3 impulse_Ns = impulse_on_ball_Ns_m2(blast, place_W);
   const double density_kg_m3 = world.material(chip.material).density_kg_m3;
   const Vec3 gain_W = 0.75 / (chip.radius_m * density_kg_m3) * impulse_Ns;  // of a ball's section
   chip.velocity_W += gain_W;

@@ -1,5 +1,5 @@
-// Blasts: an impulse on every face that sees the centre, less with distance and slant. Internal to
-// engine/world.
+// Blasts: an impulse on every face that sees the centre, less with distance and slant; that of a
+// charge of TNT, if the blast has one (charge.h). Internal to engine/world.
 //
 // What a blast can break is decided by the break stage, from the energy that its impulse would give
 // the convexes it meets if they were free: for a few steps one place of each solid, the hardest

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/world/act/charge.h"
+
 namespace sunder {
 namespace {
 
@@ -95,7 +97,7 @@ Cover::Cover(const World& world, const Blast& blast) : center_W_(blast.center_W)
     actor.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
       const Vec3 center_R = X_WR.inverse() * center_W_;
       const Vec3 nearest_R = center_R.cwiseMax(convex.box.min).cwiseMin(convex.box.max);
-      if ((nearest_R - center_R).norm() < blast.radius_m) add(convex, X_WR, actor.key, slot);
+      if ((nearest_R - center_R).norm() < reach_m(blast)) add(convex, X_WR, actor.key, slot);
     });
   }
 }
