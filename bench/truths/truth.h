@@ -63,6 +63,7 @@ Truths load_truths();
 Truths blow_truths();
 Truths steel_truths();
 Truths through_truths();
+Truths perforation_truths();
 
 /// All of these, in the order of their rows.
 Truths all_truths();

@@ -224,6 +224,25 @@ Ghost read_ghost(Reader& in, std::uint64_t convexes) {
   return ghost;
 }
 
+// Of a plug that a file may hold.
+constexpr std::uint64_t kMostPlugCorners = 64;
+constexpr double kMostSlices = 1000;
+
+void write_plug(Writer& out, const Plug& plug) {
+  out.word("plug");
+  out.put(plug.section_m.size());
+  for (const Vec2& corner : plug.section_m) {
+    out.put(corner.x());
+    out.put(corner.y());
+  }
+  out.put(plug.depth_m);
+  out.put(plug.through ? 1 : 0);
+  out.put(plug.slice_m);
+  out.put(plug.split ? 1 : 0);
+  out.put(plug.rings);
+  out.put(plug.reach_m);
+}
+
 void write_command(Writer& out, const BreakCommand& command) {
   const PatternSpec& pattern = command.pattern;
   out.word("command");
@@ -247,7 +266,34 @@ void write_command(Writer& out, const BreakCommand& command) {
   out.put(command.spared.size());
   for (const MaterialIndex material : command.spared) out.put(material.value);
   out.put(command.smallest_m3);
+  write_plug(out, command.plug.value_or(Plug{}));
   out.end_line();
+}
+
+/// Reads what write_plug() wrote; files of earlier versions end before it.
+std::optional<Plug> read_plug(Reader& in, std::istream& stream) {
+  stream >> std::ws;
+  if (stream.eof()) return {};
+  in.expect("plug");
+  Plug plug;
+  for (std::uint64_t left = in.integer(kMostPlugCorners); left > 0; --left) {
+    const double x_m = in.number();
+    plug.section_m.emplace_back(x_m, in.number());
+  }
+  plug.depth_m = in.number();
+  plug.through = in.integer(1) != 0;
+  plug.slice_m = in.number();
+  plug.split = in.integer(1) != 0;
+  plug.rings = static_cast<int>(in.integer(100));
+  plug.reach_m = in.number();
+  if (plug.section_m.empty()) return {};
+  const bool is_finite = std::ranges::all_of(
+      plug.section_m, [](const Vec2& corner) { return corner.allFinite() && !corner.isZero(0); });
+  if (plug.section_m.size() < 3 || !is_finite || !(plug.depth_m > 0) || !(plug.slice_m >= 0) ||
+      !(plug.depth_m < kMostSlices * plug.slice_m || plug.slice_m == 0) ||
+      !std::isfinite(plug.reach_m))
+    in.fail("a plug has no section or no depth");
+  return plug;
 }
 
 BreakCommand read_command(Reader& in, std::istream& stream) {
@@ -291,6 +337,7 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
     command.spared.emplace_back(in.integer(kMost));
   }
   command.smallest_m3 = in.number();
+  command.plug = read_plug(in, stream);
   return command;
 }
 

@@ -71,6 +71,9 @@ Keys<Material> material_keys() {
        key<&Material::shear_Pa>("shear_Pa", "Pa", Range{0, kInfinity}, "Shear that does."),
        key<&Material::compressive_Pa>("compressive_Pa", "Pa", Range{0, kInfinity},
                                       "Pressure that does."),
+       key<&Material::reinforcement_percent>(
+           "reinforcement_percent", "%", Range{0, 10},
+           "Steel each way in each face, against being perforated."),
        key<&Material::youngs_Pa>("youngs_Pa", "Pa", Range{1, 1e13},
                                  "Stiffness: how bonds share a load."),
        key<&Material::yield_Pa>("yield_Pa", "Pa", Range{0, kInfinity},

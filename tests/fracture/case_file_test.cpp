@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -49,6 +50,24 @@ TEST(CaseFile, replays_to_the_same_bits) {
     EXPECT_TRUE(again.broke());
     EXPECT_EQ(hash_of(again), hash_of(break_compound(written.compound, written.command)));
   }
+}
+
+TEST(CaseFile, keeps_a_plug) {
+  BreakCase written;
+  written.compound = box_compound(Vec3(-1, -1, 0), Vec3(1, 1, 0.3));
+  written.command = example().command;
+  written.command.X_RP = {Vec3(0.1, 0, 0), Quat(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()))};
+  written.command.radius_m = 0.8;
+  written.command.plug = Plug{
+      {Vec2(.4, 0), Vec2(.1, .35), Vec2(-.3, .2), Vec2(-.2, -.3)}, 0.3, true, 0.2, true, 1, 0.6};
+  std::stringstream file;
+  write_case(file, written);
+  const BreakCase read = read_case(file, "a.case");
+  ASSERT_TRUE(read.command.plug);
+  EXPECT_EQ(read.command.plug->section_m, written.command.plug->section_m);
+  const BreakPlan again = break_compound(read.compound, read.command);
+  EXPECT_TRUE(again.broke());
+  EXPECT_EQ(hash_of(again), hash_of(break_compound(written.compound, written.command)));
 }
 
 TEST(CaseFile, is_written_where_a_break_fails_and_says_the_same) {

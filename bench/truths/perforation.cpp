@@ -1,0 +1,184 @@
+// Hard strikers through walls, slabs and panes: exit speeds and limits of perforation against
+// published formulas, and what is left standing.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+#include <tuple>
+
+#include "bench/truths/truth.h"
+#include "scenes/load.h"
+#include "scenes/make_simulation.h"
+
+namespace sunder::truths {
+namespace {
+
+/// A plate that its foot holds, and a steel ball on its way to the middle of it.
+struct Shot {
+  const char* material;
+  double compressive_Pa, density_kg_m3, reinforcement_percent;
+  double width_m, height_m, thickness_m, block_m;
+  double radius_m, speed_m_s;
+  int seeds;
+};
+struct Outcome {
+  double exit_m_s = 0;   ///< Of the worst of the seeds; 0: the ball did not come through.
+  double standing = 1;   ///< Share of the plate's mass that is where it was, of the worst.
+};
+
+double ball_kg(const Shot& shot) {
+  return 7800 * 4 / 3. * std::numbers::pi * std::pow(shot.radius_m, 3);
+}
+
+/// Limit speed by CEA-EDF (Berriaud et al. 1978), with the factor of UKAEA (Barr 1990) for
+/// reinforcement.
+double limit_m_s(const Shot& shot) {
+  const double slenderness =
+      2 * shot.radius_m * shot.thickness_m * shot.thickness_m / ball_kg(shot);
+  return std::sqrt(1.7 * (shot.reinforcement_percent + 0.3) * shot.compressive_Pa *
+                   std::cbrt(shot.density_kg_m3) * std::pow(slenderness, 4 / 3.));
+}
+
+/// Exit speed by Recht and Ipson (1963), for a plug of the ball's section.
+double theory_m_s(const Shot& shot) {
+  const double plug_kg = std::numbers::pi * shot.radius_m * shot.radius_m * shot.thickness_m *
+                         shot.density_kg_m3;
+  const double limit = limit_m_s(shot), v = shot.speed_m_s;
+  return std::sqrt(std::max(0.0, v * v - limit * limit)) / (1 + plug_kg / ball_kg(shot));
+}
+
+Outcome fire(const Shot& shot, const Preset& preset, int seed) {
+  const double gap_m = std::max(0.02, 0.002 * shot.speed_m_s);
+  const double path_m = 2 * gap_m + 2 * shot.thickness_m + 4 * shot.radius_m;
+  const double duration_s = std::min(1.0, 0.1 + 8 * path_m / shot.speed_m_s);
+  const std::string block =
+      shot.block_m > 0 ? "block_m = " + std::to_string(shot.block_m) + "\n" : "";
+  const std::string text =
+      "[scene]\ndescription = \"A shot.\"\nduration_s = " + std::to_string(duration_s) +
+      "\nseed = " + std::to_string(seed) +
+      "\n[limits]\ndust = 0\n[[solid]]\nstructure = \"box\"\nanchored = \"bottom\"\nmaterial = \"" +
+      shot.material + "\"\nsize_m = [" + std::to_string(shot.width_m) + ", " +
+      std::to_string(shot.height_m) + ", " + std::to_string(shot.thickness_m) + "]\n" + block +
+      "[[ball]]\nposition = [" + std::to_string(0.003 * seed * shot.width_m) + ", " +
+      std::to_string(0.5 * shot.height_m) + ", " +
+      std::to_string(shot.radius_m + 0.5 * shot.thickness_m + gap_m) +
+      "]\nvelocity = [0, 0, " + std::to_string(-shot.speed_m_s) +
+      "]\nradius_m = " + std::to_string(shot.radius_m) + "\n";
+  Scene scene = scenes::parse_scene(text, "shot.toml", {preset.name, {}});
+  const std::size_t ball = scene.solids.size();
+  const auto simulation = scenes::make_simulation(std::move(scene));
+  Outcome outcome;
+  FramePtr last;
+  while (FramePtr frame = simulation->next()) {
+    for (const FrameBody& body : frame->bodies) {
+      const bool is_out =
+          body.X_WB.position.z() < -(shot.radius_m + 0.5 * shot.thickness_m + 0.01);
+      if (body.key == ball && is_out && outcome.exit_m_s == 0)
+        outcome.exit_m_s = -body.velocity_W.z();
+    }
+    last = std::move(frame);
+  }
+  double all_m3 = 0, still_m3 = 0;
+  for (const Instance& instance : last->instances) {
+    const FrameBody& body = last->bodies[instance.body];
+    if (body.key == ball || !instance.mesh.value) continue;
+    const Mesh& mesh = *(*last->meshes)[instance.mesh.value];
+    double volume_m3 = 0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      const auto corner = [&](std::size_t k) -> const Vec3f& {
+        return mesh.vertices[mesh.indices[i + k]].position;
+      };
+      volume_m3 += double{corner(0).cross(corner(1)).dot(corner(2))} / 6;
+    }
+    all_m3 += volume_m3;
+    if (body.is_static) still_m3 += volume_m3;
+  }
+  outcome.standing = all_m3 > 0 ? still_m3 / all_m3 : 1;
+  return outcome;
+}
+
+const Outcome& worst_of(const Shot& shot, const Preset& preset) {
+  static std::map<std::tuple<std::string, double, double, double, double, std::string>, Outcome> known;
+  const auto [place, is_new] =
+      known.try_emplace({shot.material, shot.thickness_m, shot.block_m, shot.radius_m,
+                         shot.speed_m_s, preset.name});
+  Outcome& worst = place->second;
+  if (!is_new) return worst;
+  const double theory = theory_m_s(shot);
+  for (int seed = 1; seed <= shot.seeds; ++seed) {
+    const Outcome one = fire(shot, preset, seed);
+    if (seed == 1 || std::abs(one.exit_m_s - theory) > std::abs(worst.exit_m_s - theory))
+      worst.exit_m_s = one.exit_m_s;
+    worst.standing = std::min(worst.standing, one.standing);
+  }
+  return worst;
+}
+
+Shot wall(double speed_m_s, double thickness_m = 0.4, double block_m = 0.6) {
+  return {"brick", 8e6, 1900, 0, 6, 3, thickness_m, block_m, 0.4, speed_m_s, 3};
+}
+
+Measure exit_speed(const Shot& shot) {
+  return [=](const Preset& preset) {
+    const double theory = theory_m_s(shot);
+    return (worst_of(shot, preset).exit_m_s - theory) / theory;
+  };
+}
+
+Measure share_fallen(const std::vector<Shot>& shots) {
+  return [=](const Preset& preset) {
+    double standing = 1;
+    for (const Shot& shot : shots) standing = std::min(standing, worst_of(shot, preset).standing);
+    return 1 - standing;
+  };
+}
+
+/// Logarithm of the speed from which a ball comes through over that of the formula for reinforced
+/// concrete.
+Measure limit_of_concrete(double thickness_m, double radius_m) {
+  return [=](const Preset& preset) {
+    Shot shot{"concrete", 3e7, 2400, 0.7, 3, 3, thickness_m, 0, radius_m, 0, 1};
+    const double limit = limit_m_s(shot);
+    const double found = threshold(0.4 * limit, 2.5 * limit, 7, [&](double speed_m_s) {
+      shot.speed_m_s = speed_m_s;
+      return fire(shot, preset, 1).exit_m_s > 0;
+    });
+    return std::log(found / limit);
+  };
+}
+
+}  // namespace
+
+Truths perforation_truths() {
+  const char* recht = "Recht and Ipson 1963, CEA-EDF, UKAEA";
+  const Shot bullet{"glass", 5e8, 2500, 0, 1.2, 1.2, 0.006, 0, 0.00598, 400, 1};
+  return {
+      truth(43, "ball of 2.1 t at 20 m/s through 0.4 m of brick: exit speed", "", recht, 0.15,
+            exit_speed(wall(20)), {0.15, 0.15, 0.15, 0.15}),
+      truth(43, "ball of 2.1 t at 40 m/s through 0.4 m of brick: exit speed", "", recht, 0.15,
+            exit_speed(wall(40)), {0.15, 0.15, 0.15, 0.15}),
+      truth(43, "ball of 2.1 t at 80 m/s through 0.4 m of brick: exit speed", "", recht, 0.15,
+            exit_speed(wall(80)), {0.15, 0.15, 0.15, 0.15}),
+      truth(43, "ball of 2.1 t at 20 m/s through 0.3 m of brick in blocks of 0.3 m: exit speed", "",
+            recht, 0.15, exit_speed(wall(20, 0.3, 0.3)), {0.15, 0.15, 0.15, 0.15}),
+      truth(43, "ball of 2.1 t at 40 m/s through one block of brick: exit speed", "", recht, 0.15,
+            exit_speed(wall(40, 0.4, 0)), {0.15, 0.15, 0.15, 0.15}),
+      truth(43, "bullet of 7 g at 400 m/s through 6 mm of glass: exit speed", "", recht, 0.15,
+            exit_speed(bullet), {0.15, 0.15, 0.15, 0.15}),
+      truth(43, "wall of brick, 0.4 m, shot at 10, 20, 40 and 80 m/s: share that falls", "",
+            "momentum through the plug", 0.2,
+            share_fallen({wall(10), wall(20), wall(40), wall(80)}), {0.2, 0.2, 0.2, 0.2}),
+      truth(44, "concrete of 0.15 m, ball of 0.1 m: logarithm of the limit speed", "",
+            "CEA-EDF (Berriaud et al. 1978)", 0.405, limit_of_concrete(0.15, 0.1),
+            {0.405, 0.405, 0.405, 0.405}, 3),
+      truth(44, "concrete of 0.4 m, ball of 0.3 m: logarithm of the limit speed", "",
+            "CEA-EDF (Berriaud et al. 1978)", 0.405, limit_of_concrete(0.4, 0.3),
+            {0.405, 0.405, 0.405, 0.405}, 3),
+      truth(44, "concrete of 0.8 m, ball of 0.4 m: logarithm of the limit speed", "",
+            "CEA-EDF (Berriaud et al. 1978)", 0.405, limit_of_concrete(0.8, 0.4),
+            {0.405, 0.405, 0.405, 0.405}, 3),
+  };
+}
+
+}  // namespace sunder::truths

@@ -1,0 +1,143 @@
+// What strikers drive out of solids: energies against closed forms, and pieces that add up.
+#include "fracture/plug.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/random.h"
+#include "fracture/pattern_breaker.h"
+#include "tests/fracture/solids.h"
+
+namespace sunder::fracture {
+namespace {
+
+Material brick() {
+  Material material;
+  material.density_kg_m3 = 1900;
+  material.compressive_Pa = 8e6;
+  material.shear_Pa = 6e5;
+  material.youngs_Pa = 6e9;
+  material.toughness_J_m2 = 60;
+  material.pattern.kind = PatternSpec::Kind::kVoronoi;
+  material.smallest_piece_m3 = 1e-4;
+  material.smallest_break_m3 = 1e-3;
+  return material;
+}
+
+/// A ball of 0.4 m and 2.1 t that strikes the middle of a wall of 0.4 m along z.
+Hit shot(double speed_m_s, double radius_m = 0.4, double thickness_m = 0.4) {
+  Hit hit;
+  hit.point_R = Vec3(0.1, 0.2, 0);
+  hit.direction_R = Vec3::UnitZ();
+  hit.striker_kg = 2091;
+  hit.speed_m_s = speed_m_s;
+  hit.energy_J = 0.5 * hit.striker_kg * speed_m_s * speed_m_s;
+  hit.thickness_m = thickness_m;
+  hit.volume_m3 = 6 * 3 * thickness_m;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 0.25 * std::numbers::pi * i;
+    hit.section_R.push_back(hit.point_R + radius_m * Vec3(std::cos(angle), std::sin(angle), 0));
+  }
+  return hit;
+}
+
+TEST(Plug, takes_the_energy_that_CEA_EDF_and_UKAEA_give) {
+  Material material = brick();
+  material.reinforcement_percent = 0.7;
+  const auto limit_m_s = [&] {
+    return std::sqrt(2 * perforation_energy_J(material, 0.8, 0.4, 2091) / 2091);
+  };
+  EXPECT_NEAR(limit_m_s(), 20.0, 0.2);
+  material.reinforcement_percent = 0;
+  EXPECT_NEAR(limit_m_s(), 20.0 * std::sqrt(0.3), 0.2);
+}
+
+TEST(Plug, is_not_sheared_out_of_plates_outside_of_the_range_of_the_formula) {
+  EXPECT_EQ(perforation_energy_J(brick(), 0.8, 0.19, 2091), 0);
+  EXPECT_GT(perforation_energy_J(brick(), 0.8, 0.20, 2091), 0);
+}
+
+TEST(Plug, goes_through_above_the_limit_and_as_deep_as_the_energy_lasts_below) {
+  Pose X_RP;
+  const double limit_J = perforation_energy_J(
+      brick(), 2 * std::sqrt(4 * std::sin(0.25 * std::numbers::pi) / std::numbers::pi) * 0.4, 0.4,
+      2091);
+  const double limit_m_s = std::sqrt(2 * limit_J / 2091);
+  const auto above = make_plug(brick(), shot(1.01 * limit_m_s), Vec3::UnitZ(), X_RP);
+  ASSERT_TRUE(above);
+  EXPECT_TRUE(above->through);
+  EXPECT_NEAR(above->energy_J, limit_J, 1e-6 * limit_J);
+  const Hit weak = shot(0.5 * limit_m_s);
+  const auto below = make_plug(brick(), weak, Vec3::UnitZ(), X_RP);
+  ASSERT_TRUE(below);
+  EXPECT_FALSE(below->through);
+  EXPECT_LE(below->energy_J, weak.energy_J);
+  EXPECT_NEAR(below->depth_m, 0.4 * std::pow(0.25, 0.375), 1e-3);
+}
+
+TEST(Plug, needs_a_solid_that_goes_on_around_it) {
+  Pose X_RP;
+  Hit hit = shot(40);
+  hit.confined = false;
+  EXPECT_FALSE(make_plug(brick(), hit, Vec3::UnitZ(), X_RP));
+  hit = shot(40);
+  hit.volume_m3 = 0.5;
+  EXPECT_FALSE(make_plug(brick(), hit, Vec3::UnitZ(), X_RP));
+}
+
+TEST(Plug, leaves_no_crater_that_is_smaller_than_the_smallest_break) {
+  Pose X_RP;
+  const auto dent = make_plug(brick(), shot(0.1), Vec3::UnitZ(), X_RP);
+  ASSERT_TRUE(dent);
+  EXPECT_TRUE(dent->section_m.empty());
+}
+
+TEST(Plug, leaves_a_hole_and_keeps_the_volume) {
+  const std::vector<Material> materials{brick()};
+  const auto breaker = make_pattern_breaker();
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Random random(seed, 77);
+    const double thickness_m = random.uniform(0.1, 0.6), radius_m = random.uniform(0.1, 0.5);
+    const Compound wall = box_compound(Vec3(-3, -1.5, 0), Vec3(3, 1.5, thickness_m));
+    Hit hit = shot(random.uniform(5, 100), radius_m, thickness_m);
+    const Vec3 tilt(random.uniform(-.3, .3), random.uniform(-.3, .3), 1);
+    hit.direction_R = tilt.normalized();
+    hit.thickness_m = thickness_m / hit.direction_R.z();
+    const BreakCommand command =
+        breaker->command(*wall.convexes[0], materials, hit, seed, seed);
+    ASSERT_TRUE(command.plug);
+    const BreakPlan plan = break_compound(wall, command);
+    EXPECT_EQ(plan.failed, 0u);
+    EXPECT_NEAR(total_volume(plan), volume(wall), 1e-9 * volume(wall)) << seed;
+    if (!plan.broke()) continue;
+    const Vec3 deep = 0.5 * std::min(command.plug->depth_m, thickness_m) * Vec3::UnitY();
+    EXPECT_EQ(cover(plan.pieces[0], command.X_RP * deep), 0) << seed;
+    EXPECT_EQ(cover(plan.pieces[0], Vec3(2.9, 1.4, 0.5 * thickness_m)), 1) << seed;
+  }
+}
+
+TEST(Plug, without_a_pattern_takes_the_convexes_in_its_way) {
+  Material chunks = brick();
+  chunks.pattern.kind = PatternSpec::Kind::kNone;
+  const std::vector<Material> materials{chunks};
+  const Compound wall = make_solid("grid:9,9,1");
+  Hit hit = shot(40, 1.4, 1);
+  hit.point_R = Vec3(4.5, 4.5, 0);
+  hit.volume_m3 = 81;
+  for (Vec3& corner : hit.section_R) corner += hit.point_R - Vec3(0.1, 0.2, 0);
+  const auto breaker = make_pattern_breaker();
+  const BreakCommand command = breaker->command(*wall.convexes[0], materials, hit, 1, 1);
+  ASSERT_TRUE(command.plug);
+  const Structure structure(wall);
+  const BreakEdit edit = breaker->plan(structure, command);
+  ASSERT_TRUE(edit.changed);
+  EXPECT_GE(edit.loose.pieces.size(), 9u);
+  EXPECT_LE(edit.loose.pieces.size(), 21u);
+  for (const Compound& piece : edit.loose.pieces) EXPECT_EQ(piece.convexes.size(), 1u);
+}
+
+}  // namespace
+}  // namespace sunder::fracture
