@@ -202,9 +202,10 @@ ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternL
   ready.sphere = {command.X_RP.position, command.radius_m, command.spared, command.smallest_m3};
   const bool whole = ready.sphere.is_endless();
   const double unit = whole ? reach(bounds_R, ready.sphere.center_R) : ready.sphere.radius_m;
-  ready.pattern = command.plug
-                      ? std::make_shared<const Pattern>(plug_pattern(*command.plug, unit, command.seed))
-                      : library.find(command.pattern, {unit, whole}, command.seed);
+  ready.pattern =
+      command.plug
+          ? std::make_shared<const Pattern>(plug_pattern(*command.plug, unit, command.seed))
+          : library.find(command.pattern, {unit, whole}, command.seed);
   ready.placement = {command.X_RP.rotation.toRotationMatrix() * (unit * command.stretch_P),
                      command.X_RP.position};
   return ready;

@@ -21,7 +21,7 @@ constexpr double kClearance = 1.12;   // of a hole, over what goes through
 constexpr double kMostTaken = 0.999;  // of the energy, so that some is left to share out
 // A crater deeper than this share of its width needs a solid that goes on around it.
 constexpr double kShallow = 0.25;
-constexpr double kSlice = 0.7;        // thickness of a slice of the plug, over its width
+constexpr double kSlice = 0.7;  // thickness of a slice of the plug, over its width
 
 /// Area (positive if counter-clockwise in x and z) and centroid of a polygon.
 std::pair<double, Vec2> measure(const std::vector<Vec2>& polygon) {

@@ -8,7 +8,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
-#include "engine/model/scene_accuracy.h"
+#include "engine/model/checks/scene_accuracy.h"
 #include "scenes/file/body.h"
 #include "scenes/file/builtin_materials.h"
 #include "scenes/file/ground_mesh.h"

@@ -23,8 +23,8 @@ struct Shot {
   int seeds;
 };
 struct Outcome {
-  double exit_m_s = 0;   ///< Of the worst of the seeds; 0: the ball did not come through.
-  double standing = 1;   ///< Share of the plate's mass that is where it was, of the worst.
+  double exit_m_s = 0;  ///< Of the worst of the seeds; 0: the ball did not come through.
+  double standing = 1;  ///< Share of the plate's mass that is where it was, of the worst.
 };
 
 double ball_kg(const Shot& shot) {
@@ -42,8 +42,8 @@ double limit_m_s(const Shot& shot) {
 
 /// Exit speed by Recht and Ipson (1963), for a plug of the ball's section.
 double theory_m_s(const Shot& shot) {
-  const double plug_kg = std::numbers::pi * shot.radius_m * shot.radius_m * shot.thickness_m *
-                         shot.density_kg_m3;
+  const double plug_kg =
+      std::numbers::pi * shot.radius_m * shot.radius_m * shot.thickness_m * shot.density_kg_m3;
   const double limit = limit_m_s(shot), v = shot.speed_m_s;
   return std::sqrt(std::max(0.0, v * v - limit * limit)) / (1 + plug_kg / ball_kg(shot));
 }
@@ -62,9 +62,8 @@ Outcome fire(const Shot& shot, const Preset& preset, int seed) {
       std::to_string(shot.height_m) + ", " + std::to_string(shot.thickness_m) + "]\n" + block +
       "[[ball]]\nposition = [" + std::to_string(0.003 * seed * shot.width_m) + ", " +
       std::to_string(0.5 * shot.height_m) + ", " +
-      std::to_string(shot.radius_m + 0.5 * shot.thickness_m + gap_m) +
-      "]\nvelocity = [0, 0, " + std::to_string(-shot.speed_m_s) +
-      "]\nradius_m = " + std::to_string(shot.radius_m) + "\n";
+      std::to_string(shot.radius_m + 0.5 * shot.thickness_m + gap_m) + "]\nvelocity = [0, 0, " +
+      std::to_string(-shot.speed_m_s) + "]\nradius_m = " + std::to_string(shot.radius_m) + "\n";
   Scene scene = scenes::parse_scene(text, "shot.toml", {preset.name, {}});
   const std::size_t ball = scene.solids.size();
   const auto simulation = scenes::make_simulation(std::move(scene));
@@ -72,8 +71,7 @@ Outcome fire(const Shot& shot, const Preset& preset, int seed) {
   FramePtr last;
   while (FramePtr frame = simulation->next()) {
     for (const FrameBody& body : frame->bodies) {
-      const bool is_out =
-          body.X_WB.position.z() < -(shot.radius_m + 0.5 * shot.thickness_m + 0.01);
+      const bool is_out = body.X_WB.position.z() < -(shot.radius_m + 0.5 * shot.thickness_m + 0.01);
       if (body.key == ball && is_out && outcome.exit_m_s == 0)
         outcome.exit_m_s = -body.velocity_W.z();
     }
@@ -99,10 +97,10 @@ Outcome fire(const Shot& shot, const Preset& preset, int seed) {
 }
 
 const Outcome& worst_of(const Shot& shot, const Preset& preset) {
-  static std::map<std::tuple<std::string, double, double, double, double, std::string>, Outcome> known;
-  const auto [place, is_new] =
-      known.try_emplace({shot.material, shot.thickness_m, shot.block_m, shot.radius_m,
-                         shot.speed_m_s, preset.name});
+  static std::map<std::tuple<std::string, double, double, double, double, std::string>, Outcome>
+      known;
+  const auto [place, is_new] = known.try_emplace(
+      {shot.material, shot.thickness_m, shot.block_m, shot.radius_m, shot.speed_m_s, preset.name});
   Outcome& worst = place->second;
   if (!is_new) return worst;
   const double theory = theory_m_s(shot);

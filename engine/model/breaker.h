@@ -93,7 +93,7 @@ struct BreakCommand {
   Pose X_RP;                          ///< Pose of the pattern; its origin is the impact.
   double radius_m = 1;                ///< Of the impact sphere; infinity breaks the whole compound.
   Fit fit;                            ///< How new convexes are fitted to their visual meshes.
-  std::optional<Plug> plug = {};  ///< Takes the place of `pattern` if there is one.
+  std::optional<Plug> plug = {};      ///< Takes the place of `pattern` if there is one.
   /// Materials that do not break: the pattern leaves their convexes whole.
   std::vector<MaterialIndex> spared;
   double smallest_m3 = 0;  ///< What is smaller, and overlaps such a convex, is left whole as well.

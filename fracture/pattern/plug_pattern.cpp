@@ -67,8 +67,7 @@ Pattern plug_pattern(const Plug& plug, double unit_m, std::uint64_t seed) {
   Pattern pattern;
   pattern.planes = box_planes();
   const std::uint32_t first_spoke = Pattern::kBoxPlanes, first_chord = first_spoke + spokes;
-  for (const Vec2& corner : rings[0])
-    pattern.planes.push_back(upright_plane(Vec2::Zero(), corner));
+  for (const Vec2& corner : rings[0]) pattern.planes.push_back(upright_plane(Vec2::Zero(), corner));
   for (const std::vector<Vec2>& ring : rings)
     for (std::uint32_t s = 0; s < spokes; ++s)
       pattern.planes.push_back(upright_plane(ring[s], ring[(s + 1) % spokes]));

@@ -56,7 +56,8 @@ TEST(CaseFile, keeps_a_plug) {
   BreakCase written;
   written.compound = box_compound(Vec3(-1, -1, 0), Vec3(1, 1, 0.3));
   written.command = example().command;
-  written.command.X_RP = {Vec3(0.1, 0, 0), Quat(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()))};
+  written.command.X_RP = {Vec3(0.1, 0, 0),
+                          Quat(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()))};
   written.command.radius_m = 0.8;
   written.command.plug = Plug{
       {Vec2(.4, 0), Vec2(.1, .35), Vec2(-.3, .2), Vec2(-.2, -.3)}, 0.3, true, 0.2, true, 1, 0.6};

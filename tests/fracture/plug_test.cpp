@@ -106,8 +106,7 @@ TEST(Plug, leaves_a_hole_and_keeps_the_volume) {
     const Vec3 tilt(random.uniform(-.3, .3), random.uniform(-.3, .3), 1);
     hit.direction_R = tilt.normalized();
     hit.thickness_m = thickness_m / hit.direction_R.z();
-    const BreakCommand command =
-        breaker->command(*wall.convexes[0], materials, hit, seed, seed);
+    const BreakCommand command = breaker->command(*wall.convexes[0], materials, hit, seed, seed);
     ASSERT_TRUE(command.plug);
     const BreakPlan plan = break_compound(wall, command);
     EXPECT_EQ(plan.failed, 0u);

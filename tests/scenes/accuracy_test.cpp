@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/model/scene_accuracy.h"
-#include "engine/model/scene_chains.h"
+#include "engine/model/checks/scene_accuracy.h"
+#include "engine/model/checks/scene_chains.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/file/schema.h"

@@ -40,7 +40,7 @@ struct ProbeLoad {
   /// Closing speed that the contacts that load it would have without it, averaged by the momentum
   /// flux of each.
   double speed_m_s = 0;
-  std::uint32_t striker = 0;  ///< Index of the body with the largest share in that.
+  std::uint32_t striker = 0;           ///< Index of the body with the largest share in that.
   std::vector<ProbePush> pushes = {};  ///< All that it feels at once, what it leans on too.
 };
 

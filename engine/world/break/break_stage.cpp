@@ -46,9 +46,9 @@ void add_impacts(const World& world, Trial& trial) {
     planned.striker = trial.probe.bodies()[load.striker].key;
     planned.speed_m_s = load.speed_m_s;
     planned.impulse_Ns = load.impulse_Ns;
-    planned.by_pattern = material.breakable() && load.work_J > actor.least_J &&
-                         (load.impulse_Ns >= material.strength_Ns ||
-                          crushes(material, load.speed_m_s));
+    planned.by_pattern =
+        material.breakable() && load.work_J > actor.least_J &&
+        (load.impulse_Ns >= material.strength_Ns || crushes(material, load.speed_m_s));
     // What has no pattern parts at the bonds around a striker.
     planned.by_pattern |= !material.breakable() && parts_at_bonds(material) &&
                           load.work_J > actor.stress.least_J &&

@@ -27,10 +27,11 @@ constexpr std::uint64_t kMostBlowWork = 100, kMostWorkOfFrames = 1200;
 // a frame.
 constexpr std::uint64_t kMostVisits = 500000;
 // Share of the surroundings of a plug that has to be there.
-constexpr double kConfined = 0.6;
+constexpr double kConfined = 0.45;
 // Widths of a striker's section; what is thicker is not driven through.
 constexpr double kFarthest = 8;
-// What bends most in a solid over the mean of a bar in its first mode.
+// Highest stress of a struck solid over that of a bar in its first mode at the same mean speed, at
+// most: for impacts off the middle, other shapes, and the steady load.
 constexpr double kBendsMore = 4;
 // What cracks at its bonds takes this much of a blow at most: it is stress that decides.
 constexpr double kMostTaken = 0.9;
@@ -70,14 +71,16 @@ double area_m2(const PlannedBreak& planned) {
 /// paid for, and the impact is faster than waves carry it away.
 bool breaks_locally(const World& world, const Structure& structure, const PlannedBreak& planned) {
   const Convex& convex = *structure.convex(planned.impact.convex);
-  return planned.by_pattern && planned.edit.changed && planned.command.plug && planned.needed_J < planned.impact.energy_J &&
+  return planned.by_pattern && planned.edit.changed && planned.command.plug &&
+         planned.needed_J < planned.impact.energy_J &&
          breaks_before_waves_arrive(world.material(convex.material), planned.speed_m_s);
 }
 
-/// Reduces the load of an impact on what is far from it to what gets through before the solid is
-/// sheared around a narrow and fast striker: J = τ A e / c, the shear strength on the sides A of
-/// the plug until the shear wave has passed the thickness e. False if that cannot break anything.
-bool hold_back(const World& world, const Actor& actor, PlannedBreak& planned) {
+/// Reduces the load of a fast and narrow striker on the rest of the solid to the impulse that gets
+/// through before the solid is sheared around it: J = τ A e / c, the shear strength τ on the sides A
+/// of the plug until the shear wave has passed the thickness e. Returns false if that impulse cannot
+/// overload anything.
+bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak& planned) {
   const Material& material =
       world.material(actor.structure.convex(planned.impact.convex)->material);
   if (!planned.command.plug || !(material.shear_Pa > 0) ||
@@ -85,11 +88,9 @@ bool hold_back(const World& world, const Actor& actor, PlannedBreak& planned) {
     return true;
   const Plug& plug = *planned.command.plug;
   const double shear_m_s = std::sqrt(material.youngs_Pa / (2.4 * material.density_kg_m3));
-  const double through_Ns =
-      material.shear_Pa * plug.sides_m2 * plug.solid_m / shear_m_s;
+  const double through_Ns = material.shear_Pa * plug.sides_m2 * plug.solid_m / shear_m_s;
   const double share = std::min(1.0, through_Ns / planned.impulse_Ns);
-  // A bar that moves at v bends by no more than √3 ρ c v (Timoshenko, first mode); twice that
-  // twice over for what is struck off its middle and as it stands.
+  // The first mode of a bar of rectangular section that moves at v has the stress √3 ρ c v.
   const double speed_m_s = share * planned.impulse_Ns / actor.weight.mass_kg;
   const double most_Pa =
       kBendsMore * std::sqrt(3 * material.youngs_Pa * material.density_kg_m3) * speed_m_s;
@@ -134,16 +135,16 @@ double reach_of(const Hit& hit) {
   return reach_m;
 }
 
-/// Describes the striker and the way that it has to take through the actor; leaves that out where
-/// no plug can form, as the striker is wider than a break by pattern reaches.
+/// Adds the striker's section, mass and speed to a hit, and the thickness of the actor behind it.
+/// Adds no section where the striker is wider than a break by pattern reaches.
 void add_striker(const World& world, const PlannedBreak& planned, const Actor& actor,
                  const Pose& X_WB, Hit& hit) {
   const Actor* striker = world.actors.find(planned.striker);
   if (!striker || !(planned.speed_m_s > 0)) return;
   const Impact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
-  const std::vector<Vec3> section_W = cross_section(
-      world, *striker, impact.point_W, impact.direction_W, material.impact_radius_m);
+  const std::vector<Vec3> section_W =
+      cross_section(world, *striker, impact.point_W, impact.direction_W, material.impact_radius_m);
   for (const Vec3& corner : section_W)
     hit.section_R.push_back(X_WB.inverse() * corner + actor.weight.com_R);
   if (hit.section_R.empty()) return;
@@ -157,8 +158,7 @@ void add_striker(const World& world, const PlannedBreak& planned, const Actor& a
     hit.thickness_m = 2 * thickness_along(actor.structure, middle_R, hit.direction_R, most_m);
   }
   const double depth_m = 0.5 * std::min(hit.thickness_m, reach_of(hit));
-  hit.confined =
-      confinement(actor.structure, hit.section_R, hit.direction_R, depth_m) >= kConfined;
+  hit.confined = confinement(actor.structure, hit.section_R, hit.direction_R, depth_m) >= kConfined;
 }
 
 /// The impact as the actor's rest frame sees it.
@@ -204,7 +204,7 @@ std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
   const Structure& structure = world.actors.find(planned.impact.key)->structure;
   const std::size_t reached = structure.within(command.X_RP.position, command.radius_m).size();
   const auto cells = static_cast<std::size_t>(command.plug ? command.plug->cell_count()
-                                                                    : command.pattern.cell_count());
+                                                           : command.pattern.cell_count());
   return static_cast<std::uint32_t>(cells + kPartsOfConvex * reached);
 }
 
@@ -226,7 +226,7 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         planned.plan_ms = watch.ms();
         continue;
       }
-      if (planned.by_stress && !hold_back(world, actor, planned)) planned.by_stress = false;
+      if (planned.by_stress && !reduce_to_transmitted(world, actor, planned)) planned.by_stress = false;
       if (planned.by_stress) {
         std::vector<Load> loads;
         LoadCase load = bearing(world, actor, states[actor.body].X_WB.rotation, loads);
@@ -247,9 +247,9 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
 
 namespace {
 
-/// Lets the striker and the plug that it has driven out go on at one speed: a plastic collision
-/// along the plug, in which momentum is kept (Recht and Ipson 1963). What of the plug is no body
-/// takes its share of the momentum along.
+/// Gives the striker and the plug that it has driven out one common speed along the plug's axis: a
+/// plastic collision, which keeps momentum (Recht and Ipson 1963). Debris of the plug takes its share
+/// of the momentum.
 void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_key) {
   const Actor* striker = world.actors.find(planned.striker);
   if (!planned.command.plug || !planned.command.plug->through || !striker) return;
@@ -267,13 +267,14 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
       continue;
     pieces.push_back(&actor);
     plug_kg += actor.weight.mass_kg;
-    axis_W = rest_pose(actor, states[actor.body].X_WB).rotation *
-             planned.command.X_RP.rotation * Vec3::UnitY();
+    axis_W = rest_pose(actor, states[actor.body].X_WB).rotation * planned.command.X_RP.rotation *
+             Vec3::UnitY();
     at_rest_m_s += actor.weight.mass_kg * states[actor.body].velocity_W.dot(axis_W);
   }
   plug_kg = std::max(plug_kg, plug.mass_kg);
   const BodyState state = states[striker->body];
-  const double closing_m_s = state.field()(planned.impact.point_W).dot(axis_W) - at_rest_m_s / plug_kg;
+  const double closing_m_s =
+      state.field()(planned.impact.point_W).dot(axis_W) - at_rest_m_s / plug_kg;
   if (!(closing_m_s > 0)) return;
   const double mass_kg = striker_kg(planned);
   const double gain_m_s = closing_m_s * mass_kg / (mass_kg + plug_kg);

@@ -16,19 +16,19 @@ namespace sunder {
 
 struct PlannedBreak {
   Impact impact;
-  std::uint32_t load = 0;      ///< Index in the probe's answer.
+  std::uint32_t load = 0;              ///< Index in the probe's answer.
   std::uint32_t striker = kNobodyKey;  ///< Key of the body that strikes.
-  double speed_m_s = 0;        ///< Closing speed of that; 0: not known.
-  double impulse_Ns = 0;       ///< Sum over the contacts that load the actor.
-  std::vector<Load> impulses;  ///< All that the actor feels, N·s in place of N.
-  double far_J = 0;            ///< Energy of what gets through to the rest, at most.
-  bool by_pattern = true;      ///< Strong enough for the material,
-  bool by_stress = false;      ///< and for some bond.
-  BreakCommand command;        ///< By pattern.
-  StressAnswer stressed;       ///< By stress.
-  BreakEdit edit;              ///< Of the way that it breaks.
+  double speed_m_s = 0;                ///< Closing speed of the striker; 0: not known.
+  double impulse_Ns = 0;               ///< Sum over the contacts that load the actor.
+  std::vector<Load> impulses;          ///< All that the actor feels, N·s in place of N.
+  double far_J = 0;                    ///< Energy that gets through to the rest, at most.
+  bool by_pattern = true;              ///< Strong enough for the material,
+  bool by_stress = false;              ///< and for some bond.
+  BreakCommand command;                ///< By pattern.
+  StressAnswer stressed;               ///< By stress.
+  BreakEdit edit;                      ///< Of the way that it breaks.
   double plan_ms = 0;
-  double needed_J = 0;    ///< By its cracks.
+  double needed_J = 0;    ///< By its cracks, or by the plug if that takes more.
   bool breaks = false;    ///< The impact pays for them.
   bool at_bonds = false;  ///< By stress.
 
@@ -36,9 +36,8 @@ struct PlannedBreak {
   bool only_bends() const { return at_bonds && edit.cut.empty(); }
 };
 
-/// True if the waves of the impact load the solid at the striker beyond its shear strength: it
-/// breaks there before what is far has felt anything. The shear wave takes away less than the
-/// momentum that the striker brings from v = τ / (ρ c) on, with c = √(G / ρ) and G = E / 2.4.
+/// True if an impact at that speed shears the solid at the striker's edge before waves have carried
+/// the load away: v > τ / (ρ c), with the shear strength τ and c = √(E / 2.4 ρ).
 bool breaks_before_waves_arrive(const Material& material, double speed_m_s);
 
 /// Makes the command that the impact amounts to.

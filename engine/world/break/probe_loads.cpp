@@ -18,7 +18,8 @@ std::uint32_t BreakProbe::charged(const ProbeContact& c) const {
 
 std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
   std::vector<ProbeLoad> all(bodies_.size());
-  std::vector<double> most(bodies_.size(), 0), flux(bodies_.size(), 0), most_flux(bodies_.size(), 0);
+  std::vector<double> most(bodies_.size(), 0), flux(bodies_.size(), 0),
+      most_flux(bodies_.size(), 0);
   for (std::uint32_t b = 0; b < all.size(); ++b) all[b].body = b;
   for (ProbeLoad& load : all) load.direction_W.setZero();
   for (std::size_t i = 0; i < closed_.size(); ++i) {

@@ -1,4 +1,4 @@
-#include "engine/model/scene_accuracy.h"
+#include "engine/model/checks/scene_accuracy.h"
 
 #include <algorithm>
 #include <cmath>

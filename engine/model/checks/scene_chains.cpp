@@ -1,4 +1,4 @@
-#include "engine/model/scene_chains.h"
+#include "engine/model/checks/scene_chains.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/model/scene_accuracy.h"
+#include "engine/model/checks/scene_accuracy.h"
 
 namespace sunder {
 namespace {
