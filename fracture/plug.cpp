@@ -110,6 +110,7 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
   plug.energy_J = perforation_energy_J(material, width_m, plug.depth_m, hit.striker_kg);
   plug.through = plug.energy_J <= kMostTaken * hit.energy_J;
   if (plug.through && !hit.confined) return {};
+  if (!plug.through && !hit.held) return {};
   if (!plug.through) {
     const double share = kMostTaken * hit.energy_J / plug.energy_J;
     plug.energy_J *= share;
@@ -123,19 +124,20 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
     const double size_m = std::cbrt(hit.volume_m3);
     if (!hit.confined && area_m2 > kWidest * size_m * size_m) return {};
   }
+  plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
   if (plug.through)
     for (Vec2& corner : plug.section_m) corner *= kClearance;
   plug.sides_m2 = perimeter_m(plug.section_m) * plug.depth_m;
-  plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
   const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);
   const auto parts = static_cast<double>(plug.section_m.size() + 1);
   if (!plug.through && smaller_m3 < material.smallest_break_m3) {
     plug.section_m.clear();
     return plug;
   }
+  if (!plug.through) return plug;  // one piece: several would be wedged in the crater
   plug.split = smaller_m3 > parts * material.smallest_piece_m3;
   plug.slice_m = kSlice * width_m;
-  if (plug.through) add_rings(material, hit, width_m / 2, plug);
+  add_rings(material, hit, width_m / 2, plug);
   return plug;
 }
 

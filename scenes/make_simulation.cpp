@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "engine/model/checks/scene_posts.h"
 #include "engine/model/checks/scene_accuracy.h"
 #include "engine/model/checks/scene_chains.h"
+#include "engine/model/checks/scene_posts.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/features.h"

@@ -53,6 +53,7 @@ struct Hit {
   double striker_kg = 0;             ///< Effective mass of the striker.
   double thickness_m = 0;            ///< Of the solid along `direction_R` behind the point.
   double volume_m3 = 0;              ///< Of the solid.
+  bool held = true;                  ///< The solid is anchored.
   bool confined = true;              ///< The solid goes on around the striker's section.
   /// Corners of the striker's cross-section, in order about `direction_R` through `point_R`; empty
   /// if it is not known, or too wide.
@@ -71,7 +72,7 @@ struct Plug {
   int rings = 0;        ///< Rings of sectors around the prism, out to `reach_m` from the origin.
   double reach_m = 0;
   double energy_J = 0;  ///< That crushing and shearing take.
-  double mass_kg = 0;   ///< Of the prism.
+  double mass_kg = 0;   ///< Of the striker's section through the depth.
   double solid_m = 0;   ///< Thickness of the solid.
   double sides_m2 = 0;  ///< Area of the prism's sides.
 

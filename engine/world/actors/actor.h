@@ -36,8 +36,9 @@ struct StressState {
   Vec3 spin_R = Vec3::Zero();  ///< Angular velocity, rad/s, if it matters; else 0.
   Vec3 judged_spin_R = Vec3::Zero();
   StressMemoryPtr memory;
-  /// No blow with less energy can overload it, as far as is known.
+  /// No impact with less energy can overload it, as far as is known,
   double least_J = std::numeric_limits<double>::infinity();
+  double least_Ns = 0;  ///< nor one with less impulse.
 };
 
 /// Stands for a mesh that is not made yet: until the next snapshot, nobody looks.

@@ -68,6 +68,7 @@ constexpr std::size_t kMostBondsStruck = 40000;
 void set_least(const World& world, Actor& actor) {
   actor.least_J = actor.least_Ns = std::numeric_limits<double>::infinity();
   actor.stress.least_J = std::numeric_limits<double>::infinity();
+  actor.stress.least_Ns = 0;
   if (actor.is_kinematic) return;
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);

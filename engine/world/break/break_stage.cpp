@@ -54,7 +54,8 @@ void add_impacts(const World& world, Trial& trial) {
                           load.work_J > actor.stress.least_J &&
                           breaks_before_waves_arrive(material, load.speed_m_s);
     planned.far_J = load.work_J;
-    planned.by_stress = load.work_J > actor.stress.least_J;
+    planned.by_stress =
+        load.work_J > actor.stress.least_J && load.impulse_Ns > actor.stress.least_Ns;
     if (!planned.by_pattern && !planned.by_stress) continue;
     const Quat R_of_W = states[actor.body].X_WB.rotation.conjugate();
     for (const ProbePush& push : load.pushes) {
@@ -239,8 +240,7 @@ bool BreakBudget::try_spend(std::uint32_t parts) {
 bool BreakStage::take_on(World& world, const Breaker& breaker, std::span<PlannedBreak> all) {
   std::uint32_t parts = 0;
   for (PlannedBreak& planned : all) {
-    if (planned.by_stress)
-      parts += static_cast<std::uint32_t>(visits_at_least(world, planned) / kVisitsAPart);
+    if (planned.by_stress && budget_.spent()) return false;
     if (!planned.by_pattern) continue;
     prepare(world, breaker, world.next_event++, planned);
     parts += parts_to_cut(world, planned);

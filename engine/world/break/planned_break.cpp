@@ -20,6 +20,8 @@ constexpr double kWorthPlanning = 0.7;
 // One with less than this part of what would have bent it to its limit when it was last struck, at
 // another place perhaps, is not asked about.
 constexpr double kWorthAsking = 0.1;
+// One with less than this part of the impulse that would have is not asked about, either.
+constexpr double kWorthPushing = 0.3;
 // In visits of each bond: what is not known by then is not asked about again until it is harder.
 // Where no pattern is, stress alone can answer, and slender frames take it long.
 constexpr std::uint64_t kMostBlowWork = 100, kMostWorkOfFrames = 1200;
@@ -77,9 +79,9 @@ bool breaks_locally(const World& world, const Structure& structure, const Planne
 }
 
 /// Reduces the load of a fast and narrow striker on the rest of the solid to the impulse that gets
-/// through before the solid is sheared around it: J = τ A e / c, the shear strength τ on the sides A
-/// of the plug until the shear wave has passed the thickness e. Returns false if that impulse cannot
-/// overload anything.
+/// through before the solid is sheared around it: J = τ A e / c, the shear strength τ on the sides
+/// A of the plug until the shear wave has passed the thickness e. Returns false if that impulse
+/// cannot overload anything.
 bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak& planned) {
   const Material& material =
       world.material(actor.structure.convex(planned.impact.convex)->material);
@@ -140,9 +142,9 @@ double reach_of(const Hit& hit) {
 void add_striker(const World& world, const PlannedBreak& planned, const Actor& actor,
                  const Pose& X_WB, Hit& hit) {
   const Actor* striker = world.actors.find(planned.striker);
-  if (!striker || !(planned.speed_m_s > 0)) return;
   const Impact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
+  if (!striker || !breaks_before_waves_arrive(material, planned.speed_m_s)) return;
   const std::vector<Vec3> section_W =
       cross_section(world, *striker, impact.point_W, impact.direction_W, material.impact_radius_m);
   for (const Vec3& corner : section_W)
@@ -176,7 +178,7 @@ Hit hit_of(const World& world, const PlannedBreak& planned, const Actor& actor, 
 }  // namespace
 
 bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
-  if (!(material.shear_Pa > 0)) return speed_m_s > 0;
+  if (!(material.shear_Pa > 0)) return false;
   const double impedance = std::sqrt(material.youngs_Pa * material.density_kg_m3 / 2.4);
   return speed_m_s * impedance > material.shear_Pa;
 }
@@ -191,11 +193,6 @@ void prepare(const World& world, const Breaker& breaker, std::uint64_t event,
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
   const Convex& convex = *actor.structure.convex(impact.convex);
   planned.command = breaker.command(convex, *world.materials, hit, event, seed);
-}
-
-std::uint64_t visits_at_least(const World& world, const PlannedBreak& planned) {
-  constexpr std::uint64_t kVisitsOfBond = 4;  // the answer set up, and two iterations
-  return kVisitsOfBond * world.actors.find(planned.impact.key)->structure.bond_count();
 }
 
 std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
@@ -226,7 +223,8 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         planned.plan_ms = watch.ms();
         continue;
       }
-      if (planned.by_stress && !reduce_to_transmitted(world, actor, planned)) planned.by_stress = false;
+      if (planned.by_stress && !reduce_to_transmitted(world, actor, planned))
+        planned.by_stress = false;
       if (planned.by_stress) {
         std::vector<Load> loads;
         LoadCase load = bearing(world, actor, states[actor.body].X_WB.rotation, loads);
@@ -248,8 +246,8 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
 namespace {
 
 /// Gives the striker and the plug that it has driven out one common speed along the plug's axis: a
-/// plastic collision, which keeps momentum (Recht and Ipson 1963). Debris of the plug takes its share
-/// of the momentum.
+/// plastic collision, which keeps momentum (Recht and Ipson 1963). Debris of the plug takes its
+/// share of the momentum.
 void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_key) {
   const Actor* striker = world.actors.find(planned.striker);
   if (!planned.command.plug || !planned.command.plug->through || !striker) return;
@@ -271,7 +269,11 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
              Vec3::UnitY();
     at_rest_m_s += actor.weight.mass_kg * states[actor.body].velocity_W.dot(axis_W);
   }
-  plug_kg = std::max(plug_kg, plug.mass_kg);
+  // Debris of what is held takes its share of the momentum; that of a free body has the motion of
+  // the whole.
+  const bool is_held = world.actors.find(planned.impact.key) != nullptr;
+  if (is_held) plug_kg = std::max(plug_kg, plug.mass_kg);
+  if (!(plug_kg > 0)) return;
   const BodyState state = states[striker->body];
   const double closing_m_s =
       state.field()(planned.impact.point_W).dot(axis_W) - at_rest_m_s / plug_kg;
@@ -306,6 +308,10 @@ void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {
   if (!planned.by_stress) return;
   if (!gives_way(planned.stressed.edit)) actor.stress.memory = planned.stressed.memory;
   const BlowStress& blow = planned.stressed.blow;
+  // What bends a solid of mass M takes at most J² / 2M: its stress grows with the impulse.
+  if (blow.worst > 0)
+    actor.stress.least_Ns =
+        std::max(actor.stress.least_Ns, kWorthPushing * planned.impulse_Ns / blow.worst);
   const double bends_J = (1 - blow.local) * energy_J;
   actor.stress.least_J =
       std::max(actor.stress.least_J,

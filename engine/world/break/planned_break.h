@@ -45,8 +45,6 @@ void prepare(const World& world, const Breaker& breaker, std::uint64_t event,
              PlannedBreak& planned);
 /// How many parts its command cuts, about: what it costs follows that (docs/decisions/032).
 std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned);
-/// Least number of bonds that are visited to find out what an impact does by stress.
-std::uint64_t visits_at_least(const World& world, const PlannedBreak& planned);
 /// Plans what is prepared, in parallel; nothing changes yet.
 void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak* const> all);
 
