@@ -153,6 +153,7 @@ void add_striker(const World& world, const PlannedBreak& planned, const Actor& a
   hit.speed_m_s = planned.speed_m_s;
   hit.striker_kg = striker_kg(planned);
   hit.volume_m3 = actor.volume_m3;
+  hit.held = actor.is_static;
   const double most_m = kFarthest * reach_of(hit);
   hit.thickness_m = thickness_along(actor.structure, hit.point_R, hit.direction_R, most_m);
   if (!(hit.thickness_m > 0)) {  // the point is the mean of several contacts, about a hole
