@@ -1,5 +1,5 @@
-// What a striker drives out of a solid, from the impact and the material: the plug of its
-// cross-section and the cracks around that.
+// Perforation: the plug of its cross-section that a striker drives out of a solid, and the cracks
+// around that, from the impact and the material.
 #pragma once
 
 #include "engine/model/breaker.h"
@@ -14,7 +14,8 @@ namespace sunder::fracture {
 double perforation_energy_J(const Material& material, double width_m, double thickness_m,
                             double mass_kg);
 
-/// What an impact drives out along `axis_R`, placed by `X_RP`, the pose of the pattern's frame:
+/// Returns the prism that an impact drives out along `axis_R`, placed by `X_RP`, the pose of the
+/// pattern's frame:
 /// where the striker has the energy to perforate the solid, a plug through it; else a crater as
 /// deep as a thickness that it could perforate. None if the striker is unknown, or the
 /// solid so narrow that it breaks as a whole. A crater smaller than the material's smallest break

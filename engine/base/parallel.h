@@ -65,7 +65,8 @@ void for_chunks(std::size_t n, std::size_t chunk_size, const Work& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// What `find(begin, end, found)` adds to `found` for each of these chunks, in the chunks' order.
+/// Returns the items that `find(begin, end, found)` adds to `found` for each of these chunks, in
+/// the order of the chunks.
 template <class Item, class Find>
 std::vector<Item> collect_chunks(std::size_t n, std::size_t chunk_size, const Find& find) {
   std::vector<std::vector<Item>> found((n + chunk_size - 1) / chunk_size);

@@ -226,7 +226,7 @@ Ghost read_ghost(Reader& in, std::uint64_t convexes) {
   return ghost;
 }
 
-// Of a plug that a file may hold.
+// Largest plug that a file may hold.
 constexpr std::uint64_t kMostPlugCorners = 64;
 constexpr double kMostSlices = 1000;
 

@@ -1,4 +1,4 @@
-// What strikers drive out of solids: energies against closed forms, and pieces that add up.
+// Plugs that strikers drive out of solids: energies against closed forms, and pieces that add up.
 #include "fracture/plug.h"
 
 #include <cmath>

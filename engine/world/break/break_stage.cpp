@@ -49,7 +49,7 @@ void add_impacts(const World& world, Trial& trial) {
     planned.by_pattern =
         material.breakable() && load.work_J > actor.least_J &&
         (load.impulse_Ns >= material.strength_Ns || crushes(material, load.speed_m_s));
-    // What has no pattern parts at the bonds around a striker.
+    // A material without a pattern parts at the bonds around the striker.
     planned.by_pattern |= !material.breakable() && parts_at_bonds(material) &&
                           load.work_J > actor.stress.least_J &&
                           breaks_before_waves_arrive(material, load.speed_m_s);

@@ -309,7 +309,7 @@ void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {
   if (!planned.by_stress) return;
   if (!gives_way(planned.stressed.edit)) actor.stress.memory = planned.stressed.memory;
   const BlowStress& blow = planned.stressed.blow;
-  // What bends a solid of mass M takes at most J² / 2M: its stress grows with the impulse.
+  // The bending of a solid of mass M takes at most J² / 2M: its stress grows with the impulse.
   if (blow.worst > 0)
     actor.stress.least_Ns =
         std::max(actor.stress.least_Ns, kWorthPushing * planned.impulse_Ns / blow.worst);
