@@ -86,11 +86,9 @@ double share_in(const Plug& plug, ConvexPolyhedron part_P) {
     if (side == PlaneSide::kCut) std::swap(part_P, cut);
     return side != PlaneSide::kOutside;
   };
-  for (std::size_t i = 0; i < plug.section_m.size(); ++i) {
-    const Vec2& a = plug.section_m[i];
-    const Vec2 along = (plug.section_m[(i + 1) % plug.section_m.size()] - a).normalized();
-    if (!keep(Plane::through(Vec3(a.x(), 0, a.y()), Vec3(along.y(), 0, -along.x())))) return 0;
-  }
+  const std::vector<Vec2>& section = plug.section_m;
+  for (std::size_t i = 0; i < section.size(); ++i)
+    if (!keep(upright_plane(section[i], section[(i + 1) % section.size()]))) return 0;
   if (!plug.through && !keep(Plane::through(Vec3(0, plug.depth_m, 0), Vec3::UnitY()))) return 0;
   return mass_properties(part_P).volume_m3 / volume_m3;
 }

@@ -77,6 +77,22 @@ void add_rings(const Material& material, const Hit& hit, double radius_m, Plug& 
     ++plug.rings;
 }
 
+/// Shortens a plug that the energy does not carry through to a crater of that energy, and narrows
+/// its section as that of a round nose; `width_m` and `area_m2` go with it. Returns false if the
+/// solid is too narrow there, and breaks as a whole.
+bool become_crater(const Hit& hit, double& width_m, double& area_m2, Plug& plug) {
+  const double share = kMostTaken * hit.energy_J / plug.energy_J;
+  plug.energy_J *= share;
+  plug.depth_m *= std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // E goes by e^(8/3)
+  if (!hit.confined && plug.depth_m > kShallow * width_m) return false;
+  const double part = std::min(1.0, 2 * plug.depth_m / width_m);
+  const double scale = std::sqrt(part * (2 - part));
+  for (Vec2& corner : plug.section_m) corner *= scale;
+  width_m *= scale, area_m2 *= scale * scale;
+  const double size_m = std::cbrt(hit.volume_m3);
+  return hit.confined || !(area_m2 > kWidest * size_m * size_m);
+}
+
 }  // namespace
 
 double perforation_energy_J(const Material& material, double width_m, double thickness_m,
@@ -109,32 +125,18 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
   double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
   plug.energy_J = perforation_energy_J(material, width_m, plug.depth_m, hit.striker_kg);
   plug.through = plug.energy_J <= kMostTaken * hit.energy_J;
-  if (plug.through && !hit.confined) return {};
-  if (!plug.through && !hit.held) return {};
-  if (!plug.through) {
-    const double share = kMostTaken * hit.energy_J / plug.energy_J;
-    plug.energy_J *= share;
-    plug.depth_m *= std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // E goes by e^(8/3)
-    if (!hit.confined && plug.depth_m > kShallow * width_m) return {};
-    // A round nose that has gone in so deep is so wide there.
-    const double part = std::min(1.0, 2 * plug.depth_m / width_m);
-    const double scale = std::sqrt(part * (2 - part));
-    for (Vec2& corner : plug.section_m) corner *= scale;
-    width_m *= scale, area_m2 *= scale * scale;
-    const double size_m = std::cbrt(hit.volume_m3);
-    if (!hit.confined && area_m2 > kWidest * size_m * size_m) return {};
-  }
+  if (plug.through ? !hit.confined : !hit.held) return {};
+  if (!plug.through && !become_crater(hit, width_m, area_m2, plug)) return {};
   plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
   if (plug.through)
     for (Vec2& corner : plug.section_m) corner *= kClearance;
   plug.sides_m2 = perimeter_m(plug.section_m) * plug.depth_m;
   const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);
-  const auto parts = static_cast<double>(plug.section_m.size() + 1);
-  if (!plug.through && smaller_m3 < material.smallest_break_m3) {
-    plug.section_m.clear();
+  if (!plug.through) {  // one piece: several would be wedged in the crater
+    if (smaller_m3 < material.smallest_break_m3) plug.section_m.clear();
     return plug;
   }
-  if (!plug.through) return plug;  // one piece: several would be wedged in the crater
+  const auto parts = static_cast<double>(plug.section_m.size() + 1);
   plug.split = smaller_m3 > parts * material.smallest_piece_m3;
   plug.slice_m = kSlice * width_m;
   add_rings(material, hit, width_m / 2, plug);

@@ -80,7 +80,7 @@ Outcome fire(const Shot& shot, const Preset& preset, int seed) {
   double all_m3 = 0, still_m3 = 0;
   for (const Instance& instance : last->instances) {
     const FrameBody& body = last->bodies[instance.body];
-    if (body.key == ball || !instance.mesh.value) continue;
+    if (body.key == ball) continue;
     const Mesh& mesh = *(*last->meshes)[instance.mesh.value];
     double volume_m3 = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {

@@ -43,7 +43,7 @@ struct Shot {
   std::vector<Solid> links = {};  ///< From the top down, in one line and equally long.
 };
 
-/// Where a charge goes off. The wave of one on the ground is hemispherical, and stronger.
+/// Place of a charge: the wave of one on the ground is hemispherical, and stronger.
 enum class BurstKind : std::uint8_t { kGround, kAir };
 
 /// An impulse on every face that sees the centre: per square metre, falling with the square of the

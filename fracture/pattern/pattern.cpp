@@ -8,6 +8,11 @@
 
 namespace sunder::fracture {
 
+Plane upright_plane(const Vec2& a, const Vec2& b) {
+  const Vec2 along = (b - a).normalized();
+  return Plane::through(Vec3(a.x(), 0, a.y()), Vec3(along.y(), 0, -along.x()));
+}
+
 std::vector<Plane> box_planes() {
   std::vector<Plane> planes;
   for (int axis = 0; axis < 3; ++axis) {

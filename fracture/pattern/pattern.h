@@ -87,6 +87,9 @@ Pattern read_pattern(std::istream& obj, const std::string& name);
 /// Joins the inner cells around `count` of them, so that pieces are not convex.
 void join_colors(Pattern& pattern, int count, std::uint64_t seed);
 
+/// The plane parallel to y through two points (x, z), its normal to the right of the way from a to
+/// b.
+Plane upright_plane(const Vec2& a, const Vec2& b);
 /// Starts a pattern: the planes of the box.
 std::vector<Plane> box_planes();
 /// The box itself, with its faces named after planes 0 to 5.

@@ -11,13 +11,6 @@ namespace {
 constexpr double kCore = 0.55;   // scale of the core of a split prism
 constexpr double kJitter = 0.2;  // of the distance between two rings, and of slices
 
-/// The plane parallel to y through two points (x, z), its normal to the right of the way from a to
-/// b.
-Plane upright_plane(const Vec2& a, const Vec2& b) {
-  const Vec2 along = (b - a).normalized();
-  return Plane::through(Vec3(a.x(), 0, a.y()), Vec3(along.y(), 0, -along.x()));
-}
-
 /// Corners of all rings, from the inside out.
 std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Random& random) {
   std::vector<Vec2> section;

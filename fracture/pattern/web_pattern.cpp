@@ -33,12 +33,6 @@ std::vector<std::vector<Vec2>> place_crossings(int rings, int spokes, double jit
   return crossings;
 }
 
-/// The plane parallel to y through two points, its normal to the right of the way from a to b.
-Plane upright_plane(const Vec2& a, const Vec2& b) {
-  const Vec2 along = (b - a).normalized();
-  return Plane::through(Vec3(a.x(), 0, a.y()), Vec3(along.y(), 0, -along.x()));
-}
-
 }  // namespace
 
 Pattern web_pattern(int rings, int spokes, double jitter, std::uint64_t seed) {

@@ -1,4 +1,4 @@
-// What the tables of a material say about how it breaks.
+// Patterns of a material: how its tables say that it breaks.
 #pragma once
 
 #include <filesystem>

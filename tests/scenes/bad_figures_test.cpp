@@ -2,32 +2,21 @@
 // refused with their places, their keys and what to do.
 #include <gtest/gtest.h>
 
-#include "engine/base/check.h"
-#include "scenes/load.h"
+#include "tests/scenes/refusal.h"
 
 namespace sunder::scenes {
 namespace {
 
 /// The message that a scene of these lines, from line 3 on, is refused with; empty if it is not.
-std::string refusal(const std::string& lines, std::vector<std::string> set = {}) {
+std::string refusal_of(const std::string& lines, std::vector<std::string> set = {}) {
   LoadOptions options;
   options.set = std::move(set);
-  try {
-    parse_scene("[scene]\ndescription = \"x\"\n" + lines + "\n", "bad.toml", options);
-    return {};
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return refusal(kGood + lines + "\n", options);
 }
-
-struct Fault {
-  const char* lines;
-  const char* message;
-};
 
 void expect_refusals(std::initializer_list<Fault> faults, const std::string& before) {
   for (const Fault& fault : faults) {
-    const std::string message = refusal(before + fault.lines);
+    const std::string message = refusal_of(before + fault.lines);
     EXPECT_TRUE(message.starts_with(fault.message))
         << fault.lines << "\nexpected: " << fault.message << "\nsaid:     " << message;
   }
@@ -61,17 +50,17 @@ TEST(BadMaterials, FiguresThatNoStressReachesContradictNothing) {
   for (const char* figures :
        {"tensile_Pa = inf", "tensile_Pa = 3e6\ncompressive_Pa = 0", "compressive_Pa = 1",
         "tensile_Pa = 3e6\ncompressive_Pa = 3e6", "youngs_Pa = 1e9\nshear_Pa = 1e8"}) {
-    EXPECT_EQ(refusal(std::string("[[material]]\nname = \"x\"\n") + figures), "") << figures;
+    EXPECT_EQ(refusal_of(std::string("[[material]]\nname = \"x\"\n") + figures), "") << figures;
   }
 }
 
 TEST(BadMaterials, FiguresSetByFlagsAreNamedWithTheirFlags) {
   const std::string stone = "[[material]]\nname = \"x\"\ntensile_Pa = 2e6";
-  EXPECT_EQ(refusal(stone, {"material.0.youngs_Pa=1e7"}),
+  EXPECT_EQ(refusal_of(stone, {"material.0.youngs_Pa=1e7"}),
             "bad.toml:5: tensile_Pa = 2e+06 in [[material]] is above the theoretical strength of a "
             "solid, a tenth of youngs_Pa = 1e+07 (--set material.0.youngs_Pa=1e7); lower "
             "tensile_Pa, or raise youngs_Pa");
-  EXPECT_EQ(refusal(stone, {"material.0.tensile_Pa=1e12"}),
+  EXPECT_EQ(refusal_of(stone, {"material.0.tensile_Pa=1e12"}),
             "--set material.0.tensile_Pa=1e12: tensile_Pa = 1e+12 in [[material]] is above the "
             "theoretical strength of a solid, a tenth of youngs_Pa = 3e+10 (not given here); lower "
             "tensile_Pa, or raise youngs_Pa");
@@ -101,7 +90,7 @@ TEST(BadBlasts, OfTwoStrengthsAreRefused) {
                     "bad.toml:6: burst in [[script.blast]] is for a charge; give tnt_kg, or take "
                     "it away"}},
                   "[[script.blast]]\ntime_s = 1\nat = [0, 0, 0]\n");
-  EXPECT_EQ(refusal("[[script.blast]]\ntime_s = 1\nat = [0, 0, 0]\ntnt_kg = 2\nburst = \"air\""),
+  EXPECT_EQ(refusal_of("[[script.blast]]\ntime_s = 1\nat = [0, 0, 0]\ntnt_kg = 2\nburst = \"air\""),
             "");
 }
 

@@ -1,29 +1,10 @@
 // Faults in scene files: each is answered with its place, its key and what is allowed.
 #include <gtest/gtest.h>
 
-#include "engine/base/check.h"
-#include "scenes/load.h"
+#include "tests/scenes/refusal.h"
 
 namespace sunder::scenes {
 namespace {
-
-/// The message a text is refused with; empty if it is accepted.
-std::string refusal(const std::string& text, const LoadOptions& options = {}) {
-  try {
-    parse_scene(text, "bad.toml", options);
-    return {};
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
-
-/// Lines that follow a good line 1 and 2.
-struct Fault {
-  const char* lines;
-  const char* message;
-};
-
-constexpr const char* kGood = "[scene]\ndescription = \"x\"\n";
 
 constexpr Fault kFaults[] = {
     // Keys and tables

@@ -70,12 +70,10 @@ double area_m2(const PlannedBreak& planned) {
 }
 
 /// True if the break where the solid is struck comes before anything far from there: it can be
-/// paid for, and the impact is faster than waves carry it away.
-bool breaks_locally(const World& world, const Structure& structure, const PlannedBreak& planned) {
-  const Convex& convex = *structure.convex(planned.impact.convex);
+/// paid for, and there is a plug, which only an impact makes that is too fast for waves.
+bool breaks_locally(const PlannedBreak& planned) {
   return planned.by_pattern && planned.edit.changed && planned.command.plug &&
-         planned.needed_J < planned.impact.energy_J &&
-         breaks_before_waves_arrive(world.material(convex.material), planned.speed_m_s);
+         planned.needed_J < planned.impact.energy_J;
 }
 
 /// Reduces the load of a fast and narrow striker on the rest of the solid to the impulse that gets
@@ -83,12 +81,10 @@ bool breaks_locally(const World& world, const Structure& structure, const Planne
 /// A of the plug until the shear wave has passed the thickness e. Returns false if that impulse
 /// cannot overload anything.
 bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak& planned) {
+  if (!planned.command.plug) return true;
+  const Plug& plug = *planned.command.plug;
   const Material& material =
       world.material(actor.structure.convex(planned.impact.convex)->material);
-  if (!planned.command.plug || !(material.shear_Pa > 0) ||
-      !breaks_before_waves_arrive(material, planned.speed_m_s))
-    return true;
-  const Plug& plug = *planned.command.plug;
   const double shear_m_s = std::sqrt(material.youngs_Pa / (2.4 * material.density_kg_m3));
   const double through_Ns = material.shear_Pa * plug.sides_m2 * plug.solid_m / shear_m_s;
   const double share = std::min(1.0, through_Ns / planned.impulse_Ns);
@@ -219,7 +215,7 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         if (const auto& plug = planned.command.plug)
           planned.needed_J = std::max(planned.needed_J, plug->energy_J);
       }
-      if (breaks_locally(world, actor.structure, planned)) {
+      if (breaks_locally(planned)) {
         planned.breaks = true;
         planned.plan_ms = watch.ms();
         continue;
@@ -258,9 +254,9 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
   double plug_kg = 0;
   Vec3 axis_W = planned.impact.direction_W;
   double at_rest_m_s = 0;
+  const bool parts = planned.command.pattern.kind == PatternSpec::Kind::kNone;
   for (const Actor& actor : world.actors) {
     if (actor.key < first_key || actor.is_static) continue;
-    const bool parts = planned.command.pattern.kind == PatternSpec::Kind::kNone;
     if (!(parts ? actor.structure.size() == 1
                 : plug.contains(planned.command.X_RP.inverse() * actor.weight.com_R)))
       continue;
