@@ -287,13 +287,14 @@ void run_case(Kind kind, std::uint64_t seed, Counts& counts) {
   }
 }
 
-class Support : public testing::TestWithParam<Kind> {};
-INSTANTIATE_TEST_SUITE_P(Random, Support, testing::Values(Kind::kPile, Kind::kArch, Kind::kFrame),
+class LostSupport : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Random, LostSupport,
+                         testing::Values(Kind::kPile, Kind::kArch, Kind::kFrame),
                          [](const auto& kind) {
                            return kKindNames[static_cast<std::size_t>(kind.param)];
                          });
 
-TEST_P(Support, WhatLosesItFallsAtWhateverStepItFallsAsleep) {
+TEST_P(LostSupport, BodiesFallAtWhateverStepTheyFallAsleep) {
   Counts counts;
   for (int seed = 0; seed < 334; ++seed)
     run_case(GetParam(), static_cast<std::uint64_t>(seed), counts);
