@@ -30,9 +30,9 @@ class Sleep {
   /// Wakes sleepers on which the load has changed in the last solve, and what stood on them if it
   /// was their support that went.
   void wake_changed(const StepContext& step, const Contacts& contacts, Bodies& bodies);
-  /// Bodies at rest lose these manifolds, which are about to go. A body that loses more than a
-  /// hundredth or so of its support starts to rest anew, and wakes with all sleepers that stand on
-  /// it.
+  /// Tells bodies at rest, asleep or awake, that these manifolds are about to go. The time of rest
+  /// of a body starts anew once those that it lost carried more than kDrift of its weight in all;
+  /// the body wakes, and all sleepers that stand on it.
   void wake_left(std::span<const ManifoldSlot> manifolds, const Vec3& gravity_W,
                  const Contacts& contacts, Bodies& bodies);
   /// Wakes the bodies of a joint that bears load and is about to go, and all sleepers that stand on
