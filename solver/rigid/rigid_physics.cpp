@@ -48,7 +48,9 @@ class RigidPhysics final : public Physics {
   }
   std::vector<Touch> touches(std::span<const BodyId> bodies) override;
   std::vector<TouchingBodies> touching(std::span<const BodyId> bodies) override;
-  void set_state(BodyId body, const BodyState& state) override;
+  void set_state(BodyId body, const BodyState& state) override {
+    bodies_.set_state(bodies_.slot(body), state);
+  }
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
   JointId join(const JointDesc& joint) override;
   void attach(JointId joint, bool end_a, BodyId body,
@@ -56,7 +58,10 @@ class RigidPhysics final : public Physics {
   void strengthen(JointId joint, const SectionStrength& strength) override {
     joints_.strengthen(joint, strength);
   }
-  void cut(JointId joint) override;
+  void cut(JointId joint) override {
+    sleep_.wake_held(joints_.at(joint), options_.gravity_W, contacts_, bodies_);
+    joints_.cut(joint, bodies_);
+  }
   std::vector<JointId> take_broken() override { return joints_.take_broken(); }
   void pause(std::span<const BodyId> bodies) override;
   SolveReport solve(double dt_s, int substeps) override;
@@ -131,7 +136,8 @@ void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
   remove_shapes(shapes);
   for (const BodyId id : ids) {
     const BodySlot body = bodies_.slot(id);  // each once
-    if (!joints_.empty()) joints_.lose(body, bodies_);
+    sleep_.wake_held(joints_.all(), body, options_.gravity_W, contacts_, bodies_);
+    joints_.lose(body, bodies_);
     bodies_.remove(body);
     contacts_.body_colors[body] = 0;
   }
@@ -287,10 +293,6 @@ std::vector<TouchingBodies> RigidPhysics::touching(std::span<const BodyId> bodie
   return find_touching(contacts_, bodies_, contacts_of_bodies(), bodies);
 }
 
-void RigidPhysics::set_state(BodyId id, const BodyState& state) {
-  bodies_.set_state(bodies_.slot(id), state);
-}
-
 void RigidPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) {
   bodies_.apply_impulse(bodies_.slot(id), impulse_W, point_W);
 }
@@ -315,11 +317,10 @@ JointId RigidPhysics::join(const JointDesc& joint) {
 
 void RigidPhysics::attach(JointId id, bool end_a, BodyId body,
                           std::span<const std::uint32_t> quiet_tags) {
+  sleep_.wake_held(joints_.at(id), options_.gravity_W, contacts_, bodies_);
   joints_.attach(id, end_a, body, quiet_tags, bodies_);
   look_again(id);
 }
-
-void RigidPhysics::cut(JointId id) { joints_.cut(id, bodies_); }
 
 void RigidPhysics::pause(std::span<const BodyId> bodies) {
   std::vector<BodySlot> all;
@@ -355,7 +356,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     bodies_.changed[body] = 1;
   }
   static_warm_start_.apply(step, options_.static_warm_start, bodies_, contacts_);
-  std::fill(bodies_.is_new.begin(), bodies_.is_new.end(), std::uint8_t{0});
+  bodies_.end_news();
   const ContactSolveReport solved = solve_contacts(step);
   for (const BodySlot body : bodies_.slots())
     if (bodies_.carries(body)) carry_on(step, body, bodies_);

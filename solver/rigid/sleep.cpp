@@ -26,6 +26,17 @@ Vec3f up(const Vec3& gravity_W) {
   return g > 0 ? Vec3f((-gravity_W / g).cast<float>()) : Vec3f(Vec3f::Zero());
 }
 
+/// How the force of a contact on its second body differs from what it was.
+struct ForceChange {
+  Vec3f force_W;
+  float beyond_N;  ///< The part that counts: less a share of what the contact carried.
+};
+
+ForceChange change_of(const StepContext& step, const Manifold& m, const Vec3f& before_W) {
+  const Vec3f change_W = step.inverse_h * m.impulse_W() - before_W;
+  return {change_W, std::max(0.f, change_W.norm() - kChange * before_W.norm())};
+}
+
 bool asleep(const Bodies& bodies, BodySlot body) { return bodies.motion[body] == Motion::kAsleep; }
 
 }  // namespace
@@ -42,11 +53,27 @@ void Sleep::note_rest(const StepContext& step, Bodies& bodies) {
     if (speed < speed_m_s(kSlow, step, reach) && drift < kDrift * reach) {
       bodies.slow_s[body] += static_cast<float>(step.dt_s);
     } else {
-      bodies.slow_s[body] = 0;
+      bodies.restart_rest(body);
       bodies.rest_position[body] = bodies.position[body];
       bodies.rest_rotation[body] = bodies.rotation[body];
     }
   }
+}
+
+/// A body whose load has just changed by as much as would wake it does not rest, though it may not
+/// have moved yet.
+void Sleep::keep_changed_awake(const StepContext& step, const Contacts& contacts,
+                               const Bodies& bodies) {
+  change_N_.assign(bodies.size(), 0);
+  for (const Manifold& m : contacts.manifolds) {
+    if (m.count == 0 || !(candidate_[m.body_a] || candidate_[m.body_b])) continue;
+    const float change_N = change_of(step, m, m.mean_force_W).beyond_N;
+    change_N_[m.body_a] += change_N;
+    change_N_[m.body_b] += change_N;
+  }
+  for (const BodySlot body : bodies.slots())
+    if (candidate_[body] && change_N_[body] > kChange * weight_N(bodies, body, step.gravity_W))
+      candidate_[body] = 0;
 }
 
 /// What is joined to something that moves does not rest.
@@ -57,7 +84,7 @@ void Sleep::keep_joined_awake(const Bodies& bodies, const Joints& joints) {
       if (!joint.holds() || joint.body_a.none() || joint.body_b.none()) continue;
       for (const auto& [one, other] :
            {std::pair(joint.body_a, joint.body_b), {joint.body_b, joint.body_a}}) {
-        const bool moves = bodies.awake(other) || bodies.carries(other);
+        const bool moves = bodies.awake(other) || bodies.shifts(other);
         if (!candidate_[one] || candidate_[other] || !moves) continue;
         candidate_[one] = 0;
         again = true;
@@ -87,17 +114,17 @@ Vec3 Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& 
   candidate_.assign(n, 0);
   bool any = false;
   for (const BodySlot body : bodies.slots()) {
-    const double rest_s =
-        std::max(kRestTime * step.froude.time_s(bodies.reach_m[body]), kRestSteps * step.dt_s);
-    candidate_[body] = bodies.awake(body) && double{bodies.slow_s[body]} >= rest_s;
+    candidate_[body] =
+        bodies.awake(body) && double{bodies.slow_s[body]} >= step.rest_s(bodies.reach_m[body]);
     any = any || candidate_[body];
   }
   if (!any) return Vec3::Zero();
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0) continue;
-    if (bodies.carries(m.body_b)) candidate_[m.body_a] = 0;
-    if (bodies.carries(m.body_a)) candidate_[m.body_b] = 0;
+    if (bodies.shifts(m.body_b)) candidate_[m.body_a] = 0;
+    if (bodies.shifts(m.body_a)) candidate_[m.body_b] = 0;
   }
+  keep_changed_awake(step, contacts, bodies);
   keep_joined_awake(bodies, joints);
   DisjointSets groups(n);  // of what rests on each other
   anchored_.assign(n, step.gravity_W.isZero(0));
@@ -166,9 +193,9 @@ void Sleep::wake_changed(const StepContext& step, const Contacts& contacts, Bodi
     const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
     const BodySlot body = a ? m.body_a : m.body_b;
-    const Vec3f change = step.inverse_h * m.impulse_W() - m.rest_force_W;
-    change_N_[body] += std::max(0.f, change.norm() - kChange * m.rest_force_W.norm());
-    support_N_[body] += (a ? -1.f : 1.f) * change.dot(up_W);
+    const ForceChange change = change_of(step, m, m.rest_force_W);
+    change_N_[body] += change.beyond_N;
+    support_N_[body] += (a ? -1.f : 1.f) * change.force_W.dot(up_W);
   }
   std::vector<BodySlot> woken, left;
   for (const BodySlot body : bodies.slots()) {
@@ -187,9 +214,13 @@ void Sleep::wake_left(std::span<const ManifoldSlot> manifolds, const Vec3& gravi
   for (const ManifoldSlot slot : manifolds) {
     const Manifold& m = contacts.manifolds[slot];
     for (const BodySlot body : {m.body_a, m.body_b}) {
-      if (!asleep(bodies, body)) continue;
-      const bool carried = m.rest_force_W.norm() > kChange * weight_N(bodies, body, gravity_W);
-      if (carried) lowest.push_back(body);
+      if (!bodies.dynamic(body) || !(bodies.slow_s[body] > 0)) continue;
+      const float rest_N = asleep(bodies, body) ? m.rest_force_W.norm() : 0;
+      bodies.lost_N[body] += std::max(rest_N, m.mean_force_W.norm());
+      if (double{bodies.lost_N[body]} <= kDrift * double{weight_N(bodies, body, gravity_W)})
+        continue;
+      lowest.push_back(body);
+      bodies.restart_rest(body);
     }
   }
   std::sort(lowest.begin(), lowest.end());
@@ -197,16 +228,31 @@ void Sleep::wake_left(std::span<const ManifoldSlot> manifolds, const Vec3& gravi
   wake_above(std::move(lowest), gravity_W, contacts, bodies);
 }
 
+void Sleep::wake_held(const Joint& joint, const Vec3& gravity_W, const Contacts& contacts,
+                      Bodies& bodies) {
+  if (!joint.bears()) return;
+  std::vector<BodySlot> held;
+  for (const BodySlot body : {joint.body_a, joint.body_b})
+    if (!body.none() && bodies.dynamic(body)) held.push_back(body);
+  wake_above(std::move(held), gravity_W, contacts, bodies);
+}
+
+void Sleep::wake_held(std::span<const Joint> joints, BodySlot body, const Vec3& gravity_W,
+                      const Contacts& contacts, Bodies& bodies) {
+  for (const Joint& joint : joints)
+    if (joint.body_a == body || joint.body_b == body) wake_held(joint, gravity_W, contacts, bodies);
+}
+
 void Sleep::wake_carried(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies) {
-  const auto carries = [&](BodySlot body) { return bodies.carries(body); };
+  const auto shifts = [&](BodySlot body) { return bodies.shifts(body); };
   bool any = false;
-  for (const BodySlot body : bodies.slots()) any = any || carries(body);
+  for (const BodySlot body : bodies.slots()) any = any || shifts(body);
   if (!any) return;
   std::vector<BodySlot> carried;
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0) continue;
-    if (carries(m.body_b) && asleep(bodies, m.body_a)) carried.push_back(m.body_a);
-    if (carries(m.body_a) && asleep(bodies, m.body_b)) carried.push_back(m.body_b);
+    if (shifts(m.body_b) && asleep(bodies, m.body_a)) carried.push_back(m.body_a);
+    if (shifts(m.body_a) && asleep(bodies, m.body_b)) carried.push_back(m.body_b);
   }
   wake_above(std::move(carried), gravity_W, contacts, bodies);
 }
@@ -215,14 +261,15 @@ void Sleep::wake_above(std::vector<BodySlot> lowest, const Vec3& gravity_W,
                        const Contacts& contacts, Bodies& bodies) {
   if (lowest.empty()) return;
   const Vec3f up_W = up(gravity_W);
-  // What stands on what, both asleep: a counting sort of edges by the lower body.
+  // What sleeps on what: a counting sort of edges by the lower body.
   auto for_each_edge = [&](const auto& visit) {
     for (const Manifold& m : contacts.manifolds) {
-      if (m.count == 0 || !asleep(bodies, m.body_a) || !asleep(bodies, m.body_b)) continue;
+      if (m.count == 0 || !bodies.dynamic(m.body_a) || !bodies.dynamic(m.body_b)) continue;
       const float lift = m.rest_force_W.dot(up_W);
       const BodySlot low = lift > 0 ? m.body_a : m.body_b;
       const BodySlot high = lift > 0 ? m.body_b : m.body_a;
-      if (std::abs(lift) > kChange * weight_N(bodies, high, gravity_W)) visit(low, high);
+      if (asleep(bodies, high) && std::abs(lift) > kChange * weight_N(bodies, high, gravity_W))
+        visit(low, high);
     }
   };
   first_.assign(bodies.size() + 2, 0);

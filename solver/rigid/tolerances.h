@@ -99,7 +99,9 @@ SUNDER_TUNED bool kGuards = true, kStrikes = true, kAccelerates = true, kKeeps =
 // No step can tell what is slower than what gravity does in it, nor a few steps what is about to
 // tip.
 
-SUNDER_TUNED double kDrift = 0.005;   ///< Of the reach, within the time of rest.
+/// Of the reach, within the time of rest. The load of a body also moves by no more than this while
+/// the contacts that it lost carried no larger share of its weight.
+SUNDER_TUNED double kDrift = 0.005;
 SUNDER_TUNED double kSlow = 0.25;     ///< Speeds of falling; a third of it is a hit.
 SUNDER_TUNED double kRestTime = 2.6;  ///< Times of falling (half a second for a piece of 35 cm).
 SUNDER_TUNED double kRestSteps = 20;  ///< At least so many.

@@ -117,6 +117,57 @@ TEST(Sleep, WhatStoodOnARemovedBodyFallsAsIfItHadNeverSlept) {
   for (std::size_t i = 0; i < twin.size(); ++i) EXPECT_NEAR(here[i], twin[i], 1e-3) << i;
 }
 
+/// The height by which a body falls within a second.
+double fall_m(RigidWorld& world, BodyId body) {
+  const double from_m = world.state(body).X_WB.position.y();
+  world.run(1, kDt_s, kSubsteps);
+  return from_m - world.state(body).X_WB.position.y();
+}
+
+TEST(Sleep, ATableFallsOverALegThatCarriedAFifthOfIt) {
+  RigidWorld world;
+  world.add(W::ground());
+  world.add(W::box(Vec3(0.1, 0.8, 0.1), Vec3(-0.2, 0.4, -0.4)));
+  world.add(W::box(Vec3(0.1, 0.8, 0.1), Vec3(-0.2, 0.4, 0.4)));
+  const BodyId leg = world.add(W::box(Vec3(0.1, 0.8, 0.1), Vec3(0.8, 0.4, 0)));
+  const BodyId top = world.add(W::box(Vec3(2, 0.1, 1), Vec3(0, 0.85, 0)));
+  world.run(3, kDt_s, kSubsteps);
+  ASSERT_TRUE(world.state(top).asleep);
+  world.remove(leg);
+  EXPECT_GT(fall_m(world, top), 0.2);
+}
+
+TEST(Sleep, ABodyFallsThatLosesManySupportsOneByOne) {
+  RigidWorld world;
+  world.add(W::ground());
+  std::vector<BodyId> legs;
+  for (int i = 0; i < 60; ++i)
+    legs.push_back(
+        world.add(W::box(Vec3(0.1, 0.3, 0.1), Vec3(0.2 * (i % 10 - 4.5), 0.15, 0.2 * (i / 10)))));
+  const BodyId slab = world.add(W::box(Vec3(2, 0.2, 1.2), Vec3(0, 0.4, 0.5)));
+  world.run(4, kDt_s, kSubsteps);
+  ASSERT_TRUE(world.state(slab).asleep);
+  for (const BodyId leg : legs) world.remove(leg);
+  EXPECT_GT(fall_m(world, slab), 0.25);
+}
+
+TEST(Sleep, ABodyFollowsAKinematicSupportThatIsPutALittleLower) {
+  RigidWorld world;
+  BodyDesc table = W::box(Vec3(4, 1, 4), Vec3(0, -0.5, 0));
+  table.is_kinematic = true;
+  const BodyId support = world.add(table);
+  const BodyId box = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+  world.run(3, kDt_s, kSubsteps);
+  ASSERT_TRUE(world.state(box).asleep);
+  BodyState state = world.state(support);
+  world.physics().set_state(support, state);
+  world.step(kDt_s, kSubsteps);
+  EXPECT_TRUE(world.state(box).asleep) << "the support is where it was";
+  state.X_WB.position.y() -= 0.004;
+  world.physics().set_state(support, state);
+  EXPECT_NEAR(fall_m(world, box), 0.004, 1e-3);
+}
+
 TEST(Sleep, AChangedLoadWakesALightBodyButNotWhatHardlyFeelsIt) {
   RigidWorld world;
   world.add(W::ground());

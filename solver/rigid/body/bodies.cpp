@@ -75,10 +75,12 @@ void Bodies::resize(std::uint32_t count) {
   reach_m.resize(count);
   turned_m.resize(count);
   slow_s.resize(count);
+  lost_N.resize(count);
   rest_position.resize(count);
   rest_rotation.resize(count);
   is_new.resize(count);
   changed.resize(count);
+  displaced.resize(count);
   reports_load.resize(count);
   tag.resize(count);
   first_shape.resize(count);
@@ -113,11 +115,12 @@ BodySlot Bodies::add(const BodyDesc& desc) {
   }
   reach_m[body] = 0;
   turned_m[body] = 0;
-  slow_s[body] = 0;
+  restart_rest(body);
   rest_position[body] = position[body];
   rest_rotation[body] = rotation[body];
   is_new[body] = 1;
   changed[body] = 1;
+  displaced[body] = 0;
   reports_load[body] = desc.reports_load;
   tag[body] = desc.tag;
   first_shape[body] = {};
@@ -170,11 +173,15 @@ void Bodies::set_state(BodySlot body, const BodyState& state) {
   wake(body);
   const Quat turn = rotation[body].conjugate() * state.X_WB.rotation;
   turned_m[body] += 3.2 * turn.vec().norm() * reach_m[body];  // angle <= pi * sine
+  const Pose before{position[body], rotation[body]};
   place(body, state.X_WB.position, state.X_WB.rotation);
+  if (motion[body] == Motion::kKinematic &&
+      !(before.position == position[body] && before.rotation.coeffs() == rotation[body].coeffs()))
+    displaced[body] = 1;
   velocity[body] = state.velocity_W;
   angular_velocity[body] = state.angular_velocity_W;
   changed[body] = 1;
-  slow_s[body] = 0;
+  restart_rest(body);
 }
 
 void Bodies::apply_impulse(BodySlot body, const Vec3& impulse_W, const Vec3& point_W) {
@@ -185,14 +192,24 @@ void Bodies::apply_impulse(BodySlot body, const Vec3& impulse_W, const Vec3& poi
   velocity[body] += impulse_W / mass_kg[body];
   angular_velocity[body] += q * Vec3(inertia_B[body].inverse() * angular_impulse_B);
   changed[body] = 1;
-  slow_s[body] = 0;
+  restart_rest(body);
 }
 
 void Bodies::wake(BodySlot body) {
   if (motion[body] != Motion::kAsleep) return;
   motion[body] = Motion::kAwake;
-  slow_s[body] = 0;
   changed[body] = 1;
+  restart_rest(body);
+}
+
+void Bodies::restart_rest(BodySlot body) {
+  slow_s[body] = 0;
+  lost_N[body] = 0;
+}
+
+void Bodies::end_news() {
+  std::fill(is_new.begin(), is_new.end(), std::uint8_t{0});
+  std::fill(displaced.begin(), displaced.end(), std::uint8_t{0});
 }
 
 namespace {

@@ -43,10 +43,12 @@ struct Bodies {
   ByBody<double> reach_m;             ///< Radius about the centre of mass.
   ByBody<double> turned_m;            ///< Bound on how far turns moved any of its points.
   ByBody<float> slow_s;               ///< Time it has been slow and near its rest pose.
+  ByBody<float> lost_N;               ///< Sum of the forces of contacts it lost in that time.
   ByBody<Vec3> rest_position;
   ByBody<Quat> rest_rotation;
-  ByBody<std::uint8_t> is_new;   ///< Not solved yet.
-  ByBody<std::uint8_t> changed;  ///< Moved, pushed or new since the last collide.
+  ByBody<std::uint8_t> is_new;     ///< Not solved yet.
+  ByBody<std::uint8_t> changed;    ///< Moved, pushed or new since the last collide.
+  ByBody<std::uint8_t> displaced;  ///< Kinematic, and put elsewhere since the last step.
   ByBody<std::uint8_t> reports_load;
   ByBody<std::uint32_t> tag;
   ByBody<ShapeSlot> first_shape;
@@ -66,6 +68,8 @@ struct Bodies {
     return motion[body] == Motion::kKinematic &&
            !(velocity[body].isZero(0) && angular_velocity[body].isZero(0));
   }
+  /// Is kinematic, and carries or was put elsewhere.
+  bool shifts(BodySlot body) const { return displaced[body] || carries(body); }
   bool contains(BodyId id) const {
     const BodySlot body(id.slot);
     return id.slot < size() && generation[body] == id.generation && motion[body] != Motion::kAbsent;
@@ -99,6 +103,10 @@ struct Bodies {
   void apply_impulse(BodySlot body, const Vec3& impulse_W, const Vec3& point_W);
   /// Wakes a sleeper; others are left as they are.
   void wake(BodySlot body);
+  /// The time at rest counts from now on.
+  void restart_rest(BodySlot body);
+  /// No body is new or displaced from now on.
+  void end_news();
 
  private:
   void resize(std::uint32_t count);

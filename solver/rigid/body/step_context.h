@@ -1,8 +1,11 @@
 // What a step is to every part of the solver.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/base/froude.h"
 #include "engine/base/types.h"
+#include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
 
@@ -24,6 +27,11 @@ struct StepContext {
     const double scale = last_h_s > 0 ? h_s / last_h_s : 1;
     impulse_scale = static_cast<float>(scale);
     kept_scale = static_cast<float>(1 / scale);
+  }
+
+  /// Time that a body must have been at rest to fall asleep.
+  double rest_s(double reach_m) const {
+    return std::max(kRestTime * froude.time_s(reach_m), kRestSteps * dt_s);
   }
 
   Vec3 gravity_W;

@@ -74,6 +74,7 @@ struct Manifold {
   float rolling_m = 0;  ///< Arm of resistance to rolling.
   Vec3f roll_impulse_W = Vec3f::Zero();
   Vec3f step_impulse_W = Vec3f::Zero();  ///< On b over the last step, if a or b bears load.
+  Vec3f mean_force_W = Vec3f::Zero();    ///< On b, N, over a quarter of the time of rest, about.
   Vec3f rest_force_W = Vec3f::Zero();    ///< On b, N, when a body of the two last fell asleep.
   std::array<ManifoldPoint, 4> points;
 

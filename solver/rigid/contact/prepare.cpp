@@ -169,6 +169,18 @@ float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, s
                     std::min(1.f, m.compliance_scale / kComplianceStep));
 }
 
+/// Share that the last substep has in the mean force of a contact; all of it if it is the first.
+/// The larger body sets the time that the mean remembers: a contact that it lost as it began to
+/// fall must still count when it would fall asleep.
+float share_in_mean(const ContactStep& step, const Manifold& m) {
+  if (m.mean_force_W.isZero(0)) return 1;
+  const auto reach_m = [&](BodySlot body) {
+    return step.bodies.dynamic(body) ? step.bodies.reach_m[body] : 0;
+  };
+  const double rest_s = step.context.rest_s(std::max(reach_m(m.body_a), reach_m(m.body_b)));
+  return static_cast<float>(4 * step.context.dt_s / rest_s);
+}
+
 template <std::uint32_t lanes>
 void store_block(const ContactStep& step, const ConstraintBlock<lanes>& c) {
   float separation[4][lanes];
@@ -189,6 +201,8 @@ void store_block(const ContactStep& step, const ConstraintBlock<lanes>& c) {
                          c.roll.impulse_2[lane] * lane_of(c.tangent_2, lane);
     m.compliance_scale = compliance_now(step, c, lane, m);
     m.step_impulse_W = lane_of(c.total, lane);
+    const Vec3f force_W = step.context.inverse_h * m.impulse_W();
+    m.mean_force_W += share_in_mean(step, m) * (force_W - m.mean_force_W);
     const float limit = c.friction[lane] * 0.999f;
     if (s1 * s1 + s2 * s2 >= limit * limit * normal * normal) m.sticking = false;
   }

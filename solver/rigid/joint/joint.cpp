@@ -25,7 +25,7 @@ void wake_body(BodySlot body, Bodies& bodies) {
   if (body.none()) return;
   bodies.wake(body);
   bodies.changed[body] = 1;
-  bodies.slow_s[body] = 0;
+  bodies.restart_rest(body);
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ void Joints::wake(Bodies& bodies) const {
     const auto pass_on = [&](const Joint& joint) {
       if (!joint.holds() || joint.body_a.none() || joint.body_b.none()) return;
       const BodySlot a = joint.body_a, b = joint.body_b;
-      const auto moves = [&](BodySlot body) { return bodies.awake(body) || bodies.carries(body); };
+      const auto moves = [&](BodySlot body) { return bodies.awake(body) || bodies.shifts(body); };
       const BodySlot sleeper = moves(a) ? b : a;
       if (!moves(a) && !moves(b)) return;
       if (bodies.motion[sleeper] != Motion::kAsleep) return;

@@ -47,6 +47,8 @@ struct Joint {
   PlasticState plastic = {};
 
   bool holds() const { return present && !lost; }
+  /// It bore load in the last step that it was solved in.
+  bool bears() const { return !total.linear_W.isZero(0) || !total.angular_W.isZero(0); }
 };
 
 class Joints {
@@ -76,10 +78,11 @@ class Joints {
   std::uint32_t size() const { return static_cast<std::uint32_t>(items_.size()); }
   const Joint& operator[](std::uint32_t i) const { return items_[i]; }
   Joint& operator[](std::uint32_t i) { return items_[i]; }
+  /// The joint of that name, which must be there.
+  Joint& at(JointId id);
   std::span<const Joint> all() const { return items_; }
 
  private:
-  Joint& at(JointId id);
   void wake_ends(const Joint& joint, Bodies& bodies) const;
   void note_pairs(const Bodies& bodies);
 
