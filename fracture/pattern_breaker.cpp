@@ -127,8 +127,7 @@ void add_plug(const Convex& convex, const Material& material, const Hit& hit,
   command.plug = make_plug(material, hit, axis_across(convex, hit.direction_R), X_RP);
   if (!command.plug) return;
   command.X_RP = X_RP;
-  double widest_m = command.plug->reach_m;
-  for (const Vec2& corner : command.plug->section_m) widest_m = std::max(widest_m, corner.norm());
+  const double widest_m = std::max(command.plug->reach_m, command.plug->section_reach_m());
   command.radius_m = 1.1 * std::hypot(widest_m, command.plug->depth_m);
 }
 

@@ -67,8 +67,8 @@ void add_rings(const Material& material, const Hit& hit, double radius_m, Plug& 
   const double affordable_m = left_J / (material.toughness_J_m2 * plug.depth_m);
   const PatternSpec::Kind kind = material.pattern.kind;
   const bool is_web = kind == PatternSpec::Kind::kWeb || kind == PatternSpec::Kind::kRadial;
-  const double shear_m_s = std::sqrt(material.youngs_Pa / (2.4 * material.density_kg_m3));
-  const double run_m = kCrackSpeed * shear_m_s * (plug.depth_m + 2 * radius_m) / hit.speed_m_s;
+  const double run_m =
+      kCrackSpeed * material.shear_wave_m_s() * (plug.depth_m + 2 * radius_m) / hit.speed_m_s;
   const double most_m = is_web ? material.impact_radius_m : kSpall * radius_m;
   plug.reach_m = std::min({radius_m + run_m, material.impact_radius_m, most_m});
   const int most = is_web ? kMostRings : hit.energy_J > kSpalls * plug.energy_J ? 1 : 0;

@@ -10,9 +10,9 @@ constexpr double kStraight = 1e-6;  // of the size, or of a right angle
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Andrew's monotone chain; corners less than `tolerance_m` off the line between their neighbours
-/// are left out.
-std::vector<Vec2> outline_of(std::vector<Vec2> points, double tolerance_m) {
+}  // namespace
+
+std::vector<Vec2> convex_outline(std::vector<Vec2> points, double tolerance_m) {
   std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
   });
@@ -28,12 +28,10 @@ std::vector<Vec2> outline_of(std::vector<Vec2> points, double tolerance_m) {
   };
   for (const Vec2& point : points) add(point, 1);
   const std::size_t lower = hull.size();
-  for (auto it = points.rbegin() + 1; it != points.rend(); ++it) add(*it, lower);
+  for (auto it = points.rbegin(); it != points.rend(); ++it) add(*it, lower);
   if (hull.size() > 1 && (hull.front() - hull.back()).norm() <= tolerance_m) hull.pop_back();
   return hull;
 }
-
-}  // namespace
 
 std::optional<ZPrism> prism_along_z(const ConvexPolyhedron& convex, const Pose& X_WR) {
   const Mat3 rotation = X_WR.rotation.toRotationMatrix();
@@ -52,7 +50,7 @@ std::optional<ZPrism> prism_along_z(const ConvexPolyhedron& convex, const Pose& 
   if (points.empty()) return std::nullopt;
   prism.low = box.min.z(), prism.high = box.max.z();
   const double tolerance_m = kStraight * box.extent().head<2>().norm();
-  prism.outline = outline_of(std::move(points), tolerance_m);
+  prism.outline = convex_outline(std::move(points), tolerance_m);
   if (prism.outline.size() < 3) return std::nullopt;
   return prism;
 }

@@ -1,4 +1,4 @@
-// Prisms along z: solids that a plane scene can stand for by their outline.
+// Prisms along z, solids that a plane scene can stand for by their outline; and outlines.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,10 @@
 #include "engine/geometry/convex_polyhedron.h"
 
 namespace sunder {
+
+/// Convex hull of points in a plane, counter-clockwise (monotone chain, Andrew 1979). Corners less
+/// than `tolerance_m` off the line between their neighbours are left out.
+std::vector<Vec2> convex_outline(std::vector<Vec2> points, double tolerance_m);
 
 /// A convex polygon in the xy-plane, swept from `low` to `high` along z.
 struct ZPrism {

@@ -76,6 +76,8 @@ struct Plug {
   double solid_m = 0;   ///< Thickness of the solid.
   double sides_m2 = 0;  ///< Area of the prism's sides.
 
+  /// Distance from the axis to the farthest corner of the section.
+  double section_reach_m() const;
   /// True for points, in the pattern's frame, in the prism, or beyond its ends if it goes through.
   bool contains(const Vec3& point_P) const;
   /// Number of cells of the prism and its rings, about.

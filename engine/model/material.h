@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -103,6 +104,8 @@ struct Material {
 
   bool breakable() const { return pattern.kind != PatternSpec::Kind::kNone; }
   bool yields() const { return yield_Pa > 0; }
+  /// Speed of shear waves, √(E / 2.4 ρ): that of a Poisson's ratio of 0.2.
+  double shear_wave_m_s() const { return std::sqrt(youngs_Pa / (2.4 * density_kg_m3)); }
   /// Infinite if no stress breaks it, or makes it flow.
   double weakest_Pa() const {
     double least = std::numeric_limits<double>::infinity();

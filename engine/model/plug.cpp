@@ -1,6 +1,14 @@
+#include <algorithm>
+
 #include "engine/model/breaker.h"
 
 namespace sunder {
+
+double Plug::section_reach_m() const {
+  double reach_m = 0;
+  for (const Vec2& corner : section_m) reach_m = std::max(reach_m, corner.norm());
+  return reach_m;
+}
 
 bool Plug::contains(const Vec3& point_P) const {
   for (std::size_t i = 0; i < section_m.size(); ++i) {

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,13 @@ struct Ball {
   Vec3 center_W = Vec3::Zero();
   Vec3 velocity_W = Vec3::Zero();
 };
+
+inline double ball_volume_m3(double radius_m) {
+  return 4.0 / 3.0 * std::numbers::pi * radius_m * radius_m * radius_m;
+}
+inline double ball_mass_kg(const Ball& ball, std::span<const Material> materials) {
+  return materials[ball.material.value].density_kg_m3 * ball_volume_m3(ball.radius_m);
+}
 
 /// A ball that appears at a time. A wrecking ball hangs on a chain that reaches from where it hangs
 /// to its surface, or, without links, on a rope without weight to its centre.

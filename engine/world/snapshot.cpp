@@ -105,7 +105,7 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   particles.show(*frame);
   report.mass_kg += ledger.debris_mass_kg + ledger.removed_mass_kg;
   for (const Shot& shot : shots_to_come) {
-    report.mass_kg += ball_mass_kg(world, shot.ball);
+    report.mass_kg += ball_mass_kg(shot.ball, *world.materials);
     for (const Solid& link : shot.links)
       report.mass_kg += weigh(link.compound, *world.materials).mass_kg;
   }

@@ -14,11 +14,7 @@ constexpr double kJitter = 0.2;  // of the distance between two rings, and of sl
 /// Corners of all rings, from the inside out.
 std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Random& random) {
   std::vector<Vec2> section;
-  double widest_m = 0;
-  for (const Vec2& corner : plug.section_m) {
-    section.push_back(corner / unit_m);
-    widest_m = std::max(widest_m, corner.norm());
-  }
+  for (const Vec2& corner : plug.section_m) section.push_back(corner / unit_m);
   std::vector<std::vector<Vec2>> rings;
   const auto add = [&](double scale, double jitter) {
     std::vector<Vec2> ring;
@@ -28,7 +24,7 @@ std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Rand
   };
   if (plug.split) add(kCore, 0);
   add(1, 0);
-  const double widest = std::max(1.0, plug.reach_m / widest_m);
+  const double widest = std::max(1.0, plug.reach_m / plug.section_reach_m());
   double inner = 1;
   for (int ring = 1; ring <= plug.rings; ++ring) {
     const double outer = std::pow(widest, static_cast<double>(ring) / plug.rings);

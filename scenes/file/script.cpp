@@ -28,8 +28,8 @@ void add_wrecking_ball(const Value& table, Scene& scene) {
 }
 
 void add_blast(const Value& table, Scene& scene) {
-  const Blast& blast = scene.blasts.emplace_back();
-  read(schema().blast, table, {}, scene.blasts.back());
+  Blast& blast = scene.blasts.emplace_back();
+  read(schema().blast, table, {}, blast);
   for (const char* key : {"radius_m", "impulse_Ns_m2"}) {
     const Value* value = find(table, key);
     if (!value || !blast.tnt_kg) continue;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -51,8 +50,7 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
   for (const Ball& ball : scene.balls) {
     const Vec3 reach = Vec3::Constant(ball.radius_m);
     Block block{ball.name, {ball.center_W - reach, ball.center_W + reach}};
-    block.mass_kg = scene.materials[ball.material.value].density_kg_m3 * 4 / 3 * std::numbers::pi *
-                    ball.radius_m * ball.radius_m * ball.radius_m;
+    block.mass_kg = ball_mass_kg(ball, scene.materials);
     blocks.push_back(block);
   }
   for (Block& block : blocks) {

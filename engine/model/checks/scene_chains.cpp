@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -37,8 +36,7 @@ Body body_of(const Solid& solid, const Scene& scene) {
 }
 
 Body body_of(const Ball& ball, const Scene& scene) {
-  const double mass = scene.materials[ball.material.value].density_kg_m3 * 4 / 3 *
-                      std::numbers::pi * ball.radius_m * ball.radius_m * ball.radius_m;
+  const double mass = ball_mass_kg(ball, scene.materials);
   return {ball.name, mass, 0.4 * mass * ball.radius_m * ball.radius_m, ball.center_W};
 }
 

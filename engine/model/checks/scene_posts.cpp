@@ -77,8 +77,7 @@ std::vector<Body> bodies_of(const Scene& scene, const Axes& axes) {
     Body& body = bodies.emplace_back();
     const Vec3 center = turned(ball.center_W, axes), reach = Vec3::Constant(ball.radius_m);
     body.box = {center - reach, center + reach};
-    body.mass_kg = scene.materials[ball.material.value].density_kg_m3 * 4 / 3 * std::numbers::pi *
-                   ball.radius_m * ball.radius_m * ball.radius_m;
+    body.mass_kg = ball_mass_kg(ball, scene.materials);
     body.center = center.head<2>();
   }
   for (const Move& move : scene.moves)

@@ -75,9 +75,6 @@ struct Actor {
 /// In place of an actor where there is none; kGroundKey is the body tag of the ground.
 inline constexpr std::uint32_t kNobodyKey = 0xfffffffe;
 
-inline double ball_volume_m3(double radius_m) {
-  return 4.0 / 3.0 * std::numbers::pi * radius_m * radius_m * radius_m;
-}
 inline double ball_radius_m(double volume_m3) {
   return std::cbrt(volume_m3 * 3 / (4 * std::numbers::pi));
 }

@@ -163,17 +163,13 @@ void add_compounds(World& world, std::span<const Solid> solids) {
   }
 }
 
-double ball_mass_kg(const World& world, const Ball& ball) {
-  return world.material(ball.material).density_kg_m3 * ball_volume_m3(ball.radius_m);
-}
-
 void add_ball(World& world, const Ball& ball) {
   const Material& material = world.material(ball.material);
   const double radius = ball.radius_m;
   Actor actor;
   actor.key = actor.root_key = actor.shown_key = world.actors.new_key();
   actor.volume_m3 = ball_volume_m3(radius);
-  actor.weight.mass_kg = ball_mass_kg(world, ball);
+  actor.weight.mass_kg = ball_mass_kg(ball, *world.materials);
   actor.weight.inertia_R = 0.4 * actor.weight.mass_kg * radius * radius * Mat3::Identity();
   actor.born_step = world.clock.step;
   actor.meshes = {world.meshes.add(make_ball_mesh(radius, ball.material))};

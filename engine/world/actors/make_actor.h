@@ -22,7 +22,6 @@ void set_least(const World& world, Actor& actor);
 
 void add_compounds(World& world, std::span<const Solid> solids);
 
-double ball_mass_kg(const World& world, const Ball& ball);
 void add_ball(World& world, const Ball& ball);
 
 }  // namespace sunder

@@ -85,8 +85,8 @@ bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak&
   const Plug& plug = *planned.command.plug;
   const Material& material =
       world.material(actor.structure.convex(planned.impact.convex)->material);
-  const double shear_m_s = std::sqrt(material.youngs_Pa / (2.4 * material.density_kg_m3));
-  const double through_Ns = material.shear_Pa * plug.sides_m2 * plug.solid_m / shear_m_s;
+  const double through_Ns =
+      material.shear_Pa * plug.sides_m2 * plug.solid_m / material.shear_wave_m_s();
   const double share = std::min(1.0, through_Ns / planned.impulse_Ns);
   // The first mode of a bar of rectangular section that moves at v has the stress √3 ρ c v.
   const double speed_m_s = share * planned.impulse_Ns / actor.weight.mass_kg;
@@ -176,8 +176,7 @@ Hit hit_of(const World& world, const PlannedBreak& planned, const Actor& actor, 
 
 bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
   if (!(material.shear_Pa > 0)) return false;
-  const double impedance = std::sqrt(material.youngs_Pa * material.density_kg_m3 / 2.4);
-  return speed_m_s * impedance > material.shear_Pa;
+  return speed_m_s * material.density_kg_m3 * material.shear_wave_m_s() > material.shear_Pa;
 }
 
 void prepare(const World& world, const Breaker& breaker, std::uint64_t event,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/trigonometry.h"
+#include "engine/geometry/prism.h"
 
 namespace sunder {
 namespace {
@@ -18,26 +19,6 @@ constexpr double kAround = 1.5;  // of a section, what is looked at around it
 constexpr double kGap = 1e-3;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// Convex hull in counter-clockwise order (Andrew 1979).
-std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-  std::ranges::sort(points, [](const Vec2& a, const Vec2& b) {
-    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
-  });
-  std::vector<Vec2> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t first = hull.size();
-    for (const Vec2& point : points) {
-      while (hull.size() >= first + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(point);
-    }
-    if (!hull.empty()) hull.pop_back();
-    std::ranges::reverse(points);
-  }
-  return hull;
-}
 
 /// Takes out corners until few are left, those first that cut off least.
 void simplify(std::vector<Vec2>& hull) {
@@ -89,7 +70,7 @@ std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Ve
         points.emplace_back(u.dot(at_W), v.dot(at_W));
       }
     }
-    hull = convex_hull(std::move(points));
+    hull = convex_outline(std::move(points), 0);
     simplify(hull);
   }
   double area_m2 = 0, widest_m = 0;
