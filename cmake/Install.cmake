@@ -10,6 +10,7 @@ set(public_headers
   engine/io/statistics.h
   engine/io/take/take.h
   engine/model/compound.h
+  engine/model/energy.h
   engine/model/frame.h
   engine/model/joint.h
   engine/model/material.h

@@ -26,6 +26,7 @@ MATHEMATICS = {
     "contact/prepare.cpp": {"0.999f"},
     "contact/kernels/impact_kernels.h": {"kNoticed"},  # where a sweep stops: of its threshold
     "contact/kernels/sweep.h": {"kNow"},  # as good as none
+    "contact/kernels/sweep_kernels.h": {"kLetsGo"},  # of a limit: room for rounding
     "contact/static_warm_start.cpp": {"kWork", "kNearlyDone", "kDone", "kNoBounce"},
     "joint/joint_group.cpp": {"kSoftness"},
     "joint/joint_rows.cpp": {"0.7"},

@@ -49,13 +49,29 @@ struct Statistics::Series {
         report + 1 < first_fracture.size() ? first_fracture[report + 1] : fracture_ms.size();
     return std::span(fracture_ms).subspan(first_fracture[report], end - first_fracture[report]);
   }
-  double momentum_residual() const {
-    double worst = 0;
-    for (const FrameReport& report : reports) worst = std::max(worst, report.momentum_residual);
-    return worst;
+  double worst(double FrameReport::*figure) const {
+    double most = 0;
+    for (const FrameReport& report : reports) most = std::max(most, report.*figure);
+    return most;
   }
-  std::uint32_t sum(std::uint32_t FrameReport::*figure) const {
-    std::uint32_t total = 0;
+  /// Of all frames: flows and residual, and the sums of their sizes.
+  struct Energy {
+    EnergyFlows flows;
+    double residual_J = 0, off_J = 0, moved_J = 0;
+  };
+  Energy energy() const {
+    Energy all;
+    for (const FrameReport& report : reports) {
+      all.flows += report.energy;
+      all.residual_J += report.energy_residual_J;
+      all.off_J += std::abs(report.energy_residual_J);
+      all.moved_J += report.energy.moved();
+    }
+    return all;
+  }
+  template <class Number>
+  Number sum(Number FrameReport::*figure) const {
+    Number total = 0;
     for (const FrameReport& report : reports) total += report.*figure;
     return total;
   }
@@ -121,6 +137,15 @@ void add_times(Json& json, const std::string& prefix, const std::vector<double>&
   json[prefix + "mean_ms"] = std::accumulate(ms.begin(), ms.end(), 0.0) / count;
 }
 
+double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
+
+Json energy_json(const EnergyFlows& energy, double residual_J) {
+  Json json = Json::object();
+  EnergyFlows::for_each(energy, [&](const char* name, double value, int) { json[name] = value; });
+  json["residual"] = residual_J;
+  return json;
+}
+
 /// Of one frame; times only where something broke.
 Json fractures_json(std::span<const double> ms) {
   Json json{{"events", ms.size()}};
@@ -141,7 +166,9 @@ Json frame_json(const FrameReport& report, double ms, std::span<const double> fr
           {"stages_cpu_ms", cpu},
           {"counts", counts_json(report.counts)},
           {"carried_over", report.carried_over},
+          {"energy_flows_J", energy_json(report.energy, report.energy_residual_J)},
           {"fractures", fractures_json(fracture_ms)},
+          {"friction_excess", ratio(report.friction_excess_Ns, report.friction_allowed_Ns)},
           {"kinetic_J", report.kinetic_J},
           {"momentum_residual", report.momentum_residual},
           {"plastic_J", report.plastic_J},
@@ -226,10 +253,16 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["penetration_m"] = {
       {"p50", quantile(depth, 0.5)}, {"p99", quantile(depth, 0.99)}, {"max", quantile(depth, 1)}};
   if (s.info.accuracy.error_target_m > 0) json["error_target_m"] = s.info.accuracy.error_target_m;
+  const auto [flows, residual_J, off_J, moved_J] = s.energy();
   json["energy_J"] = {{"kinetic", s.last.kinetic_J},
                       {"potential", s.last.potential_J},
-                      {"plastic", s.last.plastic_J}};
-  json["momentum_residual"] = s.momentum_residual();
+                      {"plastic", s.last.plastic_J},
+                      {"moved", moved_J}};
+  json["energy_flows_J"] = energy_json(flows, residual_J);
+  json["energy_residual"] = ratio(off_J, moved_J);
+  json["momentum_residual"] = s.worst(&FrameReport::momentum_residual);
+  json["friction_excess"] =
+      ratio(s.sum(&FrameReport::friction_excess_Ns), s.sum(&FrameReport::friction_allowed_Ns));
   json["mass_kg"] = {{"initial", s.first.mass_kg}, {"final", s.last.mass_kg}};
   json["limits_hit"] = s.sum(&FrameReport::limits_hit);
   json["aged"] = s.sum(&FrameReport::aged);
@@ -266,9 +299,9 @@ std::string Statistics::table() const {
   const std::vector<double> depth = s.penetrations();
   text += printed("penetration p50 %.2f mm, p99 %.2f mm, max %.2f mm\n", 1e3 * quantile(depth, 0.5),
                   1e3 * quantile(depth, 0.99), 1e3 * quantile(depth, 1));
-  text +=
-      printed("mass %.6f kg -> %.6f kg, momentum residual %.1e, limits hit %u\n", s.first.mass_kg,
-              s.last.mass_kg, s.momentum_residual(), s.sum(&FrameReport::limits_hit));
+  text += printed("mass %.6f kg -> %.6f kg, momentum residual %.1e, limits hit %u\n",
+                  s.first.mass_kg, s.last.mass_kg, s.worst(&FrameReport::momentum_residual),
+                  s.sum(&FrameReport::limits_hit));
   return text;
 }
 

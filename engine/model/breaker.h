@@ -179,7 +179,8 @@ using StressMemoryPtr = std::shared_ptr<const StressMemory>;
 /// What hits a structure within no time.
 struct Blow {
   std::span<const Load> impulses;  ///< N·s in place of N.
-  double energy_J = 0;             ///< The work that they would do on it: see break_probe.h.
+  double energy_J = 0;             ///< The work that they would do on it: see break_probe.h;
+                                   ///< infinite: nothing strikes that would move on with it.
   Vec3 center_R = Vec3::Zero();    ///< Where it lands,
   double reach_m = 0;              ///< and what a break by pattern would reach from there.
 };

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/types.h"
+#include "engine/model/energy.h"
 #include "engine/model/material.h"
 #include "engine/model/work.h"
 
@@ -162,9 +163,13 @@ struct FrameReport {
   double mass_kg = 0;  ///< Everything: debris, what the script took and shots yet to come included.
   double kinetic_J = 0;
   double potential_J = 0;
-  double plastic_J = 0;  ///< That hinges have taken since the start.
+  double plastic_J = 0;          ///< That hinges have taken since the start.
+  EnergyFlows energy;            ///< Since the previous frame.
+  double energy_residual_J = 0;  ///< Change of the kinetic energy since then, less their sum.
   /// |change of momentum − external impulses| of the frame over the momentum that changed hands.
   double momentum_residual = 0;
+  double friction_allowed_Ns = 0;  ///< By Coulomb's law, of all contacts in the frame,
+  double friction_excess_Ns = 0;   ///< and friction beyond it.
   std::uint32_t carried_over = 0;  ///< Impacts and loads waiting for a later step's budget.
   std::uint32_t failed = 0;        ///< Convexes that a break left whole, as they would not add up.
   std::uint32_t limits_hit = 0;

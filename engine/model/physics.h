@@ -29,6 +29,7 @@
 #include "engine/base/types.h"
 #include "engine/geometry/convex_polyhedron.h"
 #include "engine/model/body_states.h"
+#include "engine/model/energy.h"
 #include "engine/model/joint.h"
 #include "engine/model/section.h"
 #include "engine/model/work.h"
@@ -169,8 +170,11 @@ struct SolveReport {
   double mass_kg = 0;          ///< Of the same.
   std::uint32_t contacts = 0;  ///< Manifolds with a point in reach.
   std::uint32_t contact_points = 0;
-  std::uint32_t awake = 0;   ///< Dynamic bodies.
-  std::uint32_t frozen = 0;  ///< Bodies stopped because they were no longer finite.
+  std::uint32_t awake = 0;         ///< Dynamic bodies.
+  std::uint32_t frozen = 0;        ///< Bodies stopped because they were no longer finite.
+  EnergyFlows energy;              ///< What changed the kinetic energy.
+  double friction_allowed_Ns = 0;  ///< By Coulomb's law, of all contacts,
+  double friction_excess_Ns = 0;   ///< and friction beyond it.
 };
 
 /// A point where two bodies press on each other.

@@ -111,9 +111,7 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   }
   report.penetrations_m = world.physics->penetrations();
   report.carried_over = carried_over;
-  report.plastic_J = ledger.plastic_J;
-  report.momentum_residual = ledger.momentum_residual();
-  ledger.momentum_error_Ns = ledger.momentum_moved_Ns = 0;
+  ledger.close(report, frame->index == 0);
   frame->breaks = std::exchange(ledger.breaks, {});
   return frame;
 }

@@ -185,7 +185,8 @@ class StressBreaks {
   /// strikes it ½mq²; that m is what the impulses, 2U in this direction, and the work that they
   /// do, W = (2U)² / 2m, tell. Cox (1849): they swing on together, and bend it by λu at most, when
   /// all of that energy is in the bending: λ² = 2U / (m + M). The rest, a share M / (m + M) of W,
-  /// stays where the blow lands, and so does what is bent there.
+  /// stays where the blow lands, and so does what is bent there. Where nothing strikes,
+  /// as of a blast, m is 0.
   bool strike(StressAnswer& answer) {
     if (impulses_.empty()) return true;
     Nodal<double> way;

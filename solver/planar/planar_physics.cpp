@@ -53,6 +53,7 @@ class PlanarPhysics final : public Physics {
   void note_all();
   BodyState state_of(const PlanarBody& body) const;
   Vec3 momentum_Ns() const;
+  double kinetic_J() const;
   void step(float h_s, SolveReport& report);
   void freeze_broken(SolveReport& report);
   int steps_for(double dt_s, int substeps) const;
@@ -242,6 +243,7 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   SolveReport report;
   report.momentum_before_Ns = momentum_Ns();
   freeze_broken(report);
+  const double before_J = kinetic_J();
   const int steps = steps_for(dt_s, substeps);
   listener_.begin();
   for (int i = 0; i < steps; ++i) step(static_cast<float>(dt_s / steps), report);
@@ -259,6 +261,7 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
     report.mass_kg += body.body ? body.mass_kg : 0;
   }
   report.momentum_after_Ns = momentum_Ns();
+  report.energy.contacts = before_J + report.energy.gravity - kinetic_J();
   note_all();
   span.count(report.contacts);
   return report;
@@ -290,7 +293,11 @@ void PlanarPhysics::step(float h_s, SolveReport& report) {
     if (!body.dynamic()) continue;
     const bool now = body.body->IsAwake();
     if (awake[i] || now) {
-      report.external_impulse_Ns += static_cast<double>(h_s) * body.mass_kg * options_.gravity_W;
+      const Vec3 weight_Ns = static_cast<double>(h_s) * body.mass_kg * options_.gravity_W;
+      const b2Vec2 before = awake[i] ? body.last_velocity : b2Vec2(0, 0);
+      report.external_impulse_Ns += weight_Ns;
+      report.energy.gravity +=
+          0.5 * weight_Ns.dot(plane_.metres(before + body.body->GetLinearVelocity()));
     }
     if (awake[i] && !now) {
       report.external_impulse_Ns -= body.mass_kg * plane_.metres(body.last_velocity);
@@ -338,6 +345,20 @@ Vec3 PlanarPhysics::momentum_Ns() const {
   Vec3 sum = Vec3::Zero();
   for (const PlanarBody& body : bodies_.items) {
     if (body.body) sum += body.mass_kg * plane_.metres(body.body->GetLinearVelocity());
+  }
+  return sum;
+}
+
+double PlanarPhysics::kinetic_J() const {
+  double sum = 0;
+  for (const PlanarBody& body : bodies_.items) {
+    if (!body.dynamic()) continue;
+    const b2Body& b = *body.body;
+    const float about_center = b.GetInertia() - b.GetMass() * b.GetLocalCenter().LengthSquared();
+    const double radius = std::sqrt(double{about_center / b.GetMass()});  // of gyration, units
+    const double rim_m_s = double{b.GetAngularVelocity()} * radius / plane_.units_per_m;
+    const Vec3 velocity_W = plane_.metres(b.GetLinearVelocity());
+    sum += 0.5 * body.mass_kg * (velocity_W.squaredNorm() + rim_m_s * rim_m_s);
   }
   return sum;
 }

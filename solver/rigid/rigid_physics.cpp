@@ -23,6 +23,7 @@
 #include "solver/rigid/contact/static_warm_start.h"
 #include "solver/rigid/joint/joint.h"
 #include "solver/rigid/sleep.h"
+#include "solver/rigid/step_energy.h"
 #include "solver/rigid/tolerances.h"
 
 namespace sunder::solver {
@@ -323,32 +324,19 @@ void RigidPhysics::attach(JointId id, bool end_a, BodyId body,
 }
 
 void RigidPhysics::pause(std::span<const BodyId> bodies) {
-  std::vector<BodySlot> all;
-  const auto add = [&](BodySlot body) {
-    if (body.none() || !bodies_.awake(body) || std::ranges::find(all, body) != all.end()) return;
-    all.push_back(body);
-    paused_.add(body);
-  };
-  for (const BodyId id : bodies) add(bodies_.slot(id));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const BodySlot body = all[i];
-    for (const Joint& joint : joints_.all()) {
-      if (!joint.holds()) continue;
-      if (joint.body_a == body) add(joint.body_b);
-      if (joint.body_b == body) add(joint.body_a);
-    }
-  }
+  for (const BodyId id : bodies)
+    for (const BodySlot body : joints_.joined_to(bodies_.slot(id), bodies_)) paused_.add(body);
 }
 
 SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   SUNDER_CHECK(dt_s > 0 && substeps > 0);
   const StepContext step(options_.gravity_W, dt_s, substeps, last_h_s_);
   SolveReport report;
-  report.momentum_before_Ns = bodies_.momentum().momentum_Ns;
-  report.external_impulse_Ns = freeze_broken();
+  freeze_broken();
   joints_.wake(bodies_);
   joints_.forget_flows();
   paused_.stop(bodies_);
+  const Momentum start = bodies_.momentum();
   double awake_mass = 0;
   for (const BodySlot body : bodies_.slots()) {
     if (!bodies_.awake(body)) continue;
@@ -361,21 +349,25 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   for (const BodySlot body : bodies_.slots())
     if (bodies_.carries(body)) carry_on(step, body, bodies_);
   last_h_s_ = step.h_s;
-  report.external_impulse_Ns += solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
+  report.external_impulse_Ns = solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
+  const Momentum end = bodies_.momentum();
+  report.momentum_before_Ns = start.momentum_Ns;
+  report.momentum_after_Ns = end.momentum_Ns;
+  report.mass_kg = end.mass_kg;
+  report.energy = energy_of(solved, step, start, end);
+  report.friction_allowed_Ns = solved.work.allowed_Ns;
+  report.friction_excess_Ns = solved.work.excess_Ns;
   paused_.release(bodies_);  // no sleepers: what presses on them now wakes nobody
   if (options_.sleeping) {
     const WorkSpan span(work_, Stage::kSolve, "sleep");
     sleep_.wake_changed(step, contacts_, bodies_);
-    report.external_impulse_Ns += sleep_.put_to_sleep(step, joints_, bodies_, contacts_);
+    report.energy.sleep = sleep_.put_to_sleep(step, joints_, bodies_, contacts_);
   }
   contacts_of_bodies_.clear();
   report.contacts = solved.manifolds;
   report.contact_points = solved.points;
   for (const BodySlot body : bodies_.slots()) report.awake += bodies_.awake(body);
-  const Momentum after = bodies_.momentum();
-  report.momentum_after_Ns = after.momentum_Ns;
-  report.mass_kg = after.mass_kg;
   report.frozen = frozen_;
   frozen_ = 0;
   return report;

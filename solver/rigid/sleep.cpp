@@ -107,8 +107,8 @@ void Sleep::anchor_by_joints(const Bodies& bodies, const Joints& joints, Disjoin
   }
 }
 
-Vec3 Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
-                         Contacts& contacts) {
+double Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
+                           Contacts& contacts) {
   note_rest(step, bodies);
   const std::uint32_t n = bodies.size();
   candidate_.assign(n, 0);
@@ -118,7 +118,7 @@ Vec3 Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& 
         bodies.awake(body) && double{bodies.slow_s[body]} >= step.rest_s(bodies.reach_m[body]);
     any = any || candidate_[body];
   }
-  if (!any) return Vec3::Zero();
+  if (!any) return {};
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0) continue;
     if (bodies.shifts(m.body_b)) candidate_[m.body_a] = 0;
@@ -144,11 +144,11 @@ Vec3 Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& 
   const auto root = [&](BodySlot body) { return BodySlot(groups.root(body.value)); };
   for (const BodySlot body : bodies.slots())
     if (anchored_[body] && rests(body)) anchored_[root(body)] = 1;
-  Vec3 taken = Vec3::Zero();
+  double taken_J = 0;
   for (const BodySlot body : bodies.slots()) {
     candidate_[body] = candidate_[body] && anchored_[root(body)];
     if (!candidate_[body]) continue;
-    taken -= bodies.mass_kg[body] * bodies.velocity[body];
+    taken_J += bodies.kinetic_J(body);
     bodies.motion[body] = Motion::kAsleep;
     bodies.velocity[body].setZero();
     bodies.angular_velocity[body].setZero();
@@ -156,7 +156,7 @@ Vec3 Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& 
   for (Manifold& m : contacts.manifolds)
     if (m.count > 0 && (candidate_[m.body_a] || candidate_[m.body_b]))
       m.rest_force_W = step.inverse_h * m.impulse_W();
-  return taken;
+  return taken_J;
 }
 
 void Sleep::wake_hit(const StepContext& step, const Contacts& contacts, Bodies& bodies) const {

@@ -20,9 +20,9 @@ class Sleep {
   /// Puts bodies to sleep that have been at rest for longer than they would take to tip, and stand
   /// on something, by loaded contacts or joints through other sleepers, that cannot move, or is
   /// kinematic and stands still; what is joined, only together; none whose load has just changed.
-  /// The answer is the momentum that was taken away.
-  Vec3 put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
-                    Contacts& contacts);
+  /// The answer is the kinetic energy that was taken away.
+  double put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
+                      Contacts& contacts);
   /// Wakes sleepers that something awake is about to hit.
   void wake_hit(const StepContext& step, const Contacts& contacts, Bodies& bodies) const;
   /// Wakes sleepers that touch a kinematic body that is on its way, and what stands on them.

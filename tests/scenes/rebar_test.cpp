@@ -92,11 +92,13 @@ TEST(Rebar, holds_a_cracked_beam_up_to_what_its_bars_bear) {
 TEST(Rebar, is_all_that_holds_a_cracked_beam) { EXPECT_GT(outcome(false, 0.85).fallen_m, 1); }
 
 /// A column that is shot.
-std::string column(int bars) {
+std::string column(int bars, int seed = 1) {
   return R"(
 [scene]
 description = "x"
 duration_s = 3
+seed = )" +
+         std::to_string(seed) + R"(
 [[material]]
 name = "steel"
 yield_Pa = 2.5e8
@@ -118,7 +120,7 @@ bars = )" +
 time_s = 0
 from = [0, 1.5, 2]
 at = [0, 1.5, 0]
-speed_m_s = 25
+speed_m_s = 18
 radius_m = 0.2
 )";
 }
@@ -129,8 +131,9 @@ struct Shot {
   std::vector<std::uint64_t> hashes;
 };
 
-Shot shot(int bars) {
-  const auto simulation = scenes::make_simulation(scenes::parse_scene(column(bars), "x.toml", {}));
+Shot shot(int bars, int seed = 1) {
+  const auto simulation =
+      scenes::make_simulation(scenes::parse_scene(column(bars, seed), "x.toml", {}));
   Shot result;
   double first_kg = 0;
   while (const FramePtr frame = simulation->next()) {
@@ -148,12 +151,17 @@ Shot shot(int bars) {
   return result;
 }
 
+// Where the pattern happens to cut all bars apart it falls: most of five do not.
 TEST(Rebar, holds_a_column_together_that_is_shot) {
-  const Shot with = shot(2), without = shot(0);
-  EXPECT_GT(with.broken_m2, 0.3);
-  EXPECT_GT(with.top_m, 2.5);
-  EXPECT_LT(without.top_m, 1.5);
-  EXPECT_LT(with.mass_error, 1e-12);
+  int hold = 0;
+  for (int seed = 1; seed <= 5; ++seed) {
+    const Shot with = shot(2, seed), without = shot(0, seed);
+    EXPECT_GT(with.broken_m2, 0.3) << seed;
+    EXPECT_LT(without.top_m, 1.5) << seed;
+    EXPECT_LT(with.mass_error, 1e-12) << seed;
+    hold += with.top_m > 2.5;
+  }
+  EXPECT_GE(hold, 3);
 }
 
 TEST(Rebar, breaks_alike_in_any_number_of_threads) {

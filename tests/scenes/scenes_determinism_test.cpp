@@ -1,4 +1,5 @@
-// Every scene runs, and to the same bits on any number of threads and lanes.
+// Every scene runs, to the same bits on any number of threads and lanes, and accounts for its
+// energy, its momentum and its friction.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -30,6 +31,24 @@ TEST_P(EveryScene, HasTheSameStateOnAnyThreadsAndLanes) {
   EXPECT_EQ(state_hash(run + "2 --set solver.lanes=1"), one);
   EXPECT_EQ(state_hash(run + "4 --set solver.lanes=4"), one);
   EXPECT_EQ(state_hash(run + "7 --set solver.lanes=8"), one);
+}
+
+TEST_P(EveryScene, AccountsForEnergyMomentumAndFrictionAtEveryPreset) {
+  const std::pair<const char*, const char*> presets[] = {
+      {"draft", "90"}, {"realtime", "90"}, {"accurate", "60"}, {"reference", "20"}};
+  for (const auto& [preset, frames] : presets) {
+    const std::string run = GetParam() + " --preset " + preset + " --frames " + frames;
+    const Outcome outcome = sunder("simulate " + run + " --quiet --json -");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Figures figures = parse_figures(outcome.out, run);
+    const auto figure = [&](const std::string& name) { return number_at(figures, name); };
+    EXPECT_LT(figure("/energy_residual"), 1e-6) << run;
+    EXPECT_LT(figure("/momentum_residual"), 1e-4) << run;
+    EXPECT_LT(figure("/friction_excess"), 0.01) << run;
+    const double noise_J = 1e-3 * figure("/energy_J/moved") + 1e-5 * figure("/mass_kg/initial");
+    for (const char* taken : {"cracks", "crushing", "contacts", "friction", "bending", "debris"})
+      EXPECT_GE(figure(std::string("/energy_flows_J/") + taken), -noise_J) << run << ", " << taken;
+  }
 }
 
 std::vector<std::string> names() {

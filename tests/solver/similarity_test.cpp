@@ -211,7 +211,7 @@ TEST(Similarity, ScenesOfTenAndAHundredTimesTheSizeComeToTheSameRest) {
       EXPECT_LT(other.farthest, 1.5 * one.farthest) << scene.name << " at " << s;
       // Decimal sizes are rounded in binary; what tumbles makes more of it.
       if (scene.chaotic) continue;
-      EXPECT_LT(moved, 1e-5) << scene.name << " at " << s;
+      EXPECT_LT(moved, 1e-4) << scene.name << " at " << s;
     }
   }
 }

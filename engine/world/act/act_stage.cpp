@@ -62,6 +62,7 @@ void shoot(World& world, const Shot& shot) {
   const auto number = static_cast<std::size_t>(&shot - scene.shots.data());
   for (Actor& actor : world.actors) {
     if (actor.key < first_key) continue;
+    world.ledger.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
     actor.name = static_cast<std::uint32_t>(scene.solids.size() + scene.balls.size() + number);
   }
 }
@@ -109,7 +110,9 @@ void remove(World& world, const Removal& removal) {
     if (std::ranges::binary_search(removal.roots, world.actors[i].root_key)) gone.push_back(i);
   }
   for (const std::size_t i : gone) {
-    world.ledger.removed_mass_kg += world.actors[i].weight.mass_kg;
+    const Actor& actor = world.actors[i];
+    world.ledger.removed_mass_kg += actor.weight.mass_kg;
+    world.ledger.report.energy.script -= kinetic_J(actor, world.physics->state(actor.body));
   }
   drop(world, gone);
 }
@@ -153,7 +156,8 @@ void drive_by(World& world, const Drive& drive) {
     if (!actor || actor->is_static) continue;
     const BodyState state = world.physics->state(actor->body);
     const auto push = [&](const Vec3& impulse, const Vec3& arm) {
-      world.physics->apply_impulse(actor->body, impulse, state.X_WB.position + arm);
+      world.ledger.report.energy.drives +=
+          push_actor(world, *actor, impulse, state.X_WB.position + arm);
     };
     if (drive.velocity_W) {
       const Vec3 missing = *drive.velocity_W - state.velocity_W;

@@ -5,9 +5,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "engine/world/act/charge.h"
 #include "engine/world/act/cover.h"
+#include "engine/world/actors/make_actor.h"
 
 namespace sunder {
 namespace {
@@ -125,45 +128,75 @@ bool was_tried(const World& world, const Burst& burst, const Convex& convex, con
   });
 }
 
-/// The impact that a blast amounts to, where it presses hardest; of no energy if it cannot break
-/// it.
-Impact impact_of(const World& world, const Burst& burst, const Cover& cover, const Actor& actor,
-                 const Pose& X_WB) {
-  const Blast& blast = burst.blast;
-  Impact impact;
-  const Pose X_WR = rest_pose(actor, X_WB);
-  if (!reaches(blast, actor, X_WR)) return impact;
+/// By slot.
+std::vector<Push> pushes_on(const Blast& blast, const Cover& cover, const Actor& actor,
+                            const Pose& X_WR) {
+  std::vector<Push> pushes(actor.structure.slot_count());
+  actor.structure.for_each([&](ConvexSlot slot, const Convex&) {
+    pushes[slot.value] = push_on(blast, cover, actor, slot, X_WR);
+  });
+  return pushes;
+}
+
+/// Energy that it gives a convex that is free to move.
+double energy_J(const World& world, const Push& push, const Convex& convex) {
+  const double mass_kg = world.material(convex.material).density_kg_m3 * convex.solid.volume_m3;
+  return 0.5 * push.impulse_W.squaredNorm() / mass_kg;
+}
+
+/// All pushes on an actor, if they can bend it.
+void add_bending(const World& world, const Actor& actor, const Pose& X_WR,
+                 std::span<const Push> pushes, Impact& impact) {
+  double all_J = 0;
+  actor.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
+    all_J += energy_J(world, pushes[slot.value], convex);
+  });
+  if (all_J <= actor.stress.least_J) return;
+  const Pose X_RW = X_WR.inverse();
+  double most_Ns = 0;
+  for (std::uint32_t slot = 0; slot < pushes.size(); ++slot) {
+    const Push& push = pushes[slot];
+    if (push.weight_Ns <= 0) continue;
+    impact.pushes.push_back(
+        {ConvexSlot(slot), X_RW.rotation * push.impulse_W, X_RW * push.point_W()});
+    if (push.weight_Ns <= most_Ns) continue;
+    most_Ns = push.weight_Ns;
+    impact.convex = ConvexSlot(slot);
+    impact.point_W = push.point_W();
+    impact.direction_W = push.impulse_W.normalized();
+  }
+}
+
+/// The impact that a blast amounts to where it presses hardest; of no energy if it cannot break it.
+void add_breaking(const World& world, const Burst& burst, const Actor& actor,
+                  std::vector<Push> pushes, Impact& impact) {
   const Structure& structure = actor.structure;
-  std::vector<Push> pushes(structure.slot_count());
   ConvexSlot hardest(0);
   structure.for_each([&](ConvexSlot slot, const Convex& convex) {
     Push& push = pushes[slot.value];
-    push = push_on(blast, cover, actor, slot, X_WR);
     const bool breaks = world.material(convex.material).breakable();
     if (!breaks || was_tried(world, burst, convex, push)) push = {};
     if (push.weight_Ns > pushes[hardest.value].weight_Ns) hardest = slot;
   });
-  if (pushes.empty() || pushes[hardest.value].weight_Ns <= 0) return impact;
+  if (pushes.empty() || pushes[hardest.value].weight_Ns <= 0) return;
   const Material& material = world.material(structure.convex(hardest)->material);
-  if (actor.volume_m3 < material.smallest_break_m3) return impact;
-  impact.key = actor.key;
-  impact.convex = hardest;
-  impact.point_W = pushes[hardest.value].point_W();
+  if (actor.volume_m3 < material.smallest_break_m3) return;
+  const Vec3 point_W = pushes[hardest.value].point_W();
   Vec3 impulse_W = Vec3::Zero();
-  double energy_J = 0;
+  double near_J = 0;
   structure.for_each([&](ConvexSlot slot, const Convex& convex) {
     const Push& push = pushes[slot.value];
     const bool near =
-        push.weight_Ns > 0 && (push.point_W() - impact.point_W).norm() <= material.impact_radius_m;
+        push.weight_Ns > 0 && (push.point_W() - point_W).norm() <= material.impact_radius_m;
     if (!near) return;
-    const double mass_kg = world.material(convex.material).density_kg_m3 * convex.solid.volume_m3;
     impulse_W += push.impulse_W;
-    energy_J += 0.5 * push.impulse_W.squaredNorm() / mass_kg;
+    near_J += energy_J(world, push, convex);
   });
-  if (impulse_W.norm() < material.strength_Ns || impulse_W.norm() <= 0) return impact;
+  if (impulse_W.norm() < material.strength_Ns || impulse_W.norm() <= 0) return;
+  impact.convex = hardest;
+  impact.point_W = point_W;
   impact.direction_W = impulse_W.normalized();
-  impact.energy_J = energy_J;
-  return impact;
+  impact.energy_J = near_J;
 }
 
 void push_away(World& world, const Blast& blast, const Cover& cover, const Actor& actor) {
@@ -182,7 +215,7 @@ void push_away(World& world, const Blast& blast, const Cover& cover, const Actor
              X_WR.position);
   }
   if (push.weight_Ns <= 0) return;
-  world.physics->apply_impulse(actor.body, push.impulse_W, push.point_W());
+  world.ledger.report.energy.drives += push_actor(world, actor, push.impulse_W, push.point_W());
 }
 
 /// From where it is by now.
@@ -209,13 +242,22 @@ std::vector<Impact> blows_of(const World& world, Burst& burst) {
   const Cover cover(world, burst.blast);
   std::vector<Impact> impacts;
   for (const Actor& actor : world.actors) {
-    if (actor.is_kinematic) continue;
-    Impact impact = impact_of(world, burst, cover, actor, states[actor.body].X_WB);
-    if (impact.energy_J <= 0) continue;
+    const Pose X_WR = rest_pose(actor, states[actor.body].X_WB);
+    if (actor.is_kinematic || !reaches(burst.blast, actor, X_WR)) continue;
+    Impact impact;
+    impact.key = actor.key;
     impact.blast = burst.number;
-    impacts.push_back(impact);
+    std::vector<Push> pushes = pushes_on(burst.blast, cover, actor, X_WR);
+    const auto bent = burst.bent.find(actor.key);
+    if (bent == burst.bent.end() || bent->second != actor.edits) {
+      burst.bent[actor.key] = actor.edits;
+      add_bending(world, actor, X_WR, pushes, impact);
+    }
+    add_breaking(world, burst, actor, std::move(pushes), impact);
+    if (impact.energy_J > 0 || !impact.pushes.empty()) impacts.push_back(std::move(impact));
   }
-  for (const Impact& impact : impacts) burst.tried_W.push_back(impact.point_W);
+  for (const Impact& impact : impacts)
+    if (impact.energy_J > 0) burst.tried_W.push_back(impact.point_W);
   return impacts;
 }
 

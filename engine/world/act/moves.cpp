@@ -8,11 +8,15 @@ namespace {
 
 /// Makes it kinematic, or free, as it moves now.
 void set_kinematic(World& world, Actor& actor, bool is_kinematic) {
-  const Motion motion = motion_of(actor, world.physics->state(actor.body));
+  const BodyState was = world.physics->state(actor.body);
+  const Motion motion = motion_of(actor, was);
+  const double before_J = kinetic_J(actor, was);
   actor.is_static = actor.is_kinematic = is_kinematic;
   set_strength(world, actor);
   const BodyDesc body = describe(world, actor, motion);
   actor.body = world.physics->replace(std::span(&actor.body, 1), std::span(&body, 1))[0];
+  world.ledger.report.energy.script +=
+      kinetic_J(actor, world.physics->state(actor.body)) - before_J;
   world.joints.hold_on(*world.physics, actor);
 }
 

@@ -89,6 +89,13 @@ struct Motion {
 inline Pose rest_pose(const Actor& actor, const Pose& X_WB) {
   return {X_WB * Vec3(-actor.weight.com_R), X_WB.rotation};
 }
+/// 0 of what is static or kinematic.
+inline double kinetic_J(const Actor& actor, const BodyState& state) {
+  if (actor.is_static) return 0;
+  const Vec3 spin_B = state.X_WB.rotation.conjugate() * state.angular_velocity_W;
+  return 0.5 * (actor.weight.mass_kg * state.velocity_W.squaredNorm() +
+                spin_B.dot(actor.weight.inertia_R * spin_B));
+}
 inline Motion motion_of(const Actor& actor, const BodyState& state) {
   return {rest_pose(actor, state.X_WB), state.field()};
 }

@@ -90,7 +90,8 @@ void flow(World& world) {
   for (const JointFlow& flowed : world.physics->joint_flows()) {
     Joints::Live& joint = world.joints.at(flowed.joint);
     Hinge& hinge = *joint.hinge;
-    world.ledger.plastic_J += flowed.work_J;
+    world.ledger.note_bending(flowed.work_J);
+    world.ledger.report.energy.joints -= flowed.work_J;  // where the solve has booked it
     hinge.flowed_step = world.clock.step;
     hinge.stays = false;
     hinge.strain += strain_of(hinge.section, flowed);

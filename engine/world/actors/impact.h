@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "engine/base/types.h"
-#include "engine/model/structure.h"
+#include "engine/model/breaker.h"
 
 namespace sunder {
 
@@ -14,8 +15,9 @@ struct Impact {
   ConvexSlot convex;      ///< That is hit.
   Vec3 point_W = Vec3::Zero();
   Vec3 direction_W = Vec3::UnitY();  ///< Unit, into the actor.
-  double energy_J = 0;               ///< The work it would do.
-  std::uint32_t blast = 0;           ///< Of one: which of the scene's.
+  double energy_J = 0;               ///< The work it would do where it hits.
+  std::uint32_t blast = 0;           ///< Of one: which of the scene's,
+  std::vector<Load> pushes = {};     ///< and all that bends the actor, N·s in place of N.
 };
 
 }  // namespace sunder

@@ -145,6 +145,18 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
   return body;
 }
 
+double move_actor(World& world, const Actor& actor, const BodyState& state) {
+  const double before_J = kinetic_J(actor, world.physics->state(actor.body));
+  world.physics->set_state(actor.body, state);
+  return kinetic_J(actor, world.physics->state(actor.body)) - before_J;
+}
+
+double push_actor(World& world, const Actor& actor, const Vec3& impulse_W, const Vec3& point_W) {
+  const double before_J = kinetic_J(actor, world.physics->state(actor.body));
+  world.physics->apply_impulse(actor.body, impulse_W, point_W);
+  return kinetic_J(actor, world.physics->state(actor.body)) - before_J;
+}
+
 void add_compounds(World& world, std::span<const Solid> solids) {
   std::vector<Actor> actors;
   std::vector<BodyDesc> bodies;

@@ -20,6 +20,11 @@ void set_strength(const World& world, Actor& actor);
 /// The least energy and impulse that could break it, by pattern or by stress.
 void set_least(const World& world, Actor& actor);
 
+/// Give its body another motion, or an impulse from outside. The answer is by how much its kinetic
+/// energy has grown, J.
+double move_actor(World& world, const Actor& actor, const BodyState& state);
+double push_actor(World& world, const Actor& actor, const Vec3& impulse_W, const Vec3& point_W);
+
 void add_compounds(World& world, std::span<const Solid> solids);
 
 void add_ball(World& world, const Ball& ball);

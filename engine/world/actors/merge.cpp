@@ -68,7 +68,7 @@ Actor made_of_both(World& world, Actor& a, const Actor& b, const BreakEdit& edit
   world.ledger.debris_mass_kg +=
       a.weight.mass_kg + b.weight.mass_kg - both.weight.mass_kg;  // rounding
   const auto [motion, taken_J] = together(world, a, b, both.weight);
-  world.ledger.plastic_J += taken_J;
+  world.ledger.note_bending(taken_J);
   const BodyDesc body = describe(world, both, motion);
   const std::array<BodyId, 2> gone{a.body, b.body};
   both.body = world.physics->replace(gone, std::span(&body, 1))[0];
@@ -85,6 +85,7 @@ void merge(World& world, std::uint32_t key, std::uint32_t other, const Rejoined&
     carry_out(world, key, edit);
     const Actor& b = *world.actors.find(other);
     world.ledger.debris_mass_kg += b.weight.mass_kg;
+    world.ledger.note_bending(kinetic_J(b, world.physics->state(b.body)));
     world.physics->replace(std::span(&b.body, 1), {});
   } else {
     Actor& a = *world.actors.find(key);

@@ -19,6 +19,13 @@ Vec3 momentum_of(const World& world, std::span<const Actor> actors) {
   return sum;
 }
 
+double kinetic_J_of(const World& world, std::span<const Actor> actors) {
+  const BodyStates states = world.physics->states();
+  double sum = 0;
+  for (const Actor& actor : actors) sum += kinetic_J(actor, states[actor.body]);
+  return sum;
+}
+
 /// Whether a piece is a body: anchored, held by a hinge, or large enough.
 bool is_body(const World& world, const Compound& piece, bool hinged) {
   if (piece.is_anchored() || hinged) return true;
@@ -201,6 +208,7 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
   note_exposed(world, parent.structure, edit, motion, keys);
   world.meshes.add_to(pieces.actors, looks);
   const Vec3 before = momentum_of(world, std::span(&parent, 1));
+  const double before_J = kinetic_J_of(world, std::span(&parent, 1));
   std::vector<BodyId> ids;
   if (stays) {
     parent.weight.mass_kg -= left_kg;
@@ -213,6 +221,13 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
   for (std::size_t i = 0; i < ids.size(); ++i) pieces.actors[i].body = ids[i];
   world.ledger.report.joints_lost +=
       world.joints.follow(*world.physics, parent, stays, pieces.actors);
+  EnergyFlows& energy = world.ledger.report.energy;
+  const double lost_J = before_J - kinetic_J_of(world, pieces.actors);
+  if (parent.is_static) {  // what was kinematic moves on as it did
+    energy.script -= lost_J;
+  } else {
+    energy.debris += lost_J;
+  }
   if (!parent.is_static) {
     const Vec3 after =
         momentum_of(world, pieces.actors) + debris_momentum(parent, pieces.actors, motion);

@@ -118,9 +118,13 @@ bool settle(World& world, Trial& trial, std::vector<std::uint32_t>& all_broken) 
   span.count(broken.size());
   const auto bends = [&](auto load) { return trial.planned[of_load[load]].only_bends(); };
   // What only bends is still in the way, and is met as what it has become.
-  if (!std::ranges::all_of(broken, bends)) take_over(world, trial.probe);
+  EnergyFlows& energy = world.ledger.report.energy;
+  if (!std::ranges::all_of(broken, bends)) energy.contacts -= take_over(world, trial.probe);
   for (const std::uint32_t load : broken) {
     PlannedBreak& planned = trial.planned[of_load[load]];
+    energy.contacts -= planned.needed_J;
+    energy.crushing += planned.crushing_J;
+    energy.cracks += planned.needed_J - planned.crushing_J;
     break_actor(world, planned);
     all_broken.push_back(planned.impact.key);
   }
@@ -143,6 +147,19 @@ std::vector<Trial> leave_for_later(const World& world, std::vector<Trial>& trial
   }
   trials = std::move(now);
   return later;
+}
+
+PlannedBreak planned_by_blast(const Actor& actor, const Impact& impact) {
+  PlannedBreak planned;
+  planned.impact = impact;
+  planned.impulses = impact.pushes;
+  std::erase_if(planned.impulses,
+                [&](const Load& push) { return !actor.structure.has(push.convex); });
+  for (const Load& push : planned.impulses) planned.impulse_Ns += push.force_N.norm();
+  planned.far_J = std::numeric_limits<double>::infinity();
+  planned.by_pattern = impact.energy_J > 0;
+  planned.by_stress = !planned.impulses.empty();
+  return planned;
 }
 
 std::vector<Trial> find_trials(World& world, const WaitingRoom& waiting) {
@@ -221,6 +238,7 @@ bool find_again(const World& world, std::uint32_t root_key, Impact& impact) {
     least_m = distance_m;
     impact.key = actor.key;
     impact.convex = nearest(actor.structure, point_R);
+    impact.pushes.clear();  // they were those on what is gone
   }
   return std::isfinite(least_m);
 }
@@ -269,8 +287,7 @@ bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
         later.emplace_back(actor->root_key, impact);
         continue;
       }
-      PlannedBreak planned;
-      planned.impact = impact;
+      PlannedBreak planned = planned_by_blast(*actor, impact);
       if (take_on(world, breaker, std::span(&planned, 1))) {
         all.push_back(std::move(planned));
       } else {
@@ -314,7 +331,7 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
         taken_on.push_back(std::move(trial));
       } else {
         trial.probe.pause();
-        take_over(world, trial.probe);
+        world.ledger.report.energy.gravity += take_over(world, trial.probe);
         waiting_room_.add(world, trial.probe);
       }
     }

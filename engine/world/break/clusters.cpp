@@ -8,6 +8,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/rotation.h"
+#include "engine/world/actors/make_actor.h"
 #include "engine/world/break/cluster_probe.h"
 #include "engine/world/break/joint_graph.h"
 
@@ -196,18 +197,20 @@ std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& wai
   return probes;
 }
 
-void take_over(World& world, const BreakProbe& probe) {
+double take_over(World& world, const BreakProbe& probe) {
+  double gain_J = 0;
   for (std::size_t b = 0; b < probe.bodies().size(); ++b) {
     const ProbeMotion& motion = probe.motions()[b];
     if (!motion.changed) continue;
-    const BodyId body = world.actors.find(probe.bodies()[b].key)->body;
-    BodyState state = world.physics->state(body);
+    const Actor& actor = *world.actors.find(probe.bodies()[b].key);
+    BodyState state = world.physics->state(actor.body);
     state.X_WB.position += motion.shift_W;
     state.X_WB.rotation = (rotation_by(motion.rotation_W) * state.X_WB.rotation).normalized();
     state.velocity_W = motion.velocity_W;
     state.angular_velocity_W = motion.angular_velocity_W;
-    world.physics->set_state(body, state);
+    gain_J += move_actor(world, actor, state);
   }
+  return gain_J;
 }
 
 }  // namespace sunder

@@ -15,7 +15,8 @@ namespace sunder {
 /// approach.
 std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting);
 
-/// Moves the bodies of a cluster on as its probe found, once that has ended.
-void take_over(World& world, const BreakProbe& probe);
+/// Moves the bodies of a cluster on as its probe found, once that has ended. The answer is by how
+/// much their kinetic energy has grown, J.
+double take_over(World& world, const BreakProbe& probe);
 
 }  // namespace sunder

@@ -9,6 +9,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
 #include "engine/world/actors/bearing.h"
+#include "engine/world/actors/make_actor.h"
 #include "engine/world/actors/replace.h"
 #include "engine/world/break/striker.h"
 
@@ -94,6 +95,7 @@ bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak&
       kBendsMore * std::sqrt(3 * material.youngs_Pa * material.density_kg_m3) * speed_m_s;
   if (most_Pa < material.weakest_Pa()) return false;
   for (Load& load : planned.impulses) load.force_N *= share, load.torque_Nm *= share;
+  planned.impulse_Ns *= share;
   planned.far_J = share * share * planned.impact.energy_J;
   return true;
 }
@@ -116,8 +118,10 @@ void choose(const World& world, const Structure& structure, PlannedBreak& planne
   planned.breaks = std::min(by_pattern, by_stress) < 1;
   if (!planned.breaks || !planned.at_bonds) return;
   planned.edit = std::move(planned.stressed.edit);
-  planned.needed_J =
-      std::min(kMostTaken * energy_J, crack_energy_J(world, structure, planned.edit.cut));
+  planned.needed_J = crack_energy_J(world, structure, planned.edit.cut);
+  if (std::isfinite(planned.far_J))
+    planned.needed_J = std::min(planned.needed_J, kMostTaken * energy_J);
+  planned.crushing_J = 0;
 }
 
 /// Effective mass of what strikes, from the work that it can do.
@@ -212,7 +216,8 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         planned.edit = breaker.plan(actor.structure, planned.command);
         planned.needed_J = crack_energy_J(world, planned.edit);
         if (const auto& plug = planned.command.plug)
-          planned.needed_J = std::max(planned.needed_J, plug->energy_J);
+          planned.crushing_J = std::max(0.0, plug->energy_J - planned.needed_J);
+        planned.needed_J += planned.crushing_J;
       }
       if (breaks_locally(planned)) {
         planned.breaks = true;
@@ -268,7 +273,8 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
   // Debris of what is held takes its share of the momentum; that of a free body has the motion of
   // the whole.
   const bool is_held = world.actors.find(planned.impact.key) != nullptr;
-  if (is_held) plug_kg = std::max(plug_kg, plug.mass_kg);
+  const double debris_kg = is_held ? std::max(0.0, plug.mass_kg - plug_kg) : 0;
+  plug_kg += debris_kg;
   if (!(plug_kg > 0)) return;
   const BodyState state = states[striker->body];
   const double closing_m_s =
@@ -276,14 +282,17 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
   if (!(closing_m_s > 0)) return;
   const double mass_kg = striker_kg(planned);
   const double gain_m_s = closing_m_s * mass_kg / (mass_kg + plug_kg);
-  std::vector<std::pair<BodyId, BodyState>> changed;
+  double gain_J = 0;
   for (const Actor* piece : pieces) {
-    BodyState moved = states[piece->body];
+    BodyState moved = world.physics->state(piece->body);
     moved.velocity_W += gain_m_s * axis_W;
-    changed.emplace_back(piece->body, moved);
+    gain_J += move_actor(world, *piece, moved);
   }
-  for (const auto& [body, moved] : changed) world.physics->set_state(body, moved);
-  world.physics->apply_impulse(striker->body, -plug_kg * gain_m_s * axis_W, planned.impact.point_W);
+  gain_J += push_actor(world, *striker, -plug_kg * gain_m_s * axis_W, planned.impact.point_W);
+  const double debris_J = debris_kg * gain_m_s * (at_rest_m_s / plug_kg + 0.5 * gain_m_s);
+  EnergyFlows& energy = world.ledger.report.energy;
+  energy.debris += debris_J;
+  energy.contacts -= gain_J + debris_J;
 }
 
 }  // namespace
@@ -303,6 +312,7 @@ void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {
         actor.least_J, planned.edit.changed ? kWorthPlanning * planned.needed_J : 1.4 * energy_J);
   if (!planned.by_stress) return;
   if (!gives_way(planned.stressed.edit)) actor.stress.memory = planned.stressed.memory;
+  if (!std::isfinite(planned.far_J)) return;
   const BlowStress& blow = planned.stressed.blow;
   // The bending of a solid of mass M takes at most J² / 2M: its stress grows with the impulse.
   if (blow.worst > 0)

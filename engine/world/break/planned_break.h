@@ -21,14 +21,16 @@ struct PlannedBreak {
   double speed_m_s = 0;                ///< Closing speed of the striker; 0: not known.
   double impulse_Ns = 0;               ///< Sum over the contacts that load the actor.
   std::vector<Load> impulses;          ///< All that the actor feels, N·s in place of N.
-  double far_J = 0;                    ///< Energy that gets through to the rest, at most.
+  double far_J = 0;                    ///< Energy that gets through to the rest, at most; of a
+                                       ///< blast infinite, as nothing strikes.
   bool by_pattern = true;              ///< Strong enough for the material,
   bool by_stress = false;              ///< and for some bond.
   BreakCommand command;                ///< By pattern.
   StressAnswer stressed;               ///< By stress.
   BreakEdit edit;                      ///< Of the way that it breaks.
   double plan_ms = 0;
-  double needed_J = 0;    ///< By its cracks, or by the plug if that takes more.
+  double needed_J = 0;    ///< By its cracks, or by the plug if that takes more,
+  double crushing_J = 0;  ///< which is this much more.
   bool breaks = false;    ///< The impact pays for them.
   bool at_bonds = false;  ///< By stress.
 

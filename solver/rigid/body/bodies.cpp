@@ -10,6 +10,8 @@
 namespace sunder::solver {
 namespace {
 
+constexpr std::size_t kBodiesAChunk = 256;
+
 /// Principal axes scaled by the square roots of the inverse moments, and whether those differ by
 /// more than rounding.
 struct InertiaRoot {
@@ -159,13 +161,32 @@ Vec3 Bodies::freeze(BodySlot body) {
 }
 
 Momentum Bodies::momentum() const {
+  std::vector<Momentum> parts((size() + kBodiesAChunk - 1) / kBodiesAChunk);
+  for_chunks(size(), kBodiesAChunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    Momentum sum;
+    for (std::size_t i = begin; i < end; ++i) {
+      const BodySlot body(i);
+      if (!dynamic(body) && motion[body] != Motion::kFrozen) continue;
+      sum.mass_kg += mass_kg[body];
+      if (motion[body] != Motion::kAwake) continue;
+      sum.momentum_Ns += mass_kg[body] * velocity[body];
+      sum.kinetic_J += kinetic_J(body);
+    }
+    parts[chunk] = sum;
+  });
   Momentum sum;
-  for (const BodySlot body : slots()) {
-    if (!dynamic(body) && motion[body] != Motion::kFrozen) continue;
-    sum.mass_kg += mass_kg[body];
-    sum.momentum_Ns += mass_kg[body] * velocity[body];
+  for (const Momentum& part : parts) {
+    sum.mass_kg += part.mass_kg;
+    sum.momentum_Ns += part.momentum_Ns;
+    sum.kinetic_J += part.kinetic_J;
   }
   return sum;
+}
+
+double Bodies::kinetic_J(BodySlot body) const {
+  const Vec3 spin_B = rotation[body].conjugate() * angular_velocity[body];
+  return 0.5 *
+         (mass_kg[body] * velocity[body].squaredNorm() + spin_B.dot(inertia_B[body] * spin_B));
 }
 
 void Bodies::set_state(BodySlot body, const BodyState& state) {

@@ -21,6 +21,7 @@ using Motion = BodyMode;
 struct Momentum {
   double mass_kg = 0;
   Vec3 momentum_Ns = Vec3::Zero();
+  double kinetic_J = 0;
 };
 
 /// Arrays over body slots. Positions and velocities are double; the float rotation is a copy.
@@ -87,6 +88,7 @@ struct Bodies {
   BodyStates states() const {
     return {generation, motion, position, rotation, velocity, angular_velocity};
   }
+  double kinetic_J(BodySlot body) const;
   /// Of all that are neither static nor kinematic, in order of slots.
   Momentum momentum() const;
 

@@ -130,6 +130,7 @@ class BlocksOf final : public ContactBlocks {
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) {
       if (i + 1 < end) fetch_manifolds(blocks_[i + 1], step);
+      find_work(blocks_[i], step.rows);
       store_block(step, blocks_[i]);
     }
   }
@@ -138,10 +139,22 @@ class BlocksOf final : public ContactBlocks {
     Vec3 sum = Vec3::Zero();
     for (std::uint32_t i = 0; i < used_; ++i) {
       const ConstraintBlock<kWidth>& c = blocks_[i];
-      if (!c.summed) continue;
       for (std::uint32_t lane = 0; lane < c.count; ++lane)
-        sum += double{c.outside_sign[lane]} *
-               Vec3(double{c.total.x[lane]}, double{c.total.y[lane]}, double{c.total.z[lane]});
+        sum += (c.outside_sign[lane] * lane_of(c.total, lane)).template cast<double>();
+    }
+    return sum;
+  }
+  ContactWork work() const override {
+    ContactWork sum;
+    for (std::uint32_t i = 0; i < used_; ++i) {
+      const WorkLanes<kWidth>& work = blocks_[i].work;
+      for (std::uint32_t lane = 0; lane < blocks_[i].count; ++lane) {
+        sum.normal_J += double{work.normal_J[lane]};
+        sum.friction_J += double{work.friction_J[lane]};
+        sum.drive_J += double{work.drive_J[lane]};
+        sum.allowed_Ns += double{work.allowed_Ns[lane]};
+        sum.excess_Ns += double{work.excess_Ns[lane]};
+      }
     }
     return sum;
   }

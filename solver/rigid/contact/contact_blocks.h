@@ -8,6 +8,15 @@
 
 namespace sunder::solver {
 
+/// What the impulses of a step did.
+struct ContactWork {
+  double normal_J = 0;    ///< Work of normal impulses, on both bodies.
+  double friction_J = 0;  ///< Work of friction, on both bodies.
+  double drive_J = 0;     ///< Work of kinematic bodies, on others.
+  double allowed_Ns = 0;  ///< Friction that Coulomb's law allows,
+  double excess_Ns = 0;   ///< and friction beyond that.
+};
+
 /// Manifolds cut into blocks of so many lanes. How many changes no result: manifolds of one block
 /// share no body (or are split), and a lane never sees its neighbours.
 class ContactBlocks {
@@ -61,6 +70,8 @@ class ContactBlocks {
 
   /// On bodies, over the step, from what cannot move.
   virtual Vec3 outside_impulse_Ns() const = 0;
+  /// After store().
+  virtual ContactWork work() const = 0;
 };
 
 /// As many lanes as asked for or fewer: 1, 4, 8 or 16, as far as this processor has them. 0: the

@@ -368,8 +368,9 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
                         joint_solver_.carried(), bodies, contacts);
   Stages(*this, step, bodies, contacts, joints).run();
   const Vec3 from_joints_Ns = joint_solver_.finish(bodies, joints);
-  return {blocks_->outside_impulse_Ns() + from_joints_Ns,
-          static_cast<std::uint32_t>(order_.manifolds().size()), order_.points()};
+  return {blocks_->outside_impulse_Ns() + from_joints_Ns, blocks_->work(),
+          static_cast<std::uint32_t>(order_.manifolds().size()), order_.points(),
+          !joint_solver_.empty()};
 }
 
 void ContactSolver::make_blocks() {

@@ -23,8 +23,10 @@ namespace sunder::solver {
 /// What a solve did to bodies in contact.
 struct ContactSolveReport {
   Vec3 outside_impulse_Ns = Vec3::Zero();  ///< On bodies, from what cannot move.
+  ContactWork work;
   std::uint32_t manifolds = 0;
   std::uint32_t points = 0;
+  bool joints = false;  ///< Joints took part.
 };
 
 /// How contacts are solved.

@@ -39,7 +39,6 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
     set_columns(g.root_a, lane, goes_a ? step.root_W[m.body_a] : root_now(bodies, m.body_a));
   if (goes_b || sleeps_b)
     set_columns(g.root_b, lane, goes_b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
-  c.summed = c.summed || !a || !b || bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b];
   c.outside_sign[lane] = (a ? 0.f : 1.f) - (b ? 0.f : 1.f);
   set_lane(g.offset, lane,
            Vec3f((bodies.position[m.body_b] - bodies.position[m.body_a]).cast<float>()));

@@ -119,6 +119,24 @@ void Joints::lose(BodySlot body, Bodies& bodies) {
   note_pairs(bodies);
 }
 
+std::vector<BodySlot> Joints::joined_to(BodySlot body, const Bodies& bodies) const {
+  std::vector<BodySlot> all;
+  const auto add = [&](BodySlot other) {
+    if (other.none() || !bodies.awake(other) || std::ranges::find(all, other) != all.end()) return;
+    all.push_back(other);
+  };
+  add(body);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const BodySlot known = all[i];
+    for (const Joint& joint : items_) {
+      if (!joint.holds()) continue;
+      if (joint.body_a == known) add(joint.body_b);
+      if (joint.body_b == known) add(joint.body_a);
+    }
+  }
+  return all;
+}
+
 void Joints::wake(Bodies& bodies) const {
   for (bool again = !items_.empty(); again;) {
     again = false;

@@ -60,6 +60,8 @@ class Joints {
   void cut(JointId id, Bodies& bodies);
   /// Before a body goes: its ends are lost, and what they held wakes.
   void lose(BodySlot body, Bodies& bodies);
+  /// A body and what is joined to it, through others, as far as it is awake.
+  std::vector<BodySlot> joined_to(BodySlot body, const Bodies& bodies) const;
   /// Wakes every sleeper that is joined to something on the move, through others.
   void wake(Bodies& bodies) const;
   /// Whether two shapes ignore each other because their bodies are joined.

@@ -57,6 +57,16 @@ struct RollLanes {
   WideOf<lanes> impulse_1, impulse_2;
 };
 
+/// What the impulses of a step did.
+template <std::uint32_t lanes>
+struct WorkLanes {
+  WideOf<lanes> normal_J = {};    ///< Work of normal impulses, on both bodies.
+  WideOf<lanes> friction_J = {};  ///< Work of friction, on both bodies.
+  WideOf<lanes> drive_J = {};     ///< Work of a kinematic body, on the other.
+  WideOf<lanes> allowed_Ns = {};  ///< Friction that Coulomb's law allows,
+  WideOf<lanes> excess_Ns = {};   ///< and friction beyond that.
+};
+
 /// Manifolds of one colour. What a sweep touches comes first. Alignment is spelled
 /// out, or it would follow the instruction set that a file is compiled for.
 template <std::uint32_t lanes>
@@ -67,7 +77,6 @@ struct alignas(64) ConstraintBlock {
   std::uint32_t count = 0;   ///< Lanes in use.
   std::uint32_t points = 0;  ///< At most; those that a lane has not have no mass.
   bool split = false;
-  bool summed = false;  ///< Some lane touches something immovable, or that bears load.
   bool bouncy = false;  ///< Some lane has restitution.
   bool rolls = false;   ///< Some lane resists rolling.
   alignas(4 * lanes) WideOf<lanes> inverse_mass_a;
@@ -84,7 +93,10 @@ struct alignas(64) ConstraintBlock {
   WideOf<lanes> slide_impulse_1, slide_impulse_2, twist_impulse;
   std::array<PointLanes<lanes>, 4> point;
 
-  Wide3Of<lanes> total;        ///< Impulse on b over the step, if summed.
+  /// Impulses over the step: those of the points, sliding, twist, rolling.
+  std::array<WideOf<lanes>, 9> step_impulse = {};
+  Wide3Of<lanes> total;  ///< Impulse on b over the step.
+  WorkLanes<lanes> work;
   WideOf<lanes> outside_sign;  ///< +1: a is immovable, −1: b is.
   ReboundLanes<lanes> rebound;
   SplitLanes<lanes> parts;

@@ -7,21 +7,12 @@
 #include <algorithm>
 
 #include "solver/rigid/contact/kernels/strike_kernels.h"
+#include "solver/rigid/contact/kernels/work_kernels.h"
 
 namespace sunder::solver {
 
 /// Of the speed of the slowest impact: a change that is passed on.
 inline constexpr float kNoticed = 0.1f;
-
-/// Calls visit(slot, impulse) for every impulse of a block, those of rolling too.
-template <std::uint32_t lanes, class Visit>
-SUNDER_INLINE void for_all_impulses(ConstraintBlock<lanes>& c, const Visit& visit) {
-  for_impulses(c, [&](std::uint32_t slot, WideOf<lanes>& impulse, const WideOf<lanes>&) {
-    visit(slot, impulse);
-  });
-  visit(7, c.roll.impulse_1);
-  visit(8, c.roll.impulse_2);
-}
 
 /// How much faster than the slowest impact the point closes; negative or 0: it is none. What is yet
 /// to rebound is left to strikes, as in press().
@@ -262,6 +253,7 @@ bool pass_on(const ImpactPair* pairs, ImpactContact* contacts, std::uint32_t cou
   template void sweep_biased(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);     \
   template void sweep_relaxed(ConstraintBlock<lanes>&, const SolverRows&, const SoftStep&);    \
   template void sum_impulses(ConstraintBlock<lanes>&);                                         \
+  template void find_work(ConstraintBlock<lanes>&, const SolverRows&);                         \
   template void scale_impulses(ConstraintBlock<lanes>&, ArmLanes<lanes>*, const float*);       \
   template void note_spin(const ConstraintBlock<lanes>&, const ArmLanes<lanes>&,               \
                           const SolverRows&, const float*, float);                             \

@@ -167,8 +167,8 @@ bool strike(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
   to.store(v, bodies, &BodyRow::velocity);
   to.store(strike.now, bodies, &BodyRow::base);
   to.store(x, bodies, &BodyRow::position);
-  c.total = c.total + c.normal * strike.load(c) + c.tangent_1 * strike.slide_1 +
-            c.tangent_2 * strike.slide_2;
+  for (std::uint32_t i = 0; i < c.points; ++i) c.step_impulse[i] += strike.impulse[i];
+  c.step_impulse[4] += strike.slide_1, c.step_impulse[5] += strike.slide_2;
   return true;
 }
 

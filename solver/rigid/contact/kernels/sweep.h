@@ -76,7 +76,7 @@ void sweep_biased(ConstraintBlock<lanes>& block, const SolverRows& bodies, const
 /// One pass without it: takes out the velocity the push left behind.
 template <std::uint32_t lanes>
 void sweep_relaxed(ConstraintBlock<lanes>& block, const SolverRows& bodies, const SoftStep& soft);
-/// Adds the impulses of a substep to those of the step, where they are summed.
+/// Adds the impulses of a substep to those of the step.
 template <std::uint32_t lanes>
 void sum_impulses(ConstraintBlock<lanes>& block);
 /// Takes impulses of the substep back but for the shares of their bodies, by row. To be called
@@ -153,6 +153,10 @@ bool pass_on(const ImpactPair* pairs, ImpactContact* contacts, std::uint32_t cou
 template <std::uint32_t lanes>
 void end_impact(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
                 ImpactContact* contacts, const SolverRows& bodies);
+/// Finds the impulse on b of the step, and the work of its impulses: each times the mean of the
+/// relative velocities, along its direction, at the start and at the end of the step.
+template <std::uint32_t lanes>
+void find_work(ConstraintBlock<lanes>& block, const SolverRows& bodies);
 /// Writes the separation of every point now, by point and lane.
 template <std::uint32_t lanes>
 void separations_now(const ConstraintBlock<lanes>& block, const SolverRows& bodies,

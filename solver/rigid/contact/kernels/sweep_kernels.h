@@ -241,6 +241,23 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
   }
 }
 
+/// Of the limit of friction, where it would come and go by rounding.
+constexpr float kLetsGo = 0.01f;
+
+/// Takes back what friction has beyond the limit that normal impulses leave it with.
+template <std::uint32_t lanes, bool kSplit>
+SUNDER_INLINE void let_go(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
+  using V = WideOf<lanes>;
+  const V one = splat<V>(1), limit = c.friction * total_impulse(c);
+  const V square = c.slide_impulse_1 * c.slide_impulse_1 + c.slide_impulse_2 * c.slide_impulse_2;
+  const auto beyond = square > splat<V>(1 + 2 * kLetsGo) * limit * limit;
+  if (!any(beyond)) return;
+  const V scale = beyond ? limit / sqrt(beyond ? square : one) : one;
+  v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, c.slide_impulse_1 * (scale - one));
+  v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, c.slide_impulse_2 * (scale - one));
+  c.slide_impulse_1 *= scale, c.slide_impulse_2 *= scale;
+}
+
 template <bool kBiased, bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE void sweep(ConstraintBlock<lanes>& c, const SolverRows& bodies,
                          const SoftStep& soft) {
@@ -250,6 +267,7 @@ SUNDER_INLINE void sweep(ConstraintBlock<lanes>& c, const SolverRows& bodies,
   if (c.points > 1) twist(c, v);
   if (c.rolls) roll(c, v);
   press<kBiased>(c, v, x, soft);
+  if constexpr (!kBiased) let_go(c, v);
   store(c, v, bodies);
 }
 
@@ -263,11 +281,15 @@ void sweep_relaxed(ConstraintBlock<lanes>& c, const SolverRows& bodies, const So
   c.split ? sweep<false, true>(c, bodies, soft) : sweep<false, false>(c, bodies, soft);
 }
 
-template <std::uint32_t lanes>
-void sum_impulses(ConstraintBlock<lanes>& c) {
-  if (!c.summed) return;
-  c.total = c.total + c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
-            c.tangent_2 * c.slide_impulse_2;
+/// Calls visit(slot, impulse) for every impulse of a block, those of rolling last.
+template <std::uint32_t lanes, class Visit>
+SUNDER_INLINE void for_all_impulses(ConstraintBlock<lanes>& c, const Visit& visit) {
+  for (std::uint32_t i = 0; i < c.points; ++i) visit(i, c.point[i].impulse);
+  visit(4, c.slide_impulse_1);
+  visit(5, c.slide_impulse_2);
+  visit(6, c.twist_impulse);
+  visit(7, c.roll.impulse_1);
+  visit(8, c.roll.impulse_2);
 }
 
 /// Of the impulses that the bodies of a lane keep.
@@ -277,21 +299,6 @@ SUNDER_INLINE WideOf<lanes> share_of(const ConstraintBlock<lanes>& c, const floa
   for (std::uint32_t lane = 0; lane < lanes; ++lane)
     share[lane] = share_of_row[c.row_a[lane] > 0 ? c.row_a[lane] : c.row_b[lane]];
   return share;
-}
-
-template <std::uint32_t lanes>
-void scale_impulses(ConstraintBlock<lanes>& c, ArmLanes<lanes>* arms, const float* share_of_row) {
-  using V = WideOf<lanes>;
-  const V share = share_of<lanes>(c, share_of_row);
-  if (c.summed) {
-    const Wide3Of<lanes> was = c.normal * total_impulse(c) + c.tangent_1 * c.slide_impulse_1 +
-                               c.tangent_2 * c.slide_impulse_2;
-    c.total = c.total + was * (share - splat<V>(1));
-  }
-  for (std::uint32_t i = 0; i < c.points; ++i) c.point[i].impulse *= share;
-  c.slide_impulse_1 *= share, c.slide_impulse_2 *= share, c.twist_impulse *= share;
-  if (c.rolls) c.roll.impulse_1 *= share, c.roll.impulse_2 *= share;
-  if (arms) arms->owed_a = arms->owed_a * share, arms->owed_b = arms->owed_b * share;
 }
 
 template <std::uint32_t lanes>
