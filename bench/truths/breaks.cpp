@@ -185,7 +185,7 @@ Truths break_truths() {
       truth(16, "block broken in flight: p", "", "constant but for gravity", 1e-6,
             of_flight(&Flight::momentum), {3.5e-6, 2.1e-6, 2.9e-6, 5.3e-6}),
       truth(16, "block broken in flight: L", "", "constant", 1e-5, of_flight(&Flight::spin),
-            {0.0048, 0.0072, 0.0066, 5.9e-5}),
+            {0.0072, 0.0072, 0.0066, 5.9e-5}),
       truth(26, "block broken in flight: energy beyond what breaks leave", "",
             "KE after ≤ before − toughness × area", 1e-6, of_flight(&Flight::gain),
             {1e-7, 1e-7, 1e-7, 2e-7}),
