@@ -30,6 +30,7 @@ void append(BreakPlan island, BreakPlan& plan) {
   plan.untouched += island.untouched;
   plan.welded += island.welded;
   plan.failed += island.failed;
+  plan.failed_m3 += island.failed_m3;
 }
 
 }  // namespace
@@ -48,6 +49,7 @@ BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
   BreakEdit edit;
   if (!touched.empty()) edit = Reassembly(structure, touched, fragments, sphere).edit();
   edit.loose.failed = fragments.failed;
+  edit.loose.failed_m3 = fragments.failed_m3;
   edit.loose.clip_ms = clip_ms;
   edit.loose.islands_ms = watch.ms();
   if (!edit.changed) return edit;
@@ -92,6 +94,7 @@ BreakPlan fracture(const Compound& compound, const Pattern& pattern, const Place
   if (edit.changed) return as_pieces(structure, std::move(edit));
   BreakPlan plan = unbroken(compound);
   plan.failed = edit.loose.failed;
+  plan.failed_m3 = edit.loose.failed_m3;
   return plan;
 }
 

@@ -58,6 +58,8 @@ fs::path scene_file(const std::string& file_or_name, const fs::path& folder) {
   } catch (const InputError& error) {
     throw InputError(file_or_name + ": no such file, and " + error.what());
   }
+  if (fs::is_directory(file_or_name))
+    throw InputError(file_or_name + ": is a folder; name a scene file in it");
   const std::vector<std::string_view> views(names.begin(), names.end());
   throw InputError(file_or_name + ": no such file, and no scene of that name" +
                    did_you_mean(file_or_name, views) + "; scenes: " + join(views));

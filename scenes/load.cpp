@@ -9,6 +9,7 @@
 #include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
 #include "engine/model/checks/scene_accuracy.h"
+#include "engine/model/checks/scene_check.h"
 #include "scenes/file/body.h"
 #include "scenes/file/builtin_materials.h"
 #include "scenes/file/ground_mesh.h"
@@ -345,6 +346,11 @@ Scene parse_scene(const std::string& text, const std::string& file, const LoadOp
   add_builtin_materials(loader);
   Scene scene = loader.load(options);
   scene.name = std::filesystem::path(file).stem().string();
+  try {
+    check_scene(scene);
+  } catch (const InputError& error) {
+    throw InputError(file + ": " + error.what());
+  }
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include "engine/base/parallel.h"
 #include "engine/model/checks/scene_accuracy.h"
 #include "engine/model/checks/scene_chains.h"
+#include "engine/model/checks/scene_check.h"
 #include "engine/model/checks/scene_posts.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
@@ -82,7 +83,11 @@ std::vector<std::string> warnings_of(const Scene& scene) {
 }  // namespace
 
 std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOptions& options) {
+  if (options.threads < 0)
+    throw InputError("options.threads is " + std::to_string(options.threads) +
+                     "; expected a count, or 0 for one a processor");
   if (options.threads > 0) set_threads(options.threads);
+  check_scene(scene);
   const std::string name = scene.name.empty() ? "the scene" : scene.name;
   if (scene.planar) check_planar(scene, name);
   if (options.warn) {

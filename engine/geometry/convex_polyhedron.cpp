@@ -68,7 +68,8 @@ MassProperties mass_properties(const ConvexPolyhedron& convex) {
 }
 
 ConvexPolyhedron make_box(const Vec3& min, const Vec3& max) {
-  SUNDER_CHECK((min.array() < max.array()).all());
+  if (!(min.array() < max.array()).all() || !min.allFinite() || !max.allFinite())
+    throw InputError("a box ends before it begins, or nowhere; expected finite min < max");
   ConvexPolyhedron box;
   for (int i = 0; i < 8; ++i) {  // bit k of the index: max along axis k
     box.vertices.emplace_back(i & 1 ? max.x() : min.x(), i & 2 ? max.y() : min.y(),
@@ -87,7 +88,8 @@ ConvexPolyhedron make_box(const Vec3& min, const Vec3& max) {
 
 ConvexPolyhedron make_prism(std::span<const Vec2> polygon_xz, double bottom, double top,
                             bool smooth) {
-  SUNDER_CHECK(polygon_xz.size() >= 3 && bottom < top);
+  if (polygon_xz.size() < 3 || !(bottom < top))
+    throw InputError("a prism has fewer than three corners, or ends before it begins");
   const auto n = static_cast<std::uint32_t>(polygon_xz.size());
   ConvexPolyhedron prism;
   for (const double y : {bottom, top}) {
@@ -96,7 +98,8 @@ ConvexPolyhedron make_prism(std::span<const Vec2> polygon_xz, double bottom, dou
   std::vector<std::uint32_t> cap(n);
   std::iota(cap.begin(), cap.end(), n);
   add_face(prism, cap);
-  SUNDER_CHECK(prism.faces[0].plane.normal.y() > 0);  // the polygon runs the right way
+  if (!(prism.faces[0].plane.normal.y() > 0))
+    throw InputError("the polygon of a prism runs clockwise; expected the other way, seen from +y");
   for (std::uint32_t i = 0; i < n; ++i) cap[i] = n - 1 - i;
   add_face(prism, cap);
   for (std::uint32_t i = 0; i < n; ++i) {

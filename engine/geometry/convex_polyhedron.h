@@ -88,10 +88,10 @@ double face_area(const ConvexPolyhedron& convex, std::size_t face);
 
 /// Appends a flat-shaded surface face on the plane that fits the corners best; no id.
 void add_face(ConvexPolyhedron& convex, std::span<const std::uint32_t> corners);
-/// An axis-aligned box, flat-shaded.
+/// An axis-aligned box, flat-shaded. Throws InputError unless min < max, both finite.
 ConvexPolyhedron make_box(const Vec3& min, const Vec3& max);
 /// A convex polygon in the xz-plane (counter-clockwise seen from +y) swept from `bottom` to `top`
-/// along y; `smooth` shades the sides round (for columns).
+/// along y; `smooth` shades the sides round (for columns). Throws InputError for anything else.
 ConvexPolyhedron make_prism(std::span<const Vec2> polygon_xz, double bottom, double top,
                             bool smooth);
 /// The same solid moved rigidly; plane ids are kept.

@@ -1,5 +1,7 @@
 #include "engine/io/bytes.h"
 
+#include <unistd.h>
+
 #include <fstream>
 
 #include <xxhash.h>
@@ -22,22 +24,50 @@ std::uint64_t hash_bytes(const std::vector<std::byte>& bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-void write_file(const std::filesystem::path& path, const std::vector<std::byte>& bytes) {
-  const std::filesystem::path partial = path.string() + ".part";
+std::filesystem::path place_of(const std::filesystem::path& path) {
+  constexpr int kMostLinks = 40;
+  std::filesystem::path place = path;
   std::error_code error;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  std::ofstream out(partial, std::ios::binary);
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(place, error); ++i)
+    place = place.parent_path() / std::filesystem::read_symlink(place, error);
+  return place;
+}
+
+bool is_device(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
+std::filesystem::path temporary_name(const std::filesystem::path& path) {
+  return place_of(path).string() + ".part-" + std::to_string(::getpid());
+}
+
+void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path) {
+  std::error_code error, ignored;
+  std::filesystem::rename(temporary, place_of(path), error);
+  if (!error) return;
+  std::filesystem::remove(temporary, ignored);
+  throw FileError(path.string() + ": cannot be written: " + error.message());
+}
+
+void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  const bool direct = is_device(path);
+  const std::filesystem::path file = direct ? path : temporary_name(path);
+  std::error_code error;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
+  std::ofstream out(file, std::ios::binary);
   const bool opened = out.is_open();
   out.write(reinterpret_cast<const char*>(bytes.data()),
             static_cast<std::streamsize>(bytes.size()));
   out.close();
-  if (out) std::filesystem::rename(partial, path, error);
-  if (!out || error) {
-    std::filesystem::remove(partial, error);
-    throw FileError(
-        path.string() + ": cannot be written; " +
-        (opened && !out ? "is the disk full?" : "check the folder and its permissions"));
+  if (!out) {
+    if (!direct) std::filesystem::remove(file, error);
+    throw FileError(path.string() + ": cannot be written; " +
+                    (opened ? "is the disk full?" : "check the folder and its permissions"));
   }
+  if (!direct) replace_file(file, path);
 }
 
 }  // namespace sunder

@@ -117,7 +117,17 @@ class ByteReader {
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 /// A hash (XXH3) of bytes; the same on every machine.
 std::uint64_t hash_bytes(const std::vector<std::byte>& bytes);
-/// Writes under a temporary name and renames; throws FileError if that fails.
-void write_file(const std::filesystem::path& path, const std::vector<std::byte>& bytes);
+/// Where a file of this name is or will be: links are followed, dangling ones, too.
+std::filesystem::path place_of(const std::filesystem::path& path);
+/// Whether it is there and no regular file: a device or a pipe, which is written to and not
+/// replaced.
+bool is_device(const std::filesystem::path& path);
+/// Where a file is written until it is complete: beside its place, named after this process.
+std::filesystem::path temporary_name(const std::filesystem::path& path);
+/// Moves a complete file to its place, or removes it and throws FileError.
+void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
+/// Writes under a temporary name and renames; a device or a pipe directly. Makes the folder. Throws
+/// FileError if that fails.
+void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace sunder

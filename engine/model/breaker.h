@@ -120,7 +120,8 @@ struct BreakPlan {
   double debris_volume_m3 = 0;  ///< Under the volume floor: mass that became debris.
   std::uint32_t untouched = 0;  ///< Convexes handed on as they were.
   std::uint32_t welded = 0;     ///< Cells that became one convex.
-  std::uint32_t failed = 0;     ///< Convexes left whole because their parts did not add up.
+  std::uint32_t failed = 0;     ///< Convexes left whole because their parts did not add up,
+  double failed_m3 = 0;         ///< and their volume.
   double clip_ms = 0;           ///< Wall time of cutting and welding,
   double islands_ms = 0;        ///< and of grouping and finding islands; no part of the result.
 

@@ -153,7 +153,10 @@ Fragments make_fragments(const Structure& structure, std::vector<ConvexSlot>& to
   for (std::size_t i = 0; i < cut.size(); ++i) {
     const ConvexSlot source = touched[i];
     const Convex& parent = *structure.convex(source);
-    fragments.failed += cut[i].failed ? 1 : 0;
+    if (cut[i].failed) {
+      ++fragments.failed;
+      fragments.failed_m3 += parent.solid.volume_m3;
+    }
     const CellPart& first = cut[i].parts[0];
     if (first.convex.get() == &parent && group_of(first, pattern, sphere) == Fragment::kRest) {
       continue;

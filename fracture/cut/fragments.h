@@ -16,6 +16,7 @@ struct Fragments {
   double debris_volume_m3 = 0;
   std::uint32_t welded = 0;
   std::uint32_t failed = 0;
+  double failed_m3 = 0;
 };
 
 /// Cuts the convexes in slots `touched`, welds full cells, and groups by colour what the sphere

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/base/check.h"
+#include "engine/io/bytes.h"
 
 extern char** environ;
 
@@ -84,6 +85,11 @@ Encoder::Encoder(const std::filesystem::path& path, int width, int height, int f
     throw InputError(path.string() + ": a video needs an even width and height, not " +
                      size(width, height) + "; make it " +
                      size(width + width % 2, height + height % 2));
+  }
+  if (is_device(path)) {
+    throw InputError(path.string() +
+                     ": a video is written to and fro, which a pipe or a device "
+                     "does not allow; name a file, or a folder for images");
   }
   int ends[2] = {-1, -1};
   log_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);

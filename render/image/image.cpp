@@ -1,8 +1,6 @@
 // PNG files, and pictures, by stb; the one place that holds stb's code.
 #include "render/image/image.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
@@ -19,6 +17,7 @@
 #include <stb/stb_image_write.h>
 
 #include "engine/base/check.h"
+#include "engine/io/bytes.h"
 
 namespace sunder::render {
 namespace {
@@ -115,36 +114,9 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
   return bytes;
 }
 
-std::filesystem::path temporary_name(const std::filesystem::path& path) {
-  return path.string() + ".part-" + std::to_string(::getpid());
-}
-
-void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path) {
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (!error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw FileError(path.string() + ": cannot be written: " + error.message());
-}
-
-void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-  const std::filesystem::path temporary = temporary_name(path);
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (file == nullptr) {
-    throw FileError(path.string() + ": cannot be written; is the folder there and yours?");
-  }
-  const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  if (std::fclose(file) != 0 || !whole) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw FileError(path.string() + ": cannot be written; is the disk full?");
-  }
-  replace_file(temporary, path);
-}
-
 void write_png(const std::filesystem::path& path, const Image& image) {
-  write_bytes(path, encode_png(image));
+  const std::vector<std::uint8_t> bytes = encode_png(image);
+  write_file(path, std::as_bytes(std::span(bytes)));
 }
 
 void write_png(const std::filesystem::path& path, const DeepImage& image) {
@@ -163,7 +135,7 @@ void write_png(const std::filesystem::path& path, const DeepImage& image) {
   }
   put_chunk(bytes, "IDAT", packed_rows(image));
   put_chunk(bytes, "IEND", {});
-  write_bytes(path, bytes);
+  write_file(path, std::as_bytes(std::span(bytes)));
 }
 
 Image read_png(const std::filesystem::path& path) {

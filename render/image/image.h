@@ -45,11 +45,4 @@ Image read_png(const std::filesystem::path& path);
 /// A PNG or JPEG in memory. Throws InputError if it is neither, or too large.
 Image decode_picture(std::span<const std::byte> bytes);
 
-/// Where a file is written until it is complete: beside `path`, named after this process.
-std::filesystem::path temporary_name(const std::filesystem::path& path);
-/// Moves a complete file to its name, or removes it and throws FileError.
-void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
-/// Writes to a temporary name and renames; throws FileError if the place cannot be written.
-void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
-
 }  // namespace sunder::render

@@ -92,7 +92,42 @@ PatternSpec parse_built_in(const std::string& text, const std::string& kind) {
   return pattern;
 }
 
+bool is_none(const std::string& path) { return path.empty() || path == "-"; }
+
+/// Whether a file is, or will be, where the other is; of a folder that is replaced, or in it.
+bool is_overwritten(const std::string& file, const NamedFile& output) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path place = fs::weakly_canonical(fs::absolute(output.path), error);
+  const fs::path other = fs::weakly_canonical(fs::absolute(file), error);
+  if (fs::exists(place, error) && !fs::is_regular_file(place, error) &&
+      !fs::is_directory(place, error))
+    return false;
+  if (place == other || fs::equivalent(place, other, error)) return true;
+  const fs::path folder = place.has_filename() ? place : place.parent_path();
+  return output.replaces_folder && other.parent_path() == folder;
+}
+
 }  // namespace
+
+void check_files(const std::vector<NamedFile>& writes, const std::vector<NamedFile>& reads) {
+  for (std::size_t i = 0; i < writes.size(); ++i) {
+    const NamedFile& output = writes[i];
+    if (is_none(output.path)) continue;
+    const std::string name = output.option + " " + output.path;
+    for (const NamedFile& input : reads) {
+      const bool is_there = !is_none(input.path) && std::filesystem::exists(input.path);
+      if (!is_there || !is_overwritten(input.path, output)) continue;
+      throw InputError(name + ": would overwrite what " + input.option +
+                       " is read from; name another " +
+                       (output.replaces_folder ? "place" : "file"));
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (is_none(writes[j].path) || !is_overwritten(writes[j].path, output)) continue;
+      throw InputError(name + ": is what " + writes[j].option + " writes, too; name another file");
+    }
+  }
+}
 
 Vec3 parse_point(const std::string& flag, const std::string& text) {
   const std::vector<double> found = numbers(text, ',');

@@ -1,4 +1,5 @@
-// sunder check: loads and validates scenes, without running them.
+// sunder list: the scenes, one line each; sunder check: loads and validates some, without running
+// them.
 #include "engine/base/check.h"
 
 #include <cstdio>
@@ -8,6 +9,25 @@
 #include "scenes/make_simulation.h"
 
 namespace sunder::app {
+
+int list(const ListOptions& options) {
+  if (options.keys) {
+    options.say(scenes::key_reference());
+    return 0;
+  }
+  Figures figures;
+  std::size_t index = 0;
+  for (const scenes::CatalogEntry& entry : scenes::catalog()) {
+    options.say(entry.name + std::string(entry.name.size() < 14 ? 14 - entry.name.size() : 1, ' ') +
+                entry.description + "\n");
+    const std::string at = "/scenes/" + std::to_string(index++);
+    figures[at + "/name"] = entry.name;
+    figures[at + "/file"] = entry.file.string();
+    figures[at + "/description"] = entry.description;
+  }
+  options.write_json(format_figures(figures));
+  return 0;
+}
 
 // Every scene is looked at, also after one that is wrong.
 int check(const CheckOptions& options) {

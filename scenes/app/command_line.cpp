@@ -1,54 +1,18 @@
-// The flags of every command. The only file that knows CLI11.
+// The options of every command.
 #include "scenes/app/command_line.h"
 
-#include <memory>
+#include <algorithm>
 
-#include <CLI/CLI.hpp>
-
+#include "engine/base/check.h"
 #include "render/camera.h"
 #include "render/view_mode.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
+#include "scenes/app/subcommand.h"
+#include "scenes/file/keys.h"
 
 namespace sunder::app {
 namespace {
-
-using Command = std::function<int()>;
-constexpr int kMostFrames = 1000000;
-
-/// A subcommand with its options; `work` becomes `chosen` if the line names it.
-template <class Options>
-struct Subcommand {
-  CLI::App* app;
-  std::shared_ptr<Options> options = std::make_shared<Options>();
-
-  Subcommand(CLI::App& parent, const char* name, const char* help, int (*work)(const Options&),
-             Command& chosen)
-      : app(parent.add_subcommand(name, help)) {
-    app->add_option("--threads", options->threads, "Threads; 0 for one per processor")
-        ->check(CLI::Range(0, 1024));
-    app->add_flag("--quiet", options->quiet, "Print nothing but errors");
-    app->add_option("--json", options->json, "Write figures as JSON to a file, or - for stdout");
-    app->callback([&chosen, work, given = options] { chosen = [=] { return work(*given); }; });
-  }
-  /// Ways to change a scene without editing it.
-  void add_changes() {
-    app->add_option("--preset", options->load.preset,
-                    "Speed against accuracy: draft | realtime | accurate | reference")
-        ->capture_default_str();
-    add_set();
-  }
-  void add_set() {
-    app->add_option("--set", options->load.set,
-                    "Change a key of the scene: key=value, as often as wanted")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-  }
-  void add_frames() {
-    app->add_option("--frames", options->frames, "Stop after this many frames of 1/60 s")
-        ->check(CLI::Range(1, kMostFrames));
-  }
-};
 
 void add_list(CLI::App& program, Command& chosen) {
   Subcommand<ListOptions> command(program, "list", "The scenes, one line each", list, chosen);
@@ -60,6 +24,7 @@ void add_check(CLI::App& program, Command& chosen) {
   Subcommand<CheckOptions> command(program, "check",
                                    "Load and validate scenes, without running them", check, chosen);
   command.app->add_option("SCENE", command.options->scenes, "Files or names of scenes")->required();
+  command.reads("SCENE", command.options->scenes);
   command.add_changes();
 }
 
@@ -72,6 +37,10 @@ void add_simulate(CLI::App& program, Command& chosen) {
                           "A take of the same run: fails where the state differs first");
   command.app->add_option("--trace", command.options->trace,
                           "Write what every thread did when, for ui.perfetto.dev");
+  command.reads("SCENE", command.options->scene);
+  command.reads("--verify", command.options->verify);
+  command.writes("--take", command.options->take);
+  command.writes("--trace", command.options->trace);
   command.add_frames();
   command.add_changes();
 }
@@ -108,16 +77,16 @@ void add_render(CLI::App& program, Command& chosen) {
   command.app
       ->add_option("--speed", options.speed,
                    "Of the film: 0.1 is ten times slower, with pictures between the frames")
-      ->check(CLI::Range(0.001, 1000.0))
+      ->check(from_to(0.001, 1000.0))
       ->capture_default_str();
   command.app->add_option("--fps", options.render.frames_per_s, "Pictures a second of the film")
-      ->check(CLI::Range(1, 1000))
+      ->check(from_to(1, 1000))
       ->capture_default_str();
   command.app
       ->add_option("--sheet", options.sheet,
                    "Into X.png: so many pictures side by side, evenly over the run, with times")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->check(from_to(1, 1000));
   command.app->add_flag("--resume", options.resume,
                         "Into DIR/: keep pictures that are there, draw the others");
   command.app->add_option("--size", options.size, "Pixels; 1280x720, of a sheet's pictures 480x270")
@@ -126,7 +95,7 @@ void add_render(CLI::App& program, Command& chosen) {
       ->add_option("--samples", options.render.samples,
                    "Pictures that each is the mean of: smoother edges, and blur while view.shutter "
                    "is open")
-      ->check(CLI::Range(1, 1024))
+      ->check(from_to(1, 1024))
       ->capture_default_str();
   command.app
       ->add_option("--also", options.render.layers,
@@ -139,6 +108,9 @@ void add_render(CLI::App& program, Command& chosen) {
   command.app
       ->add_option("--gl", options.render.gl, "auto | egl-device:N | egl-surfaceless | osmesa")
       ->capture_default_str();
+  command.reads("SCENE", options.scene);
+  command.reads("--view", options.view);
+  command.writes("-o", options.output);
   add_looks(command.app, options.render);
   command.add_changes();
   command.app->get_option("--preset")->each([&options](const std::string&) {
@@ -153,10 +125,10 @@ void add_bench(CLI::App& program, Command& chosen) {
   auto* scenes = command.app->add_option("SCENE", options.scenes, "Files or names of scenes")
                      ->capture_default_str();
   command.app->add_option("--repeats", options.repeats, "Runs of each scene, in turns")
-      ->check(CLI::Range(1, 1000))
+      ->check(from_to(1, 1000))
       ->capture_default_str();
   command.app->add_option("--warm-up", options.warm_up, "Turns before them that do not count")
-      ->check(CLI::Range(0, 1000))
+      ->check(from_to(0, 1000))
       ->capture_default_str();
   auto* features = command.app->add_flag("--features", options.features,
                                          "Also run each scene without each feature it has");
@@ -186,6 +158,13 @@ void add_bench(CLI::App& program, Command& chosen) {
   command.app->add_option("--junit", options.junit, "Write what passed and failed as JUnit XML");
   command.app->add_option("--page", options.page,
                           "Write an HTML page with every stage of every frame plotted");
+  command.reads("SCENE", options.scenes);
+  command.reads("--compare", options.compare);
+  command.reads("--against", options.against);
+  command.reads("--from", options.from);
+  command.reads("--hashes", options.hashes);
+  command.writes("--junit", options.junit);
+  command.writes("--page", options.page);
   command.add_frames();
   command.add_changes();
 }
@@ -207,7 +186,7 @@ void add_trade(CLI::App& program, Command& chosen) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.app->add_option("--seeds", options.seeds, "Runs of each scene at each point")
-      ->check(CLI::Range(1, 10000))
+      ->check(from_to(1, 10000))
       ->capture_default_str();
   command.app->add_flag("--list", options.list, "Print the runs, one a line, and do none");
   auto* shard =
@@ -216,6 +195,8 @@ void add_trade(CLI::App& program, Command& chosen) {
           ->type_name("I/N");
   command.app->add_flag("--merge", options.merge, "Make the reports of the runs that are there")
       ->excludes(shard);
+  command.reads("SCENE", options.scenes);
+  command.reads("--points", options.points);
   command.add_frames();
   command.add_set();
 }
@@ -230,7 +211,7 @@ void add_decomposition(CLI::App* app, scenes::MeshOptions& options) {
                   "Of a file's decomposition: how many, or a file of x y z a line")
       ->type_name("N|FILE");
   app->add_option("--convexes", options.convexes, "At most so many convexes")
-      ->check(CLI::Range(1u, fracture::kMostNodes));
+      ->check(from_to(1u, fracture::kMostNodes));
   app->add_option("--fit", options.fit, "How convexes are fitted: aabb | 14dop | 26dop | hull:N")
       ->capture_default_str();
   app->add_option("--repair", options.repair,
@@ -240,13 +221,18 @@ void add_decomposition(CLI::App* app, scenes::MeshOptions& options) {
 
 /// Where a command on a mesh writes what it made.
 template <class Options>
-void add_solids_output(CLI::App* app, Options& options) {
+void add_solids_output(Subcommand<Options>& command) {
+  CLI::App* app = command.app;
+  Options& options = *command.options;
+  command.reads("MESH", options.mesh);
+  command.reads("--nodes", options.solid.nodes);
+  command.writes("-o", options.output, true);
   app->add_option("-o,--output", options.output,
                   "X.glb: glTF, a node a piece; X.png: a picture; DIR/: an .obj a piece");
   app->add_option("--explode", options.explode,
                   "Move the pieces of -o apart by this times their distance from the middle; 0 but "
                   "for a picture, where it is 0.3")
-      ->check(CLI::Range(0.0, 1000.0));
+      ->check(from_to(0.0, 1000.0));
 }
 
 void add_fracture(CLI::App& program, Command& chosen) {
@@ -265,12 +251,13 @@ void add_fracture(CLI::App& program, Command& chosen) {
       ->add_option("--radius", options.radius_m,
                    "Only what is nearer to the impact breaks; everything by default")
       ->type_name("METRES")
-      ->check(CLI::Range(1e-9, 1e9));
+      ->check(from_to(1e-9, 1e9));
   command.app->add_option("--seed", options.seed, "Another seed, another break")
-      ->check(CLI::NonNegativeNumber)
+      ->check(from_to<std::uint64_t>(0, std::numeric_limits<std::int64_t>::max()))
       ->capture_default_str();
+  command.reads("--pattern", options.pattern);
   add_decomposition(command.app, options.solid);
-  add_solids_output(command.app, options);
+  add_solids_output(command);
 }
 
 void add_vacd(CLI::App& program, Command& chosen) {
@@ -284,16 +271,17 @@ void add_vacd(CLI::App& program, Command& chosen) {
   add_decomposition(command.app, options.solid);
   command.app->add_flag("--watch", options.watch,
                         "Again whenever the file of --nodes changes; redraws -o, until stopped");
-  add_solids_output(command.app, options);
+  add_solids_output(command);
 }
 
 void add_hull(CLI::App& program, Command& chosen) {
   Subcommand<HullOptions> command(program, "hull", "Approximate convex hull of a mesh", hull,
                                   chosen);
   command.app->add_option("MESH", command.options->mesh, kMeshHelp)->required();
+  command.reads("MESH", command.options->mesh);
   command.app->add_option("--vertices", command.options->vertices, "Vertices that it is made from")
       ->required()
-      ->check(CLI::Range(4, 10000));
+      ->check(from_to(4, 10000));
 }
 
 Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const char* name,
@@ -322,6 +310,7 @@ void add_golden(CLI::App& program, Command& chosen) {
                           "Also whole simulations, of which sunder bench knows the state");
     command.app->add_option("--junit", command.options->junit,
                             "Write what passed and failed as JUnit XML");
+    command.writes("--junit", command.options->junit);
     command.app->add_option("--out", command.options->out, "Where new files go")
         ->capture_default_str();
   }
@@ -339,12 +328,23 @@ void add_golden(CLI::App& program, Command& chosen) {
                    "File or name of a scene, or X.frame: a golden that draws the frame of another")
       ->required();
   record.app->add_option("FRAME", record.options->frame, "Which frame of a scene")
-      ->check(CLI::Range(0, kMostFrames));
+      ->check(from_to(0, kMostFrames));
   record.app->add_option("--size", record.options->size, "Pixels")
       ->type_name("WxH")
       ->capture_default_str();
   add_looks(record.app, record.options->render);
   record.add_changes();
+}
+
+/// Of a name that is no command it says which are.
+void check_command(const CLI::App& program, const std::string& word) {
+  if (word.empty() || word.starts_with("-")) return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  if (std::ranges::find(names, word) != names.end()) return;
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  throw InputError("unknown command '" + word + "'" + scenes::did_you_mean(word, known) +
+                   "; commands: " + scenes::join(known));
 }
 
 }  // namespace
@@ -364,6 +364,7 @@ Command parse_command_line(int argc, char** argv) {
   add_vacd(program, chosen);
   add_hull(program, chosen);
   add_golden(program, chosen);
+  check_command(program, argc > 1 ? argv[1] : "");
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -124,6 +124,7 @@ void collect(Structure& structure, BreakEdit edit, BreakPlan& plan) {
   plan.clip_ms += loose.clip_ms;
   plan.islands_ms += loose.islands_ms;
   plan.failed += loose.failed;
+  plan.failed_m3 += loose.failed_m3;
   plan.welded += loose.welded;
   plan.debris_volume_m3 += loose.debris_volume_m3;
   plan.untouched += edit.changed ? loose.untouched : structure.size();
@@ -182,6 +183,7 @@ Figures figures_of(const scenes::MeshSolid& solid, const Broken& broken) {
   figures["/islands"] = whole(after.islands);
   figures["/welded"] = whole(broken.plan.welded);
   figures["/failed"] = whole(broken.plan.failed);
+  figures["/failed_volume_m3"] = broken.plan.failed_m3;
   figures["/volume_in_m3"] = broken.before.volume_m3;
   add_doubled(broken.doubled, figures);
   figures["/volume_out_m3"] = after.volume_m3;
@@ -200,6 +202,17 @@ Figures figures_of(const scenes::MeshSolid& solid, const Broken& broken) {
   return figures;
 }
 
+std::string failed_summary(const Broken& broken) {
+  if (broken.plan.failed == 0) return "";
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "failed   %u convexes were left whole, %.3g %% of the volume: their parts did not add "
+      "up; more --nodes may help\n",
+      broken.plan.failed, 100 * broken.plan.failed_m3 / broken.before.volume_m3);
+  return text;
+}
+
 std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
   const fracture::Audit& after = broken.after;
   char text[600];
@@ -212,7 +225,7 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
       broken.plan.welded, broken.before.volume_m3, after.volume_m3 + broken.plan.debris_volume_m3,
       volume_error(broken), after.overlap_m3, solid.prepare_ms + broken.prepare_ms, broken.total_ms,
       broken.plan.clip_ms, broken.plan.islands_ms);
-  return input_summary(solid) + text + doubled_summary(broken.doubled);
+  return input_summary(solid) + text + failed_summary(broken) + doubled_summary(broken.doubled);
 }
 
 fracture::BreakCase case_of(const FractureOptions& options, scenes::MeshSolid& solid,

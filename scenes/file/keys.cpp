@@ -257,6 +257,17 @@ void check_known(const Value& table, std::string_view name,
   }
 }
 
+/// " ('sise_m' is none)" if a table has something like a key, and no key.
+std::string misspelt(const Table& entries, const Key& key, std::span<const Key> keys) {
+  for (const Entry& entry : entries) {
+    const auto is_it = [&](const Key& known) { return known.name == entry.key; };
+    if (std::ranges::any_of(keys, is_it)) continue;
+    if (!did_you_mean(entry.key, std::span(&key.name, 1)).empty())
+      return " ('" + entry.key + "' is none)";
+  }
+  return "";
+}
+
 void read_keys(const Value& table, std::string_view name, std::span<const Key> keys,
                std::span<const Material> materials, void* object) {
   const Table& entries = as_table(table, name);
@@ -270,7 +281,7 @@ void read_keys(const Value& table, std::string_view name, std::span<const Key> k
     }
     if (!value && !degrees && key.required) {
       throw InputError(table.where + ": missing key '" + std::string(key.name) + "' in " +
-                       std::string(name) + ": " + allowed(key));
+                       std::string(name) + misspelt(entries, key, keys) + ": " + allowed(key));
     }
     if (value) store({*value, key, name, 1}, object);
     if (degrees) store({*degrees, in_degrees(key, degrees_key), name, kDegree}, object);

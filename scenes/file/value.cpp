@@ -136,7 +136,23 @@ std::string describe(const Value& value) {
     }
     std::string operator()(const std::string& s) const { return "the string \"" + s + "\""; }
     std::string operator()(const Array& a) const {
-      return "an array of " + std::to_string(a.size());
+      constexpr std::size_t kFew = 4;
+      const auto is_number = [](const Value& item) {
+        return std::holds_alternative<std::int64_t>(item.data) ||
+               std::holds_alternative<double>(item.data);
+      };
+      if (a.empty() || a.size() > kFew || !std::ranges::all_of(a, is_number))
+        return "an array of " + std::to_string(a.size());
+      std::ostringstream out;
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        out << (i == 0 ? "[" : ", ");
+        std::visit(
+            [&](const auto& number) {
+              if constexpr (std::is_arithmetic_v<std::decay_t<decltype(number)>>) out << number;
+            },
+            a[i].data);
+      }
+      return out.str() + "]";
     }
     std::string operator()(const Table&) const { return "a table"; }
   };

@@ -150,9 +150,10 @@ void TakeReader::Playback::scan() {
   for (std::uint64_t at = sizeof kTakeMagic; at < size_ && !complete_;) {
     const std::optional<Block> block = block_at(at);
     if (!block) {
-      damage_ = "the take is cut short or corrupt behind frame " +
-                std::to_string(static_cast<std::int64_t>(frame_blocks_.size()) - 1) + " (byte " +
-                std::to_string(at) + ")";
+      const std::string frame = frame_blocks_.empty()
+                                    ? "before its first frame"
+                                    : "behind frame " + std::to_string(frame_blocks_.size() - 1);
+      damage_ = "the take is cut short or corrupt " + frame + " (byte " + std::to_string(at) + ")";
       return;
     }
     note({at, block->header.kind, block->header.first});
@@ -203,8 +204,10 @@ FramePtr TakeReader::Playback::next() {
     ++next_;
     return frame;
   } catch (const InputError& error) {
-    damage_ = std::string(error.what()) + "; it can be played up to frame " +
-              std::to_string(std::int64_t{at} - 1);
+    damage_ = error.what();
+    if (damage_.starts_with(file_ + ": ")) damage_.erase(0, file_.size() + 2);
+    damage_ += at == 0 ? "; no frame of it can be played"
+                       : "; it can be played up to frame " + std::to_string(at - 1);
     frame_blocks_.resize(at);
     return nullptr;
   }

@@ -1,0 +1,106 @@
+// What is made by hand and cannot be run is refused with its name, before anything relies on it.
+#include "engine/model/checks/scene_check.h"
+
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Scene good() {
+  Scene scene;
+  scene.materials.resize(2);
+  Solid solid;
+  solid.compound.convexes = {make_convex(make_box(Vec3::Zero(), Vec3::Ones()), MaterialIndex(0))};
+  solid.compound.anchored = {0};
+  scene.solids = {solid, solid};
+  scene.balls.resize(1);
+  scene.balls[0].material = MaterialIndex(1);
+  scene.joints.resize(1);
+  scene.joints[0].a = 0;
+  scene.joints[0].b = 1;
+  scene.shots.resize(2);
+  for (Shot& shot : scene.shots) shot.ball.material = MaterialIndex(1);
+  scene.shots[0].time_s = 1;
+  scene.shots[1].time_s = 2;
+  scene.removals.resize(1);
+  scene.removals[0].roots = {0, 2};
+  return scene;
+}
+
+TEST(SceneCheck, AcceptsWhatCanBeRun) { EXPECT_NO_THROW(check_scene(good())); }
+
+TEST(SceneCheck, NamesWhatIsWrong) {
+  const std::pair<const char*, std::function<void(Scene&)>> mistakes[] = {
+      {"solids[0] is of material 0", [](Scene& s) { s.materials.clear(); }},
+      {"gravity_W", [](Scene& s) { s.gravity_W.y() = kNaN; }},
+      {"duration_s", [](Scene& s) { s.duration_s = -1; }},
+      {"dt_s is 0;", [](Scene& s) { s.accuracy.dt_s = 0; }},
+      {"1/120", [](Scene& s) { s.accuracy.dt_s = 0.01; }},
+      {"dt_s", [](Scene& s) { s.accuracy.dt_s = kNaN; }},
+      {"substeps", [](Scene& s) { s.accuracy.substeps = 0; }},
+      {"sweeps", [](Scene& s) { s.solver.sweeps = -1; }},
+      {"materials[1].density_kg_m3", [](Scene& s) { s.materials[1].density_kg_m3 = 0; }},
+      {"materials[1].friction", [](Scene& s) { s.materials[1].friction = kNaN; }},
+      {"materials[1].restitution", [](Scene& s) { s.materials[1].restitution = 2; }},
+      {"materials[0].toughness_J_m2", [](Scene& s) { s.materials[0].toughness_J_m2 = -1; }},
+      {"solids[1].compound has no convexes",
+       [](Scene& s) { s.solids[1].compound.convexes.clear(); }},
+      {"null convex", [](Scene& s) { s.solids[1].compound.convexes[0] = nullptr; }},
+      {"anchored has 2",
+       [](Scene& s) {
+         s.solids[1].compound.anchored = {0, 0};
+       }},
+      {"X_WR.position", [](Scene& s) { s.solids[1].X_WR.position.x() = kNaN; }},
+      {"X_WR.rotation", [](Scene& s) { s.solids[1].X_WR.rotation.coeffs().setZero(); }},
+      {"velocity_W", [](Scene& s) { s.solids[0].velocity_W.z() = kNaN; }},
+      {"balls[0].radius_m", [](Scene& s) { s.balls[0].radius_m = 0; }},
+      {"shots[1].ball has no material", [](Scene& s) { s.shots[1].ball.material = {}; }},
+      {"balls[0] is of material 7", [](Scene& s) { s.balls[0].material = MaterialIndex(7); }},
+      {"joints[0] holds no body", [](Scene& s) { s.joints[0].a = s.joints[0].b = std::nullopt; }},
+      {"joints[0] holds body 3", [](Scene& s) { s.joints[0].b = 3; }},
+      {"joins a body to itself", [](Scene& s) { s.joints[0].b = 0; }},
+      {"shots[1] comes before shots[0]", [](Scene& s) { s.shots[1].time_s = 0; }},
+      {"shots[0].time_s", [](Scene& s) { s.shots[0].time_s = kNaN; }},
+      {"removals[0] is of body 3",
+       [](Scene& s) {
+         s.removals[0].roots = {0, 3};
+       }},
+      {"roots do not ascend",
+       [](Scene& s) {
+         s.removals[0].roots = {2, 0};
+       }},
+      {"vertex 5", [](Scene& s) {
+         s.ground.meshes.resize(1);
+         s.ground.meshes[0].vertices_W.resize(3, Vec3::Zero());
+         s.ground.meshes[0].triangles = {{0, 1, 5}};
+       }}};
+  for (const auto& [name, spoil] : mistakes) {
+    Scene scene = good();
+    spoil(scene);
+    try {
+      check_scene(scene);
+      ADD_FAILURE() << name << ": accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos)
+          << name << ": " << error.what();
+    }
+  }
+}
+
+TEST(SceneCheck, BoxesAndPrismsThatAreNoneAreRefused) {
+  EXPECT_THROW(make_box(Vec3::Ones(), Vec3::Zero()), InputError);
+  EXPECT_THROW(make_box(Vec3::Zero(), Vec3(1, kNaN, 1)), InputError);
+  const Vec2 corners[] = {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
+  EXPECT_THROW(make_prism(std::span(corners, 2), 0, 1, false), InputError);
+  EXPECT_THROW(make_prism(corners, 1, 0, false), InputError);
+}
+
+}  // namespace
+}  // namespace sunder
