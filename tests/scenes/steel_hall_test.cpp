@@ -113,7 +113,7 @@ Struck strike(double along_m) {
 
 TEST(SteelHall, BendsBeforeItFalls) {
   // What falls when is chaotic: a centimetre changes it.
-  constexpr int kBalls = 6;
+  constexpr int kBalls = 4;
   int fell = 0;
   std::vector<double> bent_rad;
   for (int i = 0; i < kBalls; ++i) {
@@ -128,7 +128,7 @@ TEST(SteelHall, BendsBeforeItFalls) {
   const double sum_rad = std::accumulate(bent_rad.begin(), bent_rad.end(), 0.0);
   EXPECT_GT(sum_rad / kBalls, 5 * kDegree);
   std::ranges::sort(bent_rad);
-  EXPECT_GT(0.5 * (bent_rad[2] + bent_rad[3]), 4 * kDegree);
+  EXPECT_GT(0.5 * (bent_rad[1] + bent_rad[2]), 4 * kDegree);
 }
 
 }  // namespace
