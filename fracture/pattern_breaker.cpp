@@ -169,11 +169,14 @@ class PatternBreaker final : public Breaker {
     BreakEdit edit = break_structure(structure, *ready.pattern, ready.placement, ready.sphere,
                                      command.event, command.fit);
     if (log_ && edit.loose.failed > 0) {
-      log_->add(structure.compound(), command, edit.loose.failed);
+      log_->keep(structure.compound(), command);
     }
     return edit;
   }
 
+  void note_carried_out(const BreakPlan& plan) const override {
+    if (log_) log_->count(plan.failed, plan.failed_m3);
+  }
   StressAnswer stress(const Structure& structure, const LoadCase& load) const override {
     return break_by_stress(structure, load);
   }

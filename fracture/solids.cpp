@@ -17,7 +17,8 @@ namespace sunder::fracture {
 namespace {
 
 constexpr MaterialIndex kMaterial(0u);
-constexpr double kMostConvexes = 1e6;
+// Of a grid; of cells, which take half a minute; of columns, each of which meets the roof.
+constexpr double kMostBoxes = 1e6, kMostCells = 1e5, kMostColumns = 5000;
 
 Vec2 on_circle(double radius, int i, int segments) {
   const SinCos angle = sin_cos(2 * std::numbers::pi * (i % segments) / segments);
@@ -137,19 +138,21 @@ Compound make_solid(const std::string& name) {
   if (is("column", 2)) return column_compound(sizes[0], sizes[1]);
   if (is("torus", 2) && sizes[1] < sizes[0]) return torus_compound(sizes[0], sizes[1]);
   if (is("grid", 3) && whole(0) && whole(1) && whole(2) &&
-      sizes[0] * sizes[1] * sizes[2] <= kMostConvexes) {
+      sizes[0] * sizes[1] * sizes[2] <= kMostBoxes) {
     return grid_compound(static_cast<int>(sizes[0]), static_cast<int>(sizes[1]),
                          static_cast<int>(sizes[2]));
   }
-  if (is("voronoi", 1) && whole(0) && sizes[0] <= kMostConvexes) {
+  if (is("voronoi", 1) && whole(0) && sizes[0] <= kMostCells) {
     return voronoi_compound(static_cast<int>(sizes[0]), 1);
   }
-  if (is("hall", 1) && whole(0) && sizes[0] <= kMostConvexes) {
+  if (is("hall", 1) && whole(0) && sizes[0] <= kMostColumns) {
     return hall_compound(static_cast<int>(sizes[0]));
   }
-  throw InputError("'" + name +
-                   "' is no built-in solid; these are box:X,Y,Z column:R,H torus:R,r (r < R) "
-                   "grid:NX,NY,NZ voronoi:N hall:N, with sizes above 0");
+  throw InputError(
+      "'" + name +
+      "' is no built-in solid; these are box:X,Y,Z column:R,H torus:R,r (r < R) "
+      "grid:NX,NY,NZ (a million in all) voronoi:N (to 100,000) hall:N (to 5,000), with "
+      "sizes above 0");
 }
 
 }  // namespace sunder::fracture

@@ -1,5 +1,7 @@
 #include "scenes/make_simulation.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -23,13 +25,15 @@ namespace {
 const Eigen::Vector3i kAirCells(40, 24, 40);
 
 /// Writes breaks that went wrong to files, and says so when the run is over.
-std::shared_ptr<fracture::FailureLog> failure_log(const SimulationOptions& options) {
+std::shared_ptr<fracture::FailureLog> failure_log(const Scene& scene,
+                                                  const SimulationOptions& options) {
   if (options.cases_folder.empty() && !options.warn) return nullptr;
   const std::string folder = options.cases_folder.string();
-  const auto tell = [folder, warn = options.warn](fracture::FailureLog* log) {
+  double volume_m3 = 0;
+  for (const Solid& solid : scene.solids) volume_m3 += volume(solid.compound);
+  const auto tell = [folder, volume_m3, warn = options.warn](fracture::FailureLog* log) {
     if (log->failed() > 0 && warn) {
-      std::string text = std::to_string(log->failed()) +
-                         " convexes were left whole because their parts did not add up";
+      std::string text = left_whole_warning(log->failed(), log->failed_m3(), volume_m3);
       if (log->files() > 0) {
         text += "; " + std::to_string(log->files()) + " breaks are kept in " + folder +
                 "/, to look into by `sunder fracture`";
@@ -69,12 +73,32 @@ std::unique_ptr<Particles> make_particles(const Scene& scene) {
   return solver::make_debris_and_dust(options);
 }
 
+/// Of what lies under the ground where it stands, and of a scene in which nothing is.
+std::string placing_warning(const Scene& scene) {
+  if (scene.solids.empty() && scene.balls.empty() && scene.shots.empty()) return "nothing is in it";
+  if (!scene.ground.meshes.empty()) return "";
+  std::size_t under = 0;
+  std::string first;
+  for (const Solid& solid : scene.solids) {
+    double top_m = -std::numeric_limits<double>::infinity();
+    for (const ConvexPtr& convex : solid.compound.convexes) {
+      for (const Vec3& vertex : convex->polyhedron.vertices)
+        top_m = std::max(top_m, (solid.X_WR * vertex).y());
+    }
+    if (top_m >= scene.ground.height_m || solid.compound.is_anchored()) continue;
+    if (++under == 1) first = solid.name;
+  }
+  if (under == 0) return "";
+  return "'" + first + "'" + (under > 1 ? " and " + std::to_string(under - 1) + " more" : "") +
+         (under > 1 ? " lie" : " lies") + " under the ground";
+}
+
 std::vector<std::string> warnings_of(const Scene& scene) {
   std::vector<std::string> warnings = chain_warnings(scene, kMostSubsteps);
   const std::string standing = accuracy_warning(scene, kMostSubsteps);
   for (const std::string& warning :
        {standing.empty() ? crush_warning(scene, kMostSubsteps) : standing, post_warning(scene),
-        long_step_warning(scene), far_warning(scene)}) {
+        long_step_warning(scene), far_warning(scene), placing_warning(scene)}) {
     if (!warning.empty()) warnings.push_back(warning);
   }
   return warnings;
@@ -95,9 +119,9 @@ std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOption
   }
   std::unique_ptr<Particles> particles = make_particles(scene);
   std::unique_ptr<Physics> physics = make_physics(scene);
-  auto simulation = std::make_unique<Simulation>(
-      std::move(scene), std::move(physics), fracture::make_pattern_breaker(failure_log(options)),
-      std::move(particles));
+  auto breaker = fracture::make_pattern_breaker(failure_log(scene, options));
+  auto simulation = std::make_unique<Simulation>(std::move(scene), std::move(physics),
+                                                 std::move(breaker), std::move(particles));
   if (options.inspect) simulation->inspect();
   return simulation;
 }

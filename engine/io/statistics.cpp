@@ -178,6 +178,12 @@ Json frame_json(const FrameReport& report, double ms, std::span<const double> fr
 
 }  // namespace
 
+std::string left_whole_warning(std::uint64_t convexes, double volume_m3, double of_m3) {
+  return std::to_string(convexes) + (convexes == 1 ? " convex was" : " convexes were") +
+         printed(" left whole, %.3g %% of the volume, because ", 100 * ratio(volume_m3, of_m3)) +
+         (convexes == 1 ? "its" : "their") + " parts did not add up";
+}
+
 std::string cpu_name() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {
@@ -216,6 +222,14 @@ void Statistics::take(const FramePtr& frame) {
   }
 }
 
+std::string Statistics::limits_warning() const {
+  const std::uint32_t hits = series_->sum(&FrameReport::limits_hit);
+  if (hits == 0) return "";
+  return "what the scene allows was reached " + std::to_string(hits) +
+         " times, and solids did not break or no particles flew; raise limits.bodies, "
+         "limits.debris or limits.dust";
+}
+
 std::string Statistics::json(const std::string& state_hash, bool per_frame) const {
   const Series& s = *series_;
   const std::vector<double> frame_ms = s.frame_ms();
@@ -244,11 +258,14 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   frame["busiest_2s_p95_ms"] = busiest_p95(frame_ms);
   json["counts"] = counts_json(s.last.counts);
   json["peak"] = counts_json(peak_of(s.reports));
-  json["fractures"] = {
-      {"events", s.fracture_ms.size()},         {"pieces", s.pieces},
-      {"p50_ms", quantile(s.fracture_ms, 0.5)}, {"p99_ms", quantile(s.fracture_ms, 0.99)},
-      {"max_ms", quantile(s.fracture_ms, 1)},   {"carried_over", s.sum(&FrameReport::carried_over)},
-      {"failed", s.sum(&FrameReport::failed)}};
+  json["fractures"] = {{"events", s.fracture_ms.size()},
+                       {"pieces", s.pieces},
+                       {"p50_ms", quantile(s.fracture_ms, 0.5)},
+                       {"p99_ms", quantile(s.fracture_ms, 0.99)},
+                       {"max_ms", quantile(s.fracture_ms, 1)},
+                       {"carried_over", s.sum(&FrameReport::carried_over)},
+                       {"failed", s.sum(&FrameReport::failed)},
+                       {"failed_volume_m3", s.sum(&FrameReport::failed_m3)}};
   const std::vector<double> depth = s.penetrations();
   json["penetration_m"] = {
       {"p50", quantile(depth, 0.5)}, {"p99", quantile(depth, 0.99)}, {"max", quantile(depth, 1)}};
@@ -269,6 +286,12 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["joints_lost"] = s.sum(&FrameReport::joints_lost);
   json["modelled"] = s.info.modelled;
   json["warnings"] = s.info.warnings;
+  if (const std::uint32_t failed = s.sum(&FrameReport::failed); failed > 0) {
+    json["warnings"].push_back(
+        left_whole_warning(failed, s.sum(&FrameReport::failed_m3), s.first.volume_m3));
+  }
+  if (const std::string limits = limits_warning(); !limits.empty())
+    json["warnings"].push_back(limits);
   json["cpu"] = cpu_name();
   json["sunder_version"] = SUNDER_VERSION;
   if (per_frame) {

@@ -36,6 +36,10 @@ struct RunInfo {
   std::vector<std::string> warnings = {};
 };
 
+/// What to warn of when breaks have left convexes whole because their parts did not add up: how
+/// many, and what share of the volume of all solids that is.
+std::string left_whole_warning(std::uint64_t convexes, double volume_m3, double of_m3);
+
 /// The processor this runs on, as it calls itself.
 std::string cpu_name();
 
@@ -49,6 +53,8 @@ class Statistics final : public FrameSink {
   ~Statistics() override;
   void take(const FramePtr& frame) override;
 
+  /// What to warn of if a limit of the scene was reached; else empty.
+  std::string limits_warning() const;
   /// The `simulate` and `bench` object (README, "JSON"), ending with a newline. An empty
   /// `state_hash` is left out; `per_frame` adds an array with an object a frame.
   std::string json(const std::string& state_hash, bool per_frame) const;

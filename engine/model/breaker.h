@@ -255,6 +255,8 @@ class Breaker {
   /// Carries a command out, at a cost that depends on what it reaches; the structure stays as it
   /// is. A pattern that misses changes nothing.
   virtual BreakEdit plan(const Structure& structure, const BreakCommand& command) const = 0;
+  /// Told of every break that is carried out, as plan() had it.
+  virtual void note_carried_out(const BreakPlan& /*plan*/) const {}
   /// Which bonds of a structure, that is not empty, a steady load breaks, judged by the stress that
   /// balances it; spends about `load.most_work`.
   virtual StressAnswer stress(const Structure& structure, const LoadCase& load) const = 0;

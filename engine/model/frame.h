@@ -161,6 +161,7 @@ struct FrameReport {
   std::vector<WorkItem> work;         ///< Parts of stages; summed as well.
   Counts counts;
   double mass_kg = 0;  ///< Everything: debris, what the script took and shots yet to come included.
+  double volume_m3 = 0;  ///< Of all solids.
   double kinetic_J = 0;
   double potential_J = 0;
   double plastic_J = 0;          ///< That hinges have taken since the start.
@@ -171,7 +172,8 @@ struct FrameReport {
   double friction_allowed_Ns = 0;  ///< By Coulomb's law, of all contacts in the frame,
   double friction_excess_Ns = 0;   ///< and friction beyond it.
   std::uint32_t carried_over = 0;  ///< Impacts and loads waiting for a later step's budget.
-  std::uint32_t failed = 0;        ///< Convexes that a break left whole, as they would not add up.
+  std::uint32_t failed = 0;        ///< Convexes that a break left whole, as they would not add up,
+  double failed_m3 = 0;            ///< and their volume.
   std::uint32_t limits_hit = 0;
   std::uint32_t aged = 0;  ///< Fragments that became debris to make room.
   std::uint32_t frozen = 0;

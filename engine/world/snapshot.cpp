@@ -23,7 +23,10 @@ FrameBody body_of(const Actor& actor, const BodyState& state) {
 void count(const World& world, const Actor& actor, const FrameBody& body, FrameReport& report) {
   report.mass_kg += actor.weight.mass_kg;
   report.counts.convexes += actor.structure.size();
-  if (!actor.structure.empty()) ++report.counts.compounds;
+  if (!actor.structure.empty()) {
+    ++report.counts.compounds;
+    report.volume_m3 += actor.volume_m3;
+  }
   if (body.is_static) return;
   ++report.counts.bodies;
   if (!body.asleep) ++report.counts.awake;
@@ -43,6 +46,7 @@ void add(const Part& part, Frame& frame) {
   frame.instances.insert(frame.instances.end(), part.instances.begin(), part.instances.end());
   FrameReport& report = frame.report;
   report.mass_kg += part.report.mass_kg;
+  report.volume_m3 += part.report.volume_m3;
   report.kinetic_J += part.report.kinetic_J;
   report.potential_J += part.report.potential_J;
   report.counts.convexes += part.report.counts.convexes;

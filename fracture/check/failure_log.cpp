@@ -12,8 +12,7 @@ namespace sunder::fracture {
 FailureLog::FailureLog(std::string folder, std::size_t most_files)
     : folder_(std::move(folder)), most_files_(most_files) {}
 
-void FailureLog::add(const Compound& compound, const BreakCommand& command, std::uint32_t failed) {
-  failed_ += failed;
+void FailureLog::keep(const Compound& compound, const BreakCommand& command) {
   if (folder_.empty() || asked_++ >= most_files_) return;
   const std::string name = folder_ + "/break-" + std::to_string(command.event) + ".case";
   const std::string unfinished = name + ".part";

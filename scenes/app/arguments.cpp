@@ -115,6 +115,8 @@ void check_files(const std::vector<NamedFile>& writes, const std::vector<NamedFi
     const NamedFile& output = writes[i];
     if (is_none(output.path)) continue;
     const std::string name = output.option + " " + output.path;
+    if (output.option != "-o" && std::filesystem::is_directory(output.path))
+      throw InputError(name + ": is a folder; name a file in it");
     for (const NamedFile& input : reads) {
       const bool is_there = !is_none(input.path) && std::filesystem::exists(input.path);
       if (!is_there || !is_overwritten(input.path, output)) continue;

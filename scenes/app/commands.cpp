@@ -8,7 +8,16 @@
 
 namespace sunder::app {
 
-void CommonOptions::apply() const { set_threads(threads); }
+void CommonOptions::apply() const {
+  constexpr int kMany = 4;  // a processor
+  set_threads(0);
+  const int processors = sunder::threads();
+  set_threads(threads);
+  if (threads > kMany * processors) {
+    std::fprintf(stderr, "warning: --threads %d on %d processors: they wait for each other\n",
+                 threads, processors);
+  }
+}
 
 void CommonOptions::say(const std::string& text) const {
   if (!quiet && json != "-") std::fputs(text.c_str(), stdout);

@@ -43,6 +43,8 @@ int simulate(const SimulateOptions& options) {
     write_text(options.trace, format_trace(take_trace()));
     options.say("wrote " + options.trace + ": open it at ui.perfetto.dev\n");
   }
+  if (const std::string warning = statistics.limits_warning(); !warning.empty())
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
   options.say(statistics.table() + "state hash " + hash.hex() + "\n");
   options.write_json(statistics.json(hash.hex(), true));
   if (writer) options.say("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");

@@ -211,6 +211,42 @@ TEST(Statistics, TakesQuantilesByNearestRank) {
   EXPECT_EQ(quantile(hundred, 0.95), 95);
 }
 
+TEST(Statistics, WarnsOfWhatWasLeftWholeAndOfLimits) {
+  Statistics statistics({"house", "draft", 2, {1.0 / 60, 2}, {}, {64, 1, 8}});
+  auto frame = std::make_shared<Frame>();
+  frame->report.volume_m3 = 2;
+  statistics.take(frame);
+  EXPECT_TRUE(nlohmann::json::parse(statistics.json("", false))["warnings"].empty());
+  frame->report.failed = 2;
+  frame->report.failed_m3 = 0.5;
+  frame->report.limits_hit = 3;
+  statistics.take(frame);
+  statistics.take(frame);
+  const auto json = nlohmann::json::parse(statistics.json("", false));
+  EXPECT_EQ(json["fractures"]["failed"], 4);
+  EXPECT_EQ(json["fractures"]["failed_volume_m3"], 1.0);
+  ASSERT_EQ(json["warnings"].size(), 2u);
+  EXPECT_NE(json["warnings"][0].get<std::string>().find("4 convexes were left whole, 50 %"),
+            std::string::npos);
+  EXPECT_NE(json["warnings"][1].get<std::string>().find("6 times"), std::string::npos);
+}
+
+// What the flows account for is no residual; what they do not is, in every frame anew.
+TEST(Statistics, SumsFlowsOfEnergyAndWhatTheyLeave) {
+  Statistics statistics({"house", "draft", 2, {1.0 / 60, 2}, {}, {64, 1, 8}});
+  auto frame = std::make_shared<Frame>();
+  statistics.take(frame);
+  frame->report.energy.gravity = 30;
+  frame->report.energy.friction = 10;
+  frame->report.energy_residual_J = -2;
+  statistics.take(frame);
+  const auto json = nlohmann::json::parse(statistics.json("", true));
+  EXPECT_EQ(json["energy_flows_J"]["gravity"], 30);
+  EXPECT_EQ(json["energy_flows_J"]["residual"], -2);
+  EXPECT_EQ(json["energy_residual"], 0.05);
+  EXPECT_EQ(json["per_frame"][0]["energy_flows_J"]["friction"], 10);
+}
+
 TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
   Statistics statistics({"house", "draft", 2, {1.0 / 60, 2}, {{"dust", "off"}}, {64, 1, 8}});
   auto frame = std::make_shared<Frame>(sample_frame());
@@ -222,29 +258,14 @@ TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
   statistics.take(frame);
   statistics.take(frame);
   const auto json = nlohmann::json::parse(statistics.json("0123456789abcdef", true));
-  for (const char* key : {"scene",
-                          "preset",
-                          "threads",
-                          "frames",
-                          "dt_s",
-                          "substeps",
-                          "solver",
-                          "state_hash",
-                          "steps",
-                          "stages",
-                          "frame",
-                          "counts",
-                          "peak",
-                          "fractures",
-                          "penetration_m",
-                          "energy_J",
-                          "momentum_residual",
-                          "mass_kg",
-                          "limits_hit",
-                          "modelled",
-                          "cpu",
-                          "sunder_version",
-                          "per_frame"}) {
+  for (const char* key :
+       {"scene",          "preset",          "threads",         "frames",
+        "dt_s",           "substeps",        "solver",          "state_hash",
+        "steps",          "stages",          "frame",           "counts",
+        "peak",           "fractures",       "penetration_m",   "energy_J",
+        "energy_flows_J", "energy_residual", "friction_excess", "momentum_residual",
+        "mass_kg",        "limits_hit",      "modelled",        "cpu",
+        "sunder_version", "per_frame"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["frames"], 1);

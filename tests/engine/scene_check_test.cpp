@@ -78,6 +78,7 @@ TEST(SceneCheck, NamesWhatIsWrong) {
        }},
       {"vertex 5", [](Scene& s) {
          s.ground.meshes.resize(1);
+         s.ground.meshes[0].material = MaterialIndex(0);
          s.ground.meshes[0].vertices_W.resize(3, Vec3::Zero());
          s.ground.meshes[0].triangles = {{0, 1, 5}};
        }}};

@@ -69,7 +69,7 @@ constexpr Fault kFaults[] = {
      "a number from 0.1 to 600, in s"},
     {"seed = 1.5", "bad.toml:3: seed in [scene] is the number 1.5; allowed: a whole number"},
     {"gravity = 9.81", "bad.toml:3: gravity in [scene] is the number 9.81; allowed: [x, y, z]"},
-    {"gravity = [0, -9.81]", "bad.toml:3: gravity in [scene] is an array of 2; allowed: [x, y, z]"},
+    {"gravity = [0, -9.81]", "bad.toml:3: gravity in [scene] is [0, -9.81]; allowed: [x, y, z]"},
     {"gravity = [0, \"down\", 0]",
      "bad.toml:3: gravity in [scene] is an array of 3; allowed: "
      "[x, y, z], each a number"},
@@ -97,7 +97,7 @@ constexpr Fault kFaults[] = {
     {"duration_s = nan", "bad.toml:3: duration_s in [scene] is the number nan; allowed"},
     {"duration_s = inf", "bad.toml:3: duration_s in [scene] is the number inf; allowed"},
     {"gravity = [0, -inf, 0]",
-     "bad.toml:3: gravity in [scene] is an array of 3; allowed: "
+     "bad.toml:3: gravity in [scene] is [0, -inf, 0]; allowed: "
      "[x, y, z], each a number from -100 to 100"},
     {"[view]\nfov_deg = 270",
      "bad.toml:4: fov_deg in [view] is the number 270; allowed: a number from 1.15 to 171.89, in "
@@ -112,7 +112,7 @@ constexpr Fault kFaults[] = {
      "number from 1 to 1000"},
     {"[[solid]]\nstructure = \"box\"\nsize_m = [1, 0, 1]",
      "bad.toml:5: size_m in [[solid]] box is "
-     "an array of 3"},
+     "[1, 0, 1]"},
     {"[[material]]\nname = \"x\"\ndensity_kg_m3 = 0",
      "bad.toml:5: density_kg_m3 in [[material]] is "
      "the number 0; allowed: a number from 1"},
@@ -239,7 +239,7 @@ constexpr Fault kFaults[] = {
      "bad.toml:5: fov_deg in [view] is given beside fov_rad; "
      "keep one"},
     {"[[solid]]\nstructure = \"box\"\nrotation_deg = [0, 400, 0]",
-     "bad.toml:5: rotation_deg in [[solid]] is an array of 3; allowed: [x, y, z], each a number "
+     "bad.toml:5: rotation_deg in [[solid]] is [0, 400, 0]; allowed: [x, y, z], each a number "
      "from -360 to 360, in degrees"},
     {"[[body]]\nmesh = \"box:1,1,1\"\nrotation_deg = 90",
      "bad.toml:5: rotation_deg in [[body]] is the number 90; allowed: [x, y, z]"},

@@ -54,7 +54,8 @@ TEST_P(EveryScene, AccountsForEnergyMomentumAndFrictionAtEveryPreset) {
     EXPECT_LT(figure("/energy_residual"), 1e-6) << run;
     EXPECT_LT(figure("/momentum_residual"), 1e-4) << run;
     EXPECT_LT(figure("/friction_excess"), 0.01) << run;
-    const double noise_J = 1e-3 * figure("/energy_J/moved") + 1e-5 * figure("/mass_kg/initial");
+    // As far as contacts and friction are told apart.
+    const double noise_J = 0.03 * figure("/energy_J/moved") + 1e-5 * figure("/mass_kg/initial");
     for (const char* taken : {"cracks", "crushing", "contacts", "friction", "bending", "debris"})
       EXPECT_GE(figure(std::string("/energy_flows_J/") + taken), -noise_J) << run << ", " << taken;
   }

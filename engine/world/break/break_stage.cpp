@@ -99,7 +99,8 @@ bool is_stale(const World& world, const Trial& trial, std::span<const std::uint3
 }
 
 /// Breaks what a trial can pay for, if anything, and adds it to `all_broken`.
-bool settle(World& world, Trial& trial, std::vector<std::uint32_t>& all_broken) {
+bool settle(World& world, const Breaker& breaker, Trial& trial,
+            std::vector<std::uint32_t>& all_broken) {
   std::vector<ProbeBreak> wanted;
   std::vector<std::uint32_t> of_load(trial.loads.size());
   std::size_t pieces = 0;  // of all that break
@@ -125,7 +126,7 @@ bool settle(World& world, Trial& trial, std::vector<std::uint32_t>& all_broken) 
     energy.contacts -= planned.needed_J;
     energy.crushing += planned.crushing_J;
     energy.cracks += planned.needed_J - planned.crushing_J;
-    break_actor(world, planned);
+    break_actor(world, breaker, planned);
     all_broken.push_back(planned.impact.key);
   }
   return true;
@@ -301,7 +302,7 @@ bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
       const Verdict verdict = verdict_on(world, planned);
       note_verdict(world, planned, verdict);
       if (verdict != Verdict::kBreaks) continue;
-      break_actor(world, planned);
+      break_actor(world, breaker, planned);
       broke = true;
     }
     due.clear();
@@ -340,7 +341,7 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
     for (const PlannedBreak* planned : all) budget_.charge(planned->stressed.work / kVisitsAPart);
     const std::uint32_t first_key = world.actors.next_key();
     for (Trial& trial : taken_on) {
-      if (stale(trial) || settle(world, trial, broken)) {
+      if (stale(trial) || settle(world, breaker, trial, broken)) {
         again = true;
         continue;
       }

@@ -324,7 +324,7 @@ void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {
                blow.worst > 0 ? kWorthAsking * bends_J / (blow.worst * blow.worst) : energy_J);
 }
 
-void break_actor(World& world, PlannedBreak& planned) {
+void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
   const Impact& impact = planned.impact;
   Actor& actor = *world.actors.find(impact.key);
   BreakEvent event{
@@ -338,6 +338,8 @@ void break_actor(World& world, PlannedBreak& planned) {
   if (planned.edit.changed) event.pieces = pieces_after(actor.structure, planned.edit);
   if (!planned.only_bends()) world.ledger.breaks.push_back(event);
   world.ledger.report.failed += planned.edit.loose.failed;
+  world.ledger.report.failed_m3 += planned.edit.loose.failed_m3;
+  breaker.note_carried_out(planned.edit.loose);
   if (planned.edit.changed) {
     const std::uint32_t first_key = world.actors.next_key();
     carry_out(world, impact.key, planned.edit);

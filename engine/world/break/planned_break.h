@@ -61,6 +61,6 @@ Verdict verdict_on(const World& world, const PlannedBreak& planned, std::size_t 
 void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict);
 
 /// Breaks the actor of an impact that has paid for it.
-void break_actor(World& world, PlannedBreak& planned);
+void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned);
 
 }  // namespace sunder
