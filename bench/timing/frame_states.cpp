@@ -6,6 +6,7 @@
 
 #include "bench/timing/timing.h"
 #include "engine/base/check.h"
+#include "engine/base/trace.h"
 #include "engine/io/statistics.h"
 #include "scenes/file/schema.h"
 #include "scenes/make_simulation.h"
@@ -136,8 +137,10 @@ std::vector<Verdict> judge_frames(const GuardedRun& run, const HashBook& book,
     std::optional<WholeState> all;
     if (whole && run.load.set.empty()) all = find_whole(book, scene, preset, file);
     const int frames = static_cast<int>(known->second.size() / kDigits);
+    const Stopwatch watch;
     const StateHash states = states_until(run, preset, std::max(frames - 1, all ? all->frames : 0));
     verdicts.push_back(judge_digits(run, preset, known->second, states.per_frame()));
+    verdicts.back().seconds = 1e-3 * watch.ms();  // of the whole run, too
     if (all) verdicts.push_back(judge_whole(run, preset, *all, states));
   }
   if (verdicts.empty()) {

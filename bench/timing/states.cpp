@@ -1,5 +1,6 @@
 #include "bench/timing/states.h"
 
+#include <algorithm>
 #include <variant>
 
 #include "bench/timing/timing.h"
@@ -32,6 +33,8 @@ std::string name_of(const Figures& scene) {
 
 Verdict judge_state(const Figures& scene, const HashBook& book, const std::string& file) {
   Verdict verdict{text_at(scene, "/scene"), "state", Outcome::kFailed, {}};
+  verdict.seconds = 1e-3 * number_at(scene, "/frame/mean_ms") * number_at(scene, "/frames") *
+                    std::max(1.0, number_at(scene, "/repeats"));
   if (differs(scene)) {
     verdict.text = kDiffers;
   } else if (verdict.text = not_held(scene); !verdict.text.empty()) {

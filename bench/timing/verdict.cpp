@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "engine/base/printed.h"
 #include "engine/io/page.h"
 
 namespace sunder::bench {
@@ -11,10 +12,13 @@ namespace {
 
 std::string quoted(const std::string& text) { return "\"" + escaped(text) + "\""; }
 
+/// Attribute of what is known.
+std::string time(double seconds) { return seconds > 0 ? printed(" time=\"%.3f\"", seconds) : ""; }
+
 std::string test_case(const std::string& command, const Verdict& verdict) {
   const std::string head =
       "    <testcase classname=" + quoted("sunder." + command + "." + verdict.scene) +
-      " name=" + quoted(verdict.what);
+      " name=" + quoted(verdict.what) + time(verdict.seconds);
   switch (verdict.outcome) {
     case Outcome::kFailed:
       return head + "><failure message=" + quoted(verdict.text) + "/></testcase>\n";
@@ -30,8 +34,11 @@ std::string counts(std::span<const Verdict> verdicts) {
   const auto count = [&](Outcome outcome) {
     return quoted(std::to_string(std::ranges::count(verdicts, outcome, &Verdict::outcome)));
   };
+  double seconds = 0;
+  for (const Verdict& verdict : verdicts) seconds += verdict.seconds;
   return " tests=" + quoted(std::to_string(verdicts.size())) +
-         " failures=" + count(Outcome::kFailed) + " skipped=" + count(Outcome::kSkipped);
+         " failures=" + count(Outcome::kFailed) + " skipped=" + count(Outcome::kSkipped) +
+         time(seconds);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "bench/timing/frame_states.h"
 #include "bench/timing/hash_book.h"
 #include "engine/base/check.h"
+#include "engine/base/trace.h"
 #include "engine/io/frame_file.h"
 #include "engine/io/statistics.h"
 #include "render/image/golden_report.h"
@@ -97,7 +98,9 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
   for (const std::string& name : names) {
     GoldenResult& result = results.emplace_back();
     result.golden = read_golden(options.folder, name);
+    const Stopwatch watch;
     result.verdicts.push_back(judge_drawing(drawer, result));
+    result.verdicts.back().seconds = 1e-3 * watch.ms();
     if (result.golden.is_simulated()) {
       const std::string book = result.golden.hashes_file().string();
       const auto verdicts =

@@ -85,15 +85,15 @@ TEST(States, WhatIsAcceptedPassesAndTheRestOfTheBookStays) {
 }
 
 TEST(Junit, CountsWhatFailedAndWhatWasSkipped) {
-  const Verdict verdicts[] = {{"house", "state", Outcome::kFailed, "a < b & \"c\""},
-                              {"house", "stage solve", Outcome::kPassed, "1 ms"},
+  const Verdict verdicts[] = {{"house", "state", Outcome::kFailed, "a < b & \"c\"", 1.5},
+                              {"house", "stage solve", Outcome::kPassed, "1 ms", 0.25},
                               {"glass", "state", Outcome::kSkipped, "too short"}};
   const std::string xml = junit_xml("bench", verdicts);
   EXPECT_EQ(tests::markup_mistake(xml.substr(xml.find('\n'))), "");
   for (const char* part :
        {"tests=\"3\" failures=\"1\" skipped=\"1\"", "<testsuite name=\"house\" tests=\"2\"",
-        "<failure message=\"a &lt; b &amp; &quot;c&quot;\"/>",
-        "<skipped message=\"too short\"/>"}) {
+        "<failure message=\"a &lt; b &amp; &quot;c&quot;\"/>", "<skipped message=\"too short\"/>",
+        "skipped=\"0\" time=\"1.750\"", "name=\"stage solve\" time=\"0.250\""}) {
     EXPECT_NE(xml.find(part), std::string::npos) << part << "\n" << xml;
   }
 }
