@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "engine/base/parallel.h"
 #include "engine/io/bytes.h"
@@ -29,6 +30,14 @@ void CommonOptions::write_json(const std::string& text) const {
   } else if (!json.empty()) {
     write_text(json, text);
   }
+}
+
+std::string goldens_folder() {
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const bool is_where_built =
+      std::filesystem::equivalent(program.parent_path(), SUNDER_BUILD_FOLDER, ignored);
+  return is_where_built ? SUNDER_GOLDENS_FOLDER : "tests/golden";
 }
 
 void write_text(const std::string& path, const std::string& text) {

@@ -27,6 +27,11 @@ struct CommonOptions {
   void write_json(const std::string& text) const;
 };
 
+/// Folder of the goldens and of the stored states: that of the source tree if the program runs
+/// where it was built, else tests/golden in the working directory. A program that was installed or
+/// copied must not change the tree that it was built from.
+std::string goldens_folder();
+
 struct ListOptions : CommonOptions {
   bool keys = false;
 };
@@ -71,7 +76,7 @@ struct BenchOptions : CommonOptions {
   std::string compare;      ///< Older timings; empty: none.
   std::string against;      ///< Another program, timed in the same turns; empty: none.
   std::string fail_slower;  ///< "10%"; empty: never.
-  std::string hashes = SUNDER_GOLDENS_FOLDER "/hashes.txt";
+  std::string hashes = goldens_folder() + "/hashes.txt";
   bool accept = false;
   std::string junit;  ///< File to write; empty: none, as for:
   std::string page;
@@ -117,7 +122,7 @@ struct HullOptions : CommonOptions {
 
 struct GoldenOptions : CommonOptions {
   std::vector<std::string> names;  ///< None: all.
-  std::string folder = SUNDER_GOLDENS_FOLDER;
+  std::string folder = goldens_folder();
   std::string out = "out/golden";
   std::string gl = "auto";
   bool full = false;  ///< Whole simulations, too.

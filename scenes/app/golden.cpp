@@ -66,6 +66,10 @@ class Drawer {
   std::map<std::tuple<int, int, std::string, bool>, std::unique_ptr<render::Renderer>> renderers_;
 };
 
+std::string size_of(const render::Image& image) {
+  return std::to_string(image.width) + "x" + std::to_string(image.height);
+}
+
 /// Draws it and compares with the baseline.
 Verdict judge_drawing(Drawer& drawer, GoldenResult& result) {
   const Golden& golden = result.golden;
@@ -77,6 +81,13 @@ Verdict judge_drawing(Drawer& drawer, GoldenResult& result) {
     return verdict;
   }
   result.baseline = render::read_png(golden.picture_file());
+  if (result.baseline.width != result.actual.width ||
+      result.baseline.height != result.actual.height) {
+    verdict.text = "the baseline " + golden.picture_file().string() +
+                   " is of another size: " + size_of(result.baseline) + ", drawn are " +
+                   size_of(result.actual);
+    return verdict;
+  }
   result.difference = render::compare(result.baseline, result.actual);
   const bool passes = result.difference.passes(golden.thresholds);
   if (passes) verdict.outcome = Outcome::kPassed;

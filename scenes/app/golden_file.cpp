@@ -61,7 +61,9 @@ std::vector<std::string> golden_names(const fs::path& folder) {
       if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
     }
   }
-  if (names.empty()) throw InputError(folder.string() + ": no goldens (NAME.json) here");
+  if (names.empty())
+    throw InputError(folder.string() +
+                     ": no goldens (NAME.json) here; name their folder with --folder");
   std::sort(names.begin(), names.end());
   return names;
 }

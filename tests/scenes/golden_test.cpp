@@ -1,6 +1,7 @@
 // Goldens: what the stored frames and their scenes give today, and whether the comparison can tell
 // at all.
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <string>
@@ -192,6 +193,31 @@ TEST(Golden, AcceptingTheSimulationLeavesTheDrawingAndTheRestOfTheBook) {
   EXPECT_EQ(sunder("golden accept stack" + at).exit_code, 0);
   EXPECT_EQ(scenes::read_text(book), right);
   EXPECT_EQ(scenes::read_text(folder / "stack.json"), recipe);
+}
+
+TEST(Golden, ABaselineOfAnotherSizeIsNamedAsThat) {
+  const Folder folder;
+  copy_golden("glass", folder);
+  render::write_png(folder / "glass.png", {64, 36, std::vector<std::uint8_t>(64 * 36 * 3)});
+  const Outcome outcome =
+      sunder("golden test --folder " + folder.path().string() + " --out " + folder / "out");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("is of another size: 64x36, drawn are 640x360"), std::string::npos)
+      << outcome.out;
+}
+
+TEST(Golden, ACopiedProgramTestsAndAcceptsInTheWorkingDirectory) {
+  const Folder folder;
+  const std::string program = folder / "sunder-copy";
+  fs::copy_file(SUNDER_PROGRAM, program);
+  const std::string enter = "cd " + folder.path().string() + " && ";
+  const std::string arguments = "golden test glass --out " + folder / "out";
+  const std::string err = folder / "err";
+  EXPECT_NE(std::system((enter + program + " " + arguments + " >/dev/null 2>" + err).c_str()), 0);
+  const std::string refusal = scenes::read_text(err);
+  EXPECT_NE(refusal.find("tests/golden: no goldens (NAME.json) here; name their folder"),
+            std::string::npos)
+      << refusal;
 }
 
 TEST(Golden, AFileThatAsksForAPictureOfNoSizeOrHasNoEndIsRefused) {
