@@ -9,6 +9,7 @@
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/clip.h"
 #include "fracture/fracture.h"
+#include "fracture/pattern/detail.h"
 #include "fracture/plug.h"
 #include "fracture/rejoin.h"
 #include "fracture/stress/parting.h"
@@ -145,12 +146,14 @@ class PatternBreaker final : public Breaker {
     command.pattern = material.pattern;
     command.radius_m = material.impact_radius_m;
     command.fit = material.fit;
-    command.smallest_m3 = material.smallest_break_m3;
+    command.smallest_m3 = material.smallest_broken_m3();
     for (const StrongerImpact& stronger : material.stronger) {
       if (hit.energy_J < stronger.energy_J) break;
       command.pattern = stronger.pattern;
       command.radius_m = stronger.impact_radius_m;
     }
+    const double thickness_m = is_thin(convex) ? mean_thickness_m(convex) : 0;
+    reduce_to_energy(material, hit, command.radius_m, thickness_m, command.pattern);
     for (std::size_t m = 0; m < materials.size(); ++m) {
       if (!materials[m].breakable()) command.spared.emplace_back(m);
     }

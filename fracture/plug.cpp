@@ -5,16 +5,16 @@
 #include <numbers>
 #include <utility>
 
+#include "fracture/pattern/detail.h"
+
 namespace sunder::fracture {
 namespace {
 
 constexpr double kThinnest = 1 / 4.17;  // thickness over width: see perforation_energy_J()
-// Share of the energy left that goes into cracks around the plug: most stays in motion.
-constexpr double kCrackShare = 0.1;
-constexpr double kCrackSpeed = 0.45;  // of cracks, over that of shear waves (glass: 1500 m/s)
-constexpr double kSpall = 1.5;        // width of the ring around the plug, over that of the plug
-constexpr double kSpalls = 9;         // energies that drive a plug out, from which there is one
-constexpr int kMostRings = 8;         // of a web around the plug
+constexpr double kCrackSpeed = 0.45;    // of cracks, over that of shear waves (glass: 1500 m/s)
+constexpr double kSpall = 1.5;          // width of the ring around the plug, over that of the plug
+constexpr double kSpalls = 9;           // energies that drive a plug out, from which there is one
+constexpr int kMostRings = 8;           // of a web around the plug
 // A striker whose plug is more than this share of a solid breaks that as a whole.
 constexpr double kWidest = 0.3;
 constexpr double kClearance = 1.12;   // of a hole, over what goes through
@@ -109,7 +109,7 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
                               Pose& X_RP) {
   Plug plug;
   plug.depth_m = hit.thickness_m * hit.direction_R.dot(axis_R);
-  if (hit.section_R.empty() || !(plug.depth_m > 0)) return {};
+  if (hit.section_R.empty() || !hit.narrow || !(plug.depth_m > 0)) return {};
   const Mat3 axes = axes_along(axis_R, hit.section_R[0] - hit.point_R);
   for (const Vec3& corner : hit.section_R) {
     const Vec3 at_P = axes.transpose() * (corner - hit.point_R);
@@ -133,7 +133,7 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
   plug.sides_m2 = perimeter_m(plug.section_m) * plug.depth_m;
   const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);
   if (!plug.through) {  // one piece: several would be wedged in the crater
-    if (smaller_m3 < material.smallest_break_m3) plug.section_m.clear();
+    if (smaller_m3 < material.smallest_broken_m3()) plug.section_m.clear();
     return plug;
   }
   const auto parts = static_cast<double>(plug.section_m.size() + 1);

@@ -17,9 +17,10 @@ double perforation_energy_J(const Material& material, double width_m, double thi
 /// Returns the prism that an impact drives out along `axis_R`, placed by `X_RP`, the pose of the
 /// pattern's frame:
 /// where the striker has the energy to perforate the solid, a plug through it; else a crater as
-/// deep as a thickness that it could perforate. None if the striker is unknown, or the
-/// solid so narrow that it breaks as a whole. A crater smaller than the material's smallest break
-/// has no section: the striker dents the solid, and nothing comes off.
+/// deep as a thickness that it could perforate. None if the striker is unknown or wider
+/// than a break by pattern, or the solid so narrow that it breaks as a whole. A crater smaller than
+/// the material's smallest break has no section: the striker dents the solid, and nothing comes
+/// off.
 std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Vec3& axis_R,
                               Pose& X_RP);
 

@@ -93,12 +93,26 @@ std::string placing_warning(const Scene& scene) {
          (under > 1 ? " lie" : " lies") + " under the ground";
 }
 
+/// Of figures that materials should not have any more.
+std::string obsolete_warning(const Scene& scene) {
+  std::string names;
+  for (const Material& material : scene.materials) {
+    if (material.strength_Ns || material.smallest_break_m3)
+      names += (names.empty() ? "'" : ", '") + material.name + "'";
+  }
+  if (names.empty()) return "";
+  return "strength_Ns and smallest_break_m3 of " + names +
+         " are obsolete: what breaks follows from tensile_Pa, compressive_Pa, youngs_Pa and "
+         "smallest_piece_m3; leave them out";
+}
+
 std::vector<std::string> warnings_of(const Scene& scene) {
   std::vector<std::string> warnings = chain_warnings(scene, kMostSubsteps);
   const std::string standing = accuracy_warning(scene, kMostSubsteps);
   for (const std::string& warning :
        {standing.empty() ? crush_warning(scene, kMostSubsteps) : standing, post_warning(scene),
-        long_step_warning(scene), far_warning(scene), placing_warning(scene)}) {
+        long_step_warning(scene), far_warning(scene), placing_warning(scene),
+        obsolete_warning(scene)}) {
     if (!warning.empty()) warnings.push_back(warning);
   }
   return warnings;

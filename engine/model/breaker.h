@@ -52,11 +52,13 @@ struct Hit {
   double speed_m_s = 0;              ///< Closing speed of the striker; 0: not known.
   double striker_kg = 0;             ///< Effective mass of the striker.
   double thickness_m = 0;            ///< Of the solid along `direction_R` behind the point.
-  double volume_m3 = 0;              ///< Of the solid.
+  double volume_m3 = 0;              ///< Of the solid,
+  double reached_m3 = 0;             ///< and of its convexes within the impact radius.
   bool held = true;                  ///< The solid is anchored.
   bool confined = true;              ///< The solid goes on around the striker's section.
+  bool narrow = true;                ///< That is no wider than a break by pattern.
   /// Corners of the striker's cross-section, in order about `direction_R` through `point_R`; empty
-  /// if it is not known, or too wide.
+  /// if it is not known.
   std::vector<Vec3> section_R = {};
 };
 

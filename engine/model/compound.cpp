@@ -1,6 +1,7 @@
 #include "engine/model/compound.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "engine/base/check.h"
@@ -9,6 +10,8 @@
 
 namespace sunder {
 namespace {
+
+constexpr double kThin = 0.25;  // thickness over the cube root of the volume, of plates; at most
 
 /// Calls `visit` with every convex, and every ghost that weighs, and its sign.
 template <class Visit>
@@ -31,6 +34,19 @@ ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
   convex->material = material;
   convex->polyhedron = std::move(polyhedron);
   return convex;
+}
+
+double mean_thickness_m(const Convex& convex) {
+  double area_m2 = 0;
+  const auto add = [&](const auto& solid) {
+    for (std::size_t f = 0; f < solid.faces.size(); ++f) area_m2 += face_area(solid, f);
+  };
+  convex.visual ? add(*convex.visual) : add(convex.polyhedron);
+  return 2 * convex.solid.volume_m3 / area_m2;
+}
+
+bool is_thin(const Convex& convex) {
+  return mean_thickness_m(convex) < kThin * std::cbrt(convex.solid.volume_m3);
 }
 
 bool Compound::is_anchored() const {

@@ -33,6 +33,12 @@ using ConvexPtr = std::shared_ptr<const Convex>;
 ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
                       std::shared_ptr<const PolygonMesh> visual = nullptr, const Pose& X_RT = {});
 
+/// Twice the volume over the surface: of a plate or shell, how thick it is.
+double mean_thickness_m(const Convex& convex);
+/// Whether it is a plate or shell, more than about four times as long and wide as it is thick: it
+/// bends.
+bool is_thin(const Convex& convex);
+
 /// Two convexes of a compound that share part of a plane (property (c) of paper 3.1).
 struct Bond {
   std::uint32_t a = 0, b = 0;            ///< Convexes, a < b: indices, or slots of a structure.

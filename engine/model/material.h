@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,8 +70,8 @@ struct Material {
   double restitution = 0;
   /// Torque that resists rolling, over load and radius: a ball holds on slopes up to this.
   double rolling = 0;
-  /// Least impulse of a contact that can break it.
-  double strength_Ns = 0;
+  /// Obsolete: least impulse of a contact that can break it, in place of its limits of stress.
+  std::optional<double> strength_Ns;
   /// Energy taken by each square metre of new crack (both sides counted once).
   double toughness_J_m2 = 0;
   /// kNone never breaks: nothing cuts its convexes, but what breaks beside them parts from them.
@@ -94,8 +95,8 @@ struct Material {
   double elongation = 0.2;  ///< The part of its length by which it is drawn out when it tears.
   /// How the convexes of a break are fitted to the visual meshes in them (paper 3.3).
   Fit fit;
-  /// Pieces below this volume no longer break.
-  double smallest_break_m3 = 1e-3;
+  /// Obsolete: pieces below this volume no longer break. See smallest_broken_m3().
+  std::optional<double> smallest_break_m3;
   /// Pieces below this volume are debris, no bodies: they would unsettle the solver (paper 5).
   double smallest_piece_m3 = 1e-6;
   Look surface;
@@ -112,6 +113,19 @@ struct Material {
     for (const double limit : {tensile_Pa, shear_Pa, compressive_Pa, yield_Pa})
       if (limit > 0 && limit < least) least = limit;
     return least;
+  }
+  /// What is smaller is left whole: halved three times, it would be debris.
+  double smallest_broken_m3() const { return smallest_break_m3.value_or(8 * smallest_piece_m3); }
+  /// Stress at which an impact breaks a convex where it strikes: thin ones bend. 0: any does.
+  double impact_limit_Pa(bool is_thin) const {
+    return is_thin && tensile_Pa > 0 ? tensile_Pa : compressive_Pa;
+  }
+  /// Stress of an elastic wave over the speed that it pushes at, √(E ρ).
+  double impedance_Pa_s_m() const { return std::sqrt(youngs_Pa * density_kg_m3); }
+  /// Strain energy that a solid of this volume holds at a limit of stress, σ² V / 2E. What flies
+  /// against something rigid has it at the speed whose wave has that stress.
+  double strain_energy_J(double limit_Pa, double volume_m3) const {
+    return limit_Pa * limit_Pa * volume_m3 / (2 * youngs_Pa);
   }
   bool breaks_by_load() const { return weakest_Pa() < std::numeric_limits<double>::infinity(); }
 };

@@ -63,7 +63,8 @@ Keys<Material> material_keys() {
                                "Resistance to rolling: its torque, over load and radius."),
        key<&Material::restitution>("restitution", "", kFraction, "0 = no bounce, 1 = full."),
        key<&Material::strength_Ns>("strength_Ns", "N·s", Range{0, kInfinity},
-                                   "Least impulse of a contact that can break it."),
+                                   "Obsolete: least impulse of a contact that breaks it, whatever "
+                                   "its limits of stress."),
        key<&Material::toughness_J_m2>("toughness_J_m2", "J/m²", Range{0, kInfinity},
                                       "Energy that each square metre of crack takes."),
        key<&Material::tensile_Pa>("tensile_Pa", "Pa", Range{0, kInfinity},
@@ -84,8 +85,10 @@ Keys<Material> material_keys() {
                                   "By which part of its length it is drawn out when it tears."),
        key<&Material::impact_radius_m>("impact_radius_m", "m", Range{0.001, kInfinity},
                                        "Only what is nearer to the impact breaks; inf: all."),
-       key<&Material::smallest_break_m3>("smallest_break_m3", "m³", Range{0, kInfinity},
-                                         "Smaller pieces no longer break."),
+       key<&Material::smallest_break_m3>(
+           "smallest_break_m3", "m³", Range{0, kInfinity},
+           "Obsolete: smaller pieces no longer break. Without it, those "
+           "below eight of smallest_piece_m3."),
        key<&Material::smallest_piece_m3>("smallest_piece_m3", "m³", Range{0, kInfinity},
                                          "Smaller pieces are debris, no bodies."),
        key<&Material::fit>("fit", "How tightly what collides encloses broken meshes."),

@@ -104,6 +104,7 @@ struct ParticleRun {
     stone.density_kg_m3 = 1000;
     stone.pattern.kind = PatternSpec::Kind::kVoronoi;
     stone.smallest_piece_m3 = smallest_piece_m3;
+    stone.smallest_break_m3 = 0;  // what becomes chips breaks, too
     stone.crumbling.particles_per_m2 = particles_per_m2;
     Material steel;
     Scene scene;
@@ -248,6 +249,7 @@ struct BlastRun {
     stone.density_kg_m3 = 1000;
     stone.pattern.kind = PatternSpec::Kind::kVoronoi;
     stone.smallest_piece_m3 = smallest_piece_m3;
+    stone.smallest_break_m3 = 0;
     stone.crumbling.particles_per_m2 = 10;
     Scene scene;
     scene.materials = {stone};

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/random.h"
+#include "fracture/pattern/detail.h"
 #include "fracture/pattern_breaker.h"
 #include "tests/fracture/solids.h"
 
@@ -136,6 +137,50 @@ TEST(Plug, without_a_pattern_takes_the_convexes_in_its_way) {
   EXPECT_GE(edit.loose.pieces.size(), 9u);
   EXPECT_LE(edit.loose.pieces.size(), 21u);
   for (const Compound& piece : edit.loose.pieces) EXPECT_EQ(piece.convexes.size(), 1u);
+}
+
+TEST(Detail, is_what_a_tenth_of_the_energy_pays_for) {
+  const Material material = brick();
+  Hit hit;
+  hit.reached_m3 = 1;
+  const double radius_m = 1;
+  int before = 0;
+  for (const double energy_J : {1e1, 1e3, 3e3, 1e4, 3e4, 1e5, 1e7}) {
+    hit.energy_J = energy_J;
+    PatternSpec pattern;
+    pattern.kind = PatternSpec::Kind::kVoronoi;
+    pattern.cells = 512;
+    reduce_to_energy(material, hit, radius_m, 0, pattern);
+    EXPECT_GE(pattern.cells, before);
+    before = pattern.cells;
+    const double sphere_m3 = 4.0 / 3 * std::numbers::pi;
+    const auto cost_J = [&](int cells) {
+      return 2.91 * std::cbrt(cells / sphere_m3) * material.toughness_J_m2;
+    };
+    if (pattern.cells > 2) {
+      EXPECT_LE(cost_J(pattern.cells), 0.1 * energy_J);
+    }
+    if (pattern.cells < 512) {
+      EXPECT_GT(cost_J(2 * pattern.cells), 0.1 * energy_J);
+    }
+  }
+  EXPECT_EQ(before, 512);
+}
+
+TEST(Detail, of_a_web_goes_down_to_three_spokes_and_a_ring) {
+  Hit hit;
+  hit.reached_m3 = 0.006;
+  hit.energy_J = 1e-3;
+  PatternSpec pattern;
+  pattern.kind = PatternSpec::Kind::kWeb;
+  pattern.rings = 7, pattern.spokes = 14;
+  reduce_to_energy(brick(), hit, 0.7, 0.006, pattern);
+  EXPECT_EQ(pattern.rings, 1);
+  EXPECT_EQ(pattern.spokes, 3);
+  PatternSpec bricks;
+  bricks.kind = PatternSpec::Kind::kBrick;
+  reduce_to_energy(brick(), hit, 0.7, 0.006, bricks);
+  EXPECT_EQ(bricks.cells, PatternSpec().cells);  // of a size, not of a number
 }
 
 }  // namespace

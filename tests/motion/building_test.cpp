@@ -17,7 +17,7 @@ Scene wall_under_fire(int shots) {
   scene.gravity_W = Vec3(0, -9.81, 0);
   scene.materials[0].youngs_Pa = 1e9;
   scene.materials[0].tensile_Pa = 1e7;
-  scene.materials[0].smallest_break_m3 = 0.1;  // blocks break once
+  scene.materials[0].compressive_Pa = 2e7;  // what the balls break does not break by falling
   scene.solids = {{"wall", fracture::grid_compound(14, 8, 2, Vec3::Constant(0.5), true), {}}};
   for (int i = 0; i < shots; ++i) {
     const Vec3 from(0.75 + 0.8 * (i % 7), 1.2 + 1.6 * (i / 7), 1.4);

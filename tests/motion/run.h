@@ -26,6 +26,7 @@ inline Scene bare_scene(double dt_s, double toughness_J_m2, double density_kg_m3
   brittle.pattern.kind = PatternSpec::Kind::kVoronoi;
   brittle.pattern.cells = 12;
   brittle.impact_radius_m = 0.5;
+  brittle.smallest_break_m3 = 1e-3;  // most pieces do not break again
   brittle.friction = 0;
   Material steel;
   steel.name = "steel";

@@ -77,14 +77,14 @@ class SceneCheck {
     need_number(material.rolling, 0, kFar, name + "rolling");
     need_number(material.youngs_Pa, 1, 1e15, name + "youngs_Pa");
     const std::pair<double, const char*> sizes[] = {
-        {material.strength_Ns, "strength_Ns"},
+        {material.strength_Ns.value_or(0), "strength_Ns"},
         {material.toughness_J_m2, "toughness_J_m2"},
         {material.impact_radius_m, "impact_radius_m"},
         {material.tensile_Pa, "tensile_Pa"},
         {material.shear_Pa, "shear_Pa"},
         {material.compressive_Pa, "compressive_Pa"},
         {material.yield_Pa, "yield_Pa"},
-        {material.smallest_break_m3, "smallest_break_m3"},
+        {material.smallest_break_m3.value_or(0), "smallest_break_m3"},
         {material.smallest_piece_m3, "smallest_piece_m3"}};
     for (const auto& [size, member] : sizes)
       need_number(size, 0, std::numeric_limits<double>::infinity(), name + member);

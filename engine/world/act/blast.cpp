@@ -180,10 +180,10 @@ void add_breaking(const World& world, const Burst& burst, const Actor& actor,
   });
   if (pushes.empty() || pushes[hardest.value].weight_Ns <= 0) return;
   const Material& material = world.material(structure.convex(hardest)->material);
-  if (actor.volume_m3 < material.smallest_break_m3) return;
+  if (actor.volume_m3 < material.smallest_broken_m3()) return;
   const Vec3 point_W = pushes[hardest.value].point_W();
   Vec3 impulse_W = Vec3::Zero();
-  double near_J = 0;
+  double near_J = 0, near_m3 = 0;
   structure.for_each([&](ConvexSlot slot, const Convex& convex) {
     const Push& push = pushes[slot.value];
     const bool near =
@@ -191,8 +191,15 @@ void add_breaking(const World& world, const Burst& burst, const Actor& actor,
     if (!near) return;
     impulse_W += push.impulse_W;
     near_J += energy_J(world, push, convex);
+    near_m3 += convex.solid.volume_m3;
   });
-  if (impulse_W.norm() < material.strength_Ns || impulse_W.norm() <= 0) return;
+  const double impulse_Ns = impulse_W.norm();
+  if (impulse_Ns < material.strength_Ns.value_or(0) || impulse_Ns <= 0) return;
+  const double limit_Pa = material.impact_limit_Pa(is_thin(*structure.convex(hardest)));
+  const double speed_m_s = impulse_Ns / (material.density_kg_m3 * near_m3);
+  if (!material.strength_Ns && speed_m_s * material.impedance_Pa_s_m() <= limit_Pa &&
+      near_J <= material.strain_energy_J(limit_Pa, near_m3))
+    return;
   impact.convex = hardest;
   impact.point_W = point_W;
   impact.direction_W = impulse_W.normalized();

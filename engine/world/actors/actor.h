@@ -41,6 +41,20 @@ struct StressState {
   double least_Ns = 0;  ///< nor one with less impulse.
 };
 
+/// What an impact has to exceed to break a body.
+struct ImpactLimits {
+  double by_pattern_J = 0, by_pattern_Ns = 0;  ///< Both,
+  double by_pattern_m_s = 0;                   ///< and this speed
+  double slow_J = 0;                           ///< or this energy; or
+  double by_stress_J = 0, by_stress_Ns = 0;    ///< both of these.
+
+  bool exceeded(double energy_J, double impulse_Ns, double speed_m_s) const {
+    const bool breaks = energy_J > by_pattern_J && impulse_Ns > by_pattern_Ns &&
+                        (speed_m_s > by_pattern_m_s || energy_J > slow_J);
+    return breaks || (energy_J > by_stress_J && impulse_Ns > by_stress_Ns);
+  }
+};
+
 /// Stands for a mesh that is not made yet: until the next snapshot, nobody looks.
 inline constexpr MeshIndex kUndrawn = MeshIndex(0xfffffffe);
 
@@ -64,10 +78,18 @@ struct Actor {
   /// No impact with less energy can break it by a pattern: it is too tough, or its last fruitless
   /// plan asked for more. Infinite if nothing can.
   double least_J = std::numeric_limits<double>::infinity();
-  double least_Ns = 0;  ///< No impact with less impulse can break it.
+  double least_Ns = 0;      ///< No impact with less impulse can break it by a pattern,
+  double least_m_s = 0;     ///< nor a slower one
+  double least_slow_J = 0;  ///< that has less energy than this.
   StressState stress;
   /// No impact with less energy can break it by pattern or by stress.
   double least_of_all_J() const { return std::min(least_J, stress.least_J); }
+  /// What has no pattern parts by impacts that are too fast for waves, of whatever impulse.
+  ImpactLimits impact_limits() const {
+    const bool has_pattern = least_J < std::numeric_limits<double>::infinity();
+    return {least_J,      least_Ns,       least_m_s,
+            least_slow_J, stress.least_J, has_pattern ? stress.least_Ns : 0};
+  }
   std::vector<MeshIndex> meshes;  ///< Per slot; none() where nothing shows, or kUndrawn.
   std::vector<std::vector<std::uint8_t>> hidden;  ///< Per slot, a flag for each face.
 };

@@ -63,21 +63,43 @@ constexpr double kLeastCrack = 0.1;
 // may take (planned_break.cpp): half of all take 13 a bond and more.
 constexpr std::size_t kMostBondsStruck = 40000;
 
+// Of structures with more convexes, one is taken to be thin.
+constexpr std::size_t kMostLookedAt = 8;
+
+/// Whether one of a structure's convexes is a plate, or may be.
+bool has_thin(const Structure& structure) {
+  bool found = structure.size() > kMostLookedAt;
+  if (!found)
+    structure.for_each([&](ConvexSlot, const Convex& convex) { found = found || is_thin(convex); });
+  return found;
+}
+
 }  // namespace
 
+double reached_m3(const Material& material, double volume_m3) {
+  const double radius_m = material.impact_radius_m;
+  return std::min(volume_m3, 4.2 * radius_m * radius_m * radius_m);
+}
+
 void set_least(const World& world, Actor& actor) {
-  actor.least_J = actor.least_Ns = std::numeric_limits<double>::infinity();
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  actor.least_J = actor.least_Ns = actor.least_m_s = actor.least_slow_J = kNever;
   actor.stress.least_J = std::numeric_limits<double>::infinity();
   actor.stress.least_Ns = 0;
   if (actor.is_kinematic) return;
+  const bool may_bend = has_thin(actor.structure);
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
-    if (!material.breakable() || actor.volume_m3 < material.smallest_break_m3) continue;
-    const double radius = material.impact_radius_m;
-    const double reach_m3 = std::min(actor.volume_m3, 4.2 * radius * radius * radius);
+    if (!material.breakable() || actor.volume_m3 < material.smallest_broken_m3()) continue;
+    const double reach_m3 = reached_m3(material, actor.volume_m3);
     const double crack_m2 = kLeastCrack * std::cbrt(reach_m3 * reach_m3);
     actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);
-    actor.least_Ns = std::min(actor.least_Ns, material.strength_Ns);
+    double limit_Pa = material.impact_limit_Pa(false);
+    if (may_bend) limit_Pa = std::min(limit_Pa, material.impact_limit_Pa(true));
+    actor.least_Ns = std::min(actor.least_Ns, limit_Pa > 0 ? 0 : material.strength_Ns.value_or(0));
+    actor.least_m_s = std::min(actor.least_m_s,
+                               material.strength_Ns ? 0 : limit_Pa / material.impedance_Pa_s_m());
+    actor.least_slow_J = std::min(actor.least_slow_J, material.strain_energy_J(limit_Pa, reach_m3));
   }
   if (!feels_pushes(world, actor)) return;
   const double convex_m3 = actor.volume_m3 / static_cast<double>(actor.structure.size());
@@ -183,6 +205,7 @@ void add_ball(World& world, const Ball& ball) {
   actor.volume_m3 = ball_volume_m3(radius);
   actor.weight.mass_kg = ball_mass_kg(ball, *world.materials);
   actor.weight.inertia_R = 0.4 * actor.weight.mass_kg * radius * radius * Mat3::Identity();
+  actor.materials = {ball.material};
   actor.born_step = world.clock.step;
   actor.meshes = {world.meshes.add(make_ball_mesh(radius, ball.material))};
 

@@ -17,7 +17,9 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion);
 ShapeDesc shape_of(const World& world, const Actor& actor, ConvexSlot slot);
 /// What it takes to break it, and that nothing presses on it yet. What is kinematic does not break.
 void set_strength(const World& world, Actor& actor);
-/// The least energy and impulse that could break it, by pattern or by stress.
+/// Volume of a solid within the impact radius of a material, at most.
+double reached_m3(const Material& material, double volume_m3);
+/// The least energy, impulse and speed that could break it, by pattern or by stress.
 void set_least(const World& world, Actor& actor);
 
 /// Give its body another motion, or an impulse from outside. The answer is by how much its kinetic

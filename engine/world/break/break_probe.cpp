@@ -200,8 +200,9 @@ bool BreakProbe::may_load() const {
     impulses_Ns[rows_[closed_[i]].b] += with_->impulses_Ns[i];
   }
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!undecided_[b] || impulses_Ns[b] <= bodies_[b].least_Ns) continue;
-    if (kFaster * fastest_m_s_ * impulses_Ns[b] > bodies_[b].least_J) return true;
+    const double speed_m_s = kFaster * fastest_m_s_;
+    if (undecided_[b] && !bodies_[b].bears(speed_m_s * impulses_Ns[b], impulses_Ns[b], speed_m_s))
+      return true;
   }
   return false;
 }

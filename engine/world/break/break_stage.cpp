@@ -18,15 +18,10 @@ namespace {
 constexpr std::uint64_t kVisitsAPart = 160;
 // And as a probe's visits of contacts.
 constexpr std::uint64_t kLooksAPart = 1000;
+// Beyond the budget, an impact with less than this share of all kinetic energy holds, and does not
+// wait.
+constexpr double kWorthWaiting = 1e-3;
 constexpr int kRounds = 8;  // solids that can break one behind the other within one step
-
-/// True if the stress wave of an impact, ρ c v with c = √(E / ρ), is beyond what the material bears
-/// in compression.
-bool crushes(const Material& material, double speed_m_s) {
-  return material.compressive_Pa > 0 &&
-         std::sqrt(material.youngs_Pa * material.density_kg_m3) * speed_m_s >
-             material.compressive_Pa;
-}
 
 bool parts_at_bonds(const Material& material) {
   return material.breaks_by_load() && !material.yields();
@@ -47,8 +42,7 @@ void add_impacts(const World& world, Trial& trial) {
     planned.speed_m_s = load.speed_m_s;
     planned.impulse_Ns = load.impulse_Ns;
     planned.by_pattern =
-        material.breakable() && load.work_J > actor.least_J &&
-        (load.impulse_Ns >= material.strength_Ns || crushes(material, load.speed_m_s));
+        breaks_where_struck(world, actor, load, world.actors.find(planned.striker));
     // A material without a pattern parts at the bonds around the striker.
     planned.by_pattern |= !material.breakable() && parts_at_bonds(material) &&
                           load.work_J > actor.stress.least_J &&
@@ -96,6 +90,12 @@ bool is_stale(const World& world, const Trial& trial, std::span<const std::uint3
     }
   }
   return false;
+}
+
+bool is_worth_waiting(const World& world, const Trial& trial) {
+  return std::ranges::any_of(trial.planned, [&](const PlannedBreak& planned) {
+    return planned.impact.energy_J > kWorthWaiting * world.ledger.kinetic_J;
+  });
 }
 
 /// Breaks what a trial can pay for, if anything, and adds it to `all_broken`.
@@ -327,7 +327,7 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
     for (Trial& trial : trials) {
       if (trial.planned.empty() || (in_time && take_on(world, breaker, trial.planned))) {
         taken_on.push_back(std::move(trial));
-      } else if (!waiting_room_.may_wait(world, trial.probe)) {
+      } else if (!is_worth_waiting(world, trial) || !waiting_room_.may_wait(world, trial.probe)) {
         trial.planned.clear();  // all holds
         taken_on.push_back(std::move(trial));
       } else {

@@ -53,8 +53,9 @@ class Described {
     body.key = actor ? actor->key : kGroundKey;
     if (!actor) return body;
     body.least_J = actor->least_of_all_J();
-    body.least_Ns = std::isfinite(actor->stress.least_J) ? 0 : actor->least_Ns;
-    body.breakable = may_break(world_, actor, std::numeric_limits<double>::max());
+    body.limits = actor->impact_limits();
+    constexpr double kAny = std::numeric_limits<double>::max();
+    body.breakable = may_break(world_, actor, kAny, kAny, kAny);
     const BodyState state = states_[actor->body];
     body.position_W = state.X_WB.position;
     body.velocity_W = state.velocity_W;
@@ -177,8 +178,9 @@ class Described {
 
 }  // namespace
 
-bool may_break(const World& world, const Actor* actor, double energy_J) {
-  if (!actor || energy_J <= actor->least_of_all_J()) return false;
+bool may_break(const World& world, const Actor* actor, double energy_J, double impulse_Ns,
+               double speed_m_s) {
+  if (!actor || !actor->impact_limits().exceeded(energy_J, impulse_Ns, speed_m_s)) return false;
   return actor->is_static || actor->born_step != world.clock.step + 1;
 }
 

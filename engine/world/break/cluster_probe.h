@@ -14,9 +14,10 @@ namespace sunder {
 /// behind them all.
 using Cluster = std::vector<const Actor*>;
 
-/// Whether so much energy may break an actor. Pieces that came off in this step do not break again
-/// in it; what stands may be hit by others.
-bool may_break(const World& world, const Actor* actor, double energy_J);
+/// Whether so much may break an actor. Pieces that came off in this step do not break again in it;
+/// what stands may be hit by others.
+bool may_break(const World& world, const Actor* actor, double energy_J, double impulse_Ns,
+               double speed_m_s);
 
 /// The bodies of a cluster in the order of its actors, the contacts among them and their joints.
 /// Any number of threads may ask once one has asked for touches since contacts were found.

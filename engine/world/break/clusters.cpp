@@ -18,13 +18,25 @@ namespace {
 // Of a cluster, those nearest to the approach; fewer where what approaches cannot break itself, and
 // an impact can only be passed on.
 constexpr std::size_t kMostBodies = 32, kMostPassingOn = 12;
+constexpr double kMore = 2;  // impulse and speed of an approach, at most, once others have met
 
 /// The approaches between two bodies as one.
 struct Seed {
   std::uint32_t a = 0, b = 0;
-  double energy_J = 0;
+  double energy_J = 0, impulse_Ns = 0, speed_m_s = 0;
   std::uint64_t since_step = 0;  ///< It waits since then.
+
+  void add(double closing_J, double closing_m_s) {
+    energy_J += closing_J;
+    impulse_Ns += 2 * closing_J / closing_m_s;
+    speed_m_s = std::max(speed_m_s, closing_m_s);
+  }
 };
+
+/// Whether what a seed passes on may break an actor.
+bool may_break(const World& world, const Actor* actor, const Seed& seed) {
+  return may_break(world, actor, seed.energy_J, kMore * seed.impulse_Ns, kMore * seed.speed_m_s);
+}
 
 /// Approaches with energy enough to break something in the world, in the order of find_clusters().
 std::vector<Seed> find_seeds(const World& world, const WaitingRoom& waiting,
@@ -36,14 +48,15 @@ std::vector<Seed> find_seeds(const World& world, const WaitingRoom& waiting,
   if (least_J == std::numeric_limits<double>::infinity()) return {};
   std::vector<Seed> pairs;
   for (const Approach& approach : world.physics->approaches()) {
-    pairs.push_back({approach.body_tag_a, approach.body_tag_b, joints.closing_energy_J(approach)});
+    Seed& pair = pairs.emplace_back(Seed{approach.body_tag_a, approach.body_tag_b});
+    pair.add(joints.closing_energy_J(approach), joints.closing_speed_m_s(approach));
   }
   std::ranges::stable_sort(pairs, {}, [](const Seed& seed) { return std::pair(seed.a, seed.b); });
   std::vector<Seed> seeds;
   for (std::size_t i = 0, end = 0; i < pairs.size(); i = end) {
     Seed seed = pairs[i];
     for (end = i + 1; end < pairs.size() && pairs[end].a == seed.a && pairs[end].b == seed.b; ++end)
-      seed.energy_J += pairs[end].energy_J;
+      seed.add(pairs[end].energy_J, pairs[end].speed_m_s);
     if (seed.energy_J <= least_J) continue;
     seed.since_step = std::min(waiting.since_step(seed.a, world.clock.step),
                                waiting.since_step(seed.b, world.clock.step));
@@ -113,7 +126,7 @@ class Reach {
     for (const std::uint32_t place : ends) {
       const Actor* actor = members_.actor(place);
       if (actor && !actor->is_static && members_.taken(place)) return false;
-      direct |= may_break(world_, actor, seed.energy_J);
+      direct |= may_break(world_, actor, seed);
     }
     most_ = direct ? kMostBodies : kMostPassingOn;
     for (const std::uint32_t place : ends) add(place);
@@ -147,9 +160,9 @@ class Reach {
     return cluster;
   }
 
-  bool could_break(double energy_J) const {
+  bool could_break(const Seed& seed) const {
     return std::ranges::any_of(places_, [&](std::uint32_t place) {
-      return may_break(world_, members_.actor(place), energy_J);
+      return may_break(world_, members_.actor(place), seed);
     });
   }
 
@@ -186,7 +199,7 @@ std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& wai
     Reach reach(world, joints, members);
     if (!reach.start(seed)) continue;
     reach.grow();
-    if (reach.could_break(seed.energy_J)) clusters.push_back(reach.cluster());
+    if (reach.could_break(seed)) clusters.push_back(reach.cluster());
   }
   std::vector<std::optional<BreakProbe>> made(clusters.size());
   for_chunks(made.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -58,9 +58,17 @@ JointGraph::Whole JointGraph::whole(std::uint32_t key) const {
   return one.held || ends.empty() ? one : wholes_[whole_of_[ends.front().joint]];
 }
 
+double JointGraph::falls_J_kg(const Approach& approach) const {
+  return std::abs(world_.scene.gravity_W.dot(approach.normal_W)) *
+         std::max(0.0, approach.separation_m);
+}
+
+double JointGraph::closing_speed_m_s(const Approach& approach) const {
+  return std::sqrt(approach.speed_m_s * approach.speed_m_s + 2 * falls_J_kg(approach));
+}
+
 double JointGraph::closing_energy_J(const Approach& approach) const {
-  const double falls_J_kg = std::abs(world_.scene.gravity_W.dot(approach.normal_W)) *
-                            std::max(0.0, approach.separation_m);
+  const double falls_J_kg = this->falls_J_kg(approach);
   const double each_J_kg = 0.5 * approach.speed_m_s * approach.speed_m_s + falls_J_kg;
   const std::uint32_t a = approach.body_tag_a, b = approach.body_tag_b;
   const std::span<const End> ends_a = of(a), ends_b = of(b);

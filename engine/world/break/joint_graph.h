@@ -28,8 +28,13 @@ class JointGraph {
   /// than the energy of all that hangs together; nor, if nothing holds that, with more than its
   /// mass (Thomson's theorem: of all motions that the joints allow, the true one has the least).
   double closing_energy_J(const Approach& approach) const;
+  /// The speed of that.
+  double closing_speed_m_s(const Approach& approach) const;
 
  private:
+  /// Energy that a fall to the contact adds, for each kilogram.
+  double falls_J_kg(const Approach& approach) const;
+
   /// All that hangs together, at one.
   struct Whole {
     double mass_kg = 0, kinetic_J = 0;

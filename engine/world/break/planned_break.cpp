@@ -36,6 +36,7 @@ constexpr double kFarthest = 8;
 // Highest stress of a struck solid over that of a bar in its first mode at the same mean speed, at
 // most: for impacts off the middle, other shapes, and the steady load.
 constexpr double kBendsMore = 4;
+constexpr double kGroundPa_s_m = 8.5e6;  // impedance of the ground: that of concrete
 // What cracks at its bonds takes this much of a blow at most: it is stress that decides.
 constexpr double kMostTaken = 0.9;
 
@@ -71,10 +72,13 @@ double area_m2(const PlannedBreak& planned) {
 }
 
 /// True if the break where the solid is struck comes before anything far from there: it can be
-/// paid for, and there is a plug, which only an impact makes that is too fast for waves.
-bool breaks_locally(const PlannedBreak& planned) {
-  return planned.by_pattern && planned.edit.changed && planned.command.plug &&
-         planned.needed_J < planned.impact.energy_J;
+/// paid for, and the impact is too fast for waves.
+bool breaks_locally(const World& world, const Structure& structure, const PlannedBreak& planned) {
+  if (!planned.by_pattern || !planned.edit.changed || planned.needed_J >= planned.impact.energy_J)
+    return false;
+  const Convex& convex = *structure.convex(planned.impact.convex);
+  return planned.command.plug ||
+         breaks_before_waves_arrive(world.material(convex.material), planned.speed_m_s);
 }
 
 /// Reduces the load of a fast and narrow striker on the rest of the solid to the impulse that gets
@@ -124,11 +128,6 @@ void choose(const World& world, const Structure& structure, PlannedBreak& planne
   planned.crushing_J = 0;
 }
 
-/// Effective mass of what strikes, from the work that it can do.
-double striker_kg(const PlannedBreak& planned) {
-  return 2 * planned.impact.energy_J / (planned.speed_m_s * planned.speed_m_s);
-}
-
 /// Distance from the point struck to the farthest corner of the section.
 double reach_of(const Hit& hit) {
   double reach_m = 0;
@@ -138,7 +137,6 @@ double reach_of(const Hit& hit) {
 }
 
 /// Adds the striker's section, mass and speed to a hit, and the thickness of the actor behind it.
-/// Adds no section where the striker is wider than a break by pattern reaches.
 void add_striker(const World& world, const PlannedBreak& planned, const Actor& actor,
                  const Pose& X_WB, Hit& hit) {
   const Actor* striker = world.actors.find(planned.striker);
@@ -150,9 +148,12 @@ void add_striker(const World& world, const PlannedBreak& planned, const Actor& a
   for (const Vec3& corner : section_W)
     hit.section_R.push_back(X_WB.inverse() * corner + actor.weight.com_R);
   if (hit.section_R.empty()) return;
+  double widest_m = 0;
+  for (const Vec3& a : hit.section_R)
+    for (const Vec3& b : hit.section_R) widest_m = std::max(widest_m, (a - b).norm());
+  hit.narrow = widest_m <= 2 * material.impact_radius_m;
   hit.speed_m_s = planned.speed_m_s;
-  hit.striker_kg = striker_kg(planned);
-  hit.volume_m3 = actor.volume_m3;
+  hit.striker_kg = planned.striker_kg();
   hit.held = actor.is_static;
   const double most_m = kFarthest * reach_of(hit);
   hit.thickness_m = thickness_along(actor.structure, hit.point_R, hit.direction_R, most_m);
@@ -164,19 +165,66 @@ void add_striker(const World& world, const PlannedBreak& planned, const Actor& a
   hit.confined = confinement(actor.structure, hit.section_R, hit.direction_R, depth_m) >= kConfined;
 }
 
+/// Volume of the convexes that reach into a sphere.
+double volume_within(const Structure& structure, const Vec3& center_R, double radius_m) {
+  double volume_m3 = 0;
+  const auto add = [&](ConvexSlot slot) { volume_m3 += structure.convex(slot)->solid.volume_m3; };
+  if (std::isinf(radius_m)) {
+    structure.for_each([&](ConvexSlot slot, const Convex&) { add(slot); });
+  } else {
+    for (const ConvexSlot slot : structure.within(center_R, radius_m)) add(slot);
+  }
+  return volume_m3;
+}
+
 /// The impact as the actor's rest frame sees it.
 Hit hit_of(const World& world, const PlannedBreak& planned, const Actor& actor, const Pose& X_WB) {
   const Impact& impact = planned.impact;
+  const Material& material = world.material(actor.structure.convex(impact.convex)->material);
   Hit hit;
   hit.point_R = X_WB.inverse() * impact.point_W + actor.weight.com_R;
   hit.direction_R = X_WB.rotation.conjugate() * impact.direction_W;
   hit.convex = impact.convex;
   hit.energy_J = impact.energy_J;
+  hit.volume_m3 = actor.volume_m3;
+  hit.reached_m3 = volume_within(actor.structure, hit.point_R, material.impact_radius_m);
   add_striker(world, planned, actor, X_WB, hit);
   return hit;
 }
 
+/// Volume of a plate that bends where it is struck, out to three thicknesses.
+double bent_m3(const Convex& convex) {
+  const double thickness_m = mean_thickness_m(convex);
+  return 28 * thickness_m * thickness_m * thickness_m;
+}
+
+/// Share of an impact's speed at which its wave pushes on in the solid that it strikes: the striker
+/// gives as well, where it has no greater impedance; plates bend instead.
+double share_of_speed(const World& world, const Convex& convex, const Actor* striker) {
+  if (is_thin(convex)) return 1;
+  const double striker_Pa_s_m = striker && !striker->materials.empty()
+                                    ? world.material(striker->materials[0]).impedance_Pa_s_m()
+                                    : kGroundPa_s_m;
+  return striker_Pa_s_m / (striker_Pa_s_m + world.material(convex.material).impedance_Pa_s_m());
+}
+
 }  // namespace
+
+bool breaks_where_struck(const World& world, const Actor& actor, const ProbeLoad& load,
+                         const Actor* striker) {
+  const Convex& convex = *actor.structure.convex(ConvexSlot(load.shape));
+  const Material& material = world.material(convex.material);
+  if (!material.breakable() || load.work_J <= actor.least_J) return false;
+  const double limit_Pa = material.impact_limit_Pa(is_thin(convex));
+  if (material.strength_Ns && load.impulse_Ns >= *material.strength_Ns) return true;
+  if (material.strength_Ns && limit_Pa == 0) return false;
+  const double share = share_of_speed(world, convex, striker);
+  const double reach_m3 = reached_m3(material, actor.volume_m3);
+  if (share * share * load.work_J > material.strain_energy_J(limit_Pa, reach_m3)) return true;
+  if (is_thin(convex) && load.work_J <= material.strain_energy_J(limit_Pa, bent_m3(convex)))
+    return false;
+  return share * load.speed_m_s * material.impedance_Pa_s_m() > limit_Pa;
+}
 
 bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
   if (!(material.shear_Pa > 0)) return false;
@@ -187,12 +235,13 @@ void prepare(const World& world, const Breaker& breaker, std::uint64_t event,
              PlannedBreak& planned) {
   const Impact& impact = planned.impact;
   const Actor& actor = *world.actors.find(impact.key);
-  const Hit hit = hit_of(world, planned, actor, world.physics->state(actor.body).X_WB);
+  Hit hit = hit_of(world, planned, actor, world.physics->state(actor.body).X_WB);
   // Of the actor: hit once more, it would break the same way, or an impact that comes in several
   // steps would be given several chances.
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
   const Convex& convex = *actor.structure.convex(impact.convex);
   planned.command = breaker.command(convex, *world.materials, hit, event, seed);
+  planned.way = {std::move(hit.section_R), hit.point_R, hit.direction_R, hit.thickness_m};
 }
 
 std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
@@ -219,7 +268,7 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
           planned.crushing_J = std::max(0.0, plug->energy_J - planned.needed_J);
         planned.needed_J += planned.crushing_J;
       }
-      if (breaks_locally(planned)) {
+      if (breaks_locally(world, actor.structure, planned)) {
         planned.breaks = true;
         planned.plan_ms = watch.ms();
         continue;
@@ -243,59 +292,6 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
     }
   });
 }
-
-namespace {
-
-/// Gives the striker and the plug that it has driven out one common speed along the plug's axis: a
-/// plastic collision, which keeps momentum (Recht and Ipson 1963). Debris of the plug takes its
-/// share of the momentum.
-void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_key) {
-  const Actor* striker = world.actors.find(planned.striker);
-  if (!planned.command.plug || !planned.command.plug->through || !striker) return;
-  const Plug& plug = *planned.command.plug;
-  const BodyStates states = world.physics->states();
-  std::vector<const Actor*> pieces;
-  double plug_kg = 0;
-  Vec3 axis_W = planned.impact.direction_W;
-  double at_rest_m_s = 0;
-  const bool parts = planned.command.pattern.kind == PatternSpec::Kind::kNone;
-  for (const Actor& actor : world.actors) {
-    if (actor.key < first_key || actor.is_static) continue;
-    if (!(parts ? actor.structure.size() == 1
-                : plug.contains(planned.command.X_RP.inverse() * actor.weight.com_R)))
-      continue;
-    pieces.push_back(&actor);
-    plug_kg += actor.weight.mass_kg;
-    axis_W = rest_pose(actor, states[actor.body].X_WB).rotation * planned.command.X_RP.rotation *
-             Vec3::UnitY();
-    at_rest_m_s += actor.weight.mass_kg * states[actor.body].velocity_W.dot(axis_W);
-  }
-  // Debris of what is held takes its share of the momentum; that of a free body has the motion of
-  // the whole.
-  const bool is_held = world.actors.find(planned.impact.key) != nullptr;
-  const double debris_kg = is_held ? std::max(0.0, plug.mass_kg - plug_kg) : 0;
-  plug_kg += debris_kg;
-  if (!(plug_kg > 0)) return;
-  const BodyState state = states[striker->body];
-  const double closing_m_s =
-      state.field()(planned.impact.point_W).dot(axis_W) - at_rest_m_s / plug_kg;
-  if (!(closing_m_s > 0)) return;
-  const double mass_kg = striker_kg(planned);
-  const double gain_m_s = closing_m_s * mass_kg / (mass_kg + plug_kg);
-  double gain_J = 0;
-  for (const Actor* piece : pieces) {
-    BodyState moved = world.physics->state(piece->body);
-    moved.velocity_W += gain_m_s * axis_W;
-    gain_J += move_actor(world, *piece, moved);
-  }
-  gain_J += push_actor(world, *striker, -plug_kg * gain_m_s * axis_W, planned.impact.point_W);
-  const double debris_J = debris_kg * gain_m_s * (at_rest_m_s / plug_kg + 0.5 * gain_m_s);
-  EnergyFlows& energy = world.ledger.report.energy;
-  energy.debris += debris_J;
-  energy.contacts -= gain_J + debris_J;
-}
-
-}  // namespace
 
 Verdict verdict_on(const World& world, const PlannedBreak& planned, std::size_t to_come) {
   if (!planned.breaks) return Verdict::kHolds;

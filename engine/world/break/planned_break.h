@@ -11,8 +11,17 @@
 #include "engine/model/breaker.h"
 #include "engine/world/actors/impact.h"
 #include "engine/world/actors/world.h"
+#include "engine/world/break/break_probe.h"
 
 namespace sunder {
+
+/// What a fast striker sweeps through, in the rest frame of the solid: its cross-section along its
+/// direction, as far as the solid goes on. Without corners if the striker is slow or unknown.
+struct StrikersWay {
+  std::vector<Vec3> section_R = {};
+  Vec3 point_R = Vec3::Zero(), direction_R = Vec3::UnitY();
+  double thickness_m = 0;
+};
 
 struct PlannedBreak {
   Impact impact;
@@ -26,17 +35,26 @@ struct PlannedBreak {
   bool by_pattern = true;              ///< Strong enough for the material,
   bool by_stress = false;              ///< and for some bond.
   BreakCommand command;                ///< By pattern.
-  StressAnswer stressed;               ///< By stress.
-  BreakEdit edit;                      ///< Of the way that it breaks.
+  StrikersWay way;
+  StressAnswer stressed;  ///< By stress.
+  BreakEdit edit;         ///< Of the way that it breaks.
   double plan_ms = 0;
   double needed_J = 0;    ///< By its cracks, or by the plug if that takes more,
   double crushing_J = 0;  ///< which is this much more.
   bool breaks = false;    ///< The impact pays for them.
   bool at_bonds = false;  ///< By stress.
 
+  /// Effective mass of what strikes, from the work that it can do.
+  double striker_kg() const { return 2 * impact.energy_J / (speed_m_s * speed_m_s); }
   /// It parts at hinges and cracks nowhere.
   bool only_bends() const { return at_bonds && edit.cut.empty(); }
 };
+
+/// Whether an impact overloads the convex that it strikes, so that it breaks there by its pattern:
+/// by the stress of the wave, or by the strain energy of the whole (docs/decisions/049). `striker`
+/// is null for the ground.
+bool breaks_where_struck(const World& world, const Actor& actor, const ProbeLoad& load,
+                         const Actor* striker);
 
 /// True if an impact at that speed shears the solid at the striker's edge before waves have carried
 /// the load away: v > τ / (ρ c), with the shear strength τ and c = √(E / 2.4 ρ).

@@ -44,14 +44,15 @@ std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
     most[body] = impulse;
     load.shape = body == c.b ? c.shape_b : c.shape_a;
   }
+  for (ProbeLoad& load : all)
+    if (flux[load.body] > 0) load.speed_m_s /= flux[load.body];
   std::erase_if(all, [&](const ProbeLoad& load) {
     const ProbeBody& body = bodies_[load.body];
-    return load.impulse_Ns <= body.least_Ns || load.work_J <= body.least_J ||
+    return body.bears(load.work_J, load.impulse_Ns, load.speed_m_s) ||
            load.direction_W.squaredNorm() <= 0;
   });
   for (ProbeLoad& load : all) {
     load.arm_W /= load.impulse_Ns;
-    if (flux[load.body] > 0) load.speed_m_s /= flux[load.body];
     load.direction_W.normalize();
     add_pushes(load);
   }

@@ -7,6 +7,7 @@
 
 #include "engine/base/types.h"
 #include "engine/model/joint.h"
+#include "engine/world/actors/actor.h"
 #include "engine/world/break/cluster_solve.h"
 
 namespace sunder {
@@ -22,7 +23,11 @@ struct ProbeBody {
   bool leans = false;  ///< On what is outside of the cluster.
   bool breakable = false;
   double least_J = 0;   ///< Work below this breaks it in no case,
-  double least_Ns = 0;  ///< nor does an impulse below this.
+  ImpactLimits limits;  ///< nor does what does not exceed these.
+
+  bool bears(double work_J, double impulse_Ns, double speed_m_s) const {
+    return work_J <= least_J || !limits.exceeded(work_J, impulse_Ns, speed_m_s);
+  }
 };
 
 /// A point where two bodies touch, or would touch within the step.

@@ -8,6 +8,7 @@
 
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/prism.h"
+#include "engine/world/actors/make_actor.h"
 
 namespace sunder {
 namespace {
@@ -40,6 +41,36 @@ std::pair<Vec3, Vec3> axes_across(const Vec3& direction) {
   const Vec3 any = std::abs(direction.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ();
   const Vec3 first = any.cross(direction).normalized();
   return {first, direction.cross(first)};
+}
+
+/// Whether a piece of the solid reaches into the striker's way.
+bool in_the_way(const StrikersWay& way, const Vec3& com_R, double volume_m3) {
+  const double reach_m = 0.5 * std::cbrt(volume_m3);
+  const double along_m = (com_R - way.point_R).dot(way.direction_R);
+  if (along_m > way.thickness_m) return false;
+  for (std::size_t i = 0; i < way.section_R.size(); ++i) {
+    const Vec3& corner = way.section_R[i];
+    const Vec3 side = way.section_R[(i + 1) % way.section_R.size()] - corner;
+    if (way.direction_R.cross(side).normalized().dot(com_R - corner) < -reach_m) return false;
+  }
+  return true;
+}
+
+/// Speed that a body gains at a point along an axis, for each N·s there.
+double give_per_kg(const Actor& actor, const BodyState& state, const Vec3& point_W,
+                   const Vec3& axis_W) {
+  if (actor.is_kinematic) return 0;
+  const Mat3 R_WB = state.X_WB.rotation.toRotationMatrix();
+  const Vec3 turn_B = R_WB.transpose() * (point_W - state.X_WB.position).cross(axis_W);
+  return 1 / actor.weight.mass_kg + turn_B.dot(actor.weight.inertia_R.inverse() * turn_B);
+}
+
+/// Whether what an actor has left stands in the striker's way.
+bool is_blocked(const World& world, const PlannedBreak& planned) {
+  const Actor* left = world.actors.find(planned.impact.key);
+  if (planned.command.plug) return !planned.command.plug->through;
+  return left && thickness_along(left->structure, planned.way.point_R, planned.way.direction_R,
+                                 planned.way.thickness_m) > 0;
 }
 
 }  // namespace
@@ -78,8 +109,7 @@ std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Ve
     area_m2 += 0.5 * cross(hull[i], hull[(i + 1) % hull.size()]);
     for (const Vec2& other : hull) widest_m = std::max(widest_m, (hull[i] - other).norm());
   }
-  if (hull.size() < 3 || widest_m > 2 * reach_m || !(area_m2 > 1e-2 * widest_m * widest_m))
-    return {};
+  if (hull.size() < 3 || !(area_m2 > 1e-2 * widest_m * widest_m)) return {};
   std::vector<Vec3> section_W;
   for (const Vec2& corner : hull) section_W.push_back(point_W + corner.x() * u + corner.y() * v);
   return section_W;
@@ -117,6 +147,59 @@ double confinement(const Structure& structure, const std::vector<Vec3>& section_
   };
   return static_cast<double>(std::ranges::count_if(section_R, is_filled)) /
          static_cast<double>(section_R.size());
+}
+
+void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_key) {
+  const Actor* striker = world.actors.find(planned.striker);
+  if (planned.way.section_R.empty() || !striker || is_blocked(world, planned)) return;
+  const std::optional<Plug>& plug = planned.command.plug;
+  const BodyStates states = world.physics->states();
+  std::vector<const Actor*> pieces;
+  double plug_kg = 0;
+  Vec3 moment_kgm = Vec3::Zero();
+  Vec3 axis_W = planned.impact.direction_W;
+  double at_rest_m_s = 0;
+  const bool parts = planned.command.pattern.kind == PatternSpec::Kind::kNone;
+  const Vec3 axis_R =
+      plug ? Vec3(planned.command.X_RP.rotation * Vec3::UnitY()) : planned.way.direction_R;
+  for (const Actor& actor : world.actors) {
+    if (actor.key < first_key || actor.is_static) continue;
+    const Vec3& com_R = actor.weight.com_R;
+    if (parts && plug ? actor.structure.size() != 1
+        : plug        ? !plug->contains(planned.command.X_RP.inverse() * com_R)
+                      : !in_the_way(planned.way, com_R, actor.volume_m3))
+      continue;
+    pieces.push_back(&actor);
+    plug_kg += actor.weight.mass_kg;
+    moment_kgm += actor.weight.mass_kg * states[actor.body].X_WB.position;
+    axis_W = rest_pose(actor, states[actor.body].X_WB).rotation * axis_R;
+    at_rest_m_s += actor.weight.mass_kg * states[actor.body].velocity_W.dot(axis_W);
+  }
+  // Debris of what is held takes its share of the momentum; that of a free body has the motion of
+  // the whole.
+  const bool is_held = world.actors.find(planned.impact.key) != nullptr;
+  const double pieces_kg = plug_kg;
+  const double debris_kg = is_held && plug ? std::max(0.0, plug->mass_kg - plug_kg) : 0;
+  plug_kg += debris_kg;
+  if (!(plug_kg > 0)) return;
+  const Vec3 middle_W = pieces.empty() ? planned.impact.point_W : Vec3(moment_kgm / pieces_kg);
+  const BodyState state = states[striker->body];
+  const double closing_m_s = state.field()(middle_W).dot(axis_W) - at_rest_m_s / plug_kg;
+  if (!(closing_m_s > 0)) return;
+  const double gain_m_s =
+      closing_m_s / (1 + plug_kg * give_per_kg(*striker, state, middle_W, axis_W));
+  double gain_J = 0;
+  for (const Actor* piece : pieces) {
+    BodyState moved = world.physics->state(piece->body);
+    moved.velocity_W += gain_m_s * axis_W;
+    gain_J += move_actor(world, *piece, moved);
+  }
+  if (!striker->is_kinematic)
+    gain_J += push_actor(world, *striker, -plug_kg * gain_m_s * axis_W, middle_W);
+  const double debris_J = debris_kg * gain_m_s * (at_rest_m_s / plug_kg + 0.5 * gain_m_s);
+  EnergyFlows& energy = world.ledger.report.energy;
+  energy.debris += debris_J;
+  energy.contacts -= gain_J + debris_J;
 }
 
 }  // namespace sunder

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -9,6 +10,8 @@
 namespace sunder {
 namespace {
 
+// What closes faster than this on a body that waits waits with it, as it would hit it like a wall.
+constexpr double kRunsInto_m_s = 0.5;
 constexpr int kAdmitted = 3;  // clusters that have waited and are looked at in one round
 
 void pause_all(World& world, std::span<const Waiter> waiters) {
@@ -42,6 +45,14 @@ std::set<std::uint32_t> find_driven(const World& world) {
     }
   }
   return driven;
+}
+
+/// Whether `other` would run into a body that stands still, at a point where they may touch.
+bool runs_into(const World& world, const BodyState& other, const Vec3& arm_W,
+               const Vec3& to_other_W, double separation_m) {
+  const Vec3 velocity_W = other.velocity_W + other.angular_velocity_W.cross(arm_W);
+  const double closing_m_s = -velocity_W.dot(to_other_W);
+  return closing_m_s > kRunsInto_m_s && closing_m_s * world.clock.dt_s > separation_m;
 }
 
 }  // namespace
@@ -98,7 +109,44 @@ void WaitingRoom::end_step(World& world) {
   waiters_.insert(waiters_.end(), queue_.begin(), queue_.end());
   queue_.clear();
   std::ranges::sort(waiters_, {}, &Waiter::key);
+  hold_what_hits(world);
   last_ = std::exchange(waiters_, {});
+}
+
+void WaitingRoom::hold_what_hits(World& world) {
+  if (waiters_.empty()) return;
+  if (!driven_) driven_ = find_driven(world);
+  std::map<std::uint32_t, Waiter> waits;
+  std::vector<BodyId> layer;
+  const auto begin_to_wait = [&](const Waiter& waiter) {
+    if (!waits.emplace(waiter.key, waiter).second) return;
+    layer.push_back(world.actors.find(waiter.key)->body);
+  };
+  for (const Waiter& waiter : waiters_) begin_to_wait(waiter);
+  const BodyStates states = world.physics->states();
+  while (!layer.empty()) {
+    const std::vector<Touch> touches = world.physics->touches(std::exchange(layer, {}));
+    for (const Touch& touch : touches) {
+      const bool a_waits = waits.contains(touch.body_tag_a);
+      const std::uint32_t other_key = a_waits ? touch.body_tag_b : touch.body_tag_a;
+      const auto waiter = waits.find(a_waits ? touch.body_tag_a : touch.body_tag_b);
+      const Actor* other = world.actors.find(other_key);
+      if (waiter == waits.end() || !other || other->is_static || waits.contains(other_key) ||
+          driven_->contains(other_key))
+        continue;
+      const Vec3 to_other_W = a_waits ? touch.normal_W : Vec3(-touch.normal_W);
+      if (!runs_into(world, states[other->body], a_waits ? touch.arm_b_W : touch.arm_a_W,
+                     to_other_W, touch.separation_m))
+        continue;
+      Waiter joins = waiter->second;
+      joins.key = other_key;
+      begin_to_wait(joins);
+    }
+  }
+  if (waits.size() == waiters_.size()) return;
+  waiters_.clear();
+  for (const auto& [key, waiter] : waits) waiters_.push_back(waiter);
+  pause_all(world, waiters_);
 }
 
 std::uint64_t WaitingRoom::since_step(std::uint32_t key, std::uint64_t otherwise) const {

@@ -48,6 +48,9 @@ class WaitingRoom {
   /// How many wait, after end_step().
   std::uint32_t clusters() const { return clusters_; }
 
+  /// Lets what would run into those who wait, at once or by way of others, wait with them.
+  void hold_what_hits(World& world);
+
  private:
   std::vector<Waiter> last_;     ///< Of the last step; ascending by key.
   std::vector<Waiter> queue_;    ///< Of those, who is not admitted yet; cluster by cluster.

@@ -1,0 +1,120 @@
+// What breaks where it is struck, and into how much: against the speeds of closed forms, and the
+// order of drops and shots that everybody knows.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "scenes/load.h"
+#include "scenes/make_simulation.h"
+
+namespace sunder {
+namespace {
+
+/// Number of bodies and crumbs that come of what a scene holds besides one body that stands.
+std::size_t pieces(const std::string& text) {
+  const auto simulation = scenes::make_simulation(scenes::parse_scene(text, "x.toml", {}));
+  std::size_t most = 0;
+  while (const FramePtr frame = simulation->next())
+    most = std::max(most, frame->bodies.size() + frame->debris.size());
+  return most - 1;
+}
+
+/// A box that flies flat against another that stands, of some material, without gravity.
+std::string head_on(const std::string& size, const std::string& material, const std::string& other,
+                    double speed_m_s) {
+  return R"(
+[scene]
+description = "x"
+duration_s = 0.2
+gravity = [0, 0, 0]
+[[solid]]
+structure = "box"
+size_m = [2, 1, 2]
+anchored = "all"
+material = ")" +
+         other + R"("
+[[solid]]
+structure = "box"
+name = "thing"
+size_m = )" +
+         size + "\nmaterial = \"" + material + "\"\nposition = [0, 1.01, 0]\nvelocity = [0, " +
+         std::to_string(-speed_m_s) + ", 0]\n";
+}
+
+double impedance(double youngs_Pa, double density_kg_m3) {
+  return std::sqrt(youngs_Pa * density_kg_m3);
+}
+
+TEST(Strength, of_lumps_is_that_of_the_wave_that_both_carry) {
+  const double clay = impedance(1e10, 1900), concrete = impedance(3e10, 2400);
+  const double brick_m_s = 2e7 * (1 / clay + 1 / concrete), cube_m_s = 3e7 * (2 / concrete);
+  EXPECT_EQ(pieces(head_on("[0.24, 0.08, 0.12]", "clay", "concrete", 0.98 * brick_m_s)), 1u);
+  EXPECT_GT(pieces(head_on("[0.24, 0.08, 0.12]", "clay", "concrete", 1.02 * brick_m_s)), 3u);
+  EXPECT_EQ(pieces(head_on("[0.3, 0.3, 0.3]", "concrete", "concrete", 0.98 * cube_m_s)), 1u);
+  EXPECT_GT(pieces(head_on("[0.3, 0.3, 0.3]", "concrete", "concrete", 1.02 * cube_m_s)), 3u);
+}
+
+TEST(Strength, of_plates_is_that_of_bending) {
+  const double glass_m_s = 4e7 / impedance(7e10, 2500);
+  EXPECT_EQ(pieces(head_on("[0.1, 0.004, 0.1]", "glass", "concrete", 0.98 * glass_m_s)), 1u);
+  EXPECT_GT(pieces(head_on("[0.1, 0.004, 0.1]", "glass", "concrete", 1.02 * glass_m_s)), 3u);
+}
+
+/// A pane of a square metre and 6 mm that a ball of steel strikes in the middle.
+std::string shot_at_pane(double mass_kg, double speed_m_s) {
+  const double radius_m = std::cbrt(3 * mass_kg / (4 * std::numbers::pi * 7800));
+  return R"(
+[scene]
+description = "x"
+duration_s = 0.3
+[[solid]]
+structure = "box"
+size_m = [1, 1, 0.006]
+anchored = "bottom"
+material = "glass"
+[[script.shot]]
+time_s = 0.02
+from = [0, 0.5, 0.2]
+velocity = [0, 0, )" +
+         std::to_string(-speed_m_s) + "]\nradius_m = " + std::to_string(radius_m) + "\n";
+}
+
+TEST(Strength, gives_a_pane_more_pieces_the_harder_it_is_struck) {
+  EXPECT_EQ(pieces(shot_at_pane(0.5, 2)), 1u);
+  const std::size_t few = pieces(shot_at_pane(0.5, 5)), many = pieces(shot_at_pane(0.5, 20));
+  EXPECT_GT(few, 5u);
+  EXPECT_GT(many, 3 * few / 2);
+}
+
+TEST(Strength, of_a_pane_needs_three_metres_a_second_of_a_small_ball) {
+  EXPECT_EQ(pieces(shot_at_pane(0.1, 2.8)), 1u);
+  const std::size_t broken = pieces(shot_at_pane(0.1, 3.1));
+  EXPECT_GT(broken, 3u);
+  EXPECT_LT(broken, 15u);
+}
+
+std::vector<std::string> warnings(const std::string& key) {
+  std::vector<std::string> told;
+  scenes::SimulationOptions options;
+  options.warn = [&](const std::string& text) { told.push_back(text); };
+  const std::string text =
+      "[[material]]\nname = \"clay\"\n" + key + head_on("[1, 1, 1]", "clay", "concrete", 1);
+  scenes::make_simulation(scenes::parse_scene(text, "x.toml", {}), options);
+  return told;
+}
+
+TEST(Strength, as_an_impulse_is_read_with_a_warning) {
+  EXPECT_TRUE(warnings("").empty());
+  for (const char* key : {"strength_Ns = 5\n", "smallest_break_m3 = 0.01\n"}) {
+    const std::vector<std::string> told = warnings(key);
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find("'clay' are obsolete"), std::string::npos) << told[0];
+  }
+}
+
+}  // namespace
+}  // namespace sunder
