@@ -16,7 +16,7 @@ LARGEST = 20  # units (a .cpp with its header, or a header alone) of a folder
 # own folder and those of lower floors: neither what is above, nor what is beside it. A header may
 # lie on a lower floor than its folder.
 FLOORS = {
-    "engine": (("base",), ("geometry",), ("geometry/repair",), ("model",), ("model/checks",),
+    "engine": (("base",), ("geometry",), ("geometry/repair", "geometry/walls"), ("model",), ("model/checks",),
                ("world/actors",), ("world/break", "world/load", "world/act", "world/particles"), ("world",), ("io",),
                ("io/mesh", "io/take")),
     "fracture": (("pattern",), ("adjacency",), ("cut",), ("stress", "vacd", "check"), ("",)),

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "engine/base/check.h"
+#include "engine/base/parallel.h"
 #include "engine/geometry/triangulate_face.h"
+#include "engine/geometry/walls/outer_surface.h"
 
 namespace sunder {
 namespace {
@@ -16,15 +20,49 @@ std::string part_name(std::size_t index, std::size_t count) {
   return "piece_" + std::string(most.size() - digits.size(), '0') + digits;
 }
 
-std::uint32_t material_of(const Model::Shell& shell, const PolygonMesh::Face& face) {
-  if (face.kind == FaceKind::kInterior) return shell.interior;
-  return face.mark > 0 ? shell.first_paint + face.mark - 1 : shell.surface;
+/// The number of a face's material in a model. Paints follow two materials for each of the scene's.
+std::uint32_t material_of(const PolygonMesh::Face& face, MaterialIndex material,
+                          std::uint32_t first_paint) {
+  if (face.kind == FaceKind::kInterior) return 2 * material.value + 1;
+  return face.mark > 0 ? first_paint + face.mark - 1 : 2 * material.value;
+}
+
+/// The shells of a piece; several where walls are kept.
+std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_paint, Walls walls) {
+  std::vector<std::shared_ptr<const PolygonMesh>> meshes;
+  std::vector<const PolygonMesh*> pointers;
+  for (const ConvexPtr& convex : piece.convexes) {
+    meshes.push_back(convex->visual
+                         ? convex->visual
+                         : std::make_shared<const PolygonMesh>(polygon_mesh(convex->polyhedron)));
+    pointers.push_back(meshes.back().get());
+  }
+  std::vector<Model::Shell> shells;
+  const auto add = [&](std::shared_ptr<const PolygonMesh> mesh, const auto& convex_of) {
+    std::vector<std::uint32_t> materials;
+    for (std::size_t f = 0; f < mesh->faces.size(); ++f) {
+      const MaterialIndex material = piece.convexes[convex_of(f)]->material;
+      materials.push_back(material_of(mesh->faces[f], material, first_paint));
+    }
+    shells.push_back({std::move(mesh), std::move(materials)});
+  };
+  if (walls == Walls::kRemove && meshes.size() > 1) {
+    if (std::optional<OuterSurface> outer = outer_surface(pointers)) {
+      add(std::make_shared<const PolygonMesh>(std::move(outer->mesh)),
+          [&](std::size_t f) { return outer->from[f]; });
+      return shells;
+    }
+  }
+  for (std::size_t c = 0; c < meshes.size(); ++c) {
+    add(std::move(meshes[c]), [&](std::size_t) { return c; });
+  }
+  return shells;
 }
 
 }  // namespace
 
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
-                 double explode, std::span<const Paint> paints) {
+                 double explode, std::span<const Paint> paints, Walls walls) {
   Model model;
   for (const Material& material : materials) {
     model.materials.push_back({material.name, {material.surface.color, nullptr}});
@@ -44,14 +82,14 @@ Model make_model(std::span<const Compound> pieces, std::span<const Material> mat
     part.offset = explode * (part.center - all.center());
     for (const ConvexPtr& convex : pieces[p].convexes) {
       SUNDER_CHECK(!convex->visual || std::ranges::all_of(convex->visual->faces, is_known));
-      auto mesh = convex->visual
-                      ? convex->visual
-                      : std::make_shared<const PolygonMesh>(polygon_mesh(convex->polyhedron));
-      part.shells.push_back({std::move(mesh), 2 * convex->material.value,
-                             2 * convex->material.value + 1, first_paint});
     }
     model.parts.push_back(std::move(part));
   }
+  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
+    model.parts[p].shells = shells_of(pieces[p], first_paint, walls);
+  });
+  if (walls == Walls::kKeep) return model;
+  for (const Model::Part& part : model.parts) model.walled_parts += part.shells.size() > 1 ? 1 : 0;
   return model;
 }
 
@@ -74,7 +112,7 @@ ShellTriangles triangles_of(const Model::Shell& shell) {
   };
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const PolygonMesh::Face& face = mesh.faces[f];
-    auto& indices = result.faces[material_of(shell, face)];
+    auto& indices = result.faces[shell.materials[f]];
     for (const Triangle& corners : triangulate(mesh, f)) {
       for (const std::uint32_t corner : corners) indices.push_back(vertex(face, corner));
     }

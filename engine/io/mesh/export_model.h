@@ -3,6 +3,7 @@
 // Read first: make_model(); engine/io/mesh/glb_writer.h and engine/io/mesh/obj_writer.h write it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -20,11 +21,10 @@ struct Model {
     std::string name;
     Paint look;
   };
-  /// A watertight surface, and what it is made of outside and where it broke.
+  /// A watertight surface, and what its faces are made of.
   struct Shell {
     std::shared_ptr<const PolygonMesh> mesh;
-    std::uint32_t surface = 0, interior = 0;  ///< Materials.
-    std::uint32_t first_paint = 0;            ///< The material of faces marked 1.
+    std::vector<std::uint32_t> materials;  ///< By face.
   };
   /// What moves as one.
   struct Part {
@@ -35,13 +35,18 @@ struct Model {
   };
   std::vector<Material> materials;
   std::vector<Part> parts;
+  std::size_t walled_parts = 0;  ///< Parts whose walls could not be removed, and were kept.
 };
 
-/// A part a compound, a shell a convex: its visual mesh, or itself if it has none. Parts are moved
-/// away from the middle of all by `explode` times their distance from it. Faces are marked by
-/// `paints`, which are materials of their own.
+/// What becomes of faces between convexes of one piece.
+enum class Walls : std::uint8_t { kRemove, kKeep };
+
+/// Makes a part of each compound. A part has one shell, its outer surface; or, where walls are kept
+/// or cannot be removed, one shell for each convex: its visual mesh, or itself if it has none.
+/// Parts are moved away from the middle of all by `explode` times their distance from it. Faces are
+/// marked by `paints`, which are materials of their own.
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
-                 double explode, std::span<const Paint> paints = {});
+                 double explode, std::span<const Paint> paints = {}, Walls walls = Walls::kRemove);
 
 /// A shell as triangles to draw.
 struct ShellTriangles {
