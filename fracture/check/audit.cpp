@@ -10,6 +10,7 @@
 #include "engine/geometry/bvh.h"
 #include "engine/geometry/clip_mesh.h"
 #include "engine/geometry/polygon_mesh.h"
+#include "engine/geometry/walls/outer_surface.h"
 #include "fracture/adjacency/islands.h"
 
 namespace sunder::fracture {
@@ -99,6 +100,20 @@ std::size_t open_edges_of(const Compound& piece) {
   return open;
 }
 
+/// Returns for each piece whether faces between its convexes cannot be removed.
+std::vector<std::uint8_t> find_walled(std::span<const Compound> pieces) {
+  std::vector<std::uint8_t> walled(pieces.size(), 0);
+  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
+    std::vector<PolygonMesh> meshes;
+    for (const ConvexPtr& convex : pieces[p].convexes) meshes.push_back(surface_of(*convex));
+    if (meshes.size() < 2) return;
+    std::vector<const PolygonMesh*> pointers;
+    for (const PolygonMesh& mesh : meshes) pointers.push_back(&mesh);
+    walled[p] = outer_surface(pointers) ? 0 : 1;
+  });
+  return walled;
+}
+
 /// Sums the overlaps between convexes of different pieces.
 void add_overlaps(std::span<const Compound> pieces, Audit& audit) {
   std::vector<Box> boxes;
@@ -173,14 +188,17 @@ std::optional<DoubledVolume> doubled_volume(const Compound& compound) {
 Audit audit(std::span<const Compound> pieces) {
   Audit audit;
   audit.pieces = pieces.size();
-  for (const Compound& piece : pieces) {
+  const std::vector<std::uint8_t> walled = find_walled(pieces);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const Compound& piece = pieces[p];
     audit.convexes += piece.convexes.size();
     audit.volume_m3 += volume(piece);
     const auto islands = find_islands(piece);
     if (!islands.empty()) audit.islands += *std::max_element(islands.begin(), islands.end()) + 1;
     const std::size_t open = open_edges_of(piece);
     audit.open_edges += open;
-    audit.watertight_pieces += open == 0 ? 1 : 0;
+    audit.walled_pieces += walled[p];
+    audit.watertight_pieces += open == 0 && walled[p] == 0 ? 1 : 0;
     audit.negative_volumes += static_cast<std::size_t>(
         std::count_if(piece.convexes.begin(), piece.convexes.end(),
                       [](const ConvexPtr& convex) { return !(convex->solid.volume_m3 > 0); }));

@@ -14,9 +14,12 @@ struct Audit {
   std::size_t pieces = 0;
   std::size_t convexes = 0;
   std::size_t islands = 0;  ///< Connected parts of all pieces; as many as pieces if whole.
-  std::size_t watertight_pieces = 0;  ///< All of whose surfaces are.
-  std::size_t open_edges = 0;         ///< Of all surfaces: convexes and their visual meshes.
-  std::size_t negative_volumes = 0;   ///< Convexes without volume, or turned inside out.
+  /// Pieces all of whose surfaces are closed, and whose outer surface, without the faces between
+  /// convexes, has every edge in exactly two faces.
+  std::size_t watertight_pieces = 0;
+  std::size_t walled_pieces = 0;     ///< Pieces that have no such outer surface.
+  std::size_t open_edges = 0;        ///< Of all surfaces: convexes and their visual meshes.
+  std::size_t negative_volumes = 0;  ///< Convexes without volume, or turned inside out.
   double volume_m3 = 0;
   double overlap_m3 = 0;  ///< Of solids of different pieces, pair by pair.
   /// Whether the overlap is exact. Pairs of very large visual meshes are bounded from above

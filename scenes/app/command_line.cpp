@@ -255,6 +255,12 @@ void add_fracture(CLI::App& program, Command& chosen) {
   command.app->add_option("--seed", options.seed, "Another seed, another break")
       ->check(from_to<std::uint64_t>(0, std::numeric_limits<std::int64_t>::max()))
       ->capture_default_str();
+  command.app
+      ->add_option("--walls", options.walls,
+                   "Faces between convexes of one piece in -o: remove leaves the outer surface of "
+                   "each piece; keep writes each convex closed")
+      ->check(CLI::IsMember({"remove", "keep"}))
+      ->capture_default_str();
   command.reads("--pattern", options.pattern);
   add_decomposition(command.app, options.solid);
   add_solids_output(command);

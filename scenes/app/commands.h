@@ -104,6 +104,7 @@ struct FractureOptions : CommonOptions {
   std::optional<double> radius_m;  ///< None: everything breaks.
   std::uint64_t seed = 1;
   std::string output;
+  std::string walls = "remove";   ///< Or "keep".
   std::optional<double> explode;  ///< None: a picture shows its pieces apart.
 };
 

@@ -191,6 +191,7 @@ Figures figures_of(const scenes::MeshSolid& solid, const Broken& broken) {
   figures["/volume_error"] = volume_error(broken);
   figures["/watertight_pieces"] = whole(after.watertight_pieces);
   figures["/open_edges"] = whole(after.open_edges);
+  figures["/walled_pieces"] = whole(after.walled_pieces);
   figures["/negative_volumes"] = whole(after.negative_volumes);
   figures["/overlap_volume_m3"] = after.overlap_m3;
   figures["/overlap_method"] = std::string(after.overlap_is_exact ? "exact" : "upper bound");
@@ -265,8 +266,14 @@ int fracture_mesh(const FractureOptions& options) {
   progress.reset();
   options.say(summary(solid, broken));
   if (!options.output.empty()) {
-    write_solids(options.output, broken.plan.pieces, stone(), std::move(paints), options.explode);
+    const std::size_t walled =
+        write_solids(options.output, broken.plan.pieces, stone(), std::move(paints),
+                     options.explode, options.walls == "keep" ? Walls::kKeep : Walls::kRemove);
     options.say("wrote " + options.output + "\n");
+    if (walled > 0) {
+      options.say("walls    kept in " + std::to_string(walled) +
+                  " pieces: without them a surface would not close; other --nodes may help\n");
+    }
   }
   options.write_json(format_figures(figures_of(solid, broken)));
   return 0;

@@ -67,13 +67,13 @@ void check_output(const std::string& output) {
   throw InputError("-o " + output + ": expected X.glb, X.png, or a folder for .obj files (DIR/)");
 }
 
-void write_solids(const std::string& output, const std::vector<Compound>& solids,
-                  const std::vector<Material>& materials, std::vector<Paint> paints,
-                  std::optional<double> explode) {
+std::size_t write_solids(const std::string& output, const std::vector<Compound>& solids,
+                         const std::vector<Material>& materials, std::vector<Paint> paints,
+                         std::optional<double> explode, Walls walls) {
   if (output.ends_with(".png")) {
     constexpr double kApart = 0.3;  // that cracks are seen
     draw_solids(output, solids, materials, std::move(paints), explode.value_or(kApart));
-    return;
+    return 0;
   }
   std::map<Picture, Picture> normals;  // what other programs take for relief
   for (Paint& paint : paints) {
@@ -82,12 +82,13 @@ void write_solids(const std::string& output, const std::vector<Compound>& solids
     if (!known) known = render::as_normals(paint.relief);
     paint.relief = known;
   }
-  const Model model = make_model(solids, materials, explode.value_or(0), paints);
+  const Model model = make_model(solids, materials, explode.value_or(0), paints, walls);
   if (is_folder(output)) {
     write_obj_folder(output, model);
   } else {
     write_glb(output, model);
   }
+  return model.walled_parts;
 }
 
 std::vector<Material> stone() {

@@ -33,8 +33,7 @@ class VertexSeparator {
         const auto count = static_cast<std::uint32_t>(contour.size());
         for (std::uint32_t i = 0; i < count; ++i) {
           const std::uint32_t next = i + 1 < count ? i + 1 : 0;
-          edges_.push_back(
-              {contour[i].point, contour[next].point, corner + i, corner + next, f});
+          edges_.push_back({contour[i].point, contour[next].point, corner + i, corner + next, f});
         }
         corner += count;
       }

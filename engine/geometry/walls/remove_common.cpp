@@ -95,8 +95,7 @@ class ContourTracer {
   double area(const std::vector<std::uint32_t>& contour) const {
     double twice = 0;
     for (std::size_t i = 2; i < contour.size(); ++i) {
-      twice +=
-          cross(at(contour[i - 1]) - at(contour[0]), at(contour[i]) - at(contour[0]));
+      twice += cross(at(contour[i - 1]) - at(contour[0]), at(contour[i]) - at(contour[0]));
     }
     return twice;
   }
@@ -214,8 +213,7 @@ class CommonRemover {
     std::vector<PointPair> old_edges, new_edges;
     for (const PieceSurface::Contour& contour : face(i).contours) {
       for (std::size_t c = 0; c < contour.size(); ++c) {
-        old_edges.push_back(
-            {contour[c].point, contour[c + 1 < contour.size() ? c + 1 : 0].point});
+        old_edges.push_back({contour[c].point, contour[c + 1 < contour.size() ? c + 1 : 0].point});
       }
     }
     for (const DirectedEdge& edge : left_[i]) new_edges.push_back({edge.from, edge.to});
