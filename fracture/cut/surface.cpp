@@ -103,6 +103,8 @@ class SurfaceCutter {
     double sum = result.debris_volume_m3;
     for (std::size_t i = 0; i < drafts.size(); ++i) {
       for (ConvexPtr& convex : parts[i].convexes) {
+        // A mesh that passes through itself may have parts that are inside out.
+        if (!(convex->solid.volume_m3 > 0)) return whole(true);
         sum += convex->solid.volume_m3;
         result.parts.push_back({drafts[i].cell, std::move(convex)});
       }
