@@ -58,8 +58,9 @@ TEST(OuterSurface, OfBoxesThatTouchInAnEdgeHasTwoVerticesInOnePlace) {
   const PolygonMesh* const both[] = {&a, &b};
   const std::optional<OuterSurface> outer = outer_surface(both);
   ASSERT_TRUE(outer);
-  EXPECT_EQ(outer->mesh.vertices.size(), 16u);
-  EXPECT_EQ(touching_edges(outer->mesh), 1u);
+  EXPECT_EQ(open_edges(outer->mesh), 0u);
+  EXPECT_EQ(outer->mesh.vertices.size(), 18u) << "the edge is halved for each box";
+  EXPECT_EQ(touching_edges(outer->mesh), 2u);
 }
 
 TEST(OuterSurface, OfAMeshThatIsOpenIsNone) {

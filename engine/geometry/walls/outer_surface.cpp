@@ -148,6 +148,42 @@ std::optional<OuterSurface> assemble(const PieceSurface& surface) {
   return result;
 }
 
+/// Halves edges that more than two faces share: each pair of faces gets a middle of its own, so
+/// that no two pairs have an edge in common even where both ends are.
+void halve_touching_edges(PieceSurface& surface) {
+  std::map<PointPair, std::pair<std::uint32_t, std::uint32_t>> uses;  // with the middle
+  const auto next_of = [](const PieceSurface::Contour& contour, std::size_t i) {
+    return contour[i + 1 < contour.size() ? i + 1 : 0];
+  };
+  for (const PieceSurface::Face& face : surface.faces) {
+    for (const PieceSurface::Contour& contour : face.contours) {
+      for (std::size_t i = 0; i < contour.size(); ++i) {
+        ++uses[point_pair(contour[i].point, next_of(contour, i).point)].first;
+      }
+    }
+  }
+  std::erase_if(uses, [](const auto& edge) { return edge.second.first <= 2; });
+  for (auto& [edge, use] : uses) {
+    use.second = static_cast<std::uint32_t>(surface.points.size());
+    surface.points.push_back(0.5 * (surface.points[edge[0]] + surface.points[edge[1]]));
+  }
+  if (uses.empty()) return;
+  for (PieceSurface::Face& face : surface.faces) {
+    for (PieceSurface::Contour& contour : face.contours) {
+      PieceSurface::Contour halved;
+      for (std::size_t i = 0; i < contour.size(); ++i) {
+        const PieceSurface::Corner& a = contour[i];
+        const PieceSurface::Corner b = next_of(contour, i);
+        halved.push_back(a);
+        const auto found = uses.find(point_pair(a.point, b.point));
+        if (found == uses.end()) continue;
+        halved.push_back({found->second.second, a.normal, 0.5f * (a.uv + b.uv)});
+      }
+      contour = std::move(halved);
+    }
+  }
+}
+
 std::optional<OuterSurface> without_walls(std::span<const PolygonMesh* const> meshes,
                                           double tolerance_m) {
   PieceSurface surface = join_meshes(meshes, tolerance_m);
@@ -156,6 +192,7 @@ std::optional<OuterSurface> without_walls(std::span<const PolygonMesh* const> me
   for (const WallPlane& plane : planes) {
     if (!remove_common(surface, plane)) return std::nullopt;
   }
+  halve_touching_edges(surface);
   return assemble(surface);
 }
 
