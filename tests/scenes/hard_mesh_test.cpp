@@ -46,6 +46,33 @@ void write_ball(const std::string& file, std::uint32_t around, double noise, dou
   }
 }
 
+struct Box {
+  Vec3 low, high;
+  bool from_inside = false;
+};
+
+/// Boxes of their own vertices, each face of four corners.
+void write_boxes(const std::string& file, const std::vector<Box>& boxes) {
+  std::ofstream out(file);
+  constexpr int kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  int first = 1;
+  for (const Box& box : boxes) {
+    for (int i = 0; i < 8; ++i) {
+      out << "v";
+      for (int axis = 0; axis < 3; ++axis)
+        out << " " << ((i >> axis & 1) != 0 ? box.high : box.low)[axis];
+      out << "\n";
+    }
+    for (const auto& face : kFaces) {
+      out << "f";
+      for (int i = 0; i < 4; ++i) out << " " << first + face[box.from_inside ? 3 - i : i];
+      out << "\n";
+    }
+    first += 8;
+  }
+}
+
 Figures broken(const std::string& file, const std::string& more = "") {
   const Outcome outcome =
       sunder("fracture " + file + " --pattern voronoi:20 --quiet --json - " + more);
@@ -83,6 +110,36 @@ TEST(HardMeshes, WhatOverlapsCountTwiceIsStated) {
   const double doubled = std::get<double>(broken(file, "--nodes 2").at("/volume_doubled_m3"));
   EXPECT_LT(doubled, lens);
   EXPECT_GT(doubled, 0.94 * lens);
+}
+
+TEST(HardMeshes, NoPieceHasANegativeVolume) {
+  const Box unit = {Vec3::Zero(), Vec3::Ones()};
+  const Box inside_out = {Vec3::Zero(), Vec3::Ones(), true};
+  const Box at_an_edge = {Vec3(1, 1, 0), Vec3(2, 2, 1)};
+  const std::vector<std::vector<Box>> inputs = {
+      {unit, inside_out},                                // every face both ways
+      {unit, at_an_edge},                                // four faces about an edge
+      {unit, {Vec3::Ones(), Vec3::Constant(2)}},         // they touch in a vertex
+      {unit, {Vec3(0, 0, 0.25), Vec3(0.5, 0.5, 0.75)}},  // one inside, with parts of faces equal
+      {unit, {Vec3(0, 0, 0.25), Vec3(0.5, 0.5, 0.75), true}},
+      {unit, unit},
+      {inside_out},
+      {{Vec3::Zero(), Vec3(1, 1, 0)}, unit},  // one without volume
+  };
+  const Folder folder;
+  const std::string file = folder / "boxes.obj";
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    write_boxes(file, inputs[i]);
+    const Outcome outcome = sunder("fracture " + file + " --pattern voronoi:20 --quiet --json -");
+    ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << i << "\n" << outcome.err;
+    if (outcome.exit_code == 2) {
+      EXPECT_NE(outcome.err.find("boxes.obj"), std::string::npos) << i << "\n" << outcome.err;
+      continue;
+    }
+    const Figures json = parse_figures(outcome.out, file);
+    EXPECT_EQ(count(json, "/negative_volumes"), 0) << i;
+    EXPECT_EQ(count(json, "/open_edges"), 0) << i;
+  }
 }
 
 TEST(HardMeshes, LongWorkSaysHowFarItIsUnlessItIsQuiet) {
