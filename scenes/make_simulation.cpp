@@ -93,7 +93,7 @@ std::string placing_warning(const Scene& scene) {
          (under > 1 ? " lie" : " lies") + " under the ground";
 }
 
-/// Of figures that materials should not have any more.
+/// Returns a warning that names the materials with obsolete keys; empty if there are none.
 std::string obsolete_warning(const Scene& scene) {
   std::string names;
   for (const Material& material : scene.materials) {

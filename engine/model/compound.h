@@ -35,8 +35,8 @@ ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
 
 /// Twice the volume over the surface: of a plate or shell, how thick it is.
 double mean_thickness_m(const Convex& convex);
-/// Whether it is a plate or shell, more than about four times as long and wide as it is thick: it
-/// bends.
+/// Returns true if a convex is a plate or shell, which bends: it is more than about four times as
+/// long and wide as thick.
 bool is_thin(const Convex& convex);
 
 /// Two convexes of a compound that share part of a plane (property (c) of paper 3.1).

@@ -114,7 +114,7 @@ struct Material {
       if (limit > 0 && limit < least) least = limit;
     return least;
   }
-  /// What is smaller is left whole: halved three times, it would be debris.
+  /// The volume below which a piece does not break: halved three times, it would be debris.
   double smallest_broken_m3() const { return smallest_break_m3.value_or(8 * smallest_piece_m3); }
   /// Stress at which an impact breaks a convex where it strikes: thin ones bend. 0: any does.
   double impact_limit_Pa(bool is_thin) const {

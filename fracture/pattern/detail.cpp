@@ -9,7 +9,7 @@ namespace {
 
 using Kind = PatternSpec::Kind;
 
-/// What a pattern breaks up.
+/// The size of the part of a solid that a pattern breaks up.
 struct Reached {
   double volume_m3 = 0;    ///< Of the solid within the impact sphere,
   double sphere_m3 = 0;    ///< and of the sphere; that of the solid if it breaks as a whole.

@@ -1,4 +1,4 @@
-// How much of a pattern an impact can pay for.
+// Detail of a pattern: the number of cells that the energy of an impact pays for.
 #pragma once
 
 #include "engine/model/breaker.h"

@@ -39,7 +39,7 @@ double number(const Figures& json, const char* key) {
 /// Everything that a break keeps. Meshes that cut through themselves have overlaps of their own.
 void expect_sound(const Figures& json, const std::string& what, bool may_overlap = false) {
   EXPECT_GE(count(json, "/pieces"), 1) << what;
-  // Of those, a few pieces keep the walls between their convexes.
+  // A few pieces of such meshes keep the walls between their convexes.
   const std::int64_t walled = may_overlap ? count(json, "/walled_pieces") : 0;
   EXPECT_LE(10 * walled, count(json, "/pieces")) << what;
   EXPECT_EQ(count(json, "/watertight_pieces") + walled, count(json, "/pieces")) << what;

@@ -1,5 +1,5 @@
-// What breaks where it is struck, and into how much: against the speeds of closed forms, and the
-// order of drops and shots that everybody knows.
+// Breaks where a solid is struck, and their number of pieces, against the speeds of closed forms
+// and the order of drops and shots that everybody knows.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

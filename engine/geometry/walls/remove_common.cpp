@@ -11,8 +11,8 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// How often a face's contours pass an edge from its first point to its second, less how often they
-/// pass it the other way.
+/// The number of times that a face's contours pass an edge from its first point to its second, less
+/// the number of times that they pass it the other way.
 struct Passes {
   std::uint32_t face = 0;  ///< Index of WallPlane::faces.
   int count = 0;
@@ -144,7 +144,7 @@ class CommonRemover {
     passes.back().count += from == edge[0] ? 1 : -1;
   }
 
-  /// Whether a face covers a point that is on none of its edges.
+  /// Returns true if a face covers a point. The point must be on none of the face's edges.
   bool covers(std::uint32_t i, const Vec2& point) const {
     bool inside = false;
     for (const PieceSurface::Contour& contour : face(i).contours) {
@@ -184,7 +184,7 @@ class CommonRemover {
     return sides;
   }
 
-  /// Of the faces that cover a place, those that are left there.
+  /// Returns the faces that are left of those that cover a place.
   std::vector<std::uint32_t> remaining(const std::vector<std::uint32_t>& covering) const {
     std::array<std::vector<std::uint32_t>, 2> by_name;
     for (const std::uint32_t i : covering) by_name[is_odd(i) ? 1 : 0].push_back(i);
@@ -240,8 +240,8 @@ class CommonRemover {
     return true;
   }
 
-  /// What a face looks like at a point: as at its corner there, or else interpolated linearly from
-  /// three corners far apart.
+  /// Returns a face's normal and texture coordinates at a point: those of its corner there, or else
+  /// the linear interpolation from three corners far apart.
   PieceSurface::Corner corner(const PieceSurface::Face& of, std::uint32_t point) const {
     const Vec3& at = surface_.points[point];
     if (of.kind == FaceKind::kInterior && !surface_.has_uvs) {

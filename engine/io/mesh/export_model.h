@@ -38,7 +38,7 @@ struct Model {
   std::size_t walled_parts = 0;  ///< Parts whose walls could not be removed, and were kept.
 };
 
-/// What becomes of faces between convexes of one piece.
+/// Says if an export keeps the faces between convexes of one piece.
 enum class Walls : std::uint8_t { kRemove, kKeep };
 
 /// Makes a part of each compound. A part has one shell, its outer surface; or, where walls are kept

@@ -41,12 +41,12 @@ struct StressState {
   double least_Ns = 0;  ///< nor one with less impulse.
 };
 
-/// What an impact has to exceed to break a body.
+/// The energy, impulse and speed that an impact must exceed to break a body.
 struct ImpactLimits {
-  double by_pattern_J = 0, by_pattern_Ns = 0;  ///< Both,
-  double by_pattern_m_s = 0;                   ///< and this speed
-  double slow_J = 0;                           ///< or this energy; or
-  double by_stress_J = 0, by_stress_Ns = 0;    ///< both of these.
+  double by_pattern_J = 0, by_pattern_Ns = 0;  ///< Both are needed for a break by pattern.
+  double by_pattern_m_s = 0;                   ///< A break by pattern needs this speed,
+  double slow_J = 0;                           ///< or this energy where the impact is slower.
+  double by_stress_J = 0, by_stress_Ns = 0;    ///< Both are needed for a break by stress.
 
   bool exceeded(double energy_J, double impulse_Ns, double speed_m_s) const {
     const bool breaks = energy_J > by_pattern_J && impulse_Ns > by_pattern_Ns &&
@@ -84,7 +84,7 @@ struct Actor {
   StressState stress;
   /// No impact with less energy can break it by pattern or by stress.
   double least_of_all_J() const { return std::min(least_J, stress.least_J); }
-  /// What has no pattern parts by impacts that are too fast for waves, of whatever impulse.
+  /// Returns its limits. An actor without a pattern can part by an impact of any impulse.
   ImpactLimits impact_limits() const {
     const bool has_pattern = least_J < std::numeric_limits<double>::infinity();
     return {least_J,      least_Ns,       least_m_s,

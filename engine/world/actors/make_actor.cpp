@@ -63,10 +63,10 @@ constexpr double kLeastCrack = 0.1;
 // may take (planned_break.cpp): half of all take 13 a bond and more.
 constexpr std::size_t kMostBondsStruck = 40000;
 
-// Of structures with more convexes, one is taken to be thin.
+// A structure with more convexes is assumed to have a thin one.
 constexpr std::size_t kMostLookedAt = 8;
 
-/// Whether one of a structure's convexes is a plate, or may be.
+/// Returns true if one of a structure's convexes is a plate, or is assumed to be.
 bool has_thin(const Structure& structure) {
   bool found = structure.size() > kMostLookedAt;
   if (!found)

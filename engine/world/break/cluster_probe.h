@@ -14,8 +14,8 @@ namespace sunder {
 /// behind them all.
 using Cluster = std::vector<const Actor*>;
 
-/// Whether so much may break an actor. Pieces that came off in this step do not break again in it;
-/// what stands may be hit by others.
+/// Returns true if an impact of this energy, impulse and speed may break an actor. Pieces that came
+/// off in this step do not break again in it; a static actor can be hit by others.
 bool may_break(const World& world, const Actor* actor, double energy_J, double impulse_Ns,
                double speed_m_s);
 

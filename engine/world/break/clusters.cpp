@@ -33,7 +33,7 @@ struct Seed {
   }
 };
 
-/// Whether what a seed passes on may break an actor.
+/// Returns true if the impact that a seed passes on may break an actor.
 bool may_break(const World& world, const Actor* actor, const Seed& seed) {
   return may_break(world, actor, seed.energy_J, kMore * seed.impulse_Ns, kMore * seed.speed_m_s);
 }

@@ -15,8 +15,9 @@
 
 namespace sunder {
 
-/// What a fast striker sweeps through, in the rest frame of the solid: its cross-section along its
-/// direction, as far as the solid goes on. Without corners if the striker is slow or unknown.
+/// The prism that a fast striker sweeps, in the rest frame of the solid: the striker's
+/// cross-section through the thickness of the solid. It has no corners if the striker is slow or
+/// unknown.
 struct StrikersWay {
   std::vector<Vec3> section_R = {};
   Vec3 point_R = Vec3::Zero(), direction_R = Vec3::UnitY();
@@ -35,9 +36,9 @@ struct PlannedBreak {
   bool by_pattern = true;              ///< Strong enough for the material,
   bool by_stress = false;              ///< and for some bond.
   BreakCommand command;                ///< By pattern.
-  StrikersWay way;
-  StressAnswer stressed;  ///< By stress.
-  BreakEdit edit;         ///< Of the way that it breaks.
+  StrikersWay way;                     ///< Through the solid.
+  StressAnswer stressed;               ///< By stress.
+  BreakEdit edit;                      ///< Of the way that it breaks.
   double plan_ms = 0;
   double needed_J = 0;    ///< By its cracks, or by the plug if that takes more,
   double crushing_J = 0;  ///< which is this much more.
@@ -50,9 +51,9 @@ struct PlannedBreak {
   bool only_bends() const { return at_bonds && edit.cut.empty(); }
 };
 
-/// Whether an impact overloads the convex that it strikes, so that it breaks there by its pattern:
-/// by the stress of the wave, or by the strain energy of the whole (docs/decisions/049). `striker`
-/// is null for the ground.
+/// Returns true if an impact breaks the convex that it strikes by its pattern: if the stress of the
+/// wave or the strain energy of the whole exceeds the convex's limit (docs/decisions/049).
+/// `striker` is null for the ground.
 bool breaks_where_struck(const World& world, const Actor& actor, const ProbeLoad& load,
                          const Actor* striker);
 

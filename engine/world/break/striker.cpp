@@ -43,7 +43,7 @@ std::pair<Vec3, Vec3> axes_across(const Vec3& direction) {
   return {first, direction.cross(first)};
 }
 
-/// Whether a piece of the solid reaches into the striker's way.
+/// Returns true if a piece of the solid reaches into the prism that the striker sweeps.
 bool in_the_way(const StrikersWay& way, const Vec3& com_R, double volume_m3) {
   const double reach_m = 0.5 * std::cbrt(volume_m3);
   const double along_m = (com_R - way.point_R).dot(way.direction_R);
@@ -65,7 +65,7 @@ double give_per_kg(const Actor& actor, const BodyState& state, const Vec3& point
   return 1 / actor.weight.mass_kg + turn_B.dot(actor.weight.inertia_R.inverse() * turn_B);
 }
 
-/// Whether what an actor has left stands in the striker's way.
+/// Returns true if convexes that stay in place are in the prism that the striker sweeps.
 bool is_blocked(const World& world, const PlannedBreak& planned) {
   const Actor* left = world.actors.find(planned.impact.key);
   if (planned.command.plug) return !planned.command.plug->through;

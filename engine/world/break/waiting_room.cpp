@@ -10,7 +10,7 @@
 namespace sunder {
 namespace {
 
-// What closes faster than this on a body that waits waits with it, as it would hit it like a wall.
+// A body that closes on a paused one faster than this is paused too: it would hit it like a wall.
 constexpr double kRunsInto_m_s = 0.5;
 constexpr int kAdmitted = 3;  // clusters that have waited and are looked at in one round
 
@@ -47,7 +47,7 @@ std::set<std::uint32_t> find_driven(const World& world) {
   return driven;
 }
 
-/// Whether `other` would run into a body that stands still, at a point where they may touch.
+/// Returns true if `other` would hit a body at rest at a point where they may touch.
 bool runs_into(const World& world, const BodyState& other, const Vec3& arm_W,
                const Vec3& to_other_W, double separation_m) {
   const Vec3 velocity_W = other.velocity_W + other.angular_velocity_W.cross(arm_W);

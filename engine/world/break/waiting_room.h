@@ -48,10 +48,10 @@ class WaitingRoom {
   /// How many wait, after end_step().
   std::uint32_t clusters() const { return clusters_; }
 
-  /// Lets what would run into those who wait, at once or by way of others, wait with them.
+ private:
+  /// Adds the bodies that would hit a waiting one in this step, directly or through others.
   void hold_what_hits(World& world);
 
- private:
   std::vector<Waiter> last_;     ///< Of the last step; ascending by key.
   std::vector<Waiter> queue_;    ///< Of those, who is not admitted yet; cluster by cluster.
   std::vector<Waiter> waiters_;  ///< Since this step.
