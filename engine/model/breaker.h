@@ -186,6 +186,7 @@ struct Blow {
                                    ///< infinite: nothing strikes that would move on with it.
   Vec3 center_R = Vec3::Zero();    ///< Where it lands,
   double reach_m = 0;              ///< and what a break by pattern would reach from there.
+  std::uint64_t most_work = 0;     ///< As LoadCase::most_work, of all answers to it together.
 };
 
 /// The steady load on a structure, and what hits it besides.
@@ -219,6 +220,9 @@ struct StressAnswer {
   std::uint64_t work = 0;  ///< Spent.
   StressMemoryPtr memory;  ///< For the next time, of any of the pieces.
   BlowStress blow;         ///< If there was one.
+  /// The work was spent before the stress of the blow was known. Asked again with `memory`, the
+  /// solve goes on from there.
+  bool undecided = false;
 };
 
 /// A section that has bent: per bond that it had, where it is in two structures.

@@ -87,8 +87,11 @@ class StressBreaks {
     memory_ = recall(load_.memory.get(), compound_, slots_, load_.materials, answer.work);
     most_work_ =
         std::max(load_.most_work, answer.work + kLeastIterations * memory_->system->work());
+    if (!impulses_.empty()) recall_swing();
+    bool is_known = true;
     for (int round = 0; round < kRounds; ++round) {
-      if (!solve(answer) || !strike(answer)) break;
+      is_known = solve(answer) && strike(answer);
+      if (!is_known) break;
       Yielding yielding = judge(answer);
       if (round == 0) note_blow(answer);
       // What cracks does so first: what yields bears what it did meanwhile.
@@ -109,6 +112,7 @@ class StressBreaks {
       if (!hinges_.empty()) break;  // what moves feels its hinges only in the next step
       if (!impulses_.empty() && parted()) break;  // what is struck is another body now
     }
+    if (!impulses_.empty()) note_work(is_known, answer);
     if (!frail_.empty() && (!cut_.empty() || parted()))
       cut_.insert(cut_.end(), frail_.begin(), frail_.end());
     answer.edit = part(compound_, slots_, cut_, std::move(hinges_));
@@ -189,24 +193,53 @@ class StressBreaks {
   /// as of a blast, m is 0.
   bool strike(StressAnswer& answer) {
     if (impulses_.empty()) return true;
-    Nodal<double> way;
+    std::vector<Displacement>& swing = memory_->swing.displacements;
     int iterations = 0;
-    if (!improve(impulses_, Vec3::Zero(), Vec3::Zero(), kBlowTolerance, swing_, way, iterations,
-                 answer))
+    if (!improve(impulses_, Vec3::Zero(), Vec3::Zero(), kBlowTolerance, swing, memory_->swing.way,
+                 iterations, answer))
       return false;
-    const auto [work, mass] = memory_->system->response(impulses_, swing_);
+    const auto [work, mass] = memory_->system->response(impulses_, swing);
     const double striker = work * work / (2 * blow_J_);
     if (!(work > 0) || !(blow_J_ > 0)) return false;
     const double most = std::sqrt(work / (striker + mass));
     const double bent_near =
-        memory_->system->energy_J(swing_, load_.blow.center_R, load_.blow.reach_m);
+        memory_->system->energy_J(swing, load_.blow.center_R, load_.blow.reach_m);
     local_ = (mass + striker * std::min(1.0, 2 * bent_near / work)) / (striker + mass);
     bent_ = memory_->displacements;
     for (std::size_t c = 0; c < bent_.size(); ++c) {
-      bent_[c].shift_R += most * swing_[c].shift_R;
-      bent_[c].rotation_R += most * swing_[c].rotation_R;
+      bent_[c].shift_R += most * swing[c].shift_R;
+      bent_[c].rotation_R += most * swing[c].rotation_R;
     }
     return true;
+  }
+
+  /// Starts from how the last impact bent the compound if that struck the same convexes.
+  void recall_swing() {
+    KnownSwing& swing = memory_->swing;
+    std::vector<ConvexSlot> struck;
+    double impulse_Ns = 0;
+    for (const Load& impulse : load_.blow.impulses) {
+      struck.push_back(impulse.convex);
+      impulse_Ns += impulse.force_N.norm();
+    }
+    if (struck != swing.struck || !(swing.impulse_Ns > 0)) {
+      swing = {std::move(struck), impulse_Ns, {}, {}, 0};
+      return;
+    }
+    const double times = impulse_Ns / std::exchange(swing.impulse_Ns, impulse_Ns);
+    if (times == 1) return;
+    swing.way.clear();
+    for (Displacement& d : swing.displacements) {
+      d.shift_R *= times;
+      d.rotation_R *= times;
+    }
+  }
+
+  void note_work(bool is_known, StressAnswer& answer) {
+    std::uint64_t& work = memory_->swing.work;
+    work = is_known || !cut_.empty() ? 0 : work + answer.work;
+    answer.undecided = work > 0 && work < load_.blow.most_work;
+    if (!answer.undecided) work = 0;
   }
 
   std::span<const Displacement> displacements() const {
@@ -327,17 +360,18 @@ class StressBreaks {
     memory_->system = std::make_shared<const StressSystem>(
         *memory_->system, compound_, std::move(geometry), load_.materials, origin);
     memory_->way.clear();
+    memory_->swing.way.clear();
   }
 
   Compound compound_;              ///< Less the bonds that are frail or cut.
   std::vector<ConvexSlot> slots_;  ///< Per convex.
   const LoadCase& load_;
   std::vector<ConvexLoad> loads_;
-  std::vector<ConvexLoad> impulses_;        ///< Of the blow, N·s in place of N.
-  double blow_J_;                           ///< Less what the cuts have taken.
-  std::vector<Displacement> swing_, bent_;  ///< By the blow; by all at once.
-  double local_ = 1;                        ///< Share of the blow's energy.
-  std::uint32_t worst_ = kNoBond;           ///< Bond.
+  std::vector<ConvexLoad> impulses_;  ///< Of the blow, N·s in place of N.
+  double blow_J_;                     ///< Less what the cuts have taken.
+  std::vector<Displacement> bent_;    ///< By all at once.
+  double local_ = 1;                  ///< Share of the blow's energy.
+  std::uint32_t worst_ = kNoBond;     ///< Bond.
   std::shared_ptr<KnownStress> memory_;
   std::uint64_t most_work_ = 0;
   std::vector<std::uint8_t> hinged_;  ///< Per convex: beside a hinge.

@@ -11,6 +11,15 @@
 
 namespace sunder::fracture {
 
+/// How an impact bends a compound, as far as that is known.
+struct KnownSwing {
+  std::vector<ConvexSlot> struck;  ///< Convexes, in the order of the impulses.
+  double impulse_Ns = 0;           ///< Sum of their magnitudes.
+  std::vector<Displacement> displacements;
+  Nodal<double> way;       ///< The last direction of the solve.
+  std::uint64_t work = 0;  ///< Spent on this impact without an answer.
+};
+
 /// What is handed back to the next solve.
 struct KnownStress final : StressMemory {
   std::vector<ConvexSlot> slots;  ///< Per convex.
@@ -21,6 +30,7 @@ struct KnownStress final : StressMemory {
   std::vector<Displacement> displacements;  ///< Under the steady load.
   int iterations = 0;                       ///< Without coming to an end,
   Nodal<double> way;                        ///< and the last direction of these.
+  KnownSwing swing;                         ///< By the last impact.
 
   bool is_of(const Compound& compound) const {
     // Bonds are only ever lost, so their number tells.

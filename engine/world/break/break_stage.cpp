@@ -98,6 +98,20 @@ bool is_worth_waiting(const World& world, const Trial& trial) {
   });
 }
 
+/// True if some impact of a trial may break something, which is not known yet, and none does.
+bool is_undecided(const Trial& trial) {
+  return std::ranges::none_of(trial.planned, &PlannedBreak::breaks) &&
+         std::ranges::any_of(
+             trial.planned, [](const PlannedBreak& planned) { return planned.stressed.undecided; });
+}
+
+/// Keeps how far plans by stress have come, for the next step.
+void keep_progress(World& world, std::span<PlannedBreak> all) {
+  for (PlannedBreak& planned : all)
+    if (planned.stressed.undecided)
+      world.actors.find(planned.impact.key)->stress.memory = std::move(planned.stressed.memory);
+}
+
 /// Breaks what a trial can pay for, if anything, and adds it to `all_broken`.
 bool settle(World& world, const Breaker& breaker, Trial& trial,
             std::vector<std::uint32_t>& all_broken) {
@@ -267,6 +281,19 @@ bool BreakStage::take_on(World& world, const Breaker& breaker, std::span<Planned
   return budget_.try_spend(parts);
 }
 
+void BreakStage::share_out(std::span<PlannedBreak* const> resumable) const {
+  const auto plans =
+      static_cast<std::uint64_t>(std::ranges::count_if(resumable, &PlannedBreak::by_stress));
+  for (PlannedBreak* planned : resumable)
+    if (planned->by_stress) planned->most_visits = kVisitsAPart * budget_.left() / plans;
+}
+
+void BreakStage::wait(World& world, Trial& trial) {
+  trial.probe.pause();
+  world.ledger.report.energy.gravity += take_over(world, trial.probe);
+  waiting_room_.add(world, trial.probe);
+}
+
 bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
                                  std::span<const Impact> impacts) {
   for (const Impact& impact : impacts) {
@@ -297,8 +324,14 @@ bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
     }
     std::vector<PlannedBreak*> pointers;
     for (PlannedBreak& planned : all) pointers.push_back(&planned);
+    share_out(pointers);
     plan(world, breaker, pointers);
     for (PlannedBreak& planned : all) {
+      if (planned.stressed.undecided && !planned.breaks) {
+        keep_progress(world, std::span(&planned, 1));
+        impacts_waiting_.push_back(std::move(planned.impact));
+        continue;
+      }
       const Verdict verdict = verdict_on(world, planned);
       note_verdict(world, planned, verdict);
       if (verdict != Verdict::kBreaks) continue;
@@ -325,22 +358,31 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
     std::vector<Trial> next = leave_for_later(world, trials);
     std::vector<Trial> taken_on;
     for (Trial& trial : trials) {
+      trial.may_wait = is_worth_waiting(world, trial) && waiting_room_.may_wait(world, trial.probe);
       if (trial.planned.empty() || (in_time && take_on(world, breaker, trial.planned))) {
         taken_on.push_back(std::move(trial));
-      } else if (!is_worth_waiting(world, trial) || !waiting_room_.may_wait(world, trial.probe)) {
+      } else if (trial.may_wait) {
+        wait(world, trial);
+      } else {
         trial.planned.clear();  // all holds
         taken_on.push_back(std::move(trial));
-      } else {
-        trial.probe.pause();
-        world.ledger.report.energy.gravity += take_over(world, trial.probe);
-        waiting_room_.add(world, trial.probe);
       }
     }
+    std::vector<PlannedBreak*> resumable;
+    for (Trial& trial : taken_on)
+      if (!trial.planned.empty() && waiting_room_.may_wait(world, trial.probe))
+        for (PlannedBreak& planned : trial.planned) resumable.push_back(&planned);
+    share_out(resumable);
     const std::vector<PlannedBreak*> all = planned_in(taken_on);
     plan(world, breaker, all);
     for (const PlannedBreak* planned : all) budget_.charge(planned->stressed.work / kVisitsAPart);
     const std::uint32_t first_key = world.actors.next_key();
     for (Trial& trial : taken_on) {
+      if (!stale(trial) && trial.may_wait && is_undecided(trial)) {
+        keep_progress(world, trial.planned);
+        wait(world, trial);
+        continue;
+      }
       if (stale(trial) || settle(world, breaker, trial, broken)) {
         again = true;
         continue;

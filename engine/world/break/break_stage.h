@@ -30,6 +30,7 @@ class BreakBudget {
 
   void begin_frame() { left_ = a_frame_, untouched_ = true; }
   bool spent() const { return left_ == 0 && !untouched_; }
+  std::uint32_t left() const { return left_; }
   /// False if that is more than is left: then nothing is left for what comes later, too, however
   /// cheap. A frame that has spent none yet can afford anything, or what costs more than a frame
   /// has would wait for ever.
@@ -53,6 +54,7 @@ struct Trial {
   std::uint64_t charged = 0;      ///< Of the probe's work.
   std::vector<ProbeLoad> loads = {};
   std::vector<PlannedBreak> planned = {};
+  bool may_wait = false;  ///< Until what its impacts break is known, or the frame has room for it.
 };
 
 class BreakStage {
@@ -69,6 +71,11 @@ class BreakStage {
  private:
   /// Makes impacts ready to be planned, and spends what they cost; false if that is too much.
   bool take_on(World& world, const Breaker& breaker, std::span<PlannedBreak> all);
+  /// Shares what is left of the frame among plans by stress: those that may go on in the next
+  /// frame.
+  void share_out(std::span<PlannedBreak* const> resumable) const;
+  /// Stops the bodies of a trial until the next step, in which it is found anew.
+  void wait(World& world, Trial& trial);
   /// Impacts that come with an energy of their own; true if something broke.
   bool break_by_blasts(World& world, const Breaker& breaker, std::span<const Impact> impacts);
   /// Follows all probes until each has broken something or come to the end of the step, or has to

@@ -278,13 +278,14 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
       if (planned.by_stress) {
         std::vector<Load> loads;
         LoadCase load = bearing(world, actor, states[actor.body].X_WB.rotation, loads);
-        load.blow = {planned.impulses, planned.far_J, planned.command.X_RP.position,
-                     planned.by_pattern ? planned.command.radius_m : 0};
         const Convex& convex = *actor.structure.convex(planned.impact.convex);
         const bool has_pattern = world.material(convex.material).breakable();
         const std::uint64_t bonds = actor.structure.bond_count() + 1;
-        load.most_work =
+        const std::uint64_t most_work =
             std::min(kMostVisits, (has_pattern ? kMostBlowWork : kMostWorkOfFrames) * bonds);
+        load.blow = {planned.impulses, planned.far_J, planned.command.X_RP.position,
+                     planned.by_pattern ? planned.command.radius_m : 0, most_work};
+        load.most_work = std::min(most_work, planned.most_visits);
         planned.stressed = breaker.stress(actor.structure, load);
       }
       choose(world, actor.structure, planned);
@@ -307,6 +308,10 @@ void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {
     actor.least_J = std::max(
         actor.least_J, planned.edit.changed ? kWorthPlanning * planned.needed_J : 1.4 * energy_J);
   if (!planned.by_stress) return;
+  if (planned.stressed.undecided) {
+    actor.stress.memory = planned.stressed.memory;
+    return;
+  }
   if (!gives_way(planned.stressed.edit)) actor.stress.memory = planned.stressed.memory;
   if (!std::isfinite(planned.far_J)) return;
   const BlowStress& blow = planned.stressed.blow;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct PlannedBreak {
   StrikersWay way;                     ///< Through the solid.
   StressAnswer stressed;               ///< By stress.
   BreakEdit edit;                      ///< Of the way that it breaks.
+  /// Of bonds, that a plan by stress may take before it is put off.
+  std::uint64_t most_visits = std::numeric_limits<std::uint64_t>::max();
   double plan_ms = 0;
   double needed_J = 0;    ///< By its cracks, or by the plug if that takes more,
   double crushing_J = 0;  ///< which is this much more.
