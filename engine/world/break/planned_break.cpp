@@ -156,7 +156,8 @@ void add_striker(const World& world, const PlannedBreak& planned, const Actor& a
   hit.striker_kg = planned.striker_kg();
   hit.held = actor.is_static;
   const double most_m = kFarthest * reach_of(hit);
-  hit.thickness_m = thickness_along(actor.structure, hit.point_R, hit.direction_R, most_m);
+  hit.thickness_m =
+      thickness_behind(actor.structure, hit.section_R, hit.point_R, hit.direction_R, most_m);
   if (!(hit.thickness_m > 0)) {  // the point is the mean of several contacts, about a hole
     const Vec3 middle_R = actor.structure.convex(impact.convex)->solid.centroid;
     hit.thickness_m = 2 * thickness_along(actor.structure, middle_R, hit.direction_R, most_m);

@@ -135,6 +135,18 @@ double thickness_along(const Structure& structure, const Vec3& point_R, const Ve
   return end;
 }
 
+double thickness_behind(const Structure& structure, const std::vector<Vec3>& section_R,
+                        const Vec3& point_R, const Vec3& direction_R, double most_m) {
+  std::vector<double> all_m = {thickness_along(structure, point_R, direction_R, most_m)};
+  for (const Vec3& corner : section_R)
+    all_m.push_back(thickness_along(structure, 0.5 * (point_R + corner), direction_R, most_m));
+  std::erase(all_m, 0);
+  if (all_m.empty()) return 0;
+  const auto middle = all_m.begin() + static_cast<std::ptrdiff_t>(all_m.size() / 2);
+  std::ranges::nth_element(all_m, middle);
+  return *middle;
+}
+
 double confinement(const Structure& structure, const std::vector<Vec3>& section_R,
                    const Vec3& direction_R, double depth_m) {
   Vec3 middle_R = Vec3::Zero();

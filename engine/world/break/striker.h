@@ -21,6 +21,11 @@ std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Ve
 double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
                        double most_m);
 
+/// Thickness of a structure behind a section: the median, of those that meet it, of the rays from
+/// `point_R` and from halfway to each corner. One ray may pass between convexes that touch.
+double thickness_behind(const Structure& structure, const std::vector<Vec3>& section_R,
+                        const Vec3& point_R, const Vec3& direction_R, double most_m);
+
 /// Share of the surroundings of a section, half its width from its edge and `depth_m` behind it,
 /// that a structure fills: what is struck where little is around it cannot be perforated.
 double confinement(const Structure& structure, const std::vector<Vec3>& section_R,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "solver/base/prefetch.h"
 #include "solver/rigid/collide/facet.h"
@@ -41,6 +42,12 @@ struct Probe {
       axis.separation_m = distance - a.radius_m - b.radius_m;
     }
     return axis;
+  }
+
+  /// The axis along which hulls that touch slide past each other, if they do.
+  std::optional<SeparatingAxis> passing(const RelativePose& pose, const Vec3f& way_A) const {
+    if (a.kind != Kind::kHull || b.kind != Kind::kHull) return {};
+    return passing_axis(a.hull, b.hull, pose, way_A, 0.5f * kLayer * size_m, scratch.hulls);
   }
 
   void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m,
@@ -167,7 +174,12 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
   // The normal of balls is another wherever they meet.
   const float far = b.kind == Kind::kSphere ? kReuse : kFar;
-  if (kLooksAhead && meet && reach.way_m > far * m.size_m) {
+  const bool fast = kLooksAhead && meet && reach.way_m > far * m.size_m;
+  const std::optional<SeparatingAxis> passing =
+      fast ? probe.passing(pose, dt * velocity_A) : std::nullopt;
+  if (passing) {
+    axis = *passing;
+  } else if (fast) {
     axis_reach.way_A.setZero();
     time = time_of_impact(probe, pose, velocity_A, axis_reach.margin_m, dt, axis);
     pose.p += std::max(0.f, time) * velocity_A;

@@ -274,6 +274,39 @@ bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, 
          two_part(b, a.vertex_count(), scratch.a_in_B, -pose.R);
 }
 
+std::optional<SeparatingAxis> passing_axis(const Hull& a, const Hull& b, const RelativePose& pose,
+                                           const Vec3f& way_A, float tolerance_m,
+                                           const HullScratch& scratch) {
+  std::optional<SeparatingAxis> best;
+  float best_end_m = -tolerance_m;
+  const auto look = [&](const Hull& hull, std::uint32_t vertex_count,
+                        const std::vector<Wide3>& vertices, const Vec3f& way,
+                        SeparatingAxis::Kind kind) {
+    const Wide3 along = splat3(way);
+    for (std::uint32_t c = 0; c < hull.planes().size(); ++c) {
+      const Hull::PlaneChunk& planes = hull.planes()[c];
+      const Wide least = in_front(planes, vertex_count, vertices);
+      const Wide end = least + dot(planes.normal, along);
+      for (std::uint32_t set = bits((least >= splat(-tolerance_m)) & (end > splat(best_end_m)));
+           set != 0; set &= set - 1) {
+        const auto k = static_cast<std::uint32_t>(__builtin_ctz(set));
+        const std::uint32_t face = c * kLanes + k;
+        if (face >= hull.face_count() || !(end[k] > best_end_m)) continue;
+        best_end_m = end[k];
+        best = SeparatingAxis{kind, hull.normal(face), least[k], face, face};
+      }
+    }
+  };
+  look(a, b.vertex_count(), scratch.b_in_A, way_A, SeparatingAxis::Kind::kFaceA);
+  look(b, a.vertex_count(), scratch.a_in_B, pose.R.transpose() * -way_A,
+       SeparatingAxis::Kind::kFaceB);
+  if (!best) return {};
+  if (best->kind == SeparatingAxis::Kind::kFaceA) best->index_b = 0;
+  if (best->kind == SeparatingAxis::Kind::kFaceB)
+    best->index_a = 0, best->normal_A = -(pose.R * best->normal_A);
+  return best;
+}
+
 float separation_along(const Vec3f& axis_A, const Hull& a, const Hull& b,
                        const RelativePose& pose) {
   const Wide3 axis_a = splat3(axis_A), axis_b = splat3(pose.R.transpose() * axis_A);

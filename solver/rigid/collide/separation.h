@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "solver/rigid/body/hull.h"
@@ -55,6 +56,13 @@ SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose&
 /// have the other hull in front of them but for `sliver_m`. The scratch must be filled.
 bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, float sliver_m,
                         const HullScratch& scratch);
+/// A face of either hull that the other is in front of but for `tolerance_m`, and still is at the
+/// end of `way_A`, of b from a within the step: hulls that slide past each other where they touch
+/// do not meet. Of several, the one that is furthest apart then; none has no separation. The
+/// scratch must be filled.
+std::optional<SeparatingAxis> passing_axis(const Hull& a, const Hull& b, const RelativePose& pose,
+                                           const Vec3f& way_A, float tolerance_m,
+                                           const HullScratch& scratch);
 /// Distance of the supporting planes along an axis given in A.
 float separation_along(const Vec3f& axis_A, const Hull& a, const Hull& b, const RelativePose& pose);
 
