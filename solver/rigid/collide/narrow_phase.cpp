@@ -47,7 +47,7 @@ struct Probe {
   /// The axis along which hulls that touch slide past each other, if they do.
   std::optional<SeparatingAxis> passing(const RelativePose& pose, const Vec3f& way_A) const {
     if (a.kind != Kind::kHull || b.kind != Kind::kHull) return {};
-    return passing_axis(a.hull, b.hull, pose, way_A, 0.5f * kLayer * size_m, scratch.hulls);
+    return passing_axis(a.hull, b.hull, pose, way_A, kMargin * size_m, scratch.hulls);
   }
 
   void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m,
