@@ -2,8 +2,6 @@
 // published formulas, and what is left standing.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <numbers>
@@ -106,15 +104,14 @@ double exit_of_house(double radius_m, double speed_m_s, int seed, const Preset& 
   const std::string text =
       "[scene]\ndescription = \"A shot.\"\nduration_s = 1\nseed = " + std::to_string(seed) +
       "\n[limits]\ndust = 0\n[[solid]]\nstructure = \"house\"\nanchored = \"bottom\"\n"
-      "[[ball]]\nposition = [-0.5, 1.5, " + std::to_string(-3.05 - radius_m) +
-      "]\nvelocity = [0, 0, " + std::to_string(speed_m_s) + "]\nradius_m = " +
-      std::to_string(radius_m) + "\n";
+      "[[ball]]\nposition = [-0.5, 1.5, " +
+      std::to_string(-3.05 - radius_m) + "]\nvelocity = [0, 0, " + std::to_string(speed_m_s) +
+      "]\nradius_m = " + std::to_string(radius_m) + "\n";
   Scene scene = scenes::parse_scene(text, "house.toml", {preset.name, {}});
   const std::size_t ball = scene.solids.size();
   const auto simulation = scenes::make_simulation(std::move(scene));
   while (FramePtr frame = simulation->next()) {
     for (const FrameBody& body : frame->bodies) {
-      if (getenv("GRID") && body.key == ball) std::fprintf(stderr, "z %g v %g\n", body.X_WB.position.z(), body.velocity_W.z());
       if (body.key == ball && body.X_WB.position.z() > -3 + wall_m + radius_m + 0.05)
         return body.velocity_W.z();
     }
@@ -122,10 +119,10 @@ double exit_of_house(double radius_m, double speed_m_s, int seed, const Preset& 
   return 0;
 }
 
-/// The worst of three seeds.
+/// The worst of eight seeds.
 Measure exit_speed_of_house(double radius_m, double speed_m_s) {
   return [=](const Preset& preset) {
-    Shot shot = {"brick", 8e6, 1900, 0, 8, 6, 0.3, 1.6, radius_m, speed_m_s, 3};
+    Shot shot = {"brick", 8e6, 1900, 0, 8, 6, 0.3, 1.6, radius_m, speed_m_s, 8};
     const double theory = theory_m_s(shot);
     double worst = 0;
     for (int seed = 1; seed <= shot.seeds; ++seed) {
@@ -154,7 +151,7 @@ const Outcome& worst_of(const Shot& shot, const Preset& preset) {
 }
 
 Shot wall(double speed_m_s, double thickness_m = 0.4, double block_m = 0.6) {
-  return {"brick", 8e6, 1900, 0, 6, 3, thickness_m, block_m, 0.4, speed_m_s, 3};
+  return {"brick", 8e6, 1900, 0, 6, 3, thickness_m, block_m, 0.4, speed_m_s, 8};
 }
 
 Measure exit_speed(const Shot& shot) {
@@ -192,15 +189,17 @@ const std::vector<Shot>& grid() {
   static const std::vector<Shot> kAll = [] {
     std::vector<Shot> all;
     for (const auto& [material, compressive_Pa, density_kg_m3, percent] :
-         {std::tuple{"brick", 8e6, 1900., 0.}, {"stone", 2e7, 2400., 0.}, {"concrete", 3e7, 2400., 0.3}}) {
+         {std::tuple{"brick", 8e6, 1900., 0.},
+          {"stone", 2e7, 2400., 0.},
+          {"concrete", 3e7, 2400., 0.3}}) {
       for (const double thickness_m : {0.05, 0.1, 0.2, 0.4, 0.8}) {
         for (const double radius_m : {0.05, 0.1, 0.2, 0.4}) {
           const double widths = thickness_m / (2 * radius_m);
           if (widths < 0.33 || widths > 4) continue;
           const double side_m = std::max(1.5, 8 * radius_m);
           const double block_m = all.size() % 2 == 0 ? 0 : 0.4;
-          Shot shot{material, compressive_Pa, density_kg_m3, percent, side_m, side_m, thickness_m,
-                    block_m,  radius_m,       0,             1};
+          Shot shot{material,    compressive_Pa, density_kg_m3, percent, side_m, side_m,
+                    thickness_m, block_m,        radius_m,      0,       1};
           const double limit = limit_m_s(shot);
           for (const double times : {0.5, 1 / 1.5, 1.5, 2., 3.5}) {
             shot.speed_m_s = times * limit;
@@ -224,19 +223,13 @@ std::vector<Shot> of_grid(double least, double most) {
   return some;
 }
 
-/// Share of the shots at these multiples of the limit speed for which `wrong(exit, shot)` holds.
-Measure share_of_grid(double least, double most, bool (*wrong)(double, const Shot&)) {
+/// Share of the shots at these multiples of the limit speed that leave the wall at a wrong speed.
+Measure share_of_grid(double least, double most, bool (*is_wrong)(double exit_m_s, const Shot&)) {
   return [=](const Preset& preset) {
     const std::vector<Shot> shots = of_grid(least, most);
-    std::size_t count = 0;
-    for (const Shot& shot : shots) {
-      const double exit=worst_of(shot, preset).exit_m_s;
-      const bool is=wrong(exit, shot);
-      if (is) ++count;
-      if (is || getenv("GRID")) std::fprintf(stderr,"%s %s e %g r %g b %g v %g lim %g exit %g theory %g\n", preset.name, shot.material, shot.thickness_m, shot.radius_m, shot.block_m, shot.speed_m_s, limit_m_s(shot), exit, theory_m_s(shot));
-    }
-    std::fprintf(stderr, "%zu of %zu\n", count, shots.size());
-    return static_cast<double>(count) / static_cast<double>(shots.size());
+    const auto wrong = std::ranges::count_if(
+        shots, [&](const Shot& shot) { return is_wrong(worst_of(shot, preset).exit_m_s, shot); });
+    return static_cast<double>(wrong) / static_cast<double>(shots.size());
   };
 }
 
@@ -257,9 +250,9 @@ Truths perforation_truths() {
       truth(43, "ball of 2.1 t at 40 m/s through one block of brick: exit speed", "", recht, 0.15,
             exit_speed(wall(40, 0.4, 0)), {0.15, 0.15, 0.15, 0.15}),
       truth(43, "ball of 5 t at 8 m/s beside a window of a house: exit speed", "", recht, 0.15,
-            exit_speed_of_house(0.535, 8), {1, 1, 1, 1}),
+            exit_speed_of_house(0.535, 8), {0.15, 0.15, 0.15, 0.15}),
       truth(43, "ball of 5 t at 30 m/s beside a window of a house: exit speed", "", recht, 0.15,
-            exit_speed_of_house(0.535, 30), {1, 1, 1, 1}),
+            exit_speed_of_house(0.535, 30), {0.15, 0.15, 0.15, 0.15}),
       truth(43, "bullet of 7 g at 400 m/s through 6 mm of glass: exit speed", "", recht, 0.15,
             exit_speed(bullet), {0.15, 0.15, 0.15, 0.15}),
       truth(43, "wall of brick, 0.4 m, shot at 20, 40 and 80 m/s: share that falls", "",
@@ -274,17 +267,22 @@ Truths perforation_truths() {
       truth(44, "concrete of 0.8 m, ball of 0.4 m: logarithm of the limit speed", "",
             "CEA-EDF (Berriaud et al. 1978)", 0.405, limit_of_concrete(0.8, 0.4),
             {0.405, 0.405, 0.405, 0.405}, 3),
-      truth(44, "grid of walls and balls at 1/2 and 2/3 of the limit: share that comes through", "", recht, 0,
+      truth(44, "198 shots at walls, those at 1/2 and 2/3 of the limit: share that comes through",
+            "", recht, 0,
             share_of_grid(0, 0.7, [](double exit_m_s, const Shot&) { return exit_m_s > 0; }),
             {0, 0, 0, 0}),
-      truth(44, "grid of walls and balls at 1.5 to 3.5 of the limit: share that is stopped", "", recht, 0,
+      truth(44, "198 shots at walls, those at 1.5 to 3.5 of the limit: share that is stopped", "",
+            recht, 0,
             share_of_grid(1.4, 10, [](double exit_m_s, const Shot&) { return exit_m_s == 0; }),
-            {0, 0, 0, 0}),
-      truth(44, "grid of walls and balls at 2 and 3.5 of the limit: share a fifth off the exit speed", "", recht, 0,
-            share_of_grid(1.9, 10, [](double exit_m_s, const Shot& shot) {
-              return std::abs(exit_m_s / theory_m_s(shot) - 1) > 0.2;
-            }),
-            {0, 0, 0, 0}),
+            {0.1, 0, 0, 0}),
+      truth(44,
+            "198 shots at walls, those at 2 and 3.5 of the limit: share a fifth off the exit speed",
+            "", recht, 0,
+            share_of_grid(1.9, 10,
+                          [](double exit_m_s, const Shot& shot) {
+                            return std::abs(exit_m_s / theory_m_s(shot) - 1) > 0.2;
+                          }),
+            {0.07, 0, 0, 0}),
   };
 }
 

@@ -20,7 +20,9 @@ const Vec3 kTip(kLong, kWide, kWide / 2);
 
 /// What a ball of that mass and speed, that does not bounce, does where it lands.
 StressAnswer struck(const Compound& compound, double kg, double m_s, double reach_m = 0,
-                    const Vec3& at_R = kTip, double toughness_J_m2 = 0) {
+                    const Vec3& at_R = kTip, double toughness_J_m2 = 0,
+                    std::uint64_t most_work = std::uint64_t{1} << 40,
+                    const StressMemoryPtr& memory = nullptr) {
   std::vector<Material> materials = stone(kStrength);
   materials[0].youngs_Pa = kYoungs;
   materials[0].toughness_J_m2 = toughness_J_m2;
@@ -33,8 +35,9 @@ StressAnswer struck(const Compound& compound, double kg, double m_s, double reac
   const Load impulse{ConvexSlot(nearest), Vec3(0, -kg * m_s, 0), at_R};
   LoadCase load;
   load.materials = materials;
-  load.most_work = std::uint64_t{1} << 40;
-  load.blow = {std::span(&impulse, 1), 0.5 * kg * m_s * m_s, at_R, reach_m};
+  load.most_work = most_work;
+  load.memory = memory;
+  load.blow = {std::span(&impulse, 1), 0.5 * kg * m_s * m_s, at_R, reach_m, std::uint64_t{1} << 40};
   return break_by_stress(Structure(compound), load);
 }
 
@@ -58,6 +61,40 @@ TEST(Blow, ACantileverStruckAtItsTipSnapsAtItsRootWhateverStrikesIt) {
       for (const Bond& bond : breaks.edit.cut)
         EXPECT_NEAR(compound.convexes[bond.b]->box.min.x(), 0, 1e-9) << "at the root";
     }
+  }
+}
+
+TEST(Blow, IsDecidedInSeveralAnswersAsInOne) {
+  const Compound compound = bar(kLong, kWide, 60, 6);
+  const double kg = 40, m_s = breaking_m_s(kg);
+  for (const double times : {0.95, 1.05}) {
+    const StressAnswer once = struck(compound, kg, times * m_s);
+    EXPECT_FALSE(once.undecided);
+    StressAnswer answer;
+    int answers = 0;
+    do {
+      answer = struck(compound, kg, times * m_s, 0, kTip, 0, once.work / 8, answer.memory);
+    } while (answer.undecided && ++answers < 100);
+    EXPECT_GE(answers, 3);
+    EXPECT_LT(answers, 20);
+    EXPECT_NEAR(answer.blow.worst, once.blow.worst, 0.02 * once.blow.worst);
+    EXPECT_EQ(answer.edit.changed, once.edit.changed);
+  }
+}
+
+TEST(Blow, IsGivenUpAfterItsWork) {
+  const Compound compound = bar(kLong, kWide, 60, 6);
+  const StressAnswer once = struck(compound, 40, 0.5 * breaking_m_s(40));
+  std::vector<Material> materials = stone(kStrength);
+  const Load impulse{ConvexSlot(0), Vec3(0, -1, 0), kTip};
+  LoadCase load;
+  load.materials = materials;
+  load.most_work = once.work / 20;
+  load.blow = {std::span(&impulse, 1), 1, kTip, 0, once.work / 2};
+  int answers = 0;
+  for (StressAnswer answer; (answer = break_by_stress(Structure(compound), load)).undecided;) {
+    load.memory = answer.memory;
+    ASSERT_LT(++answers, 12);
   }
 }
 

@@ -51,6 +51,41 @@ TEST(Impact, GivesTheSameBitsForAnyNumberOfThreadsAndLanes) {
   set_threads(before);
 }
 
+/// A row of boxes flies through a channel whose sides are boxes, too, and which it fills: by how
+/// much it is slower at the other end, as a share. Corners of the row pass corners of the sides.
+double slowed_in_channel(double across_m, double dt_s) {
+  constexpr int kBoxes = 4;
+  constexpr double kBox_m = 0.2;
+  RigidWorld world(awake(Vec3::Zero()));
+  const auto row = [&](double x_m, double width_m) {
+    BodyDesc desc = W::box(Vec3(width_m, kBox_m, kBoxes * kBox_m), Vec3(x_m, 0, 0), 2000);
+    const ShapeDesc one = desc.shapes[0];
+    desc.shapes.clear();
+    for (int i = 0; i < kBoxes; ++i) {
+      const Vec3 half(width_m / 2, kBox_m / 2, kBox_m / 2);
+      const Vec3 middle(0, 0, kBox_m * (i - 0.5 * (kBoxes - 1)));
+      ShapeDesc shape =
+          W::with_hull(W::box(2 * half, Vec3::Zero()), make_box(middle - half, middle + half))
+              .shapes[0];
+      shape.friction = 0;
+      shape.tag = static_cast<std::uint32_t>(i);
+      desc.shapes.push_back(shape);
+    }
+    return desc;
+  };
+  for (const double side : {-1.0, 1.0})
+    world.add(W::fixed(row(side * (across_m / 2 + kBox_m), 2 * kBox_m)));
+  const BodyId id = world.add(W::moving(row(0, across_m), Vec3(0, 0, -kSpeed_m_s)));
+  for (int i = 0; i < 0.02 / dt_s; ++i) world.step(dt_s, kSubsteps);
+  return 1 + world.state(id).velocity_W.z() / kSpeed_m_s;
+}
+
+TEST(Impact, DoesNotHappenWhereShapesSlidePastEachOther) {
+  for (const double dt_s : {1.0 / 60, 1.0 / 120, 1.0 / 480, 1.0 / 1920})
+    for (const double across_m : {0.2, 0.17, 0.5})
+      EXPECT_NEAR(slowed_in_channel(across_m, dt_s), 0, 1e-4) << across_m << " m, " << dt_s;
+}
+
 /// Two smooth balls whose ways cross, started so that they meet after `meet_s`: by how much their
 /// speed after it is off the closed form, and how fast they spin, in parts of their speed.
 double crossing_error(double speed_m_s, double meet_s, double dt_s, int substeps) {
