@@ -71,8 +71,8 @@ constexpr Fault kFaults[] = {
     {"gravity = 9.81", "bad.toml:3: gravity in [scene] is the number 9.81; allowed: [x, y, z]"},
     {"gravity = [0, -9.81]", "bad.toml:3: gravity in [scene] is [0, -9.81]; allowed: [x, y, z]"},
     {"gravity = [0, \"down\", 0]",
-     "bad.toml:3: gravity in [scene] is an array of 3; allowed: "
-     "[x, y, z], each a number"},
+     "bad.toml:3: gravity in [scene] is an array of 3, in which the string \"down\" is wrong; "
+     "allowed: [x, y, z], each a number"},
     {"[script]\nenabled = 1",
      "bad.toml:4: enabled in [script] is the number 1; allowed: true or "
      "false"},
