@@ -25,7 +25,7 @@ struct Change {
   std::string figure;  ///< "mean" or "p50" of frames.
   bool is_cpu = true;  ///< Processor time; else wall time, as one of the two files has no other.
   double before_ms = 0, after_ms = 0;
-  RatioInterval ratio;  ///< Of now to before, by the means of the repeats.
+  RatioInterval ratio = {};  ///< Of now to before, by the means of the repeats.
 
   /// By more than this part, at the low end of the interval, too.
   bool is_slower(double part) const;

@@ -126,15 +126,12 @@ TEST_F(Bench, AnotherProgramIsTimedInTheSameTurnsAndCompared) {
 }
 
 TEST_F(Bench, StoppedItKeepsAndReportsWhatWasTimed) {
-  std::ofstream(folder_ / "rise.toml") << "[scene]\ndescription = \"x\"\nduration_s = 3600\n"
-                                          "[[ball]]\nposition = [0, 5, 0]\n";
-  const auto stopped = [&](const std::string& scenes) {
-    return sunder("bench --repeats 1000 --warm-up 0 " + scenes + " --hashes " +
-                      folder_ / "hashes.txt" + " --json " + file("stopped") + " --junit " +
-                      folder_ / "stopped.xml",
-                  "timeout --preserve-status -s INT -k 60 5 ");
+  const auto stopped = [&](const std::string& turns) {
+    return sunder("bench " + folder_ / "fall.toml" + turns + " --hashes " + folder_ / "hashes.txt" +
+                      " --json " + file("stopped") + " --junit " + folder_ / "stopped.xml",
+                  "timeout --preserve-status -s INT -k 60 3 ");
   };
-  const Outcome outcome = stopped(folder_ / "fall.toml");
+  const Outcome outcome = stopped(" --repeats 1000 --warm-up 0");
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   EXPECT_NE(outcome.out.find("stopped; this is what was timed"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("fall: realtime"), std::string::npos) << outcome.out;
@@ -146,7 +143,7 @@ TEST_F(Bench, StoppedItKeepsAndReportsWhatWasTimed) {
   EXPECT_EQ(json["scenes"][0]["repeat_ms"]["frame"]["processor"].size(), repeats);
   EXPECT_NE(scenes::read_text(folder_ / "stopped.xml").find("name=\"state\""), std::string::npos);
   std::filesystem::remove(file("stopped"));
-  const Outcome nothing = stopped("--frames 216000 " + folder_ / "rise.toml");
+  const Outcome nothing = stopped(" --repeats 1 --warm-up 1000");
   EXPECT_EQ(nothing.exit_code, 130) << nothing.err;
   EXPECT_NE(nothing.out.find("stopped before anything was timed"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(file("stopped")));
