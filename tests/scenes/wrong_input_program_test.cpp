@@ -152,7 +152,10 @@ TEST_F(WrongInput, ThatCanBeRunIsWarnedOf) {
   std::ofstream(folder_ / "shot.toml") << kBlock << "anchored = \"bottom\"\n[[script.shot]]\n"
                                        << "time_s = 0.02\nfrom = [0, 0.5, 4]\nat = [0, 0.5, 0]\n"
                                        << "speed_m_s = 60\n[limits]\nbodies = 2\n";
-  EXPECT_NE(run("simulate shot.toml --quiet").err.find("raise limits.bodies"), std::string::npos);
+  for (const char* command : {"simulate shot.toml", "render shot.toml --size 32x32 -o shot.png"}) {
+    const Outcome outcome = run(command + std::string(" --quiet"));
+    EXPECT_NE(outcome.err.find("raise limits.bodies"), std::string::npos) << command;
+  }
   EXPECT_NE(run("simulate a.toml --quiet --threads 1000").err.find("wait for each other"),
             std::string::npos);
 }
