@@ -55,7 +55,7 @@ Verdict judge_run(const Figures& now, const Figures& old, const std::string& old
   return verdict;
 }
 
-/// Means of the stage, a repeat each; the one there is where a file does not have them.
+/// Means of the stage by repeat; the single time where a file does not have them.
 std::vector<double> repeats_of(const Figures& scene, const Change& change,
                                const std::string& place) {
   const std::string at = "/repeat_ms/" + change.stage + (change.is_cpu ? "/processor/" : "/wall/");

@@ -40,7 +40,7 @@ Ways ways_of_pairs(std::size_t a, std::size_t b) {
   return ways;
 }
 
-/// What lies beyond either end of an interval, and the confidence in what is left.
+/// Number of values beyond either end of an interval, and the confidence in what is between them.
 struct Ends {
   std::size_t left_out = 0;
   double confidence = 0;

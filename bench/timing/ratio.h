@@ -1,4 +1,4 @@
-// How sure it is that one program takes longer than another, from a few runs of each.
+// Confidence intervals of how much longer one program takes than another, from a few runs of each.
 #pragma once
 
 #include <span>

@@ -145,7 +145,7 @@ struct Limits {
 struct Scene {
   std::string name;
   std::string description;
-  std::vector<std::string> warnings;  ///< Of what it was made from: pictures that are not there.
+  std::vector<std::string> warnings;  ///< Faults of what it was made from: missing pictures.
   double duration_s = 6;
   Vec3 gravity_W = Vec3(0, -9.81, 0);
   std::uint64_t seed = 1;

@@ -141,7 +141,7 @@ void Encoder::finish() {
   replace_file(temporary_, path_);
 }
 
-/// At a full disk ffmpeg says so, goes on, and ends with 0.
+/// True if ffmpeg has said anything. At a full disk it says so, goes on, and ends with 0.
 bool Encoder::has_complained() const {
   struct stat log = {};
   return ::fstat(log_, &log) == 0 && log.st_size > 0;

@@ -113,8 +113,9 @@ std::vector<float> Layers::read_metres() const {
   return metres;
 }
 
-/// Of one scale for all pictures, which parts of a run that are drawn apart agree on, too, unless
-/// the camera is twice as far from what it looks at.
+/// The layer of depth. All pictures have the scale of the first; it is a power of two, so that
+/// parts of a run that are drawn apart agree, unless their cameras differ twofold in their
+/// distances.
 DeepImage Layers::depth_image(const View& view) {
   constexpr double kWhite = 65535;
   if (!far_m_) {

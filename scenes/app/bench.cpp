@@ -152,7 +152,7 @@ std::vector<std::string> run_once(const BenchOptions& options, std::span<const T
   return figures;
 }
 
-/// What was measured: an object a scene, and those of the other program, if there is one. Scenes of
+/// Measurements: an object a scene, and those of the other program, if there is one. Scenes of
 /// which nothing was measured before a stop signal are left out.
 struct Measured {
   std::vector<Figures> scenes, others;

@@ -190,7 +190,7 @@ def a_misspelt_key(chance, folder):
 
 
 def a_file_cut_short(chance, folder):
-    """Of files that say how long they are, or that are no longer TOML or JSON."""
+    """A file that says how long it is, or that is TOML or JSON, without its end."""
     name = chance.choice(["k.take", "s.frame", "m.glb", "m.stl", "a.toml", "old.json", "b.case"])
     whole = (folder / name).read_bytes()
     first_frame = 60  # of a take: what is cut behind it can be played up to there

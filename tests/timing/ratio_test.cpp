@@ -29,7 +29,7 @@ TEST(RatioInterval, LeavesOutRatiosAtBothEndsWhereThereAreEnough) {
   EXPECT_NEAR(interval.confidence, 1 - 20 / 512.0, 1e-12);
 }
 
-/// How often intervals of runs whose true ratio is 1.1 hold it; times have a long tail.
+/// Share of intervals that hold the true ratio, 1.1, of times that have a long tail.
 double share_held(std::size_t runs, bool paired) {
   constexpr int kTrials = 2000;
   Random random(7);
