@@ -8,6 +8,7 @@
 
 #include "engine/base/check.h"
 #include "render/image/encoder.h"
+#include "render/image/exr.h"
 #include "render/renderer.h"
 
 namespace sunder::render {
@@ -35,8 +36,13 @@ class Film {
   void write(const std::filesystem::path& path) {
     const Image image = picture();
     for (const Layer& layer : renderer_.layers()) {
-      const std::string name = path.stem().string() + "_" + layer.name + ".png";
-      write_png(path.parent_path() / name, layer.image);
+      const std::filesystem::path file =
+          path.parent_path() / (path.stem().string() + "_" + layer.name);
+      if (layer.metres.empty()) {
+        write_png(file.string() + ".png", layer.image);
+      } else {
+        write_exr(file.string() + ".exr", layer.metres, image.width, image.height);
+      }
     }
     write_png(path, image);
   }

@@ -21,7 +21,7 @@ struct RenderOptions {
   int samples = 1;
   /// Neither ground nor sky: what is not covered is transparent. Images only.
   bool transparent = false;
-  std::vector<std::string> layers = {};  ///< Images beside each: depth | normals | ids.
+  std::vector<std::string> layers = {};  ///< Images beside each: layers.h.
   bool hud = false;                      ///< Frame number, time and counts in the corner.
   bool time_passes = false;  ///< Waits for the GPU after each pass, to fill pass_times().
   int frames_per_s = 60;     ///< Of a video.
@@ -31,10 +31,9 @@ struct RenderOptions {
 class Renderer;
 
 /// `path` ending in .mp4 or .webm: a video; .png: the last frame taken; otherwise a directory of
-/// frame_00000.png and so on; layers are X_depth.png and so on beside each. No file stands there
-/// until it is complete.
-/// Throws InputError if ffmpeg is missing (naming the package) or the options cannot be met,
-/// FileError if the place cannot be written.
+/// frame_00000.png and so on; layers are X_depth.png, X_depth_m.exr and so on beside each. No file
+/// stands there until it is complete. Throws InputError if ffmpeg is missing (naming the package)
+/// or the options cannot be met, FileError if the place cannot be written.
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
                                              const RenderOptions& options);
 /// The same with a renderer that is there already, and must outlive the sink; `resume`: pictures

@@ -115,6 +115,7 @@ std::vector<std::string> warnings_of(const Scene& scene) {
         obsolete_warning(scene)}) {
     if (!warning.empty()) warnings.push_back(warning);
   }
+  warnings.insert(warnings.end(), scene.warnings.begin(), scene.warnings.end());
   return warnings;
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "engine/base/check.h"
+#include "engine/base/printed.h"
 #include "engine/io/page.h"
 #include "engine/model/work.h"
 
@@ -36,22 +36,49 @@ std::string why_other(const Figures& now, const Figures& old, const std::string&
     return "not comparable: " + place.substr(1) + " is " + before + " in " + old_file +
            " and now " + after + "; run it as that was";
   }
+  return {};
+}
+
+/// The verdict on two runs that can be compared.
+Verdict judge_run(const Figures& now, const Figures& old, const std::string& old_file) {
+  Verdict verdict{text_at(now, "/scene"), "same run", Outcome::kPassed, {}};
   const std::string after = text_at(now, "/state_hash"), before = text_at(old, "/state_hash");
-  if (after == before) return {};
-  return "the state differs: " + before + " in " + old_file + ", " + after + " now" +
-         "; something else is simulated";
+  if (after != before) {
+    verdict.outcome = Outcome::kFailed;
+    verdict.text = "the state differs: " + before + " in " + old_file + ", " + after + " now" +
+                   "; something else is simulated, and times of it say nothing of this";
+    return verdict;
+  }
+  const std::string cpu = text_at(old, "/cpu");
+  verdict.text = "same state as in " + old_file;
+  if (cpu != text_at(now, "/cpu")) verdict.text += ", which is of another processor: " + cpu;
+  return verdict;
+}
+
+/// Means of the stage by repeat; the single time where a file does not have them.
+std::vector<double> repeats_of(const Figures& scene, const Change& change,
+                               const std::string& place) {
+  const std::string at = "/repeat_ms/" + change.stage + (change.is_cpu ? "/processor/" : "/wall/");
+  std::vector<double> means;
+  while (scene.contains(at + std::to_string(means.size())))
+    means.push_back(number_at(scene, at + std::to_string(means.size())));
+  if (means.empty() || change.figure != "mean") return {number_at(scene, place)};
+  return means;
 }
 
 /// Of the stage, what both have: processor time before wall time, and the mean before the median of
 /// frames, which jumps where some frames are quiet and some are not.
 std::optional<Change> change_of(const std::string& stage, const std::string& at, const Figures& now,
-                                const Figures& old) {
+                                const Figures& old, bool paired) {
   for (const std::string figure : {"mean", "p50"}) {
     for (const bool is_cpu : {true, false}) {
       const std::string place = at + (is_cpu ? "cpu_" : "") + figure + "_ms";
       if (!now.contains(place) || !old.contains(place)) continue;
-      return Change{text_at(now, "/scene"), stage, figure, is_cpu, number_at(old, place),
-                    number_at(now, place)};
+      Change change{text_at(now, "/scene"), stage, figure, is_cpu, number_at(old, place),
+                    number_at(now, place),  {}};
+      change.ratio =
+          ratio_interval(repeats_of(now, change, place), repeats_of(old, change, place), paired);
+      return change;
     }
   }
   return std::nullopt;
@@ -60,7 +87,7 @@ std::optional<Change> change_of(const std::string& stage, const std::string& at,
 std::string sentence(const Change& change) {
   return change.figure + " " + rounded(change.before_ms) + " ms of " +
          (change.is_cpu ? "processor" : "wall") + " time before, " + rounded(change.after_ms) +
-         " ms now";
+         " ms now; change " + change.interval();
 }
 
 Verdict judge_stage(const Change& change, std::optional<double> fail_slower) {
@@ -71,9 +98,13 @@ Verdict judge_stage(const Change& change, std::optional<double> fail_slower) {
 }
 
 void compare_stages(const Figures& now, const Figures& old, std::optional<double> fail_slower,
-                    Comparison& comparison) {
+                    bool paired, bool same_state, Comparison& comparison) {
   const auto add = [&](const std::string& stage, const std::string& at) {
-    const std::optional<Change> change = change_of(stage, at, now, old);
+    const std::optional<Change> change = change_of(stage, at, now, old, paired);
+    if (change && !same_state) {
+      comparison.changes.push_back(*change);
+      return;
+    }
     if (!change) {
       comparison.verdicts.push_back({text_at(now, "/scene"), "stage " + stage, Outcome::kFailed,
                                      "the older file has no time of it"});
@@ -100,11 +131,17 @@ double parse_percent(const std::string& flag, const std::string& text) {
 }
 
 bool Change::is_slower(double part) const {
-  return after_ms > (1 + part) * std::max(before_ms, kNoise_ms);
+  return std::min(after_ms, ratio.low * before_ms) > (1 + part) * std::max(before_ms, kNoise_ms);
+}
+
+std::string Change::interval() const {
+  if (!(ratio.confidence > 0)) return "one run each";
+  return printed("%+.1f to %+.1f %% (%.0f %% confidence)", 100 * (ratio.low - 1),
+                 100 * (ratio.high - 1), 100 * ratio.confidence);
 }
 
 Comparison compare(std::span<const Figures> now, std::span<const Figures> old,
-                   const std::string& old_file, std::optional<double> fail_slower) {
+                   const std::string& old_file, std::optional<double> fail_slower, bool paired) {
   Comparison comparison;
   for (const Figures& scene : now) {
     const std::string name = text_at(scene, "/scene");
@@ -115,27 +152,24 @@ Comparison compare(std::span<const Figures> now, std::span<const Figures> old,
       comparison.verdicts.push_back({name, "same run", Outcome::kFailed, why});
       continue;
     }
-    const std::string cpu = text_at(*before, "/cpu");
-    comparison.verdicts.push_back(
-        {name, "same run", Outcome::kPassed,
-         "same state as in " + old_file +
-             (cpu == text_at(scene, "/cpu") ? "" : ", which is of another processor: " + cpu)});
-    compare_stages(scene, *before, fail_slower, comparison);
+    comparison.verdicts.push_back(judge_run(scene, *before, old_file));
+    const bool same_state = comparison.verdicts.back().outcome == Outcome::kPassed;
+    compare_stages(scene, *before, fail_slower, paired, same_state, comparison);
   }
   return comparison;
 }
 
 std::string changes_table(std::span<const Change> changes) {
   if (changes.empty()) return {};
-  std::string text = "scene          stage      ms a frame       before       now   change\n";
+  std::string text =
+      "scene          stage      ms a frame       before       now   change  interval\n";
   for (const Change& change : changes) {
-    char line[200];
     const double part = change.before_ms > 0 ? change.after_ms / change.before_ms - 1 : 0;
-    std::snprintf(line, sizeof line, "%-14s %-10s %-4s %-9s %9.3f %9.3f %+7.1f %%%s\n",
-                  change.scene.c_str(), change.stage.c_str(), change.figure.c_str(),
-                  change.is_cpu ? "processor" : "wall", change.before_ms, change.after_ms,
-                  100 * part, change.is_slower(0) ? "  slower" : "");
-    text += line;
+    text +=
+        printed("%-14s %-10s %-4s %-9s %9.3f %9.3f %+7.1f %%  ", change.scene.c_str(),
+                change.stage.c_str(), change.figure.c_str(), change.is_cpu ? "processor" : "wall",
+                change.before_ms, change.after_ms, 100 * part);
+    text += change.interval() + (change.is_slower(0) ? "  slower\n" : "\n");
   }
   return text;
 }

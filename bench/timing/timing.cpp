@@ -84,6 +84,20 @@ void put_times(Figures& scene) {
   }
 }
 
+/// The mean of every run, by stage and for the frame, in processor and in wall time.
+void put_repeats(std::span<const Figures> runs, Figures& scene) {
+  const auto put = [&](const std::string& stage, const std::string& at) {
+    for (const bool is_cpu : {true, false}) {
+      const std::string place = at + (is_cpu ? "cpu_mean_ms" : "mean_ms");
+      const std::string to = "/repeat_ms/" + stage + (is_cpu ? "/processor/" : "/wall/");
+      for (std::size_t i = 0; i < runs.size() && runs[i].contains(place); ++i)
+        scene[to + std::to_string(i)] = number_at(runs[i], place);
+    }
+  };
+  for (const std::string stage : kStageNames) put(stage, "/stages/" + stage + "/");
+  put("frame", "/frame/");
+}
+
 }  // namespace
 
 int last_frame(const Scene& scene) { return static_cast<int>(std::lround(scene.duration_s * 60)); }
@@ -133,6 +147,7 @@ Figures median_of(std::span<const Figures> runs) {
     }
   }
   put_times(median);
+  put_repeats(runs, median);
   median["/repeats"] = static_cast<std::int64_t>(runs.size());
   median["/spread"] = spread_of(runs);
   median["/differs"] = std::ranges::any_of(runs, [&](const Figures& run) {

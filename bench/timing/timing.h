@@ -36,7 +36,8 @@ Figures time_run(const TimedRun& run, bool warn);
 /// Of runs of the same: the median of every number, the first run's texts; times of stages are of
 /// the frames' medians, as every frame does the same in every run, and what disturbs one does not
 /// disturb the same in most. And over the runs `repeats`, `spread` (largest less least over the
-/// median, of the processor time of all frames) and `differs`, true if their states do.
+/// median, of the processor time of all frames), `repeat_ms`, by stage and clock the mean of every
+/// run, and `differs`, true if their states do.
 Figures median_of(std::span<const Figures> runs);
 
 /// The document {"scenes": [...]}, and back: also the object of `sunder simulate --json`. Throws

@@ -103,9 +103,11 @@ std::string changes_table(const std::string& scene, std::span<const Change> chan
                     {change.figure + (change.is_cpu ? " of the processor" : " by the clock")},
                     {rounded(change.before_ms)},
                     {rounded(change.after_ms)},
-                    {rounded(100 * part) + " %", change.is_slower(0)}});
+                    {rounded(100 * part) + " %", change.is_slower(0)},
+                    {change.interval()}});
   }
-  return rows.empty() ? "" : html_table({"ms a frame", "", "before", "now", "change"}, rows);
+  return rows.empty() ? ""
+                      : html_table({"ms a frame", "", "before", "now", "change", "interval"}, rows);
 }
 
 std::string section(const Figures& scene, std::span<const Verdict> verdicts,

@@ -86,7 +86,10 @@ std::vector<StudyPoint> default_points() { return parse_lines(grid::grid_txt, "g
 
 void add_switch(std::vector<StudyPoint>& points, const std::string& assignment) {
   const std::string where = "--switch " + assignment;
-  if (assignment.find('=') == std::string::npos) throw InputError(where + ": expected KEY=VALUE");
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == assignment.size()) {
+    throw InputError(where + ": expected KEY=VALUE");
+  }
   check_name(assignment, where);
   std::vector<StudyPoint> switched;
   for (const StudyPoint& point : points) {

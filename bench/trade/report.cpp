@@ -38,11 +38,20 @@ const TradeError* find_error(const PointTrade& point, const std::string& name) {
   return at == point.errors.end() ? nullptr : &*at;
 }
 
-std::string worst_of(const PointTrade& point) {
+/// The largest error of a point over its noise; null if it has none.
+const TradeError* worst_of(const PointTrade& point) {
   const auto at = std::max_element(
       point.errors.begin(), point.errors.end(),
       [](const TradeError& a, const TradeError& b) { return a.over_noise < b.over_noise; });
-  return at == point.errors.end() ? std::string() : at->name;
+  return at == point.errors.end() ? nullptr : &*at;
+}
+
+/// "drift 0.012 m": the name of an error ends with its unit, or is one, as "pieces".
+std::string in_its_unit(const TradeError& error) {
+  const std::size_t space = error.name.rfind(' ');
+  const std::string distance = digits(error.distance, 3);
+  if (space == std::string::npos) return distance + " " + error.name;
+  return error.name.substr(0, space) + " " + distance + error.name.substr(space);
 }
 
 /// Of all errors of all scenes.
@@ -97,8 +106,9 @@ std::string trade_csv(const Trade& trade) {
       csv += quoted(scene.scene) + "," + quoted(point.point.name) + "," + point.point.preset + "," +
              quoted(joined(point.point.set)) + "," + std::to_string(point.runs) + "," +
              digits(point.cost_ms) + "," + digits(point.wall_ms) + "," + digits(point.error) + "," +
-             quoted(worst_of(point)) + "," + (point.on_front ? "1" : "0") + "," +
-             digits(point.over_front) + "," + quoted(point.failed);
+             quoted(worst_of(point) ? worst_of(point)->name : "") + "," +
+             (point.on_front ? "1" : "0") + "," + digits(point.over_front) + "," +
+             quoted(point.failed);
       for (const std::string& name : names) {
         const TradeError* error = find_error(point, name);
         csv += "," + (error ? digits(error->over_noise) : std::string());
@@ -127,14 +137,18 @@ std::string trade_json(const Trade& trade) {
 }
 
 std::string trade_table(const Trade& trade) {
-  std::string text = "scene              point        ms a frame     error  over front\n";
+  std::string text =
+      "scene              point        ms a frame  error/noise  cost/front  largest error\n";
   for (const SceneTrade& scene : trade.scenes) {
     for (const PointTrade& point : scene.points) {
       char line[200];
-      std::snprintf(line, sizeof line, "%-18s %-10s %12.3f %9s %11s  %s\n", scene.scene.c_str(),
+      const TradeError* worst = worst_of(point);
+      const std::string last = !point.failed.empty() ? point.failed
+                               : worst               ? in_its_unit(*worst)
+                                                     : std::string();
+      std::snprintf(line, sizeof line, "%-18s %-10s %12.3f %12s %11s  %s\n", scene.scene.c_str(),
                     point.point.name.c_str(), point.cost_ms, digits(point.error, 3).c_str(),
-                    digits(point.over_front, 3).c_str(),
-                    point.failed.empty() ? worst_of(point).c_str() : point.failed.c_str());
+                    digits(point.over_front, 3).c_str(), last.c_str());
       text += line;
     }
   }

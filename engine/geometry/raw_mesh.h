@@ -33,6 +33,8 @@ struct RawMesh {
   std::vector<Vec3f> corner_normals;   ///< Zero where the file has none; empty if it has none.
   std::vector<Vec2f> corner_uvs;       ///< Likewise.
   std::vector<Group> groups;
+  /// Files that the mesh names for its look and that are not there: pictures, lists of materials.
+  std::vector<std::string> missing_files;
 
   std::span<const std::uint32_t> polygon_corners(std::size_t p) const {
     return std::span(corners).subspan(polygons[p].first_corner, polygons[p].corner_count);

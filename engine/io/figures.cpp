@@ -46,7 +46,8 @@ std::string format_figures(const Figures& figures) {
     if (!std::holds_alternative<EmptyList>(figure)) continue;
     document[nlohmann::json::json_pointer(place)] = nlohmann::json::array();
   }
-  return document.dump(2) + "\n";
+  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;  // what is not UTF-8
+  return document.dump(2, ' ', false, kReplace) + "\n";
 }
 
 double number_at(const Figures& figures, const std::string& place) {

@@ -12,9 +12,10 @@
 namespace sunder {
 namespace {
 
-constexpr double kPlotWidth = 720, kPlotHeight = 440;  // of the picture
-constexpr double kLeft = 70, kRight = 20, kTop = 40, kBottom = 60;
-constexpr double kTick = 5, kDot = 4.5, kLegendLine = 18;
+constexpr double kPlotWidth = 720, kPlotHeight = 460;  // of the picture
+constexpr double kLeft = 70, kRight = 20, kTop = 60, kBottom = 60;
+constexpr double kTick = 5, kDot = 4.5;
+constexpr double kLegend = 42, kLegendGap = 16;      // its line, above the plot; between two names
 constexpr double kLetter = 6.6, kLetterHeight = 12;  // about, of words
 
 // Told apart by who sees no red or no green as well (after Okabe and Ito), on light and on dark.
@@ -225,7 +226,7 @@ std::string svg_curves(const Axes& axes, std::span<const Curve> curves) {
   Canvas canvas(axes);
   canvas.x_ticks(x);
   canvas.y_ticks(y);
-  double legend = kTop + 12;
+  double legend = kLeft;
   Labels labels;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Curve& curve = curves[i];
@@ -239,9 +240,9 @@ std::string svg_curves(const Axes& axes, std::span<const Curve> curves) {
     }
     if (curve.line) canvas.line(places, color, 1.5);
     if (curve.name.empty()) continue;
-    canvas.box({kPlotWidth - kRight - 12, legend - 9}, 10, 10, color, "");
-    canvas.text({kPlotWidth - kRight - 18, legend}, curve.name, "end");
-    legend += kLegendLine;
+    canvas.box({legend, kLegend - 9}, 10, 10, color, "");
+    canvas.text({legend + kLegendGap, kLegend}, curve.name, "start");
+    legend += 2 * kLegendGap + kLetter * static_cast<double>(curve.name.size());
   }
   for (const Curve& curve : curves) {
     for (const PlotPoint& point : curve.points) {

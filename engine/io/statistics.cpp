@@ -223,7 +223,10 @@ void Statistics::take(const FramePtr& frame) {
 }
 
 std::string Statistics::limits_warning() const {
-  const std::uint32_t hits = series_->sum(&FrameReport::limits_hit);
+  return sunder::limits_warning(series_->sum(&FrameReport::limits_hit));
+}
+
+std::string limits_warning(std::uint32_t hits) {
   if (hits == 0) return "";
   return "what the scene allows was reached " + std::to_string(hits) +
          " times, and solids did not break or no particles flew; raise limits.bodies, "

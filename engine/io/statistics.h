@@ -40,6 +40,9 @@ struct RunInfo {
 /// many, and what share of the volume of all solids that is.
 std::string left_whole_warning(std::uint64_t convexes, double volume_m3, double of_m3);
 
+/// Warning of limits of the scene that were reached that often; empty for never.
+std::string limits_warning(std::uint32_t hits);
+
 /// The processor this runs on, as it calls itself.
 std::string cpu_name();
 

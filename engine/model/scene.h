@@ -145,6 +145,7 @@ struct Limits {
 struct Scene {
   std::string name;
   std::string description;
+  std::vector<std::string> warnings;  ///< Faults of what it was made from: missing pictures.
   double duration_s = 6;
   Vec3 gravity_W = Vec3(0, -9.81, 0);
   std::uint64_t seed = 1;

@@ -1,5 +1,8 @@
 #include "render/gl/objects.h"
 
+#include <algorithm>
+#include <string>
+
 #include "engine/base/check.h"
 #include "render/gl/units.h"
 
@@ -69,11 +72,22 @@ void set_attributes(const GlTable& gl, GLuint first, std::size_t stride,
 }
 
 GLuint make_texture(const GlTable& gl, GLenum format, int width, int height) {
+  const std::string size = "--size " + std::to_string(width) + "x" + std::to_string(height);
+  GLint most = 0;
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  if (std::max(width, height) > most) {
+    throw InputError(size + ": the largest picture that this device draws is " +
+                     std::to_string(most) + "x" + std::to_string(most));
+  }
   const GLuint texture = new_texture(gl, GL_NEAREST);
   const bool depth = format == GL_DEPTH_COMPONENT24;
   gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0,
                 depth ? GL_DEPTH_COMPONENT : GL_RGBA, depth ? GL_UNSIGNED_INT : GL_UNSIGNED_BYTE,
                 nullptr);
+  if (gl.GetError() != GL_NO_ERROR) {
+    throw InputError(size + ": this device has not enough memory for pictures so large; give a " +
+                     "smaller size");
+  }
   return texture;
 }
 

@@ -36,7 +36,8 @@ void fill_buffer(const GlTable& gl, GLenum target, GLuint buffer, const std::vec
   gl.BufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
 }
 
-/// An empty texture, clamped to its edge; its texels are not mixed.
+/// An empty texture, clamped to its edge; its texels are not mixed. Throws InputError if it is too
+/// large for the device.
 GLuint make_texture(const GlTable& gl, GLenum format, int width, int height);
 /// A 16-bit depth texture that compares when sampled; lit beyond its border.
 GLuint make_shadow_texture(const GlTable& gl, int size);

@@ -6,6 +6,7 @@
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -132,12 +133,18 @@ void Encoder::add(const Image& image) {
     if (n < 0) fail();
     sent += static_cast<std::size_t>(n);
   }
+  if (has_complained()) fail();
 }
 
-/// At a full disk ffmpeg ends with 0, and has said so.
 void Encoder::finish() {
-  if (!wait() || ::lseek(log_, 0, SEEK_END) > 0) fail();
+  if (!wait() || has_complained()) fail();
   replace_file(temporary_, path_);
+}
+
+/// True if ffmpeg has said anything. At a full disk it says so, goes on, and ends with 0.
+bool Encoder::has_complained() const {
+  struct stat log = {};
+  return ::fstat(log_, &log) == 0 && log.st_size > 0;
 }
 
 bool Encoder::wait() {

@@ -18,13 +18,14 @@ class Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  /// Throws FileError with ffmpeg's own words if it stopped.
+  /// Throws FileError with ffmpeg's own words if it has any, or stopped.
   void add(const Image& image);
   void finish();
 
  private:
   /// Ends the input, waits, and tells whether ffmpeg was content.
   bool wait();
+  bool has_complained() const;
   [[noreturn]] void fail();
 
   std::filesystem::path path_;

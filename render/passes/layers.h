@@ -1,6 +1,7 @@
 // What is known of each pixel besides its colour: how far it is, which way it faces, of what it is.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,12 +13,13 @@
 
 namespace sunder::render {
 
-inline constexpr const char* kLayers = "depth | normals | ids";
+inline constexpr const char* kLayers = "depth | depth_m | normals | ids";
 
 /// A layer of a picture, by name.
 struct Layer {
   std::string name;
-  DeepImage image;
+  DeepImage image;            ///< Empty if the layer is in metres:
+  std::vector<float> metres;  ///< Along the view, top row first; infinite where nothing is.
 };
 
 /// Throws InputError for a name that is not in kLayers.
@@ -36,11 +38,17 @@ class Layers {
     GLuint pieces = 0, chips = 0, ground = 0;
   };
 
+  void draw(const Pass& pass, Pieces& pieces, const Chips& chips);
   DeepImage read(int channels) const;
+  std::vector<float> read_metres() const;
+  DeepImage depth_image(const View& view);
 
   const GlTable& gl_;
   int width_, height_;
   GLuint framebuffer_ = 0;
+  GLuint depth_framebuffer_ = 0;  ///< Of floats.
+  std::optional<double>
+      far_m_;  ///< White of the layer of depth, of the first picture and all others.
   GLuint empty_vertex_array_ = 0;
   std::vector<Pass> passes_;
 };

@@ -101,8 +101,6 @@ void light(const View& view, FrameUniforms& u) {
 
 }  // namespace
 
-double depth_end_m(const View& view) { return 4 * (view.target_W - view.eye_W).norm(); }
-
 FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, int width,
                             int height, const Sample& sample) {
   const Vec3 look = view.target_W - view.eye_W;
@@ -138,7 +136,6 @@ FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, i
 
   FrameUniforms u = {};
   light(view, u);
-  u.sun_light[3] = static_cast<float>(depth_end_m(view));
   store(u.clip_of_eye, Mat4(projection * rotation));
   store(u.shadow_of_eye, shadow);
   store(u.zenith_of_eye, zenith);

@@ -38,9 +38,6 @@ struct Caster {
   float radius;
 };
 
-/// Where a depth layer ends: well behind what the view looks at.
-double depth_end_m(const View& view);
-
 /// One of the pictures that a picture is the mean of.
 struct Sample {
   Vec2 aside_px = Vec2::Zero();  ///< Of the middle of a pixel: right and up.

@@ -14,7 +14,7 @@ layout(std140) uniform Frame {
   vec4 ground_offset;    // of the eye in the ground's texture: x, z, in metres; z: where paints begin in materials
   vec4 pixel;            // width, height, and their inverses
   vec4 lens;             // x: near plane, y: pixels a radian, z: exposure, w: weight of a sample
-  vec4 sun_light;        // on a face turned to it; w: metres at which depth layers end
+  vec4 sun_light;        // on a face turned to it
   vec4 sky_light;        // on a face turned up
   vec4 zenith;           // what is seen of the sky
   vec4 horizon;

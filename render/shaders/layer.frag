@@ -5,8 +5,9 @@ out vec4 value;
 
 void main() {
 #ifdef DEPTH
-  // From the depth itself, as places on the very large quad of the ground are lost in rounding.
-  value = vec4(lens.x / max(1.0 - gl_FragCoord.z, 1e-6) / sun_light.w);
+  // Metres; from the depth itself, as places on the very large quad of the ground are lost in
+  // rounding.
+  value = vec4(lens.x / max(1.0 - gl_FragCoord.z, 1e-6));
 #endif
 #ifdef NORMALS
   value = vec4(0.5 + 0.5 * normalize(normal_), 1.0);

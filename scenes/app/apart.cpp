@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "engine/base/check.h"
+#include "scenes/app/run.h"
 
 namespace sunder::app {
 
@@ -32,15 +33,18 @@ std::vector<Ended> run_apart(std::span<const std::function<int()>> works) {
       throw FileError(std::string("no process can be started: ") + std::strerror(errno));
     }
     if (child == 0) {
+      release_stop_signals();
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       _exit(getppid() == parent ? work() : 1);
     }
     children.push_back(child);
   }
   std::vector<Ended> ended;
-  for (const pid_t child : children) {
+  for (std::size_t i = 0; i < children.size(); ++i) {
     int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    while (waitpid(children[i], &status, 0) < 0 && errno == EINTR) {
+      for (std::size_t k = i; stop_signal() != 0 && k < children.size(); ++k)
+        kill(children[k], SIGKILL);
     }
     if (WIFSIGNALED(status)) {
       ended.push_back({0, WTERMSIG(status)});

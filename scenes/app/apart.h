@@ -21,7 +21,8 @@ struct Ended {
 };
 
 /// Does the work, which answers an exit code, in a copy of this process, which must have begun no
-/// threads; the copy ends with this one. Waits for it. Throws FileError if there can be none.
+/// threads; the copy ends with this one, and when this one has caught a stop signal (run.h). Waits
+/// for it. Throws FileError if there can be none.
 Ended run_apart(const std::function<int()>& work);
 /// Does all of it at once.
 std::vector<Ended> run_apart(std::span<const std::function<int()>> works);

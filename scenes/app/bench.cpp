@@ -25,7 +25,7 @@
 #include "engine/base/parallel.h"
 #include "engine/io/figures.h"
 #include "scenes/app/apart.h"
-#include "scenes/app/commands.h"
+#include "scenes/app/run.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/features.h"
 #include "scenes/file/text_file.h"
@@ -39,7 +39,6 @@ using bench::Verdict;
 /// A scene, as it is, without a feature, or by another program, and what its repeats came to.
 struct Timed {
   TimedRun run;
-  std::size_t scene = 0;                  ///< By number of those asked for.
   std::string program;                    ///< Empty: this one.
   std::vector<std::string> repeats = {};  ///< As JSON, for as long as other runs copy this process.
 };
@@ -49,20 +48,20 @@ struct Timed {
 std::vector<Timed> timed_runs(const BenchOptions& options) {
   std::vector<Timed> all;
   std::set<std::string> names;
-  for (std::size_t i = 0; i < options.scenes.size(); ++i) {
-    TimedRun run{options.scenes[i], options.load, options.frames, ""};
+  for (const std::string& asked : options.scenes) {
+    TimedRun run{asked, options.load, options.frames, ""};
     const Scene scene = bench::load_scene(run);
     run.frames = std::min(run.frames, bench::last_frame(scene));
     if (!names.insert(scene.name).second) {
-      throw InputError(options.scenes[i] + ": a second scene named " + scene.name +
+      throw InputError(asked + ": a second scene named " + scene.name +
                        "; time it in a run of its own");
     }
-    all.push_back({run, i, ""});
-    if (!options.against.empty()) all.push_back({run, i, options.against});
+    all.push_back({run, ""});
+    if (!options.against.empty()) all.push_back({run, options.against});
     if (!options.features) continue;
     for (const scenes::Feature& feature : scenes::features()) {
       if (!feature.turn_off || feature.state(scene) != "on") continue;
-      all.push_back({run, i, ""});
+      all.push_back({run, ""});
       all.back().run.without = feature.name;
     }
   }
@@ -123,8 +122,9 @@ void stay_on(int processor) {
   sched_setaffinity(0, sizeof set, &set);
 }
 
-/// Their figures as JSON. Each in a process of its own, so that its peak memory is its own; several
-/// at once on one processor, so that what slows it, such as others at the memory, slows all alike.
+/// Their figures as JSON; none if a stop signal came. Each in a process of its own, so that its
+/// peak memory is its own; several at once on one processor, so that what slows it, such as others
+/// at the memory, slows all alike.
 std::vector<std::string> run_once(const BenchOptions& options, std::span<const Timed> runs,
                                   bool warn) {
   std::vector<File> files;
@@ -141,6 +141,7 @@ std::vector<std::string> run_once(const BenchOptions& options, std::span<const T
     });
   }
   const std::vector<Ended> ended = run_apart(works);
+  if (stop_signal() != 0) return {};
   std::vector<std::string> figures;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (ended[i].signal != 0 || ended[i].exit_code != 0) {
@@ -151,7 +152,8 @@ std::vector<std::string> run_once(const BenchOptions& options, std::span<const T
   return figures;
 }
 
-/// What was measured: an object a scene, and those of the other program, if there is one.
+/// Measurements: an object a scene, and those of the other program, if there is one. Scenes of
+/// which nothing was measured before a stop signal are left out.
 struct Measured {
   std::vector<Figures> scenes, others;
 };
@@ -166,34 +168,41 @@ Figures median_of(const Timed& timed) {
 }
 
 /// Repeats go in turns, everything once a turn, so that what slows the machine for a while slows
-/// all of it; a scene by this program and by the other go at once, if by one thread each.
-Measured measure(const BenchOptions& options) {
-  set_threads(1);  // a process that has begun others cannot be copied
-  std::vector<Timed> all = timed_runs(options);
+/// all of it; a scene by this program and by the other go at once, if by one thread each. Ends
+/// early when a stop signal is caught.
+void repeat(const BenchOptions& options, std::vector<Timed>& all) {
   const int turns = options.warm_up + options.repeats;
   WorkProgress progress("bench", options.quiet);
   for (int turn = 0; turn < turns; ++turn) {
     for (std::size_t i = 0, count = 0; i < all.size(); i += count) {
+      if (stop_signal() != 0) return;
       const double done = static_cast<double>(i) / static_cast<double>(all.size());
       progress(title_of(all[i]).c_str(), (turn + done) / turns);
       const bool has_other = i + 1 < all.size() && !all[i + 1].program.empty();
       count = has_other && options.threads == 1 ? 2 : 1;
       const auto figures = run_once(options, std::span(all).subspan(i, count),
                                     turn == 0 && all[i].run.without.empty());
-      if (turn < options.warm_up) continue;
+      if (turn < options.warm_up || figures.empty()) continue;
       for (std::size_t k = 0; k < count; ++k) all[i + k].repeats.push_back(figures[k]);
     }
   }
+}
+
+Measured measure(const BenchOptions& options) {
+  set_threads(1);  // a process that has begun others cannot be copied
+  std::vector<Timed> all = timed_runs(options);
+  catch_stop_signals();
+  repeat(options, all);
   Measured measured;
-  measured.scenes.resize(options.scenes.size());
   for (const Timed& timed : all) {
+    if (timed.repeats.empty()) continue;
     const Figures median = median_of(timed);
-    Figures& scene = measured.scenes[timed.scene];
     if (!timed.program.empty()) {
       measured.others.push_back(median);
     } else if (timed.run.without.empty()) {
-      scene = median;
+      measured.scenes.push_back(median);
     } else {
+      Figures& scene = measured.scenes.back();
       scene["/features/" + timed.run.without + "/cpu_mean_ms"] =
           number_at(median, "/frame/cpu_mean_ms");
     }
@@ -238,17 +247,23 @@ int bench(const BenchOptions& options) {
   } else {
     measured.scenes = read_timings(options.from);
   }
+  const int stopped = stop_signal();
   const std::vector<Figures>& scenes = measured.scenes;
+  if (stopped != 0) {
+    options.say(scenes.empty() ? "stopped before anything was timed; nothing is written\n"
+                               : "stopped; this is what was timed before:\n");
+    if (scenes.empty()) return 128 + stopped;
+  }
   const std::string old_name = options.against.empty() ? options.compare : options.against;
   if (!options.against.empty()) old = measured.others;
-  if (options.accept) {
+  if (options.accept && stopped == 0) {
     bench::accept_states(scenes, book);
     write_text(options.hashes, bench::format_hashes(book));
   }
   std::vector<Verdict> verdicts = bench::judge_states(scenes, book, options.hashes);
   bench::Comparison comparison;
   if (!old_name.empty()) {
-    comparison = bench::compare(scenes, old, old_name, fail_slower);
+    comparison = bench::compare(scenes, old, old_name, fail_slower, !options.against.empty());
     verdicts.insert(verdicts.end(), comparison.verdicts.begin(), comparison.verdicts.end());
   }
 
@@ -261,7 +276,7 @@ int bench(const BenchOptions& options) {
   }
   const std::string failed = bench::verdict_lines(verdicts, true);
   std::fputs(failed.c_str(), stderr);
-  return failed.empty() ? 0 : 1;
+  return stopped != 0 ? 128 + stopped : failed.empty() ? 0 : 1;
 }
 
 }  // namespace sunder::app

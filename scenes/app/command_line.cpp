@@ -1,15 +1,13 @@
 // The options of every command.
 #include "scenes/app/command_line.h"
 
-#include <algorithm>
+#include <span>
 
-#include "engine/base/check.h"
 #include "render/camera.h"
 #include "render/view_mode.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/subcommand.h"
-#include "scenes/file/keys.h"
 
 namespace sunder::app {
 namespace {
@@ -99,7 +97,8 @@ void add_render(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   command.app
       ->add_option("--also", options.render.layers,
-                   std::string("Images beside each, of 16 bits: ") + render::kLayers)
+                   std::string("Images beside each, of 16 bits, depth_m of 32-bit floats: ") +
+                       render::kLayers)
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -144,7 +143,8 @@ void add_bench(CLI::App& program, Command& chosen) {
           ->excludes(compare);
   command.app
       ->add_option("--fail-slower", options.fail_slower,
-                   "With these two: fail if a stage is slower by more than this")
+                   "With these two: fail if a stage is slower by more than this, and the low "
+                   "end of its confidence interval is, too")
       ->type_name("PERCENT");
   auto* accept = command.app->add_flag("--accept", options.accept,
                                        "Store the states that the scenes come to as right");
@@ -342,17 +342,6 @@ void add_golden(CLI::App& program, Command& chosen) {
   record.add_changes();
 }
 
-/// Of a name that is no command it says which are.
-void check_command(const CLI::App& program, const std::string& word) {
-  if (word.empty() || word.starts_with("-")) return;
-  std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
-  if (std::ranges::find(names, word) != names.end()) return;
-  const std::vector<std::string_view> known(names.begin(), names.end());
-  throw InputError("unknown command '" + word + "'" + scenes::did_you_mean(word, known) +
-                   "; commands: " + scenes::join(known));
-}
-
 }  // namespace
 
 Command parse_command_line(int argc, char** argv) {
@@ -370,7 +359,7 @@ Command parse_command_line(int argc, char** argv) {
   add_vacd(program, chosen);
   add_hull(program, chosen);
   add_golden(program, chosen);
-  check_command(program, argc > 1 ? argv[1] : "");
+  check_words(program, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

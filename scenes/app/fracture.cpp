@@ -264,6 +264,7 @@ int fracture_mesh(const FractureOptions& options) {
   const fracture::BreakCase example = case_of(options, solid, paints, *progress);
   const Broken broken = carry_out(example.compound, example.command, *progress);
   progress.reset();
+  print_warnings(solid);
   options.say(summary(solid, broken));
   if (!options.output.empty()) {
     const std::size_t walled =

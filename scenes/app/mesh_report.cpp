@@ -33,7 +33,16 @@ Figures input_figures(const scenes::MeshSolid& solid) {
   for (std::size_t i = 0; i < solid.repairs.size(); ++i) {
     figures["/input/repairs/" + std::to_string(i)] = text(solid.repairs[i]);
   }
+  if (solid.warnings.empty()) figures["/warnings"] = EmptyList();
+  for (std::size_t i = 0; i < solid.warnings.size(); ++i) {
+    figures["/warnings/" + std::to_string(i)] = solid.warnings[i];
+  }
   return figures;
+}
+
+void print_warnings(const scenes::MeshSolid& solid) {
+  for (const std::string& warning : solid.warnings)
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
 }
 
 std::string input_summary(const scenes::MeshSolid& solid) {

@@ -13,8 +13,10 @@
 
 namespace sunder::app {
 
-/// The object `input`.
+/// The object `input`, and the list of warnings.
 Figures input_figures(const scenes::MeshSolid& solid);
+/// Prints the warnings.
+void print_warnings(const scenes::MeshSolid& solid);
 /// Two lines for people.
 std::string input_summary(const scenes::MeshSolid& solid);
 

@@ -102,6 +102,21 @@ class Watched final : public FrameSource {
   FrameSink& sink_;
 };
 
+/// Hashes the states that go by, and counts how often they reached limits.
+class Record final : public FrameSink {
+ public:
+  void take(const FramePtr& frame) override {
+    states_.take(frame);
+    limits_hit_ += frame->report.limits_hit;
+  }
+  std::string hash() const { return states_.hex(); }
+  std::string warning() const { return limits_warning(limits_hit_); }
+
+ private:
+  StateHash states_;
+  std::uint32_t limits_hit_ = 0;
+};
+
 /// Counts what gets as far as this.
 class Counter final : public FrameSink {
  public:
@@ -223,18 +238,20 @@ int render_scene(const RenderOptions& options) {
   const auto pictures = make_sink(options, renderer, first, last);
   Counter counter(*pictures);
   FramesFrom from(counter, first);
-  StateHash hash;
+  Record record;
   FramesUntil frames(*shown.source, shown.drawn.last - shown.skipped);
   // With one thread to have, pictures and frames take turns.
   std::optional<FramesAhead> ahead;
   if (threads() > 1) ahead.emplace(frames);
-  Watched watched(ahead ? static_cast<FrameSource&>(*ahead) : frames, hash);
+  Watched watched(ahead ? static_cast<FrameSource&>(*ahead) : frames, record);
   render::PacedSource paced(watched, pace, camera->remembers() ? 0 : first);
   LookedAt seen(paced, options, *camera, shown.is_recorded);
   Progress progress("render " + options.scene, static_cast<int>(last), options.quiet);
   FrameSink* const sinks[] = {&from, &progress};
   const int stopped = pump_until_stopped(seen, sinks);
   ahead.reset();
+  if (const std::string warning = record.warning(); !warning.empty())
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
   if (counter.taken() == 0) {
     options.say("stopped before anything was drawn; nothing is written\n");
   } else {
@@ -248,7 +265,7 @@ int render_scene(const RenderOptions& options) {
                                      {"/first_frame", std::int64_t{shown.drawn.first}},
                                      {"/last_frame", std::int64_t{shown.drawn.last}},
                                      {"/pictures", counter.taken()},
-                                     {"/state_hash", hash.hex()}}));
+                                     {"/state_hash", record.hash()}}));
   if (shown.take && !shown.take->damage().empty()) {
     throw InputError(options.scene + ": " + shown.take->damage() + "; what was before is drawn");
   }

@@ -12,21 +12,15 @@
 namespace sunder::app {
 namespace {
 
-volatile std::sig_atomic_t stop_signal = 0;
+volatile std::sig_atomic_t caught = 0;
+
+constexpr int kStopSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 /// A source that ends when a signal asks it to.
 class UntilStopped final : public FrameSource {
  public:
-  explicit UntilStopped(FrameSource& source) : source_(source) {
-    struct sigaction action = {};
-    action.sa_handler = [](int signal) { stop_signal = signal; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
-    struct sigaction before = {};  // whoever asked to go on without a terminal does
-    ::sigaction(SIGHUP, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
-  }
-  FramePtr next() override { return stop_signal == 0 ? source_.next() : nullptr; }
+  explicit UntilStopped(FrameSource& source) : source_(source) { catch_stop_signals(); }
+  FramePtr next() override { return caught == 0 ? source_.next() : nullptr; }
 
  private:
   FrameSource& source_;
@@ -34,10 +28,32 @@ class UntilStopped final : public FrameSource {
 
 }  // namespace
 
+void catch_stop_signals() {
+  struct sigaction action = {};
+  action.sa_handler = [](int signal) { caught = signal; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int signal : kStopSignals) {
+    struct sigaction before = {};  // whoever asked to go on without a terminal does
+    ::sigaction(signal, nullptr, &before);
+    if (signal != SIGHUP || before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+  }
+}
+
+int stop_signal() { return caught; }
+
+void release_stop_signals() {
+  caught = 0;
+  for (const int signal : kStopSignals) {
+    struct sigaction before = {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::signal(signal, SIG_DFL);
+  }
+}
+
 int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks) {
   UntilStopped until(source);
   pump(until, sinks);
-  return stop_signal == 0 ? 0 : 128 + stop_signal;
+  return caught == 0 ? 0 : 128 + caught;
 }
 
 std::unique_ptr<FrameSource> make_simulation(Scene scene, bool inspect) {

@@ -45,6 +45,14 @@ class FramesFrom final : public FrameSink {
   std::uint64_t first_;
 };
 
+/// Makes an interrupt (Ctrl-C), a termination or a terminal that goes be kept in stop_signal(); a
+/// second one ends the program at once.
+void catch_stop_signals();
+/// The signal that was caught; 0: none.
+int stop_signal();
+/// Makes signals end this process as usual again, and forgets what was caught.
+void release_stop_signals();
+
 /// As pump(); but an interrupt (Ctrl-C), a termination or a terminal that goes ends it after the
 /// frame under way, and what the sinks have is finished as if the source had ended there. A second
 /// one ends the program at once. The exit code: 0, or 128 and the signal.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -42,6 +43,11 @@ CLI::Validator from_to(Number low, Number high) {
       },
       name(low) + " - " + name(high));
 }
+
+/// Throws InputError, with what may be meant, if the first word is none of the commands, or of
+/// those of its command, and for an option that the command does not have. `of`: the words before.
+void check_words(const CLI::App& program, std::span<char*> words,
+                 const std::string& of = "sunder ");
 
 /// The options of a command that name files.
 struct FileOptions {

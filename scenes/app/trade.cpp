@@ -33,6 +33,12 @@ bench::Study study_of(const TradeOptions& options) {
   for (const std::string& assignment : options.switches) {
     bench::add_switch(study.points, assignment);
   }
+  for (const std::string& assignment : options.load.set) {
+    if (assignment.starts_with("scene.seed=")) {
+      throw InputError("--set " + assignment +
+                       ": every run of a study has a seed of its own; leave it out");
+    }
+  }
   study.set = options.load.set;
   study.seeds = options.seeds;
   study.frames = options.frames;

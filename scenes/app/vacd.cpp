@@ -60,6 +60,7 @@ void decompose_once(const VacdOptions& options) {
   mesh.progress = [&](const char* step, double share) { (*progress)(step, share); };
   const scenes::MeshSolid solid = scenes::make_mesh_solid(options.mesh, mesh);
   progress.reset();
+  print_warnings(solid);
   const Doubled doubled = fracture::doubled_volume(solid.compound);
   options.say(summary(solid, doubled));
   if (!options.output.empty()) {

@@ -44,10 +44,10 @@ struct BodyTable {
 const Keys<BodyTable>& body_keys();
 
 /// A mesh in its own coordinates, of its material. Files are sought from `folder` on,
-/// decompositions kept in the cache (mesh_cache.h), and the scene's paints are appended to. Throws
-/// InputError without a place.
+/// decompositions kept in the cache (mesh_cache.h), and the scene's paints and warnings are
+/// appended to. Throws InputError without a place.
 Compound read_compound(const MeshTable& given, const std::filesystem::path& folder,
-                       std::vector<Paint>& paints);
+                       std::vector<Paint>& paints, std::vector<std::string>& warnings);
 /// The middle of a compound's lowest level.
 Vec3 foot_of(const Compound& compound);
 
@@ -59,6 +59,7 @@ struct Body {
 };
 /// Throws InputError.
 Body read_body(const Value& table, std::span<const Material> materials,
-               const std::filesystem::path& folder, std::vector<Paint>& paints);
+               const std::filesystem::path& folder, std::vector<Paint>& paints,
+               std::vector<std::string>& warnings);
 
 }  // namespace sunder::scenes

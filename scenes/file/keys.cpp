@@ -30,22 +30,25 @@ struct Reading {
   std::string_view table;
   double scale;  ///< From what the key allows to what is stored.
 
-  [[noreturn]] void fail() const {
+  /// `part`: the number within the value that is wrong, if it is not all of it.
+  [[noreturn]] void fail(const Value* part = nullptr) const {
+    const std::string wrong = part ? ", in which " + describe(*part) + " is wrong" : "";
     throw InputError(value.where + ": " + std::string(key.name) + " in " + std::string(table) +
-                     " is " + describe(value) + "; allowed: " + allowed(key));
+                     " is " + describe(value) + wrong + "; allowed: " + allowed(key));
   }
 
   double number(const Value& from) const {
+    const Value* const part = &from == &value ? nullptr : &from;
     double number = 0;
     if (const auto* integer = std::get_if<std::int64_t>(&from.data)) {
       number = static_cast<double>(*integer);
     } else if (const auto* real = std::get_if<double>(&from.data)) {
       number = *real;
     } else {
-      fail();
+      fail(part);
     }
     // Written so that NaN fails too; infinity passes where the range says so.
-    if (!(number >= key.range.low && number <= key.range.high)) fail();
+    if (!(number >= key.range.low && number <= key.range.high)) fail(part);
     return number * scale;
   }
 
@@ -257,15 +260,20 @@ void check_known(const Value& table, std::string_view name,
   }
 }
 
-/// " ('sise_m' is none)" if a table has something like a key, and no key.
-std::string misspelt(const Table& entries, const Key& key, std::span<const Key> keys) {
-  for (const Entry& entry : entries) {
+/// Throws InputError for a key that the table lacks, at the one that seems to be meant by it.
+[[noreturn]] void refuse_missing(const Value& table, std::string_view name, const Key& key,
+                                 std::span<const Key> keys) {
+  constexpr std::size_t kShort = 2;  // is like any other
+  const std::string missing =
+      ": missing key '" + std::string(key.name) + "' in " + std::string(name);
+  for (const Entry& entry : as_table(table, name)) {
     const auto is_it = [&](const Key& known) { return known.name == entry.key; };
-    if (std::ranges::any_of(keys, is_it)) continue;
-    if (!did_you_mean(entry.key, std::span(&key.name, 1)).empty())
-      return " ('" + entry.key + "' is none)";
+    if (entry.key.size() <= kShort || std::ranges::any_of(keys, is_it)) continue;
+    if (did_you_mean(entry.key, std::span(&key.name, 1)).empty()) continue;
+    throw InputError(entry.value.where + missing + "; did you mean it by '" + entry.key +
+                     "'? It is " + allowed(key));
   }
-  return "";
+  throw InputError(table.where + missing + ": " + allowed(key));
 }
 
 void read_keys(const Value& table, std::string_view name, std::span<const Key> keys,
@@ -279,10 +287,7 @@ void read_keys(const Value& table, std::string_view name, std::span<const Key> k
       throw InputError(degrees->where + ": " + degrees_key + " in " + std::string(name) +
                        " is given beside " + std::string(key.name) + "; keep one");
     }
-    if (!value && !degrees && key.required) {
-      throw InputError(table.where + ": missing key '" + std::string(key.name) + "' in " +
-                       std::string(name) + misspelt(entries, key, keys) + ": " + allowed(key));
-    }
+    if (!value && !degrees && key.required) refuse_missing(table, name, key, keys);
     if (value) store({*value, key, name, 1}, object);
     if (degrees) store({*degrees, in_degrees(key, degrees_key), name, kDegree}, object);
     if (key.kind == Key::Kind::kMaterial) {

@@ -1,5 +1,6 @@
 #include "scenes/file/make_compound.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -28,7 +29,12 @@ Compound make_compound(std::vector<Part> parts) {
 
 Compound make_compound(const std::string& mesh, MaterialIndex material,
                        const MeshOptions& options) {
-  Compound compound = make_mesh_solid(mesh, options).compound;
+  MeshSolid solid = make_mesh_solid(mesh, options);
+  for (const std::string& warning : solid.warnings) {
+    if (!options.paints || !options.warnings) break;
+    if (std::ranges::count(*options.warnings, warning) == 0) options.warnings->push_back(warning);
+  }
+  Compound compound = std::move(solid.compound);
   std::vector<MaterialIndex> materials = {material};
   for (const auto& [name, of] : options.materials) materials.push_back(of);
   set_materials(compound, materials);

@@ -30,6 +30,8 @@ struct MeshOptions {
   /// Where to append how the file paints its surface, in place of what its materials look like:
   /// what a scene has, whose paints are these. Null: it looks as its materials do.
   std::vector<Paint>* paints = nullptr;
+  /// Warnings about the paints are appended to this, each once; null: to nothing.
+  std::vector<std::string>* warnings = nullptr;
   bool cached = false;  ///< Whether a decomposition is kept, and recalled (mesh_cache.h).
   /// Told of each step when it begins, and then of the share of all work done; may be empty.
   std::function<void(const char* step, double share)> progress{};

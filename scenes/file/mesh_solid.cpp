@@ -166,6 +166,20 @@ void set_paints(Compound& compound, const std::vector<std::uint32_t>& paints) {
   }
 }
 
+/// Returns a warning that names the files which are not there; empty if all are.
+std::string missing_warning(const std::string& file, const std::vector<std::string>& missing) {
+  if (missing.empty()) return "";
+  std::string names;
+  for (std::size_t i = 0; i < std::min(missing.size(), kNamesShown); ++i) {
+    names += (i == 0 ? "'" : ", '") + missing[i] + "'";
+  }
+  if (missing.size() > kNamesShown) {
+    names += " and " + std::to_string(missing.size() - kNamesShown) + " more";
+  }
+  return file + ": names pictures or materials that cannot be read: " + names +
+         "; put them beside it, or export it as .glb with its pictures";
+}
+
 /// Reads, repairs and decomposes a file, or recalls what that once gave.
 MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   fracture::VacdOptions vacd_of = vacd_options(options);
@@ -174,6 +188,7 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
     vacd_of.progress = [&](double share) { options.progress("decomposing", 0.4 + 0.6 * share); };
   }
   RawMesh raw = make_raw_mesh(file);
+  const std::string warning = missing_warning(file, raw.missing_files);
   scale_mesh(raw, options, vacd_of);
   if (!options.materials.empty()) vacd_of.marked = materials_of(raw, file, options);
   std::vector<std::optional<Paint>> paints;
@@ -193,6 +208,7 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
     if (options.cached) keep(key, solid);
   }
   solid.name = std::filesystem::path(file).filename().string();
+  if (!warning.empty()) solid.warnings.push_back(warning);
   set_paints(solid.compound,
              options.paints ? add_paints(paints, *options.paints) : std::vector<std::uint32_t>());
   return solid;

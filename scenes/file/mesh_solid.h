@@ -26,6 +26,7 @@ struct MeshSolid {
   bool closed = true;
   std::vector<Repair> repairs;
   std::optional<fracture::VacdFigures> vacd;  ///< None for what is made of convexes.
+  std::vector<std::string> warnings;          ///< Pictures that are not there.
   double prepare_ms = 0;                      ///< All of it: reading, repairs and decomposition.
 };
 

@@ -10,7 +10,7 @@ std::vector<Piece> build_mesh(const void* parameters, const Value& table, const 
   try {
     MeshTable given = *static_cast<const MeshTable*>(parameters);
     read_named_materials(table, site.materials, given);
-    const Compound compound = read_compound(given, site.folder, site.paints);
+    const Compound compound = read_compound(given, site.folder, site.paints, site.warnings);
     const Pose to_foot{-foot_of(compound), Quat::Identity()};
     Piece piece;
     for (Part& part : parts_of(compound)) piece.parts.push_back(moved(std::move(part), to_foot));

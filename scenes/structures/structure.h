@@ -30,7 +30,8 @@ struct Piece {
 struct Site {
   std::span<const Material> materials;
   std::filesystem::path folder;  ///< Where files are sought.
-  std::vector<Paint>& paints;    ///< Of the scene, to append to.
+  std::vector<Paint>& paints;    ///< Of the scene, to append to, as are:
+  std::vector<std::string>& warnings;
 };
 
 /// A kind of structure: its keys in the scene file and how it is built.

@@ -123,6 +123,20 @@ TEST(Plot, NamesOfNeighboursDoNotCoverEachOther) {
   EXPECT_GT(std::abs(height("first") - height("second")), 10);
 }
 
+TEST(Plot, TheLegendIsAboveEveryPoint) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Curve curves[] = {{"one", {{1, 1}, {99, 99}, {99, infinity}, {1, infinity}}, true, true},
+                          {"another", {{99, 98}}, true, true}};
+  const std::string svg = svg_curves(kLogLog, curves);
+  std::vector<double> bottoms;
+  for (std::size_t at = svg.find("<rect"); at != std::string::npos; at = svg.find("<rect", at + 1))
+    bottoms.push_back(std::stod(svg.substr(svg.find(" y=\"", at) + 4)) + 10);
+  EXPECT_EQ(bottoms.size(), 2u);
+  for (const auto& [x, y] : dots(svg)) {
+    for (const double bottom : bottoms) EXPECT_GT(y - 4.5, bottom);
+  }
+}
+
 TEST(Plot, TicksOnANarrowLogarithmicAxisAreEnough) {
   const Curve curves[] = {{"", {{2.1, 1}, {3.9, 1000}}}};
   const std::string svg = svg_curves(kLogLog, curves);

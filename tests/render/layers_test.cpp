@@ -1,10 +1,14 @@
 // What is known of each pixel besides its colour, and pictures that what is behind them shows
 // through.
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
+#include "engine/io/bytes.h"
 #include "render/renderer.h"
 #include "tests/render/synthetic_frame.h"
 #include "tests/render/test_folder.h"
@@ -46,7 +50,7 @@ TEST(Layers, SayHowFarWhichWayAndOfWhatEveryPixelIs) {
   double far_m = 0;
   for (const auto& [key, word] : depth.words)
     if (key == "far_m") far_m = std::stod(word);
-  EXPECT_NEAR(far_m, 40, 1e-6) << "four times as far as what it looks at";
+  EXPECT_EQ(far_m, 64) << "at least four times as far as what it looks at";
   const int x = kWidth / 2, y = kHeight / 2;
   EXPECT_NEAR(at(depth, x, y)[0] / 65535.0 * far_m, 9, 0.01);
   EXPECT_EQ(at(depth, 2, 2)[0], 65535) << "the sky";
@@ -58,6 +62,49 @@ TEST(Layers, SayHowFarWhichWayAndOfWhatEveryPixelIs) {
   EXPECT_EQ(at(normals, 2, 2), (std::vector<std::uint16_t>{0, 0, 0})) << "the sky";
   EXPECT_EQ(at(ids, x, y), (std::vector<std::uint16_t>{70001 - 65536, 1, 0}));
   EXPECT_EQ(at(ids, 2, kHeight - 2), (std::vector<std::uint16_t>{0, 0, 0})) << "the ground";
+}
+
+TEST(Layers, OfDepthAreOfOneScaleWhereverTheCameraGoes) {
+  Renderer renderer(with_layers({"depth"}));
+  Frame frame = wall();
+  renderer.draw(frame);
+  const DeepImage first = renderer.layers()[0].image;
+  frame.view.eye_W.z() = 30;
+  renderer.draw(frame);
+  const DeepImage& second = renderer.layers()[0].image;
+  EXPECT_EQ(second.words, first.words);
+  EXPECT_NEAR(at(second, kWidth / 2, kHeight / 2)[0] / 65535.0 * 64, 29, 0.01);
+}
+
+TEST(Layers, OfDepthInMetresAreFloatsThatOtherProgramsRead) {
+  const TestFolder folder;
+  Renderer renderer(with_layers({"depth_m"}));
+  const auto sink = make_picture_sink(folder / "wall.png", renderer);
+  sink->take(std::make_shared<Frame>(wall()));
+  sink->finish();
+  const std::vector<float>& metres = renderer.layers()[0].metres;
+  const auto middle = static_cast<std::size_t>(kHeight / 2 * kWidth + kWidth / 2);
+  ASSERT_EQ(metres.size(), static_cast<std::size_t>(kWidth * kHeight));
+  EXPECT_NEAR(metres[middle], 9, 1e-4);
+  EXPECT_TRUE(std::isinf(metres[0])) << "the sky";
+  const std::vector<std::byte> bytes = read_file(folder / "wall_depth_m.exr");
+  const std::size_t row = kWidth * sizeof(float), rows = kHeight * (8 + row);
+  ASSERT_GT(bytes.size(), rows);
+  float stored = 0;
+  std::memcpy(&stored, &bytes[bytes.size() - rows + kHeight / 2 * (8 + row) + 8 + row / 2], 4);
+  EXPECT_EQ(stored, metres[middle]);
+  std::uint64_t place = 0;  // of the last row, by the table
+  std::memcpy(&place, &bytes[bytes.size() - rows - 8], 8);
+  EXPECT_EQ(place, bytes.size() - 8 - row);
+  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) return;
+  const std::string raw = (folder / "raw").string();
+  ASSERT_EQ(std::system(("ffmpeg -v error -i " + (folder / "wall_depth_m.exr").string() +
+                         " -f rawvideo -pix_fmt grayf32le " + raw)
+                            .c_str()),
+            0);
+  const std::vector<std::byte> decoded = read_file(raw);
+  ASSERT_EQ(decoded.size(), metres.size() * sizeof(float));
+  EXPECT_EQ(std::memcmp(decoded.data(), metres.data(), decoded.size()), 0);
 }
 
 TEST(Layers, HaveWhatIsPaintedToo) {
@@ -144,7 +191,7 @@ TEST(PictureSink, WritesLayersBesideThePictureAndRefusesThemForAVideo) {
   ASSERT_EQ(depth.height, kHeight);
   EXPECT_EQ(depth.rgb[0], 255);
   const auto middle = static_cast<std::size_t>(3 * (kHeight / 2 * kWidth + kWidth / 2));
-  EXPECT_NEAR(depth.rgb[middle], 255 * 9 / 40.0, 1);
+  EXPECT_NEAR(depth.rgb[middle], 255 * 9 / 64.0, 1);
   try {
     make_picture_sink(folder / "wall.mp4", renderer);
     ADD_FAILURE();

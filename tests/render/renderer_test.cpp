@@ -122,6 +122,16 @@ TEST(Renderer, AnUnknownContextIsRefusedWithWhatIsAllowed) {
   EXPECT_THROW(Renderer(small("egl-device:99")), InputError);
 }
 
+TEST(Renderer, APictureTooLargeForTheDeviceIsRefusedWithTheLargestThatIsNot) {
+  try {
+    Renderer renderer({.width = 1 << 20, .height = 16});
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    const std::string said = error.what();
+    EXPECT_TRUE(said.starts_with("--size 1048576x16: the largest picture")) << said;
+  }
+}
+
 TEST(Renderer, ADescriptionNamesTheContextAndTheDriver) {
   const std::string text = renderer().description();
   EXPECT_NE(text.find(':'), std::string::npos) << text;

@@ -165,6 +165,19 @@ TEST(VideoSink, AnFfmpegThatFailsWithoutSayingSoInItsStatusIsAnErrorToo) {
   EXPECT_EQ(folder.contents(), std::vector<std::string>{"bin"});
 }
 
+TEST(VideoSink, WhatFfmpegComplainsOfIsAnErrorBeforeTheNextFrameIsDrawn) {
+  const TestFolder folder;
+  std::filesystem::create_directories(folder / "bin");
+  const std::filesystem::path program = folder / "bin" / "ffmpeg";
+  std::ofstream(program) << "#!/bin/sh\necho no space left >&2\nexec /bin/cat >/dev/null\n";
+  ::chmod(program.c_str(), 0755);
+  const SearchPath fake(folder / "bin");
+  const auto sink = make_picture_sink(folder / "v.mp4", renderer());
+  // More frames than the connection holds: ffmpeg has spoken when it takes the last.
+  EXPECT_THROW(take_frames(*sink, 60), FileError);
+  EXPECT_EQ(folder.contents(), std::vector<std::string>{"bin"});
+}
+
 TEST(VideoSink, AnOddSizeIsRefusedWithAnEvenOneWhileAPictureMayHaveIt) {
   const TestFolder folder;
   Renderer odd({.width = 161, .height = 91});

@@ -71,8 +71,8 @@ constexpr Fault kFaults[] = {
     {"gravity = 9.81", "bad.toml:3: gravity in [scene] is the number 9.81; allowed: [x, y, z]"},
     {"gravity = [0, -9.81]", "bad.toml:3: gravity in [scene] is [0, -9.81]; allowed: [x, y, z]"},
     {"gravity = [0, \"down\", 0]",
-     "bad.toml:3: gravity in [scene] is an array of 3; allowed: "
-     "[x, y, z], each a number"},
+     "bad.toml:3: gravity in [scene] is an array of 3, in which the string \"down\" is wrong; "
+     "allowed: [x, y, z], each a number"},
     {"[script]\nenabled = 1",
      "bad.toml:4: enabled in [script] is the number 1; allowed: true or "
      "false"},
@@ -97,7 +97,7 @@ constexpr Fault kFaults[] = {
     {"duration_s = nan", "bad.toml:3: duration_s in [scene] is the number nan; allowed"},
     {"duration_s = inf", "bad.toml:3: duration_s in [scene] is the number inf; allowed"},
     {"gravity = [0, -inf, 0]",
-     "bad.toml:3: gravity in [scene] is [0, -inf, 0]; allowed: "
+     "bad.toml:3: gravity in [scene] is [0, -inf, 0], in which the number -inf is wrong; allowed: "
      "[x, y, z], each a number from -100 to 100"},
     {"[view]\nfov_deg = 270",
      "bad.toml:4: fov_deg in [view] is the number 270; allowed: a number from 1.15 to 171.89, in "
@@ -239,8 +239,8 @@ constexpr Fault kFaults[] = {
      "bad.toml:5: fov_deg in [view] is given beside fov_rad; "
      "keep one"},
     {"[[solid]]\nstructure = \"box\"\nrotation_deg = [0, 400, 0]",
-     "bad.toml:5: rotation_deg in [[solid]] is [0, 400, 0]; allowed: [x, y, z], each a number "
-     "from -360 to 360, in degrees"},
+     "bad.toml:5: rotation_deg in [[solid]] is [0, 400, 0], in which the number 400 is wrong; "
+     "allowed: [x, y, z], each a number from -360 to 360, in degrees"},
     {"[[body]]\nmesh = \"box:1,1,1\"\nrotation_deg = 90",
      "bad.toml:5: rotation_deg in [[body]] is the number 90; allowed: [x, y, z]"},
     {"[[solid]]\nstructure = \"box\"\nrotation_degs = [0, 90, 0]",

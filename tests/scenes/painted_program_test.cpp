@@ -1,4 +1,5 @@
 // What a file paints is in what the program makes of it.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -6,6 +7,7 @@
 
 #include "engine/geometry/convex_polyhedron.h"
 #include "engine/io/bytes.h"
+#include "engine/io/figures.h"
 #include "engine/io/mesh/mesh_reader.h"
 #include "render/image/image.h"
 #include "scenes/file/text_file.h"
@@ -73,6 +75,60 @@ TEST(Fracture, OfAPaintedFileGivesPaintedPieces) {
   std::filesystem::remove(folder / "box.mtl");
   ASSERT_EQ(sunder(command + folder / "b.png").exit_code, 0);
   EXPECT_NE(scenes::read_text(folder / "a.png"), scenes::read_text(folder / "b.png"));
+}
+
+/// The warnings of a JSON document, one a line.
+std::string warnings_in(const std::string& json) {
+  std::string all;
+  for (const auto& [place, value] : parse_figures(json, "json")) {
+    if (place.starts_with("/warnings/")) all += std::get<std::string>(value) + "\n";
+  }
+  return all;
+}
+
+TEST(Pictures, ThatAreNotThereAreNamedInTextAndInJson) {
+  const Folder folder;
+  write_painted_box(folder);
+  std::ofstream(folder / "s.toml") << "[scene]\ndescription = \"x\"\nduration_s = 0.1\n"
+                                      "[[body]]\nmesh = \"box.obj\"\n"
+                                      "[[body]]\nmesh = \"box.obj\"\nposition = [9, 0, 0]\n";
+  const std::string mesh = folder / "box.obj", scene = folder / "s.toml";
+  const std::string commands[] = {"fracture " + mesh + " --pattern grid:2 --quiet --json -",
+                                  "vacd " + mesh + " --quiet --json -",
+                                  "simulate " + scene + " --quiet --json -"};
+  for (const std::string& command : commands) {
+    const Outcome outcome = sunder(command);
+    EXPECT_EQ(outcome.err, "") << command;
+    EXPECT_EQ(warnings_in(outcome.out), "") << command;
+  }
+  std::filesystem::remove(folder / "color.png");
+  std::filesystem::remove(folder / "heights.png");
+  for (const std::string& command : commands) {
+    const Outcome outcome = sunder(command);
+    EXPECT_EQ(outcome.exit_code, 0) << command;
+    const std::string said = warnings_in(outcome.out);
+    EXPECT_NE(said.find("'color.png', 'heights.png'"), std::string::npos) << command << said;
+    EXPECT_NE(outcome.err.find("'color.png', 'heights.png'"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << "once, of whatever many bodies";
+  }
+  EXPECT_EQ(sunder("simulate " + scene + " --quiet --set body.0.look=material " +
+                   "--set body.1.look=material")
+                .err,
+            "")
+      << "nobody wants them";
+  std::filesystem::remove(folder / "box.mtl");
+  EXPECT_NE(sunder(commands[0]).err.find("'box.mtl'"), std::string::npos);
+  std::ofstream(folder / "t.gltf")
+      << R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":48,"uri":"t.bin"}],)"
+      << R"("bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteLength":48}],)"
+      << R"("accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}],)"
+      << R"("images":[{"uri":"wood%20a.png"}],"textures":[{"source":0}],"materials":)"
+      << R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"meshes":[{"primitives":)"
+      << R"([{"mode":5,"material":0,"attributes":{"POSITION":0}}]}]})";
+  const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  std::ofstream(folder / "t.bin", std::ios::binary)
+      .write(reinterpret_cast<const char*>(corners), sizeof corners);
+  EXPECT_NE(sunder("vacd " + folder / "t.gltf").err.find("wood%20a.png"), std::string::npos);
 }
 
 }  // namespace

@@ -49,7 +49,11 @@ TEST_F(WrongInput, IsNamed) {
   const std::pair<const char*, const char*> lines[] = {
       {"simulat a.toml", "did you mean 'simulate'?"},
       {"Simulate a.toml", "did you mean 'simulate'?"},
-      {"golden tes", "A subcommand is required"},
+      {"", "commands: list, check"},
+      {"golden tes", "did you mean 'test'?"},
+      {"golden", "commands: test, report"},
+      {"simulate a.toml --framse 3", "did you mean '--frames'?"},
+      {"hull t.obj --vertiices=8", "did you mean '--vertices'?"},
       {"simulate", "SCENE is required"},
       {"simulate d", "is a folder"},
       {"simulate nope.toml", "no such file"},
@@ -67,7 +71,8 @@ TEST_F(WrongInput, IsNamed) {
       {"simulate a.toml --set scene.seed=-1", "seed"},
       {"simulate a.toml --set limits.bodies=-5", "bodies"},
       {"simulate a.toml --set limits", "key=value"},
-      {"simulate a.toml --set solid.0.size_m=[1,-1,1]", "[1, -1, 1]"},
+      {"simulate a.toml --set solid.0.size_m=[1,-1,1]",
+       "size_m in [[solid]] box is [1, -1, 1], in which the number -1 is wrong"},
       {"simulate a.toml --set solid.9.name=x", "9"},
       {"simulate a.toml --json d", "is a folder"},
       {"simulate a.toml --take d", "is a folder"},
@@ -118,6 +123,8 @@ TEST_F(WrongInput, IsNamed) {
       {"bench a.toml --fail-slower 10%", "needs --compare"},
       {"trade a.toml --seeds 0", "from 1 to 10000"},
       {"trade a.toml --shard 3/2", "3/2"},
+      {"trade a.toml --list --switch =1", "KEY=VALUE"},
+      {"trade a.toml -o out --set scene.seed=x", "seed of its own"},
       {"golden test nope", "nope"},
       {"check nope.toml a.toml", "nope.toml"}};
   for (const auto& [arguments, said] : lines) expect(arguments, said);
@@ -126,7 +133,8 @@ TEST_F(WrongInput, IsNamed) {
 TEST_F(WrongInput, OfASceneNamesTheKeyThatWasMeant) {
   std::ofstream(folder_ / "b.toml") << "[scene]\ndescription = \"x\"\n[[solid]]\n"
                                        "structur = \"box\"\nsize_m = [1, 1, 1]\n";
-  expect("check b.toml", "'structur' is none");
+  expect("check b.toml",
+         "b.toml:4: missing key 'structure' in [[solid]]; did you mean it by 'structur'?");
 }
 
 TEST_F(WrongInput, OfATakeSaysWhereItEnds) {
@@ -141,6 +149,13 @@ TEST_F(WrongInput, ThatCanBeRunIsWarnedOf) {
   std::ofstream(folder_ / "under.toml") << kBlock << "position = [0, -5, 0]\n";
   EXPECT_NE(run("check under.toml").err.find("under the ground"), std::string::npos);
   EXPECT_EQ(run("check a.toml").err, "");
+  std::ofstream(folder_ / "shot.toml") << kBlock << "anchored = \"bottom\"\n[[script.shot]]\n"
+                                       << "time_s = 0.02\nfrom = [0, 0.5, 4]\nat = [0, 0.5, 0]\n"
+                                       << "speed_m_s = 60\n[limits]\nbodies = 2\n";
+  for (const char* command : {"simulate shot.toml", "render shot.toml --size 32x32 -o shot.png"}) {
+    const Outcome outcome = run(command + std::string(" --quiet"));
+    EXPECT_NE(outcome.err.find("raise limits.bodies"), std::string::npos) << command;
+  }
   EXPECT_NE(run("simulate a.toml --quiet --threads 1000").err.find("wait for each other"),
             std::string::npos);
 }

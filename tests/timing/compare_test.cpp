@@ -24,7 +24,7 @@ std::vector<std::string> failed(const Comparison& comparison) {
 }
 
 Comparison compared(const Figures& now, const Figures& old, std::optional<double> fail_slower) {
-  return compare(std::span(&now, 1), std::span(&old, 1), "old.json", fail_slower);
+  return compare(std::span(&now, 1), std::span(&old, 1), "old.json", fail_slower, false);
 }
 
 TEST(CompareTimings, ASlowdownOfATenthFailsAtFivePercentAndNotAtFifteen) {
@@ -80,26 +80,63 @@ TEST(CompareTimings, AStageWithoutATimeOfBeforeFails) {
 
 TEST(CompareTimings, ASceneThatTheOlderFileLacksIsSaidAndFails) {
   const Figures now[] = {planted("house", 1), planted("glass", 1)}, old[] = {planted("house", 1)};
-  const Comparison comparison = compare(now, old, "old.json", std::nullopt);
+  const Comparison comparison = compare(now, old, "old.json", std::nullopt, false);
   EXPECT_EQ(failed(comparison), (std::vector<std::string>{"glass, same run"}));
   EXPECT_NE(comparison.verdicts.back().text.find("not in old.json"), std::string::npos);
 }
 
 TEST(CompareTimings, OtherRunsAreNotCompared) {
   const Figures old = planted("house", 1);
-  const std::pair<const char*, std::string> texts[] = {{"/preset", "draft"},
-                                                       {"/state_hash", "0123456789abcdee"}};
-  for (const auto& [place, value] : texts) {
-    Figures now = old;
-    now[place] = value;
-    EXPECT_EQ(failed(compared(now, old, 0.05)), (std::vector<std::string>{"house, same run"}));
-    EXPECT_TRUE(compared(now, old, 0.05).changes.empty()) << place;
-  }
+  Figures draft = old;
+  draft["/preset"] = std::string("draft");
+  EXPECT_EQ(failed(compared(draft, old, 0.05)), (std::vector<std::string>{"house, same run"}));
+  EXPECT_TRUE(compared(draft, old, 0.05).changes.empty());
   for (const char* place : {"/frames", "/threads"}) {
     Figures now = old;
     now[place] = std::int64_t{7};
     EXPECT_EQ(failed(compared(now, old, 0.05)), (std::vector<std::string>{"house, same run"}));
   }
+}
+
+TEST(CompareTimings, TimesOfAnotherStateAreShownAndFailNothingMore) {
+  const Figures old = planted("house", 1);
+  Figures now = planted("house", 2);
+  now["/state_hash"] = std::string("0123456789abcdee");
+  const Comparison comparison = compared(now, old, 0.05);
+  EXPECT_EQ(failed(comparison), (std::vector<std::string>{"house, same run"}));
+  EXPECT_EQ(comparison.changes.size(), kStages + 1);
+  EXPECT_NE(changes_table(comparison.changes).find("+100.0 %"), std::string::npos);
+}
+
+/// The means of repeats of the solve stage.
+void put_repeats(Figures& scene, std::initializer_list<double> means_ms) {
+  int i = 0;
+  for (const double mean_ms : means_ms)
+    scene["/repeat_ms/solve/processor/" + std::to_string(i++)] = mean_ms;
+}
+
+TEST(CompareTimings, WhatRepeatsDoNotShowToBeSlowerFailsNothing) {
+  Figures old = planted("house", 1), now = old;
+  now["/stages/solve/cpu_mean_ms"] = 1.1;
+  put_repeats(old, {1, 1.2, 0.9, 1.1, 1});
+  put_repeats(now, {1.1, 0.9, 1.3, 1.15, 1});
+  EXPECT_TRUE(failed(compared(now, old, 0.05)).empty()) << "repeats are farther apart than that";
+  put_repeats(old, {1, 1.01, 0.99, 1, 1});
+  put_repeats(now, {1.1, 1.11, 1.09, 1.1, 1.1});
+  EXPECT_EQ(failed(compared(now, old, 0.05)), (std::vector<std::string>{"house, stage solve"}));
+  EXPECT_TRUE(failed(compared(now, old, 0.10)).empty()) << "its low end is less than a tenth";
+  const std::string table = changes_table(compared(now, old, 0.05).changes);
+  EXPECT_NE(table.find("% (97 % confidence)  slower"), std::string::npos) << table;
+}
+
+TEST(CompareTimings, RepeatsThatWereTimedAtOnceAreComparedInPairs) {
+  Figures old = planted("house", 1), now = old;
+  now["/stages/solve/cpu_mean_ms"] = 1.1;
+  put_repeats(old, {1, 2, 3, 4, 5, 6});
+  put_repeats(now, {1.1, 2.2, 3.3, 4.4, 5.5, 6.6});
+  EXPECT_TRUE(failed(compared(now, old, 0.05)).empty());
+  EXPECT_EQ(failed(compare(std::span(&now, 1), std::span(&old, 1), "other", 0.05, true)),
+            (std::vector<std::string>{"house, stage solve"}));
 }
 
 TEST(CompareTimings, PercentagesAreReadAndNothingElse) {

@@ -32,6 +32,7 @@ class Bench : public testing::Test {
     for (auto& stage : scene["stages"]) {
       for (auto& figure : stage) figure = 1.0;
     }
+    scene.erase("repeat_ms");
     for (auto& figure : scene["frame"]) figure = 7.0;
     write("old");
   }
@@ -122,6 +123,30 @@ TEST_F(Bench, AnotherProgramIsTimedInTheSameTurnsAndCompared) {
   EXPECT_NE(other.err.find("the state differs"), std::string::npos) << other.err;
   EXPECT_EQ(bench(fall + folder_ / "fall.toml").exit_code, 2) << "no program";
   EXPECT_EQ(bench(fall + "/bin/false").exit_code, 1);
+}
+
+TEST_F(Bench, StoppedItKeepsAndReportsWhatWasTimed) {
+  const auto stopped = [&](const std::string& turns) {
+    return sunder("bench " + folder_ / "fall.toml" + turns + " --hashes " + folder_ / "hashes.txt" +
+                      " --json " + file("stopped") + " --junit " + folder_ / "stopped.xml",
+                  "timeout --preserve-status -s INT -k 60 3 ");
+  };
+  const Outcome outcome = stopped(" --repeats 1000 --warm-up 0");
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+  EXPECT_NE(outcome.out.find("stopped; this is what was timed"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("fall: realtime"), std::string::npos) << outcome.out;
+  const Json json = Json::parse(scenes::read_text(file("stopped")));
+  ASSERT_EQ(json["scenes"].size(), 1u);
+  const int repeats = json["scenes"][0]["repeats"];
+  EXPECT_GE(repeats, 1);
+  EXPECT_LT(repeats, 1000);
+  EXPECT_EQ(json["scenes"][0]["repeat_ms"]["frame"]["processor"].size(), repeats);
+  EXPECT_NE(scenes::read_text(folder_ / "stopped.xml").find("name=\"state\""), std::string::npos);
+  std::filesystem::remove(file("stopped"));
+  const Outcome nothing = stopped(" --repeats 1 --warm-up 1000");
+  EXPECT_EQ(nothing.exit_code, 130) << nothing.err;
+  EXPECT_NE(nothing.out.find("stopped before anything was timed"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(file("stopped")));
 }
 
 TEST_F(Bench, AnotherProgramSharesOneProcessorWithThisOne) {

@@ -182,6 +182,16 @@ TEST(Report, CsvHasAColumnAnError) {
   EXPECT_EQ(records[4][7], "") << "the limit has no error";
 }
 
+TEST(Report, TheTableSaysInWhichUnitsItsFiguresAre) {
+  const Folder folder;
+  const auto runs = study_runs(small_study());
+  write_all(folder, runs);
+  const std::string table = trade_table(merge(runs, folder.path()));
+  EXPECT_NE(table.find("ms a frame  error/noise  cost/front  largest error\n"), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("drift, <b>\"largest\"</b> 0.5 m\n"), std::string::npos) << table;
+}
+
 TEST(Report, JsonHoldsTheSame) {
   const Folder folder;
   const auto runs = study_runs(small_study());

@@ -37,22 +37,27 @@ class GltfScene {
   explicit GltfScene(const MeshSource& source) : source_(source), data_(source), paints_(data_) {}
 
   RawMesh read() {
+    add_scene();
+    mesh_.missing_files = paints_.missing();
+    return std::move(mesh_);
+  }
+
+ private:
+  void add_scene() {
     const json& document = data_.document();
     const json& scenes = data_.array(document, "scenes");
     if (scenes.empty()) {  // a library of meshes
       for (const json& mesh : data_.array(document, "meshes")) {
         add_mesh(mesh, Eigen::Matrix4d::Identity(), {});
       }
-      return std::move(mesh_);
+      return;
     }
     const std::size_t scene = data_.index(document, "scene", scenes.size(), 0);
     for (const json& node : data_.array(scenes[scene], "nodes")) {
       add_node(node, Eigen::Matrix4d::Identity(), 0);
     }
-    return std::move(mesh_);
   }
 
- private:
   void add_node(const json& node_index, const Eigen::Matrix4d& parent, std::size_t depth) {
     const json& nodes = data_.array(data_.document(), "nodes");
     if (depth > kDeepest || ++nodes_visited_ > nodes.size()) {

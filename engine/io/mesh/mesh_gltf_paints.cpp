@@ -42,9 +42,11 @@ Picture GltfPaints::picture(std::size_t image) {
   if (given.contains("bufferView")) {
     bytes = data_.view(given);
   } else if (given.contains("uri") && given["uri"].is_string()) {
+    const auto uri = given["uri"].get<std::string>();
     try {
-      bytes = data_.load_uri(given["uri"].get<std::string>());
+      bytes = data_.load_uri(uri);
     } catch (const InputError&) {  // not there, or out of its folder
+      missing_.push_back(uri.starts_with("data:") ? "one within it" : uri);
     }
   }
   if (bytes.empty()) return nullptr;

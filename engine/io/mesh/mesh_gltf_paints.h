@@ -19,6 +19,8 @@ class GltfPaints {
   /// material says nothing of these. A picture that is not there, or uses other texture coordinates
   /// than the first, is left out.
   std::optional<Paint> of(const nlohmann::json& material);
+  /// Returns the names of the pictures that were sought and are not there.
+  const std::vector<std::string>& missing() const { return missing_; }
 
  private:
   /// What a use of a texture shows; null if that is not there, or is used otherwise.
@@ -27,6 +29,7 @@ class GltfPaints {
 
   const GltfData& data_;
   std::map<std::size_t, Picture> pictures_;  ///< By image.
+  std::vector<std::string> missing_;
 };
 
 }  // namespace sunder

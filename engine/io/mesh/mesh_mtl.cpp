@@ -80,32 +80,41 @@ PictureUse take_picture_use(MeshText& text) {
 /// The pictures beside a file, each read once.
 class PicturesBeside {
  public:
-  explicit PicturesBeside(const MeshSource& source) : source_(source) {}
+  PicturesBeside(const MeshSource& source, std::vector<std::string>& missing)
+      : source_(source), missing_(missing) {}
 
   /// Null if there is none of that name.
   Picture find(const std::string& name) {
     const auto [entry, is_new] = known_.try_emplace(name);
-    if (const auto found = is_new ? source_.beside(name) : std::nullopt) {
+    if (!is_new) return entry->second;
+    if (const auto found = source_.beside(name)) {
       const auto* begin = reinterpret_cast<const std::byte*>(found->data());
       entry->second = std::make_shared<const std::vector<std::byte>>(begin, begin + found->size());
+    } else if (!name.empty()) {
+      missing_.push_back(name);
     }
     return entry->second;
   }
 
  private:
   const MeshSource& source_;
+  std::vector<std::string>& missing_;
   std::map<std::string, Picture> known_;
 };
 
 }  // namespace
 
-std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::string& name) {
+std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::string& name,
+                                      std::vector<std::string>& missing) {
   std::map<std::string, Paint> paints;
   const std::optional<std::string> bytes = source.beside(name);
-  if (!bytes) return paints;
+  if (!bytes) {
+    if (!name.empty()) missing.push_back(name);
+    return paints;
+  }
   const MeshSource file{*bytes, source.file.parent_path() / name, source.limits};
   std::map<std::string, MtlMaterial> materials;
-  PicturesBeside pictures(source);
+  PicturesBeside pictures(source, missing);
   MeshText text(file);
   MtlMaterial none;
   MtlMaterial* material = &none;

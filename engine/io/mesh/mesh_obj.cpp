@@ -64,7 +64,7 @@ class ObjReader {
       names_ = {{}, text_.words(), names_.material};
       group_ = RawMesh::kNoGroup;
     } else if (keyword == "mtllib") {
-      paints_.merge(read_mtl(source_, text_.words()));
+      paints_.merge(read_mtl(source_, text_.words(), mesh_.missing_files));
     } else if (keyword == "usemtl") {
       names_.material = text_.words();
       group_ = RawMesh::kNoGroup;
