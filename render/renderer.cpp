@@ -242,6 +242,10 @@ void Renderer::Impl::draw_pieces() {
     begin(light, programs.painted);
     pieces.draw(Pieces::Group::kPainted, covered);
   }
+  if (pieces.has(Pieces::Group::kBlocks)) {
+    begin(light, programs.blocks);
+    pieces.draw(Pieces::Group::kBlocks, covered);
+  }
   begin(light, programs.shiny);
   pieces.draw(Pieces::Group::kShiny, covered);
   gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);

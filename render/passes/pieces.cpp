@@ -14,7 +14,7 @@
 namespace sunder::render {
 namespace {
 
-constexpr std::size_t kFloatsPerSlot = 16;
+constexpr std::size_t kFloatsPerSlot = 24;
 constexpr float kLarge_m = 0.25f;  // radius
 constexpr float kHeightDetail_m = 0.06f;
 // How many are looked through for what is covered, and how often.
@@ -81,6 +81,38 @@ std::vector<std::uint32_t> for_heights(const Mesh& mesh) {
                 }));
 }
 
+/// Sets `low` and `high` to the sides of a mesh's box on which a face of its old surface lies.
+void find_sides(const Mesh& mesh, const Box& box, Vec3f& low, Vec3f& high) {
+  constexpr float kFarOff_m = 1e4f, kSquare = 0.9999f, kOnSide_m = 1e-4f;
+  low = Vec3f::Constant(-kFarOff_m);
+  high = Vec3f::Constant(kFarOff_m);
+  const Vec3f least = box.min.cast<float>(), most = box.max.cast<float>();
+  for (const Mesh::Vertex& v : mesh.vertices) {
+    if (v.look == Mesh::kInterior) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float at = v.position[axis], along = v.normal[axis];
+      if (along < -kSquare && at < least[axis] + kOnSide_m) low[axis] = least[axis];
+      if (along > kSquare && at > most[axis] - kOnSide_m) high[axis] = most[axis];
+    }
+  }
+}
+
+/// How much brighter and redder one block is than the next.
+struct Tone {
+  float brightness = 1;
+  float redness = 0;
+};
+
+Tone tone_of(std::uint64_t body_key) {
+  constexpr float kBrightness = 0.17f, kRedness = 0.07f, kScorched = 0.12f, kDarker = 0.74f;
+  const std::uint64_t bits = mix(body_key + 1);
+  const auto part = [&](int which) {
+    return static_cast<float>((bits >> (16 * which)) & 0xffffu) * 0x1.0p-16f;
+  };
+  const float scorched = part(2) < kScorched ? kDarker : 1;
+  return {scorched * (1 + kBrightness * (2 * part(0) - 1)), kRedness * (2 * part(1) - 1)};
+}
+
 /// Which of `instances` are likely to cover others: in each part of the picture the nearest, and
 /// what is as near but for half its size.
 std::vector<std::uint8_t> in_front(const std::vector<std::uint32_t>& instances,
@@ -110,12 +142,14 @@ GLsizeiptr bytes(std::size_t count, std::size_t size) {
   return static_cast<GLsizeiptr>(count * size);
 }
 
-Pieces::Group group_of(const Material& material) {
+Pieces::Group group_of(const Material& material, bool is_alone) {
   switch (material.surface.texture) {
     case Texture::kGlass:
       return Pieces::Group::kGlass;
     case Texture::kMetal:
       return Pieces::Group::kShiny;
+    case Texture::kPlaster:
+      return is_alone ? Pieces::Group::kBlocks : Pieces::Group::kMatte;
     default:
       return Pieces::Group::kMatte;
   }
@@ -228,6 +262,7 @@ bool Pieces::upload_new() {
     if (box.empty()) continue;
     slot.center = box.center().cast<float>();
     slot.half_extent = (0.5 * box.extent()).cast<float>();
+    find_sides(*slot.mesh, box, slot.low, slot.high);
   }
   gl_.BindVertexArray(vertex_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
@@ -257,6 +292,8 @@ void Pieces::place(const Frame& frame) {
   boxes_.clear();
   std::array<std::vector<Placed>, kGroups> placed;
   const Vec3 forward = (frame.view.target_W - frame.view.eye_W).normalized();
+  std::vector<std::uint32_t> parts(frame.bodies.size());
+  for (const Instance& instance : frame.instances) ++parts[instance.body];
   for (std::size_t i = 0; i < frame.instances.size(); ++i) {
     const FrameBody& body = frame.bodies[frame.instances[i].body];
     const std::uint32_t s = slot_of_instance_[i];
@@ -275,17 +312,26 @@ void Pieces::place(const Frame& frame) {
     const MaterialIndex given = frame.instances[i].material;
     const std::uint32_t material = (given.none() ? slot.mesh->material : given).value;
     texels[15] = static_cast<float>(material);
+    const Tone tone = tone_of(body.key);
+    for (int axis = 0; axis < 3; ++axis) {
+      texels[16 + axis] = static_cast<float>(origin[axis]) + slot.low[axis];
+      texels[20 + axis] = static_cast<float>(origin[axis]) + slot.high[axis];
+    }
+    texels[19] = tone.brightness;
+    texels[23] = tone.redness;
 
     const Vec3f center = rotation * slot.center + translation;
     boxes_.push_back({center, rotation * slot.half_extent.asDiagonal()});
     const float radius = slot.half_extent.norm();
     const float distance = center.dot(forward.cast<float>());
-    const Group group = group_of((*frame.materials)[material]);
+    const bool is_alone = parts[frame.instances[i].body] == 1 && given.none();
+    const Group group = group_of((*frame.materials)[material], is_alone);
     const auto add = [&](Group to) {
       placed[static_cast<std::size_t>(to)].push_back({distance, static_cast<std::uint32_t>(i)});
     };
     add(slot.painted && given.none() && group != Group::kGlass ? Group::kPainted : group);
-    if (group == Group::kMatte && radius > kLarge_m) add(Group::kLarge);
+    if ((group == Group::kMatte || group == Group::kBlocks) && radius > kLarge_m)
+      add(Group::kLarge);
     if (group == Group::kGlass) continue;
     add(Group::kOpaque);
     casters_.push_back({center, radius});
