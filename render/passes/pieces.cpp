@@ -81,38 +81,6 @@ std::vector<std::uint32_t> for_heights(const Mesh& mesh) {
                 }));
 }
 
-/// Sets `low` and `high` to the sides of a mesh's box on which a face of its old surface lies.
-void find_sides(const Mesh& mesh, const Box& box, Vec3f& low, Vec3f& high) {
-  constexpr float kFarOff_m = 1e4f, kSquare = 0.9999f, kOnSide_m = 1e-4f;
-  low = Vec3f::Constant(-kFarOff_m);
-  high = Vec3f::Constant(kFarOff_m);
-  const Vec3f least = box.min.cast<float>(), most = box.max.cast<float>();
-  for (const Mesh::Vertex& v : mesh.vertices) {
-    if (v.look == Mesh::kInterior) continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float at = v.position[axis], along = v.normal[axis];
-      if (along < -kSquare && at < least[axis] + kOnSide_m) low[axis] = least[axis];
-      if (along > kSquare && at > most[axis] - kOnSide_m) high[axis] = most[axis];
-    }
-  }
-}
-
-/// How much brighter and redder one block is than the next.
-struct Tone {
-  float brightness = 1;
-  float redness = 0;
-};
-
-Tone tone_of(std::uint64_t body_key) {
-  constexpr float kBrightness = 0.17f, kRedness = 0.07f, kScorched = 0.12f, kDarker = 0.74f;
-  const std::uint64_t bits = mix(body_key + 1);
-  const auto part = [&](int which) {
-    return static_cast<float>((bits >> (16 * which)) & 0xffffu) * 0x1.0p-16f;
-  };
-  const float scorched = part(2) < kScorched ? kDarker : 1;
-  return {scorched * (1 + kBrightness * (2 * part(0) - 1)), kRedness * (2 * part(1) - 1)};
-}
-
 /// Which of `instances` are likely to cover others: in each part of the picture the nearest, and
 /// what is as near but for half its size.
 std::vector<std::uint8_t> in_front(const std::vector<std::uint32_t>& instances,
@@ -262,7 +230,7 @@ bool Pieces::upload_new() {
     if (box.empty()) continue;
     slot.center = box.center().cast<float>();
     slot.half_extent = (0.5 * box.extent()).cast<float>();
-    find_sides(*slot.mesh, box, slot.low, slot.high);
+    slot.sides = sides_of(*slot.mesh, box);
   }
   gl_.BindVertexArray(vertex_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
@@ -312,10 +280,10 @@ void Pieces::place(const Frame& frame) {
     const MaterialIndex given = frame.instances[i].material;
     const std::uint32_t material = (given.none() ? slot.mesh->material : given).value;
     texels[15] = static_cast<float>(material);
-    const Tone tone = tone_of(body.key);
+    const BlockTone tone = tone_of(body.key);
     for (int axis = 0; axis < 3; ++axis) {
-      texels[16 + axis] = static_cast<float>(origin[axis]) + slot.low[axis];
-      texels[20 + axis] = static_cast<float>(origin[axis]) + slot.high[axis];
+      texels[16 + axis] = static_cast<float>(origin[axis]) + slot.sides.low[axis];
+      texels[20 + axis] = static_cast<float>(origin[axis]) + slot.sides.high[axis];
     }
     texels[19] = tone.brightness;
     texels[23] = tone.redness;

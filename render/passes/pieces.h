@@ -8,6 +8,7 @@
 
 #include "engine/model/frame.h"
 #include "render/gl/table.h"
+#include "render/passes/blocks.h"
 #include "render/passes/covered.h"
 #include "render/passes/viewpoint.h"
 
@@ -66,8 +67,7 @@ class Pieces {
     std::array<Range, kKindsOfFaces> indices = {};
     Vec3f center = Vec3f::Zero();  ///< Of a box around the vertices, in the mesh's coordinates.
     Vec3f half_extent = Vec3f::Zero();
-    Vec3f low = Vec3f::Zero();  ///< Sides of the box, far off where a side is no old face of it.
-    Vec3f high = Vec3f::Zero();
+    BlockSides sides = {};
     bool painted = false;
   };
   /// The copies of a mesh, and the first that this frame does not use yet.
