@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <optional>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
@@ -237,13 +238,14 @@ void Renderer::Impl::draw_pieces() {
   gl.Clear(GL_DEPTH_BUFFER_BIT | (options.transparent ? GL_COLOR_BUFFER_BIT : 0u));
   gl.PolygonMode(GL_FRONT_AND_BACK, view_mode.edges() ? GL_LINE : GL_FILL);
   covered.start(seen_by_camera(uniforms.clip_of_eye, options.width, options.height));
-  pieces.draw(Pieces::Group::kMatte, covered);
-  if (pieces.has(Pieces::Group::kPainted)) {
-    begin(light, programs.painted);
-    pieces.draw(Pieces::Group::kPainted, covered);
+  using Group = Pieces::Group;
+  for (const auto& [group, program] :
+       {std::pair(Group::kMatte, programs.matte), std::pair(Group::kPainted, programs.painted),
+        std::pair(Group::kBlocks, programs.blocks), std::pair(Group::kShiny, programs.shiny)}) {
+    if (!pieces.has(group)) continue;
+    begin(light, program);
+    pieces.draw(group, covered);
   }
-  begin(light, programs.shiny);
-  pieces.draw(Pieces::Group::kShiny, covered);
   gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   chips.draw();
 }

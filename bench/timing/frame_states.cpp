@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "bench/timing/timing.h"
 #include "engine/base/check.h"
@@ -53,36 +55,52 @@ std::optional<WholeState> find_whole(const HashBook& book, const std::string& sc
   return state;
 }
 
-std::unique_ptr<FrameSource> simulation_of(const GuardedRun& run, const std::string& preset,
-                                           int& last) {
+/// The frame that shows the first action of a scene's script; -1 if it has none.
+int first_action(const Scene& scene) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  double first_s = scene.moves.empty() ? kNever : 0;
+  const auto look_at = [&](const auto& actions) {
+    for (const auto& action : actions) first_s = std::min(first_s, action.time_s);
+  };
+  look_at(scene.shots);
+  look_at(scene.blasts);
+  look_at(scene.removals);
+  look_at(scene.drives);
+  return first_s < kNever ? static_cast<int>(std::ceil(60 * first_s)) : -1;
+}
+
+struct Run {
+  std::unique_ptr<FrameSource> simulation;
+  int last = 0;           ///< Frame at which the scene ends.
+  int first_action = -1;  ///< As the function has it.
+};
+Run run_of(const GuardedRun& run, const std::string& preset) {
   scenes::LoadOptions load = run.load;
   load.preset = preset;
   Scene scene = scenes::load_scene(run.scene, load);
-  last = last_frame(scene);
-  return scenes::make_simulation(std::move(scene));
+  const int last = last_frame(scene), acts = first_action(scene);
+  return {scenes::make_simulation(std::move(scene)), last, acts};
 }
 
 /// Of the frames 0 to `last`, or as many as the scene has.
 StateHash states_until(const GuardedRun& run, const std::string& preset, int last) {
-  int end = 0;
-  const auto simulation = simulation_of(run, preset, end);
+  const Run found = run_of(run, preset);
   StateHash states;
-  for (int i = 0; i <= std::min(last, end); ++i) states.take(simulation->next());
+  for (int i = 0; i <= std::min(last, found.last); ++i) states.take(found.simulation->next());
   return states;
 }
 
-/// What the run comes to at a preset.
+/// The states of a run at a preset. What breaks before the script's first action does not end it.
 std::string found_digits(const GuardedRun& run, const std::string& preset) {
   const int after = preset == run.load.preset ? kAfterBreak : kAfterBreakOfOthers;
-  int last = 0;
-  const auto simulation = simulation_of(run, preset, last);
+  const auto [simulation, last, acts] = run_of(run, preset);
   StateHash states;
-  int end = std::min(run.frame, last);
-  bool is_whole = true;
+  int end = std::min(run.frame > acts ? run.frame : acts + after, last);
+  bool has_broken = false;
   for (int i = 0; i <= end; ++i) {
     const FramePtr frame = simulation->next();
-    if (is_whole && !frame->breaks.empty()) {
-      is_whole = false;
+    if (!has_broken && i >= acts && !frame->breaks.empty()) {
+      has_broken = true;
       end = std::min(i + after, last);
     }
     states.take(frame);

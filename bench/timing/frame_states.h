@@ -24,7 +24,7 @@ struct GuardedRun {
   std::string name;   ///< In the book.
   std::string scene;  ///< File or name.
   scenes::LoadOptions load;
-  int frame = 0;  ///< Where it ends if nothing has broken.
+  int frame = 0;  ///< Where it ends if nothing breaks and the script has begun by then.
 };
 
 /// One for every preset that the book has frames for: "simulation at realtime" and so on; one that
@@ -33,8 +33,9 @@ struct GuardedRun {
 std::vector<Verdict> judge_frames(const GuardedRun& run, const HashBook& book,
                                   const std::string& file, bool whole);
 
-/// Puts into the book what the run comes to, until some time after its first break: 50 frames at
-/// its own preset, 8 at every other. Throws InputError.
+/// Puts the states of the run into the book, until some time after the first break that does not
+/// come before the script's first action: 50 frames at its own preset, 8 at every other. Throws
+/// InputError.
 void accept_frames(const GuardedRun& run, HashBook& book);
 
 }  // namespace sunder::bench

@@ -8,8 +8,9 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kCore = 0.55;   // scale of the core of a split prism
-constexpr double kJitter = 0.2;  // of the distance between two rings, and of slices
+constexpr double kCore = 0.55;        // scale of the core of a split prism
+constexpr double kRingJitter = 0.45;  // of the distance between two rings; less than a half
+constexpr double kSliceJitter = 0.2;  // of the distance between two slices
 
 /// Corners of all rings, from the inside out.
 std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Random& random) {
@@ -28,7 +29,7 @@ std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Rand
   double inner = 1;
   for (int ring = 1; ring <= plug.rings; ++ring) {
     const double outer = std::pow(widest, static_cast<double>(ring) / plug.rings);
-    add(outer, kJitter * (outer - inner));
+    add(outer, kRingJitter * (outer - inner));
     inner = outer;
   }
   return rings;
@@ -40,7 +41,7 @@ std::vector<double> place_slices(const Plug& plug, double unit_m, Random& random
   if (!(plug.slice_m > 0)) return slices;
   const int count = static_cast<int>(std::lround(plug.depth_m / plug.slice_m));
   for (int i = 1; i < count; ++i) {
-    const double place = (i + kJitter * random.uniform(-1, 1)) / count;
+    const double place = (i + kSliceJitter * random.uniform(-1, 1)) / count;
     slices.push_back(place * plug.depth_m / unit_m);
   }
   return slices;

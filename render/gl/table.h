@@ -31,7 +31,7 @@ namespace sunder::render {
   F(PIXELSTOREI, PixelStorei) F(POLYGONMODE, PolygonMode) F(POLYGONOFFSET, PolygonOffset)        \
   F(READBUFFER, ReadBuffer) F(READPIXELS, ReadPixels) F(SHADERSOURCE, ShaderSource)              \
   F(TEXBUFFER, TexBuffer) F(TEXIMAGE2D, TexImage2D) F(TEXIMAGE3D, TexImage3D)                    \
-  F(TEXPARAMETERI, TexParameteri)                                                                \
+  F(TEXPARAMETERFV, TexParameterfv) F(TEXPARAMETERI, TexParameteri)                              \
   F(UNIFORM1I, Uniform1i) F(UNIFORMBLOCKBINDING, UniformBlockBinding) F(USEPROGRAM, UseProgram)  \
   F(VERTEXATTRIBDIVISOR, VertexAttribDivisor)                                                    \
   F(VERTEXATTRIBIPOINTER, VertexAttribIPointer) F(VERTEXATTRIBPOINTER, VertexAttribPointer)      \

@@ -14,7 +14,7 @@
 namespace sunder::render {
 namespace {
 
-constexpr std::size_t kFloatsPerSlot = 16;
+constexpr std::size_t kFloatsPerSlot = 24;
 constexpr float kLarge_m = 0.25f;  // radius
 constexpr float kHeightDetail_m = 0.06f;
 // How many are looked through for what is covered, and how often.
@@ -110,12 +110,14 @@ GLsizeiptr bytes(std::size_t count, std::size_t size) {
   return static_cast<GLsizeiptr>(count * size);
 }
 
-Pieces::Group group_of(const Material& material) {
+Pieces::Group group_of(const Material& material, bool is_alone) {
   switch (material.surface.texture) {
     case Texture::kGlass:
       return Pieces::Group::kGlass;
     case Texture::kMetal:
       return Pieces::Group::kShiny;
+    case Texture::kPlaster:
+      return is_alone ? Pieces::Group::kBlocks : Pieces::Group::kMatte;
     default:
       return Pieces::Group::kMatte;
   }
@@ -228,6 +230,7 @@ bool Pieces::upload_new() {
     if (box.empty()) continue;
     slot.center = box.center().cast<float>();
     slot.half_extent = (0.5 * box.extent()).cast<float>();
+    slot.sides = sides_of(*slot.mesh, box);
   }
   gl_.BindVertexArray(vertex_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
@@ -257,6 +260,8 @@ void Pieces::place(const Frame& frame) {
   boxes_.clear();
   std::array<std::vector<Placed>, kGroups> placed;
   const Vec3 forward = (frame.view.target_W - frame.view.eye_W).normalized();
+  std::vector<std::uint32_t> parts(frame.bodies.size());
+  for (const Instance& instance : frame.instances) ++parts[instance.body];
   for (std::size_t i = 0; i < frame.instances.size(); ++i) {
     const FrameBody& body = frame.bodies[frame.instances[i].body];
     const std::uint32_t s = slot_of_instance_[i];
@@ -275,17 +280,26 @@ void Pieces::place(const Frame& frame) {
     const MaterialIndex given = frame.instances[i].material;
     const std::uint32_t material = (given.none() ? slot.mesh->material : given).value;
     texels[15] = static_cast<float>(material);
+    const BlockTone tone = tone_of(body.key);
+    for (int axis = 0; axis < 3; ++axis) {
+      texels[16 + axis] = static_cast<float>(origin[axis]) + slot.sides.low[axis];
+      texels[20 + axis] = static_cast<float>(origin[axis]) + slot.sides.high[axis];
+    }
+    texels[19] = tone.brightness;
+    texels[23] = tone.redness;
 
     const Vec3f center = rotation * slot.center + translation;
     boxes_.push_back({center, rotation * slot.half_extent.asDiagonal()});
     const float radius = slot.half_extent.norm();
     const float distance = center.dot(forward.cast<float>());
-    const Group group = group_of((*frame.materials)[material]);
+    const bool is_alone = parts[frame.instances[i].body] == 1 && given.none();
+    const Group group = group_of((*frame.materials)[material], is_alone);
     const auto add = [&](Group to) {
       placed[static_cast<std::size_t>(to)].push_back({distance, static_cast<std::uint32_t>(i)});
     };
     add(slot.painted && given.none() && group != Group::kGlass ? Group::kPainted : group);
-    if (group == Group::kMatte && radius > kLarge_m) add(Group::kLarge);
+    if ((group == Group::kMatte || group == Group::kBlocks) && radius > kLarge_m)
+      add(Group::kLarge);
     if (group == Group::kGlass) continue;
     add(Group::kOpaque);
     casters_.push_back({center, radius});

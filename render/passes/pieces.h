@@ -8,6 +8,7 @@
 
 #include "engine/model/frame.h"
 #include "render/gl/table.h"
+#include "render/passes/blocks.h"
 #include "render/passes/covered.h"
 #include "render/passes/viewpoint.h"
 
@@ -25,12 +26,13 @@ class Pieces {
   enum class Group : std::uint8_t {
     kMatte,
     kPainted,  ///< Matte ones, of which a file says how they look.
+    kBlocks,   ///< Matte ones that are a body each, and dressed: bricks, ashlars, parts of them.
     kShiny,
     kGlass,   ///< For each piece its back faces, then its front faces.
     kOpaque,  ///< Again all that is no glass, in no order.
-    kLarge,   ///< Of the matte and painted ones again those that keep light from rooms.
+    kLarge,   ///< Of the first three again those that keep light from rooms.
   };
-  static constexpr int kGroups = 6;
+  static constexpr int kGroups = 7;
   bool has(Group group) const { return !placed(group).empty(); }
   /// All of them.
   void draw(Group group) const;
@@ -65,6 +67,7 @@ class Pieces {
     std::array<Range, kKindsOfFaces> indices = {};
     Vec3f center = Vec3f::Zero();  ///< Of a box around the vertices, in the mesh's coordinates.
     Vec3f half_extent = Vec3f::Zero();
+    BlockSides sides = {};
     bool painted = false;
   };
   /// The copies of a mesh, and the first that this frame does not use yet.

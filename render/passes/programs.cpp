@@ -19,6 +19,8 @@ Programs make_programs(const GlTable& gl, bool gathers, bool transparent) {
   p.painted =
       make_program(gl, "painted", {common_glsl, bodies_glsl, "#define PAINTED\n", pieces_vert},
                    {common_glsl, shadow_glsl, "#define PAINTED\n", pieces_frag});
+  p.blocks = make_program(gl, "blocks", {common_glsl, bodies_glsl, "#define BLOCKS\n", pieces_vert},
+                          {common_glsl, shadow_glsl, "#define BLOCKS\n", pieces_frag});
   p.shiny = make_program(gl, "shiny", {common_glsl, bodies_glsl, pieces_vert},
                          {common_glsl, shadow_glsl, "#define SHINY\n", pieces_frag});
   p.glass = make_program(gl, "glass", {common_glsl, bodies_glsl, pieces_vert},

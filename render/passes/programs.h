@@ -6,7 +6,7 @@
 namespace sunder::render {
 
 struct Programs {
-  GLuint shadow, zenith, matte, painted, shiny, glass, ground, sky, occlusion, blur;
+  GLuint shadow, zenith, matte, painted, blocks, shiny, glass, ground, sky, occlusion, blur;
   GLuint composite, dusty;               ///< Light to picture; with dust.
   GLuint gather, dusty_gather, develop;  ///< To a sum, and that to picture; 0 unless asked for.
 };

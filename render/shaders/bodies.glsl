@@ -3,7 +3,8 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint piece;  // slot * 2 + interior
 
-// Four texels a slot: rows of the 3x4 matrix to eye space; origin in the rest frame and material.
+// Six texels a slot: rows of the 3x4 matrix to eye space; origin in the rest frame and material;
+// sides of its box that are old faces, in the rest frame, and how much brighter and redder it is.
 uniform samplerBuffer slots;
 
 struct Piece {
@@ -14,7 +15,7 @@ struct Piece {
 };
 
 Piece this_piece() {
-  int first = int(piece >> 1) * 4;
+  int first = int(piece >> 1) * 6;
   vec4 x = texelFetch(slots, first);
   vec4 y = texelFetch(slots, first + 1);
   vec4 z = texelFetch(slots, first + 2);

@@ -8,6 +8,11 @@ flat in vec4 paint;
 flat in vec4 detail;
 #endif
 
+#ifdef BLOCKS
+flat in vec3 low;
+flat in vec3 high;
+#endif
+
 in vec3 rest;
 in vec3 normal_rest;
 in vec3 shadow;
@@ -25,6 +30,7 @@ const float kCloudsPerMetre = 1.0 / 7.3;
 const float kSteepest = 2.0;
 const float kDielectric = 0.04;  // what is no metal mirrors of what is straight before it
 const vec3 kPlaster = vec3(0.56, 0.52, 0.45);
+const float kJoint = 0.007;  // metres from an edge to which a joint between blocks reaches
 
 #ifdef PAINTED
 // The normal that a picture says, on a face with normal n. What its two coordinates grow along
@@ -95,6 +101,17 @@ void main() {
   vec3 coat = kPlaster * (0.65 + 0.7 * cloud.r) * (1.0 - 0.25 * rim);
   albedo = mix(albedo, coat, plaster);
   vec2 slope = (mix(tile.ba, cloud.ba, plaster) - 0.5) * (2.0 * kSteepest * finish.y);
+
+#ifdef BLOCKS
+  // Old edges are worn, and open joints between blocks dark. Both are spread over a pixel where
+  // that is wider, by how much of it they cover.
+  vec3 to_sides = min(rest - low, high - rest) + 1e4 * step(0.7, a);
+  float edge = min(to_sides.x, min(to_sides.y, to_sides.z)) + 0.012 * (cloud.r - 0.5);
+  float half_pixel = 0.5 * length(rest - eye_rest) / lens.y + 1e-4;
+  float joint = (min(edge + half_pixel, kJoint) - max(edge - half_pixel, -kJoint)) / (2.0 * half_pixel);
+  float worn = 1.0 - smoothstep(kJoint, 5.0 * kJoint, edge);
+  albedo *= (1.0 + 0.18 * worn) * (1.0 - 0.8 * clamp(joint, 0.0, 1.0));
+#endif
 
 #ifdef PAINTED
   // A file's own colours in place of the material's; of that, a little of the grain is left.

@@ -10,6 +10,11 @@ flat out vec4 paint;   // linear colour; w: layer of the picture from 1, 0: none
 flat out vec4 detail;  // layers of relief and gloss from 1, 0: none; roughness, -1: no gloss; metallic
 #endif
 
+#ifdef BLOCKS
+flat out vec3 low;   // sides of the block: far off where it was broken
+flat out vec3 high;
+#endif
+
 out vec3 rest;
 out vec3 normal_rest;
 out vec3 shadow;
@@ -41,6 +46,14 @@ void main() {
   first_color = texelFetch(materials, row);
   second_color = texelFetch(materials, row + 1);
   finish = texelFetch(materials, row + 2).xyz;
+#ifdef BLOCKS
+  int sides = int(piece >> 1) * 6 + 4;
+  vec4 low_side = texelFetch(slots, sides), high_side = texelFetch(slots, sides + 1);
+  float broken = float(piece & 1u) * 1e4;
+  low = low_side.xyz - broken;
+  high = high_side.xyz + broken;
+  first_color.rgb *= low_side.w * vec3(1.0 + high_side.w, 1.0, 1.0 - 0.6 * high_side.w);
+#endif
 #ifdef PAINTED
   picture_uv = uv;
   paint = vec4(0.0, 0.0, 0.0, -1.0);

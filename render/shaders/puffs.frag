@@ -13,9 +13,11 @@ void main() {
   if (squared >= 1.0) discard;
   float body = 1.0 - squared;
   float clot = texture(tiles, vec3(cloud, 6.0)).r;
+  float wisp = 0.6 * clot + 0.4 * texture(tiles, vec3(cloud.yx * 2.7, 6.0)).r;
   float gap = texelFetch(openness, ivec2(gl_FragCoord.xy), 0).g - puff.x;
   float clear_of = clamp(0.5 + gap / puff.y, 0.0, 1.0) * clamp(2.0 * puff.x - 0.6, 0.0, 1.0);
-  float density = body * body * smoothstep(0.15, 0.85, clot + 0.25 * body);
+  // The rim is torn: the farther out, the thicker a wisp has to be to be seen.
+  float density = body * smoothstep(0.0, 0.34, wisp - 0.66 + 0.42 * body);
   float alpha = puff.z * density * clear_of;
   if (alpha < 0.003) discard;
 

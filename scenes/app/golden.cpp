@@ -1,6 +1,7 @@
-// sunder golden: what must not change unasked: how stored frames are drawn, and what their scenes
-// simulate. A golden is a stored frame and the picture it gave, NAME.frame, NAME.png and NAME.json
-// in tests/golden, and states of the run that the frame is of, in hashes.txt.
+// sunder golden: what must not change unasked: how stored frames are drawn, how their scenes are
+// seen, and what they simulate. A golden is a stored frame and the picture it gave, NAME.frame,
+// NAME.png and NAME.json in tests/golden, and states of the run that the frame is of, in
+// hashes.txt.
 //
 // Read first: golden_test(). `accept` is the one way to change what is held to be right.
 #include <algorithm>
@@ -100,6 +101,21 @@ Verdict judge_drawing(Drawer& drawer, GoldenResult& result) {
   return verdict;
 }
 
+/// Whether the stored frame, which alone is drawn, still has the camera and the colours of its
+/// scene.
+Verdict judge_view(const Golden& golden) {
+  const Stopwatch watch;
+  const std::string other = seen_otherwise(*read_frame(golden.frame_file()),
+                                           scenes::load_scene(golden.scene_file(), golden.load));
+  Verdict verdict{golden.name, "view", Outcome::kPassed, "as in the stored frame"};
+  if (!other.empty()) {
+    verdict.outcome = Outcome::kFailed;
+    verdict.text = "of the scene differs from the stored frame, which is what is drawn: " + other;
+  }
+  verdict.seconds = 1e-3 * watch.ms();
+  return verdict;
+}
+
 std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
   options.apply();
   Drawer drawer(options.gl);
@@ -113,6 +129,7 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
     result.verdicts.push_back(judge_drawing(drawer, result));
     result.verdicts.back().seconds = 1e-3 * watch.ms();
     if (result.golden.is_simulated()) {
+      result.verdicts.push_back(judge_view(result.golden));
       const std::string book = result.golden.hashes_file().string();
       const auto verdicts =
           bench::judge_frames(result.golden.run(), bench::read_hashes(book), book, options.full);
@@ -152,12 +169,12 @@ void check_name(const std::string& name) {
   throw InputError("golden record \"" + name + "\": a name is of letters, digits, _ and -");
 }
 
-/// The frame of that index of a scene.
-FramePtr simulated_frame(const GoldenOptions& options) {
-  Scene scene = scenes::load_scene(options.scene, options.load);
-  const int last = last_frame(scene, options.frame, "FRAME " + std::to_string(options.frame));
-  Progress progress("record " + scene.name, last, options.quiet);
-  const render::ViewMode mode(options.render.view_mode);
+/// The frame of a golden as its scene gives it.
+Frame simulated_frame(const Golden& golden, bool quiet) {
+  Scene scene = scenes::load_scene(golden.scene_file(), golden.load);
+  const int last = last_frame(scene, golden.frame, "FRAME " + std::to_string(golden.frame));
+  Progress progress("record " + scene.name, last, quiet);
+  const render::ViewMode mode(golden.view_mode);
   const auto simulation = make_simulation(std::move(scene), mode.looks_inside());
   FramePtr frame;
   for (int i = 0; i <= last; ++i) {
@@ -165,7 +182,7 @@ FramePtr simulated_frame(const GoldenOptions& options) {
     progress.take(frame);
   }
   progress.finish();
-  return frame;
+  return without_unused_meshes(*frame);
 }
 
 }  // namespace
@@ -200,6 +217,9 @@ int golden_accept(const GoldenOptions& options) {
     result.golden = read_golden(options.folder, name);
     Golden& golden = result.golden;
     std::string said = "drawing as before";
+    const bool is_seen_otherwise =
+        golden.is_simulated() && judge_view(golden).outcome != Outcome::kPassed;
+    if (is_seen_otherwise) write_frame(golden.frame_file(), simulated_frame(golden, options.quiet));
     if (judge_drawing(drawer, result).outcome != Outcome::kPassed || golden.hash.empty()) {
       golden.renderer = result.renderer;
       golden.cpu = cpu_name();
@@ -208,6 +228,7 @@ int golden_accept(const GoldenOptions& options) {
       write_golden(golden);
       said = "drawing " + golden.hash;
     }
+    if (is_seen_otherwise) said += ", frame anew";
     if (golden.is_simulated()) {
       const std::string file = golden.hashes_file().string();
       const bench::HashBook before = bench::read_hashes(file);
@@ -246,7 +267,7 @@ int golden_record(const GoldenOptions& options) {
       throw InputError("golden record " + golden.name + " " + options.scene +
                        ": which FRAME of it? Give its number");
     golden.frame = options.frame;
-    write_frame(golden.frame_file(), without_unused_meshes(*simulated_frame(options)));
+    write_frame(golden.frame_file(), simulated_frame(golden, options.quiet));
   } else {
     if (options.frame >= 0)
       throw InputError("golden record " + golden.name + " " + options.scene +

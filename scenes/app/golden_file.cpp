@@ -5,13 +5,16 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <set>
 #include <span>
 #include <string_view>
 
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
 #include "engine/io/figures.h"
+#include "engine/model/view_path.h"
 #include "scenes/app/commands.h"
+#include "scenes/file/mesh_solid.h"
 #include "scenes/file/text_file.h"
 
 namespace sunder::app {
@@ -50,6 +53,30 @@ std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
   return text + "'";
+}
+
+bool same_look(const Look& a, const Look& b) {
+  return a.texture == b.texture && a.color == b.color;
+}
+
+/// The keys of [view] whose values differ.
+std::vector<std::string> different_keys(const View& a, const View& b) {
+  std::vector<std::string> keys;
+  const auto compare = [&](const char* key, const auto& x, const auto& y) {
+    if (x != y) keys.push_back(std::string("view.") + key);
+  };
+  compare("eye", a.eye_W, b.eye_W);
+  compare("target", a.target_W, b.target_W);
+  compare("fov_deg", a.fov_rad, b.fov_rad);
+  compare("sun", a.to_sun_W, b.to_sun_W);
+  compare("ground_color", a.ground_color, b.ground_color);
+  compare("exposure", a.exposure, b.exposure);
+  compare("shutter", a.shutter, b.shutter);
+  compare("sun_color", a.sun_color, b.sun_color);
+  compare("sky_color", a.sky_color, b.sky_color);
+  compare("sun_strength", a.sun_strength, b.sun_strength);
+  compare("sky_strength", a.sky_strength, b.sky_strength);
+  return keys;
 }
 
 }  // namespace
@@ -187,6 +214,45 @@ std::string format_results(const std::vector<GoldenResult>& results) {
     }
   }
   return format_figures(figures);
+}
+
+std::string seen_otherwise(const Frame& stored, const Scene& scene) {
+  std::vector<std::string> names =
+      different_keys(stored.view, along(scene.view_keys, scene.view, stored.time_s));
+  const auto find = [&](const std::string& name) {
+    return std::ranges::find(scene.materials, name, &Material::name);
+  };
+  std::set<std::string> seen;  // materials
+  for (const Instance& instance : stored.instances) {
+    const MaterialIndex material = (*stored.meshes)[instance.mesh.value]->material;
+    const std::string& name = (*stored.materials)[material.value].name;
+    seen.insert(name);
+    // A body that is a solid yet, or what stands of one, has the number of the solid for a key.
+    const std::uint64_t key = stored.bodies[instance.body].key;
+    if (key >= scene.solids.size()) continue;
+    const Solid& solid = scene.solids[key];
+    const auto is_of_it = [&](const ConvexPtr& convex) {
+      return scene.materials[convex->material.value].name == name;
+    };
+    if (std::ranges::none_of(solid.compound.convexes, is_of_it))
+      names.push_back("material of " + solid.name);
+  }
+  for (const Material& material : *stored.materials) {
+    if (!seen.contains(material.name)) continue;
+    const auto now = find(material.name);
+    if (now == scene.materials.end() || !same_look(material.surface, now->surface) ||
+        !same_look(material.interior, now->interior))
+      names.push_back("colours of " + material.name);
+  }
+  const std::vector<Paint> none;
+  if (!std::ranges::equal(stored.paints ? *stored.paints : none, scene.paints, scenes::same_paint))
+    names.emplace_back("paints");
+  std::string text;
+  std::set<std::string> told;
+  for (const std::string& name : names) {
+    if (told.insert(name).second) text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
 }
 
 std::string pixel_hash(const render::Image& image) {

@@ -7,7 +7,7 @@
 
 #include "bench/timing/frame_states.h"
 #include "bench/timing/verdict.h"
-#include "engine/model/frame.h"
+#include "engine/model/scene.h"
 #include "render/image/compare.h"
 #include "render/sinks.h"
 
@@ -59,16 +59,21 @@ struct GoldenResult {
   render::Image actual;
   render::Difference difference;
   std::string renderer;
-  std::vector<bench::Verdict> verdicts;  ///< The first is on the drawing, others on simulations.
+  /// The first is on the drawing; if a scene is simulated, the next is on how that is seen, and the
+  /// others are on its simulations.
+  std::vector<bench::Verdict> verdicts;
 
   bool drawing_passed() const;
   bool passed() const;
-  /// Of drawing and simulation, which is the same and how the other differs.
+  /// Of drawing, scene and simulation, which are the same and how others differ.
   std::string sentence() const;
 };
 /// As JSON.
 std::string format_results(const std::vector<GoldenResult>& results);
 
+/// Names of what is seen otherwise in a scene than in a frame that was stored of it: parts of its
+/// view, colours of its materials and paints, materials of its solids; empty if nothing is.
+std::string seen_otherwise(const Frame& stored, const Scene& scene);
 /// 16 hexadecimal digits over size and pixels.
 std::string pixel_hash(const render::Image& image);
 /// The same picture in a smaller file: meshes that no instance shows are dropped.

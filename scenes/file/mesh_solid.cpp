@@ -132,11 +132,6 @@ bool same(const std::optional<Gloss>& a, const std::optional<Gloss>& b) {
   return a->roughness == b->roughness && a->metallic == b->metallic && same(a->picture, b->picture);
 }
 
-bool same(const Paint& a, const Paint& b) {
-  return a.color == b.color && same(a.picture, b.picture) && a.from_below == b.from_below &&
-         same(a.relief, b.relief) && a.relief_scale == b.relief_scale && same(a.gloss, b.gloss);
-}
-
 /// By group of a file, the number that its paint has among those of the scene, from 1; 0: none.
 std::vector<std::uint32_t> add_paints(const std::vector<std::optional<Paint>>& of_groups,
                                       std::vector<Paint>& paints) {
@@ -145,7 +140,7 @@ std::vector<std::uint32_t> add_paints(const std::vector<std::optional<Paint>>& o
     numbers.push_back(0);
     if (!paint) continue;
     const auto known =
-        std::ranges::find_if(paints, [&](const Paint& other) { return same(*paint, other); });
+        std::ranges::find_if(paints, [&](const Paint& other) { return same_paint(*paint, other); });
     numbers.back() = static_cast<std::uint32_t>(known - paints.begin()) + 1;
     if (known == paints.end()) paints.push_back(*paint);
   }
@@ -215,6 +210,11 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
 }
 
 }  // namespace
+
+bool same_paint(const Paint& a, const Paint& b) {
+  return a.color == b.color && same(a.picture, b.picture) && a.from_below == b.from_below &&
+         same(a.relief, b.relief) && a.relief_scale == b.relief_scale && same(a.gloss, b.gloss);
+}
 
 bool names_solid(const std::string& mesh) {
   return std::ranges::count(kSolids, kind_of(mesh)) > 0 && !std::filesystem::exists(mesh);

@@ -34,6 +34,9 @@ struct MeshSolid {
 MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options);
 /// A compound that is there already.
 MeshSolid as_mesh_solid(const std::string& name, Compound compound);
+/// Returns true if two paints look alike; pictures are compared by their bytes.
+bool same_paint(const Paint& a, const Paint& b);
+
 /// Whether `mesh` is meant to name what is built in: "box:1,1,1", "statue:80000".
 bool names_built_in(const std::string& mesh);
 /// Whether it is meant to name a built-in solid, which is made of convexes: all but "statue:80000".

@@ -139,6 +139,36 @@ TEST(Plug, without_a_pattern_takes_the_convexes_in_its_way) {
   for (const Compound& piece : edit.loose.pieces) EXPECT_EQ(piece.convexes.size(), 1u);
 }
 
+TEST(Plug, has_rings_of_cracks_around_it_that_are_no_regular_polygons) {
+  constexpr std::size_t kCorners = 8, kRings = 5, kSeeds = 8;
+  Plug plug;
+  plug.rings = kRings;
+  plug.reach_m = 1;
+  plug.depth_m = 0.02;
+  for (std::size_t i = 0; i < kCorners; ++i) {
+    const double angle = 0.25 * std::numbers::pi * static_cast<double>(i);
+    plug.section_m.emplace_back(0.1 * std::cos(angle), 0.1 * std::sin(angle));
+  }
+  double spread = 0;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Pattern pattern = plug_pattern(plug, 1, seed);
+    double farthest_inside = 0;
+    for (std::size_t ring = 0; ring <= kRings; ++ring) {
+      double least = std::numeric_limits<double>::infinity(), most = 0;
+      for (std::size_t chord = 0; chord < kCorners; ++chord) {
+        const std::size_t plane = Pattern::kBoxPlanes + kCorners * (1 + ring) + chord;
+        const double distance = std::abs(pattern.planes[plane].distance(Vec3::Zero()));
+        least = std::min(least, distance);
+        most = std::max(most, distance);
+      }
+      EXPECT_GT(least, 0);
+      if (ring > 0) spread += (most - least) / (most - farthest_inside) / (kRings * kSeeds);
+      farthest_inside = most;
+    }
+  }
+  EXPECT_GT(spread, 0.4);
+}
+
 TEST(Detail, is_what_a_tenth_of_the_energy_pays_for) {
   const Material material = brick();
   Hit hit;

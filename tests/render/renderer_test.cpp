@@ -264,6 +264,99 @@ TEST(Renderer, DustVeilsWhatIsBehindItAndNotWhatIsBefore) {
   EXPECT_EQ(renderer().draw(s.frame), with) << "the same bytes again";
 }
 
+TEST(Renderer, BricksThatAreABodyEachDifferInToneAndHaveJoints) {
+  SyntheticFrame s;
+  s.frame.view.eye_W = Vec3(0, 0.5, 2.6);
+  s.frame.view.target_W = Vec3(0, 0.5, 0);
+  s.frame.view.to_sun_W = Vec3(0.2, 0.5, 1);
+  constexpr int kBricks = 8;
+  for (int i = 0; i < kBricks; ++i) {
+    const double left = 0.4 * (i - kBricks / 2);
+    s.add_box({left, 0, -0.3}, {left + 0.4, 1, 0}, Stuff::kPlaster);
+  }
+  Image image = renderer().draw(s.frame);
+  const auto column = [&](double x) {
+    const int at = static_cast<int>(std::lround(160 + x * 90 / (2.6 * std::tan(0.4))));
+    float sum = 0;
+    for (int y = 70; y < 110; ++y) sum += brightness(pixel(image, at, y)) / 40;
+    return sum;
+  };
+  const auto joint = [&](int brick) {
+    const double at = 0.4 * (brick - kBricks / 2), pixel_m = 2.6 * std::tan(0.4) / 90;
+    return std::min({column(at - pixel_m), column(at), column(at + pixel_m)});
+  };
+  const auto middle = [&](int brick) { return column(0.4 * (brick - kBricks / 2) + 0.2); };
+  float darkest = 255, brightest = 0;
+  for (int i = 1; i < kBricks; ++i) {
+    darkest = std::min(darkest, middle(i));
+    brightest = std::max(brightest, middle(i));
+    EXPECT_LT(joint(i), 0.93f * std::min(middle(i - 1), middle(i))) << i;
+  }
+  EXPECT_GT(brightest, 1.06f * darkest);
+  // Parts of one body have neither.
+  for (Instance& instance : s.frame.instances) instance.body = 0;
+  image = renderer().draw(s.frame);
+  float lighter = 0;
+  for (int i = 1; i < kBricks; ++i) lighter += joint(i) - 0.95f * middle(i);
+  EXPECT_GT(lighter, 0);
+}
+
+TEST(Renderer, DustThatHasRisenIsWiderAndThinner) {
+  SyntheticFrame s;
+  s.frame.view.eye_W = Vec3(0, 10, 8);
+  s.frame.view.target_W = Vec3(0, 10.01, 0);
+  struct Seen {
+    float most = 0;
+    int pixels = 0;
+  };
+  const auto puff_at = [&](double height_m) {
+    s.frame.view.ground_m = 10 - height_m;
+    s.frame.dust.clear();
+    const Image without = renderer().draw(s.frame);
+    FrameDust puff;
+    puff.position_W = Vec3f(0, 10, 0);
+    puff.radius_m = 0.3f;
+    puff.opacity = 0.45f;
+    puff.material = MaterialIndex(1);
+    s.frame.dust = {puff};
+    const Image with = renderer().draw(s.frame);
+    Seen seen;
+    for (int y = 0; y < 90; ++y) {  // before the sky
+      for (int x = 0; x < with.width; ++x) {
+        const float change =
+            std::abs(brightness(pixel(with, x, y)) - brightness(pixel(without, x, y)));
+        seen.most = std::max(seen.most, change);
+        if (change > 1) ++seen.pixels;
+      }
+    }
+    return seen;
+  };
+  const Seen low = puff_at(1), high = puff_at(7);
+  EXPECT_GT(low.most, 6);
+  EXPECT_LT(high.most, 0.75f * low.most);
+  EXPECT_GT(high.pixels, 1.15 * low.pixels);
+}
+
+// Casters far off are left out of the size of the map, and yet drawn into it.
+TEST(Renderer, AShadowThatReachesTheRimOfTheMapIsNotDrawnOutBeyondIt) {
+  SyntheticFrame s;
+  s.frame.view.eye_W = Vec3(0, 8, 6);
+  s.frame.view.target_W = Vec3(0, 0, 0);
+  s.frame.view.to_sun_W = Vec3(0, 1, 0.001);
+  s.add_box({-0.3, 0, -0.3}, {0.3, 0.3, 0.3}, Stuff::kConcrete);
+  const Image without = renderer().draw(s.frame);
+  // A beam that goes slantwise over the right side of the map, 80 m away from the eye.
+  s.add_box({-0.05, 0, -40}, {0.05, 0.1, 40}, Stuff::kConcrete,
+            {Vec3(28.5, 0.15, -28.3), Quat(Eigen::AngleAxisd(-0.785398, Vec3::UnitY()))});
+  const Image with = renderer().draw(s.frame);
+  int darker = 0;
+  for (int x = 200; x < 320; ++x) {
+    for (int y = 76; y < 104; ++y)
+      if (brightness(pixel(with, x, y)) < 0.8f * brightness(pixel(without, x, y))) ++darker;
+  }
+  EXPECT_EQ(darker, 0);
+}
+
 TEST(Renderer, AWallIsSeenThroughAPane) {
   SyntheticFrame s;
   s.add_box({-3, 0, -1}, {3, 4, -0.8}, Stuff::kConcrete);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -170,7 +171,7 @@ TEST(Golden, AWrongPictureFailsAndTheSimulationDoesNot) {
   EXPECT_EQ(markup_mistake(page), "");
   EXPECT_NE(page.find("simulation at reference"), std::string::npos);
   const std::string xml = scenes::read_text(folder / "junit.xml");
-  EXPECT_NE(xml.find("tests=\"5\" failures=\"1\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("tests=\"6\" failures=\"1\""), std::string::npos) << xml;
 }
 
 TEST(Golden, AcceptingTheSimulationLeavesTheDrawingAndTheRestOfTheBook) {
@@ -193,6 +194,27 @@ TEST(Golden, AcceptingTheSimulationLeavesTheDrawingAndTheRestOfTheBook) {
   EXPECT_EQ(sunder("golden accept stack" + at).exit_code, 0);
   EXPECT_EQ(scenes::read_text(book), right);
   EXPECT_EQ(scenes::read_text(folder / "stack.json"), recipe);
+}
+
+TEST(Golden, AcceptingAnotherCameraRecordsTheFrameAnew) {
+  const Folder folder;
+  copy_golden("stack", folder);
+  Json recipe = Json::parse(scenes::read_text(folder / "stack.json"));
+  recipe["set"] = {"view.fov_deg=30"};
+  std::ofstream(folder / "stack.json") << recipe;
+  const std::string at = " --folder " + folder.path().string();
+  const std::string test = "golden test --out " + folder / "out" + at;
+  const Outcome failed = sunder(test);
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_NE(failed.out.find("FAIL stack: drawing same; view of the scene differs"),
+            std::string::npos)
+      << failed.out;
+  EXPECT_NE(failed.out.find("view.fov_deg"), std::string::npos) << failed.out;
+  const Outcome accepted = sunder("golden accept stack" + at);
+  EXPECT_NE(accepted.out.find("frame anew, simulation as before"), std::string::npos)
+      << accepted.out;
+  EXPECT_EQ(read_frame(folder / "stack.frame")->view.fov_rad, 30 * std::numbers::pi / 180);
+  EXPECT_EQ(sunder(test).exit_code, 0);
 }
 
 TEST(Golden, ABaselineOfAnotherSizeIsNamedAsThat) {

@@ -2,6 +2,8 @@
 #include "bench/timing/frame_states.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -44,6 +46,36 @@ TEST(FrameStates, WhatIsAcceptedPassesAtEveryPreset) {
   for (const Verdict& verdict : judge_frames(kStack, book, "hashes.txt", false)) {
     EXPECT_EQ(verdict.outcome, Outcome::kPassed) << verdict.what << " " << verdict.text;
   }
+}
+
+TEST(FrameStates, WhatBreaksBeforeTheScriptBeginsDoesNotEndTheRunBeforeIt) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "early_break.toml";
+  const auto accepted = [&](const std::string& shot) {
+    std::ofstream(file) << "[scene]\ndescription = \"A brick bursts, then a ball comes.\"\n"
+                           "duration_s = 2\n[[solid]]\nstructure = \"box\"\nmaterial = \"clay\"\n"
+                           "size_m = [0.3, 0.3, 0.3]\nposition = [0, 0.05, 0]\n"
+                           "velocity = [0, -30, 0]\n"
+                        << shot;
+    HashBook book;
+    accept_frames({"early", file.string(), {}, 3}, book);
+    return book;
+  };
+  const auto frames = [](const HashBook& book, const std::string& preset) {
+    return book.at("frames/early/" + preset).size() / 4;
+  };
+  const HashBook alone = accepted("");
+  ASSERT_LT(frames(alone, "draft"), 15u) << "the brick breaks in the first frames";
+  const std::string shot =
+      "[[script.shot]]\ntime_s = 0.5\nfrom = [2, 1, 2]\nat = [0, 0.5, 0]\nradius_m = 0.1\n";
+  const HashBook slow = accepted(shot + "speed_m_s = 5\n"),
+                 fast = accepted(shot + "speed_m_s = 9\n");
+  for (const char* preset : {"draft", "realtime", "accurate", "reference"}) {
+    EXPECT_GE(frames(slow, preset), 39u) << "30 until the shot, and 8 more, at " << preset;
+    EXPECT_NE(slow.at(std::string("frames/early/") + preset),
+              fast.at(std::string("frames/early/") + preset))
+        << preset;
+  }
+  std::filesystem::remove(file);
 }
 
 TEST(FrameStates, ADigitThatDiffersFailsAtItsPresetAlone) {
