@@ -14,6 +14,7 @@
 #include "render/image/hud.h"
 #include "render/passage.h"
 #include "render/passes/chips.h"
+#include "render/passes/layers.h"
 #include "render/passes/marks.h"
 #include "render/passes/material_rows.h"
 #include "render/passes/pictures.h"
@@ -59,6 +60,23 @@ Vec2 place_in_pixel(int sample) {
     return x - std::floor(x) - 0.5;
   };
   return {of(0.7548776662466927), of(0.5698402909980532)};
+}
+
+constexpr int kMostPixels = 32768;  // a side
+constexpr int kMostSamples = 4096;
+
+/// The options. Throws InputError if no picture can be as they say, before there is a context.
+const RenderOptions& checked(const RenderOptions& options) {
+  const auto need = [](int value, int most, const char* name) {
+    if (value >= 1 && value <= most) return;
+    throw InputError(std::string("options.") + name + " is " + std::to_string(value) +
+                     "; expected 1 to " + std::to_string(most));
+  };
+  need(options.width, kMostPixels, "width");
+  need(options.height, kMostPixels, "height");
+  need(options.samples, kMostSamples, "samples");
+  check_layers(options.layers);
+  return options;
 }
 
 }  // namespace
@@ -120,7 +138,7 @@ struct Renderer::Impl {
 };
 
 Renderer::Impl::Impl(const RenderOptions& wanted)
-    : options(wanted),
+    : options(checked(wanted)),
       view_mode(wanted.view_mode),
       context(make_context(wanted.gl)),
       gl(context->gl()),
@@ -129,7 +147,6 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
       covered(gl),
       chips(gl),
       puffs(gl) {
-  check_layers(options.layers);
   if (view_mode.looks_inside()) marks.emplace(gl);
   const int w = options.width;
   const int h = options.height;

@@ -30,6 +30,12 @@ struct DeepImage {
   std::vector<std::pair<std::string, std::string>> words = {};  ///< ASCII: keys and what they say.
 };
 
+/// A layer of a picture, by name: depth, normals or ids.
+struct Layer {
+  std::string name;
+  DeepImage image;
+};
+
 /// Of pixels as red, green, blue, and alpha or something else, from the lowest byte up.
 Image unpacked(std::span<const std::uint32_t> pixels, int width, int height, bool has_alpha);
 

@@ -14,12 +14,6 @@ namespace sunder::render {
 
 inline constexpr const char* kLayers = "depth | normals | ids";
 
-/// A layer of a picture, by name.
-struct Layer {
-  std::string name;
-  DeepImage image;
-};
-
 /// Throws InputError for a name that is not in kLayers.
 void check_layers(std::span<const std::string> names);
 

@@ -5,6 +5,7 @@
 
 #include "engine/base/check.h"
 #include "render/camera.h"
+#include "render/passes/layers.h"
 #include "render/view_mode.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
