@@ -126,6 +126,16 @@ bool told(const Scene& scene, std::initializer_list<const char*> words) {
   return false;
 }
 
+TEST(MakeSimulation, RefusesWhatCannotBeRunWhicheverComesFirst) {
+  Scene scene = parse_scene(std::string(kHead) + "[[ball]]\n", "x.toml");
+  SimulationOptions less_than_none;
+  less_than_none.threads = -5;
+  EXPECT_THROW(make_simulation(scene, less_than_none), InputError);
+  scene.balls[0].material = {};
+  EXPECT_THROW(run_info(scene), InputError);
+  EXPECT_THROW(make_simulation(scene), InputError);
+}
+
 TEST(MakeSimulation, TellsOfAStepThatIsLongerThanAFrame) {
   Scene scene = parse_scene(std::string(kHead) + "[[ball]]\n", "x.toml", {"draft", {}});
   EXPECT_FALSE(told(scene, {"longer than a frame"}));
