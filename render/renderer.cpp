@@ -12,6 +12,7 @@
 #include "render/gl/units.h"
 #include "render/image/antialias.h"
 #include "render/image/hud.h"
+#include "render/options.h"
 #include "render/passage.h"
 #include "render/passes/chips.h"
 #include "render/passes/layers.h"
@@ -60,23 +61,6 @@ Vec2 place_in_pixel(int sample) {
     return x - std::floor(x) - 0.5;
   };
   return {of(0.7548776662466927), of(0.5698402909980532)};
-}
-
-constexpr int kMostPixels = 32768;  // a side
-constexpr int kMostSamples = 4096;
-
-/// The options. Throws InputError if no picture can be as they say, before there is a context.
-const RenderOptions& checked(const RenderOptions& options) {
-  const auto need = [](int value, int most, const char* name) {
-    if (value >= 1 && value <= most) return;
-    throw InputError(std::string("options.") + name + " is " + std::to_string(value) +
-                     "; expected 1 to " + std::to_string(most));
-  };
-  need(options.width, kMostPixels, "width");
-  need(options.height, kMostPixels, "height");
-  need(options.samples, kMostSamples, "samples");
-  check_layers(options.layers);
-  return options;
 }
 
 }  // namespace
