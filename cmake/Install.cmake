@@ -17,6 +17,8 @@ set(public_headers
   engine/model/path.h
   engine/model/scene.h
   engine/model/work.h
+  render/image/image.h
+  render/renderer.h
   render/sinks.h
   scenes/file/make_compound.h
   scenes/load.h

@@ -129,7 +129,7 @@ Starts starts_of(const Interval& interval, double frame_s) {
   Starts starts;
   for (const BreakEvent& event : interval.after->breaks) {
     const double since = (event.time_s - interval.before->time_s) / frame_s;
-    const auto [known, is_first] = starts.emplace(event.body_key, std::clamp(since, 0.0, 0.99));
+    const auto [known, is_first] = starts.emplace(event.parent_key, std::clamp(since, 0.0, 0.99));
     if (!is_first) known->second = std::min(known->second, std::clamp(since, 0.0, 0.99));
   }
   return starts;

@@ -13,8 +13,10 @@
 #include "render/gl/units.h"
 #include "render/image/antialias.h"
 #include "render/image/hud.h"
+#include "render/options.h"
 #include "render/passage.h"
 #include "render/passes/chips.h"
+#include "render/passes/layers.h"
 #include "render/passes/marks.h"
 #include "render/passes/material_rows.h"
 #include "render/passes/pictures.h"
@@ -121,7 +123,7 @@ struct Renderer::Impl {
 };
 
 Renderer::Impl::Impl(const RenderOptions& wanted)
-    : options(wanted),
+    : options(checked(wanted)),
       view_mode(wanted.view_mode),
       context(make_context(wanted.gl)),
       gl(context->gl()),
@@ -130,7 +132,6 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
       covered(gl),
       chips(gl),
       puffs(gl) {
-  check_layers(options.layers);
   if (view_mode.looks_inside()) marks.emplace(gl);
   const int w = options.width;
   const int h = options.height;

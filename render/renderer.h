@@ -7,7 +7,6 @@
 
 #include "engine/model/frame.h"
 #include "render/image/image.h"
-#include "render/passes/layers.h"
 #include "render/sinks.h"
 
 namespace sunder::render {

@@ -142,6 +142,7 @@ std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOption
 }
 
 RunInfo run_info(const Scene& scene, const std::string& preset) {
+  check_scene(scene);
   RunInfo info{scene.name,
                preset,
                threads(),

@@ -22,6 +22,8 @@
 #include "engine/model/joint.h"
 #include "engine/model/material.h"
 #include "engine/model/scene.h"
+#include "render/image/image.h"         // Image, write_png()
+#include "render/renderer.h"            // Renderer
 #include "render/sinks.h"               // make_picture_sink()
 #include "scenes/file/make_compound.h"  // make_compound() of parts, or of a mesh
 #include "scenes/load.h"                // load_scene(), builtin_materials()

@@ -1,6 +1,7 @@
-// Layout: "SUNDERF5" (or 4: without paints, lights and what happens inside; or 3: nothing is known
-// to be asleep, either; or 2: without poses of meshes, either; or 1: without debris and dust,
-// either), XXH3 of the rest (8 bytes), size of the content (8 bytes), content in zstd.
+// Layout: "SUNDERF6" (or 5: contacts without keys of bodies; or 4: without paints, lights and what
+// happens inside, either; or 3: nothing is known to be asleep, either; or 2: without poses of
+// meshes, either; or 1: without debris and dust, either), XXH3 of the rest (8 bytes), size of the
+// content (8 bytes), content in zstd.
 #include "engine/io/frame_file.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 namespace sunder {
 namespace {
 
-constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '5'};
+constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '6'};
 constexpr std::size_t kName = sizeof kMagic - 1;  // what precedes the version
 constexpr std::size_t kHeader = sizeof kMagic + 8;
 constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refused
@@ -57,7 +58,8 @@ std::vector<Particle> take_codes(ByteReader& in, const std::string& file, std::s
 
 void put(ByteWriter& out, const Inspection& inspection) {
   out.put(static_cast<std::uint32_t>(inspection.contacts.size()));
-  for (const FrameContact& contact : inspection.contacts) out.put(contact.point_W, contact.force_W);
+  for (const FrameContact& contact : inspection.contacts)
+    out.put(contact.point_W, contact.force_W, contact.key_a, contact.key_b);
   out.put(static_cast<std::uint32_t>(inspection.boxes.size()));
   for (const FrameBox& box : inspection.boxes) out.put(box.min_W, box.max_W, box.body);
   out.put_list(inspection.islands);
@@ -65,10 +67,13 @@ void put(ByteWriter& out, const Inspection& inspection) {
 }
 
 std::shared_ptr<const Inspection> take_inspection(ByteReader& in, const std::string& file,
-                                                  const Frame& frame) {
+                                                  const Frame& frame, bool with_keys) {
   auto inspection = std::make_shared<Inspection>();
-  inspection->contacts.resize(in.take_count(24));
-  for (FrameContact& contact : inspection->contacts) in.take_to(contact.point_W, contact.force_W);
+  inspection->contacts.resize(in.take_count(with_keys ? 40 : 24));
+  for (FrameContact& contact : inspection->contacts) {
+    in.take_to(contact.point_W, contact.force_W);
+    if (with_keys) in.take_to(contact.key_a, contact.key_b);
+  }
   inspection->boxes.resize(in.take_count(28));
   for (FrameBox& box : inspection->boxes) in.take_to(box.min_W, box.max_W, box.body);
   inspection->islands = in.take_list<std::uint32_t>();
@@ -149,7 +154,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
   }
   for (const Mesh& mesh : meshes) check_looks(mesh, file, paints.size());
   if (version >= 5 && in.take<std::uint8_t>() != 0) {
-    frame->inspection = take_inspection(in, file, *frame);
+    frame->inspection = take_inspection(in, file, *frame, version >= 6);
   }
   if (!in.at_end()) throw InputError(file + ": corrupt: bytes are left over");
   frame->materials = std::make_shared<const std::vector<Material>>(std::move(materials));

@@ -57,7 +57,7 @@ struct View {
   double sun_strength = 1, sky_strength = 1;  ///< Times these.
 };
 
-/// The key of the body that the ground's meshes are, if it has any; it comes last.
+/// The key of the ground. Its meshes, if it has any, are a body of this key, which comes last.
 inline constexpr std::uint32_t kGroundKey = 0xffffffff;
 
 /// Where the camera is at a time; what is not said is as in the key before (view_path.h).
@@ -95,7 +95,8 @@ struct Instance {
 /// A point where two bodies press on each other.
 struct FrameContact {
   Vec3f point_W = Vec3f::Zero();
-  Vec3f force_W = Vec3f::Zero();  ///< On the second, N, friction included.
+  Vec3f force_W = Vec3f::Zero();       ///< On body b, N, friction included.
+  std::uint64_t key_a = 0, key_b = 0;  ///< Keys of the bodies; kGroundKey: the ground.
 };
 
 /// What the broad phase takes a shape of a body for.
@@ -133,14 +134,23 @@ struct FrameDust {
   MaterialIndex material;
 };
 
+/// A body broke or cracked. Several bodies can be born and broken within one frame: `parent_key` is
+/// then among the `child_keys` of an earlier event of the frame, and in no frame's bodies.
+/// `before_key` and `name` tell what every parent belonged to; FrameBody has the same of the
+/// pieces. Bodies that bend, that become one again or that the script lets go get new keys without
+/// an event.
 struct BreakEvent {
   double time_s = 0;
-  std::uint64_t body_key = 0;   ///< Of the body that broke.
+  std::uint64_t parent_key = 0;           ///< Of the body that broke.
+  std::vector<std::uint64_t> child_keys;  ///< Of its pieces. What stands keeps its parent's key.
+  MaterialIndex material;                 ///< Where it broke.
+  std::uint64_t before_key = 0;           ///< Of what the parent was part of in the frame before.
+  std::uint32_t name = kUnnamed;          ///< In Frame::names, of what the parent came off.
   Vec3 point_W = Vec3::Zero();  ///< Where it was hit, or where a blow elsewhere bent it most.
   double energy_J = 0;          ///< Taken from the impact.
   double new_area_m2 = 0;
   double plan_ms = 0;        ///< Wall time of the fracture.
-  std::uint32_t pieces = 0;  ///< That it is in now; 1: it is cracked.
+  std::uint32_t pieces = 0;  ///< All pieces; those without a key became debris. 1: it is cracked.
 };
 
 /// Counted, not timed: the same on every machine.

@@ -59,7 +59,8 @@ std::shared_ptr<const Inspection> inspect(const World& world, const Breaker& bre
   const PhysicsInspection physics = world.physics->inspect();
   auto seen = std::make_shared<Inspection>();
   for (const PressPoint& press : physics.presses) {
-    seen->contacts.push_back({press.point_W.cast<float>(), press.force_W.cast<float>()});
+    seen->contacts.push_back({press.point_W.cast<float>(), press.force_W.cast<float>(),
+                              press.body_tag_a, press.body_tag_b});
   }
   for (const ShapeBox& box : physics.boxes) {
     const Actor* actor = world.actors.find(box.body_tag);

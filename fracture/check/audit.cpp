@@ -193,6 +193,7 @@ Audit audit(std::span<const Compound> pieces) {
     const Compound& piece = pieces[p];
     audit.convexes += piece.convexes.size();
     audit.volume_m3 += volume(piece);
+    for (const ConvexPtr& convex : piece.convexes) audit.surface_m3 += convex->solid.volume_m3;
     const auto islands = find_islands(piece);
     if (!islands.empty()) audit.islands += *std::max_element(islands.begin(), islands.end()) + 1;
     const std::size_t open = open_edges_of(piece);

@@ -21,6 +21,7 @@ struct Audit {
   std::size_t open_edges = 0;        ///< Of all surfaces: convexes and their visual meshes.
   std::size_t negative_volumes = 0;  ///< Convexes without volume, or turned inside out.
   double volume_m3 = 0;
+  double surface_m3 = 0;  ///< That their surfaces enclose: overlaps count with each of the parts.
   double overlap_m3 = 0;  ///< Of solids of different pieces, pair by pair.
   /// Whether the overlap is exact. Pairs of very large visual meshes are bounded from above
   /// instead.

@@ -2,11 +2,13 @@
 // side.
 #include "fracture/check/case_file.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <iomanip>
 #include <istream>
 #include <ostream>
+#include <type_traits>
 
 #include "engine/base/check.h"
 #include "engine/geometry/approximate_hull.h"
@@ -20,20 +22,35 @@ constexpr std::uint64_t kMost = 10000000;  // of anything
 
 class Writer {
  public:
-  explicit Writer(std::ostream& out) : out_(out) { out_ << std::hexfloat; }
+  explicit Writer(std::ostream& out) : out_(out) {}
 
   void word(const std::string& text) { out_ << text << ' '; }
   template <class T>
   void put(const T& value) {
-    out_ << value << ' ';
+    if constexpr (std::is_floating_point_v<T>) {
+      put_number(value);
+    } else {
+      out_ << value << ' ';
+    }
   }
   template <class Derived>
   void put(const Eigen::MatrixBase<Derived>& matrix) {
-    for (Eigen::Index i = 0; i < matrix.size(); ++i) out_ << matrix(i) << ' ';
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) put(matrix(i));
   }
   void end_line() { out_ << '\n'; }
 
  private:
+  /// In hexadecimal, as `std::hexfloat` has it; streams write numbers slowly.
+  void put_number(double value) {
+    char text[40];
+    char* end = text;
+    if (std::signbit(value)) *end++ = '-';
+    if (std::isfinite(value)) *end++ = '0', *end++ = 'x';
+    end = std::to_chars(end, text + sizeof text, std::abs(value), std::chars_format::hex).ptr;
+    *end++ = ' ';
+    out_.write(text, end - text);
+  }
+
   std::ostream& out_;
 };
 

@@ -5,25 +5,59 @@
 #include <fstream>
 #include <utility>
 
-#include "fracture/check/case_file.h"
-
 namespace sunder::fracture {
 
 FailureLog::FailureLog(std::string folder, std::size_t most_files)
     : folder_(std::move(folder)), most_files_(most_files) {}
 
+FailureLog::~FailureLog() {
+  if (writer_.joinable()) writer_.join();
+}
+
 void FailureLog::keep(const Compound& compound, const BreakCommand& command) {
-  if (folder_.empty() || asked_++ >= most_files_) return;
-  const std::string name = folder_ + "/break-" + std::to_string(command.event) + ".case";
+  if (folder_.empty()) return;
+  const std::lock_guard lock(mutex_);
+  if (kept_ == most_files_) return;
+  ++kept_;
+  waiting_.push_back({compound, command});
+  if (is_writing_) return;
+  is_writing_ = true;
+  if (writer_.joinable()) writer_.join();  // it has ended
+  writer_ = std::thread([this] { write_all(); });
+}
+
+std::size_t FailureLog::files() {
+  if (writer_.joinable()) writer_.join();
+  return files_;
+}
+
+void FailureLog::write_all() {
+  for (;;) {
+    BreakCase next;
+    {
+      const std::lock_guard lock(mutex_);
+      is_writing_ = !waiting_.empty();
+      if (!is_writing_) return;
+      next = std::move(waiting_.front());
+      waiting_.pop_front();
+    }
+    write(next);
+  }
+}
+
+void FailureLog::write(const BreakCase& example) {
+  const std::string name = folder_ + "/break-" + std::to_string(example.command.event) + ".case";
   const std::string unfinished = name + ".part";
   std::error_code no_folder;
   std::filesystem::create_directories(folder_, no_folder);
   {
     std::ofstream file(unfinished);
-    write_case(file, {compound, command});
+    write_case(file, example);
     if (!file.flush()) return;  // a full disk must not stop the simulation
   }
-  if (std::rename(unfinished.c_str(), name.c_str()) == 0) ++files_;
+  if (std::rename(unfinished.c_str(), name.c_str()) != 0) return;
+  const std::lock_guard lock(mutex_);
+  ++files_;
 }
 
 }  // namespace sunder::fracture

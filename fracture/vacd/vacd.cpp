@@ -1,6 +1,7 @@
 #include "fracture/vacd/vacd.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -78,8 +79,13 @@ std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& o
   }
 }
 
-/// Drops pieces that are inside out, and answers what they would enclose.
-double drop_inside_out(std::vector<VacdPiece>& pieces) {
+/// Drops pieces that are inside out, or that enclose no more than rounding errors do. Returns what
+/// those that are inside out would enclose.
+double drop_inside_out(const RepairedMesh& mesh, std::vector<VacdPiece>& pieces) {
+  constexpr double kRounding = 1e-15;  // of a volume, over that of a cube of the mesh's diagonal
+  Box box;
+  for (const PolygonMesh& shell : mesh.shells) box.extend(bounds(shell));
+  const double least_m3 = kRounding * std::pow(box.extent().norm(), 3);
   std::vector<double> volume(pieces.size());
   for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
     volume[p] = mass_properties(pieces[p].mesh).volume_m3;
@@ -87,11 +93,11 @@ double drop_inside_out(std::vector<VacdPiece>& pieces) {
   double dropped = 0;
   std::size_t kept = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    if (volume[p] > 0) {
+    if (volume[p] > least_m3) {
       if (kept != p) pieces[kept] = std::move(pieces[p]);
       ++kept;
     } else {
-      dropped -= volume[p];
+      dropped += std::max(0.0, -volume[p]);
     }
   }
   pieces.resize(kept);
@@ -169,7 +175,7 @@ Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
   const Stopwatch watch;
   PlaneNames names;
   std::vector<VacdPiece> pieces = cut_pieces(mesh, options, names);
-  const double inside_out_m3 = drop_inside_out(pieces);
+  const double inside_out_m3 = drop_inside_out(mesh, pieces);
   const double split_ms = watch.ms();
   std::vector<Part> parts = fitted_parts(mesh, std::move(pieces), options);
   Vacd result{make_compound(std::move(parts), touching_tolerance(mesh)), {}};

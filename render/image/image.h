@@ -30,6 +30,13 @@ struct DeepImage {
   std::vector<std::pair<std::string, std::string>> words = {};  ///< ASCII: keys and what they say.
 };
 
+/// A layer of a picture, by name: depth, depth_m, normals or ids.
+struct Layer {
+  std::string name;
+  DeepImage image;            ///< Empty if the layer is in metres:
+  std::vector<float> metres;  ///< Along the view, top row first; infinite where nothing is.
+};
+
 /// Of pixels as red, green, blue, and alpha or something else, from the lowest byte up.
 Image unpacked(std::span<const std::uint32_t> pixels, int width, int height, bool has_alpha);
 

@@ -15,13 +15,6 @@ namespace sunder::render {
 
 inline constexpr const char* kLayers = "depth | depth_m | normals | ids";
 
-/// A layer of a picture, by name.
-struct Layer {
-  std::string name;
-  DeepImage image;            ///< Empty if the layer is in metres:
-  std::vector<float> metres;  ///< Along the view, top row first; infinite where nothing is.
-};
-
 /// Throws InputError for a name that is not in kLayers.
 void check_layers(std::span<const std::string> names);
 
@@ -47,8 +40,7 @@ class Layers {
   int width_, height_;
   GLuint framebuffer_ = 0;
   GLuint depth_framebuffer_ = 0;  ///< Of floats.
-  std::optional<double>
-      far_m_;  ///< White of the layer of depth, of the first picture and all others.
+  std::optional<double> far_m_;   ///< White of the layer of depth, for all pictures.
   GLuint empty_vertex_array_ = 0;
   std::vector<Pass> passes_;
 };

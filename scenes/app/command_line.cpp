@@ -4,6 +4,7 @@
 #include <span>
 
 #include "render/camera.h"
+#include "render/passes/layers.h"
 #include "render/view_mode.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"

@@ -3,6 +3,7 @@
 // Read first: fracture_mesh(), then carry_out().
 #include "fracture/fracture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -15,6 +16,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
 #include "engine/io/figures.h"
+#include "engine/io/statistics.h"
 #include "fracture/adjacency/compound_builder.h"
 #include "fracture/check/audit.h"
 #include "fracture/check/case_file.h"
@@ -187,6 +189,7 @@ Figures figures_of(const scenes::MeshSolid& solid, const Broken& broken) {
   figures["/volume_in_m3"] = broken.before.volume_m3;
   add_doubled(broken.doubled, figures);
   figures["/volume_out_m3"] = after.volume_m3;
+  figures["/surface_volume_m3"] = after.surface_m3;
   figures["/debris_volume_m3"] = broken.plan.debris_volume_m3;
   figures["/volume_error"] = volume_error(broken);
   figures["/watertight_pieces"] = whole(after.watertight_pieces);
@@ -205,13 +208,9 @@ Figures figures_of(const scenes::MeshSolid& solid, const Broken& broken) {
 
 std::string failed_summary(const Broken& broken) {
   if (broken.plan.failed == 0) return "";
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "failed   %u convexes were left whole, %.3g %% of the volume: their parts did not add "
-      "up; more --nodes may help\n",
-      broken.plan.failed, 100 * broken.plan.failed_m3 / broken.before.volume_m3);
-  return text;
+  return "failed   " +
+         left_whole_warning(broken.plan.failed, broken.plan.failed_m3, broken.before.volume_m3) +
+         "; more --nodes may help\n";
 }
 
 std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
@@ -229,18 +228,29 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
   return input_summary(solid) + text + failed_summary(broken) + doubled_summary(broken.doubled);
 }
 
-fracture::BreakCase case_of(const FractureOptions& options, scenes::MeshSolid& solid,
-                            std::vector<Paint>& paints, WorkProgress& progress) {
+/// A solid, what breaks it, and what came of that.
+struct Attempt {
+  scenes::MeshSolid solid;
+  std::vector<Paint> paints;
+  fracture::BreakCase example;
+  Broken broken;
+
+  /// The share of the volume that was left whole because its parts did not add up.
+  double failed() const { return broken.plan.failed_m3 / broken.before.volume_m3; }
+};
+
+fracture::BreakCase case_of(const FractureOptions& options, const scenes::MeshOptions& solid_of,
+                            Attempt& attempt, WorkProgress& progress) {
   if (!options.mesh.ends_with(".case")) {
     if (options.pattern.empty()) {
       throw InputError("--pattern is missing: " + std::string(kPatternHelp));
     }
     parse_pattern(options.pattern);  // before work that may take long
-    scenes::MeshOptions mesh = options.solid;
-    mesh.paints = &paints;
+    scenes::MeshOptions mesh = solid_of;
+    mesh.paints = &attempt.paints;
     mesh.progress = [&](const char* step, double share) { progress(step, kMeshShare * share); };
-    solid = scenes::make_mesh_solid(options.mesh, mesh);
-    return {solid.compound, command_of(options, solid.compound)};
+    attempt.solid = scenes::make_mesh_solid(options.mesh, mesh);
+    return {attempt.solid.compound, command_of(options, attempt.solid.compound)};
   }
   if (!options.pattern.empty() || !options.at.empty() || options.radius_m) {
     throw InputError(options.mesh +
@@ -249,8 +259,36 @@ fracture::BreakCase case_of(const FractureOptions& options, scenes::MeshSolid& s
   }
   std::istringstream text(scenes::read_text(options.mesh));
   fracture::BreakCase example = fracture::read_case(text, options.mesh);
-  solid = scenes::as_mesh_solid(options.mesh, example.compound);
+  attempt.solid = scenes::as_mesh_solid(options.mesh, example.compound);
   return example;
+}
+
+Attempt attempt_with(const FractureOptions& options, const scenes::MeshOptions& solid_of,
+                     WorkProgress& progress) {
+  Attempt attempt;
+  attempt.example = case_of(options, solid_of, attempt, progress);
+  attempt.broken = carry_out(attempt.example.compound, attempt.example.command, progress);
+  return attempt;
+}
+
+/// Breaks the solid. Where more than a little of a mesh is left whole, it is decomposed anew with
+/// more nodes, whose smaller convexes fail by themselves; the attempt that leaves least is kept.
+Attempt break_well(const FractureOptions& options, WorkProgress& progress) {
+  constexpr double kLittle = 1e-4;  // share of the volume that may be left whole at once
+  constexpr int kMoreTimes = 2;
+  Attempt best = attempt_with(options, options.solid, progress);
+  // Nodes in a file, and a bound of convexes, are kept to.
+  const bool may_have_more = best.solid.vacd && options.solid.convexes == 0 &&
+                             scenes::vacd_options(options.solid).nodes.empty();
+  std::size_t nodes = best.solid.compound.convexes.size();
+  for (int time = 0; time < kMoreTimes && may_have_more && best.failed() > kLittle; ++time) {
+    nodes = std::min<std::size_t>(2 * nodes, fracture::kMostNodes);
+    scenes::MeshOptions more = options.solid;
+    more.nodes = std::to_string(nodes);
+    Attempt next = attempt_with(options, more, progress);
+    if (next.broken.plan.failed_m3 < best.broken.plan.failed_m3) best = std::move(next);
+  }
+  return best;
 }
 
 }  // namespace
@@ -258,18 +296,16 @@ fracture::BreakCase case_of(const FractureOptions& options, scenes::MeshSolid& s
 int fracture_mesh(const FractureOptions& options) {
   options.apply();
   check_output(options.output);
-  scenes::MeshSolid solid;
-  std::vector<Paint> paints;
   std::optional<WorkProgress> progress(std::in_place, options.mesh, options.quiet);
-  const fracture::BreakCase example = case_of(options, solid, paints, *progress);
-  const Broken broken = carry_out(example.compound, example.command, *progress);
+  Attempt attempt = break_well(options, *progress);
+  const auto& [solid, paints, example, broken] = attempt;
   progress.reset();
   print_warnings(solid);
   options.say(summary(solid, broken));
   if (!options.output.empty()) {
     const std::size_t walled =
-        write_solids(options.output, broken.plan.pieces, stone(), std::move(paints),
-                     options.explode, options.walls == "keep" ? Walls::kKeep : Walls::kRemove);
+        write_solids(options.output, broken.plan.pieces, stone(), paints, options.explode,
+                     options.walls == "keep" ? Walls::kKeep : Walls::kRemove);
     options.say("wrote " + options.output + "\n");
     if (walled > 0) {
       options.say("walls    kept in " + std::to_string(walled) +

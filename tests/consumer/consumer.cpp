@@ -3,9 +3,12 @@
 // it should be.
 #include <sunder/sunder.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
 
@@ -69,14 +72,19 @@ speed_m_s = 30
 radius_m = 0.1
 )";
 
-/// Counts what breaks.
+/// Counts what breaks, by name and material.
 class Breaks final : public sunder::FrameSink {
  public:
-  void take(const sunder::FramePtr& frame) override { count_ += frame->breaks.size(); }
-  std::size_t count() const { return count_; }
+  void take(const sunder::FramePtr& frame) override {
+    for (const sunder::BreakEvent& event : frame->breaks) {
+      const std::string& name = (*frame->names)[event.name];
+      ++counts_[name + " of " + (*frame->materials)[event.material.value].name];
+    }
+  }
+  const std::map<std::string, int>& counts() const { return counts_; }
 
  private:
-  std::size_t count_ = 0;
+  std::map<std::string, int> counts_;
 };
 
 void a_scene_from_a_text() {
@@ -90,9 +98,10 @@ void a_scene_from_a_text() {
   Breaks breaks;
   sunder::FrameSink* const sinks[] = {&statistics, &hash, &writer, &breaks};
   sunder::pump(*sunder::scenes::make_simulation(scene, options), sinks);
-  std::printf("%s%zu breaks, state hash %s\n", statistics.table().c_str(), breaks.count(),
-              hash.hex().c_str());
-  expect(breaks.count() > 0, "the ball breaks the pane");
+  std::printf("%sstate hash %s\n", statistics.table().c_str(), hash.hex().c_str());
+  for (const auto& [what, count] : breaks.counts())
+    std::printf("%s breaks %d times\n", what.c_str(), count);
+  expect(breaks.counts().contains("pane of glass"), "the ball breaks the pane");
   expect(statistics.json(hash.hex(), false).find(hash.hex()) != std::string::npos,
          "the figures hold the state hash");
 
@@ -120,6 +129,38 @@ void a_picture() {
   }
 }
 
+/// One frame as an image in memory, and that as a file, where there is a GL driver.
+void a_frame_drawn() {
+  sunder::TakeReader reader("shot.take");
+  reader.seek(30);
+  const sunder::FramePtr frame = reader.next();
+  sunder::render::RenderOptions options;
+  options.width = 64;
+  options.height = 48;
+  options.layers = {"ids"};
+  try {
+    sunder::render::Renderer renderer(options);
+    const sunder::render::Image image = renderer.draw(*frame);
+    expect(image.width == 64 && image.height == 48 && image.rgb.size() == 3u * 64 * 48,
+           "a frame is drawn in the size that was asked for");
+    expect(std::ranges::adjacent_find(image.rgb, std::ranges::not_equal_to()) != image.rgb.end(),
+           "there is something in the picture");
+    expect(renderer.layers().size() == 1 && renderer.layers()[0].name == "ids",
+           "its layers are those of the options");
+    sunder::render::write_png("frame.png", image);
+    expect(sunder::render::read_png("frame.png") == image, "a file has the same pixels");
+  } catch (const sunder::InputError& error) {
+    std::printf("no frame: %s\n", error.what());
+  }
+  options.width = 0;
+  try {
+    sunder::render::Renderer renderer(options);
+    expect(false, "a picture without width is refused");
+  } catch (const sunder::InputError& error) {
+    std::printf("refused: %s\n", error.what());
+  }
+}
+
 void scenes_by_name() {
   expect(sunder::scenes::catalog().size() >= 5, "the catalogue was installed");
   expect(sunder::scenes::load_scene("stack").name == "stack", "its scenes load by name");
@@ -137,6 +178,7 @@ int main() {
   a_scene_made_in_code();
   a_scene_from_a_text();
   a_picture();
+  a_frame_drawn();
   scenes_by_name();
   return wrong == 0 ? 0 : 1;
 }

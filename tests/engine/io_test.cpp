@@ -254,7 +254,9 @@ TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
   frame->report.stage_ms[static_cast<int>(Stage::kSolve)] = 2;
   frame->report.stage_cpu_ms[static_cast<int>(Stage::kSolve)] = 3;
   frame->report.penetrations_m = {0.001f, 0.002f};
-  frame->breaks.push_back({0, 42, Vec3::Zero(), 10, 1, 0.5, 8});
+  BreakEvent& event = frame->breaks.emplace_back();
+  event.plan_ms = 0.5;
+  event.pieces = 8;
   statistics.take(frame);
   statistics.take(frame);
   const auto json = nlohmann::json::parse(statistics.json("0123456789abcdef", true));

@@ -76,6 +76,74 @@ TEST(SceneCheck, NamesWhatIsWrong) {
        [](Scene& s) {
          s.removals[0].roots = {2, 0};
        }},
+      {"materials[0].pattern.cells",
+       [](Scene& s) { s.materials[0].pattern.cells = -1; }},
+      {"materials[0].pattern.file",
+       [](Scene& s) { s.materials[0].pattern.kind = PatternSpec::Kind::kFile; }},
+      {"materials[0].stronger[1].energy_J",
+       [](Scene& s) {
+         s.materials[0].stronger.resize(2);
+         s.materials[0].stronger[0].energy_J = 10;
+       }},
+      {"materials[1].crumbling.debris_largest_m",
+       [](Scene& s) { s.materials[1].crumbling.debris_largest_m = 0; }},
+      {"limits.bodies is 0", [](Scene& s) { s.limits.bodies = 0; }},
+      {"max_colors", [](Scene& s) { s.solver.max_colors = 0; }},
+      {"solids[1].compound has a bond of a face",
+       [](Scene& s) {
+         Compound& compound = s.solids[1].compound;
+         compound.convexes.push_back(compound.convexes[0]);
+         compound.anchored.push_back(0);
+         compound.bonds = {{0, 1, 0, 6, 1}};
+       }},
+      {"a ghost of convex 3",
+       [](Scene& s) {
+         Compound& compound = s.solids[1].compound;
+         compound.ghosts = {{compound.convexes[0], {0, 3}}};
+       }},
+      {"joints[0].breaking_N", [](Scene& s) { s.joints[0].breaking_N = -1; }},
+      {"joints[0].axis_W is 0",
+       [](Scene& s) {
+         s.joints[0].kind = JointKind::kHinge;
+         s.joints[0].axis_W.setZero();
+       }},
+      {"blasts[0].radius_m",
+       [](Scene& s) {
+         s.blasts.resize(1);
+         s.blasts[0].radius_m = 0;
+       }},
+      {"blasts[0].tnt_kg",
+       [](Scene& s) {
+         s.blasts.resize(1);
+         s.blasts[0].tnt_kg = kNaN;
+       }},
+      {"shots[0].hangs_from_W",
+       [](Scene& s) { s.shots[0].hangs_from_W = Vec3(0, kNaN, 0); }},
+      {"removals[0] takes nothing", [](Scene& s) { s.removals[0].roots.clear(); }},
+      {"removals[0] takes nothing",
+       [](Scene& s) {
+         s.removals[0].roots.clear();
+         s.removals[0].anchors_W = {Vec3(-1, -1, -1), Vec3(2, 2, 2)};  // nothing is anchored
+       }},
+      {"drives[0] holds no velocity", [](Scene& s) { s.drives.resize(1); }},
+      {"drives[0].until_s",
+       [](Scene& s) {
+         s.drives.resize(1);
+         s.drives[0].velocity_W = Vec3::Zero();
+         s.drives[0].until_s = -1;
+       }},
+      {"moves[0] is of body 2",
+       [](Scene& s) {
+         s.moves.resize(1);
+         s.moves[0].roots = {2};
+       }},
+      {"moves[0].path has a key at 1",
+       [](Scene& s) {
+         s.moves.resize(1);
+         s.moves[0].path.keys.resize(2);
+         s.moves[0].path.keys[0].time_s = 2;
+         s.moves[0].path.keys[1].time_s = 1;
+       }},
       {"vertex 5", [](Scene& s) {
          s.ground.meshes.resize(1);
          s.ground.meshes[0].material = MaterialIndex(0);

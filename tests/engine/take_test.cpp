@@ -48,7 +48,14 @@ class Take : public ::testing::Test {
       frame->report.mass_kg = 100;
       frame->report.joints_lost = index_ % 4;
       if (index_ % 5 == 0) {
-        frame->breaks = {{frame->time_s, index_, Vec3(1, 2, 3), 10, 2, 0, 6}};
+        BreakEvent& event = frame->breaks.emplace_back();
+        event.time_s = frame->time_s;
+        event.parent_key = index_;
+        event.child_keys = {index_ + 1, index_ + 2};
+        event.material = MaterialIndex(index_ % 3);
+        event.before_key = index_ / 2;
+        event.name = 2;
+        event.pieces = 6;
       }
       ++index_;
       return frame;
@@ -150,6 +157,15 @@ void expect_shown_alike(const Frame& played, const Frame& run, const std::string
     ASSERT_LT((played.dust[i].position_W - run.dust[i].position_W).norm(), 4e-2f) << what;
   }
   ASSERT_EQ(played.breaks.size(), run.breaks.size()) << what;
+  for (std::size_t i = 0; i < run.breaks.size(); ++i) {
+    const BreakEvent &a = played.breaks[i], &b = run.breaks[i];
+    EXPECT_EQ(a.parent_key, b.parent_key) << what;
+    EXPECT_EQ(a.child_keys, b.child_keys) << what;
+    EXPECT_EQ(a.material.value, b.material.value) << what;
+    EXPECT_EQ(a.before_key, b.before_key) << what;
+    EXPECT_EQ(a.name, b.name) << what;
+    EXPECT_EQ(a.pieces, b.pieces) << what;
+  }
   EXPECT_EQ(played.report.mass_kg, run.report.mass_kg);
   EXPECT_EQ(played.report.joints_lost, run.report.joints_lost);
 }

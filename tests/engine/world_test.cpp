@@ -201,7 +201,7 @@ TEST(BreakStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   const double before = sum_of(*run.physics).kinetic;
   const FramePtr first = run.simulation.next();
   ASSERT_EQ(first->breaks.size(), 1u);
-  EXPECT_EQ(first->breaks[0].body_key, 0u);  // the harder impact first
+  EXPECT_EQ(first->breaks[0].parent_key, 0u);  // the harder impact first
   EXPECT_EQ(first->report.carried_over, 1u);
   const BodyState waiting = run.physics->find(3)->state;
   EXPECT_EQ(waiting.velocity_W, Vec3(20, 0, 0));
@@ -256,7 +256,7 @@ TEST(BreakStage, TakesWhatHasWaitedBeforeHarderImpactsThatAreNew) {
   run.simulation.next();
   const auto broken = [&] {
     const FramePtr frame = run.simulation.next();
-    return frame->breaks.size() == 1 ? static_cast<int>(frame->breaks[0].body_key) : -1;
+    return frame->breaks.size() == 1 ? static_cast<int>(frame->breaks[0].parent_key) : -1;
   };
   EXPECT_EQ(broken(), 0) << "the harder one of two";
   all_meet = true;

@@ -12,7 +12,7 @@
 #include "fracture/vacd/vacd.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/visual_truths.h"
-#include "tests/mesh/meshes.h"
+#include "tests/mesh/mesh_files.h"
 
 namespace sunder::fracture {
 namespace {
@@ -33,7 +33,6 @@ BreakCommand impact(int cells, const Vec3& at, double radius_m, std::uint64_t ev
 }
 
 TEST(RealMeshes, break_whole_and_keep_every_truth) {
-  SUNDER_NEEDS_MESHES();
   for (const auto& file : test::meshes("good")) {
     const std::string name = file.filename().string();
     for (PolygonMesh& shell : read_repaired(file).shells) {
@@ -52,8 +51,7 @@ TEST(RealMeshes, break_whole_and_keep_every_truth) {
 }
 
 TEST(RealMeshes, survive_three_levels) {
-  SUNDER_NEEDS_MESHES();
-  const RepairedMesh mesh = read_repaired(test::meshes_folder() / "good" / "bunny_12k.off");
+  const RepairedMesh mesh = read_repaired(test::made_file("ball"));
   std::vector<Compound> solids{solid_of(mesh.shells[0])};
   const double whole = volume(solids[0]);
   double debris = 0;
@@ -85,11 +83,9 @@ TEST(RealMeshes, survive_three_levels) {
 }
 
 TEST(RealMeshes, break_where_they_are_hit_and_nowhere_else) {
-  SUNDER_NEEDS_MESHES();
   VacdOptions options;
   options.node_count = 12;
-  const Compound solid =
-      decompose(read_repaired(test::meshes_folder() / "good" / "bunny_12k.off"), options).compound;
+  const Compound solid = decompose(read_repaired(test::made_file("ball")), options).compound;
   BreakPlan unbroken;
   unbroken.pieces = {solid};
   EXPECT_EQ(broken_visual_truth(solid, unbroken), "");
@@ -116,11 +112,9 @@ TEST(RealMeshes, break_where_they_are_hit_and_nowhere_else) {
 }
 
 TEST(RealMeshes, break_alike_with_any_number_of_threads) {
-  SUNDER_NEEDS_MESHES();
   VacdOptions options;
   options.node_count = 5;
-  const Compound solid =
-      decompose(read_repaired(test::meshes_folder() / "good" / "rocker_20k.obj"), options).compound;
+  const Compound solid = decompose(read_repaired(test::made_file("knot")), options).compound;
   std::vector<std::uint64_t> hashes;
   for (const int count : {1, 2, 4}) {
     set_threads(count);

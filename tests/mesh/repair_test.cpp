@@ -14,7 +14,7 @@
 #include "engine/geometry/triangulate.h"
 #include "engine/io/mesh/mesh_reader.h"
 #include "tests/cpu_time.h"
-#include "tests/mesh/meshes.h"
+#include "tests/mesh/mesh_files.h"
 
 namespace sunder {
 namespace {
@@ -362,7 +362,6 @@ TEST(Repair, AnySoupEndsInTime) {
 }
 
 TEST(RealMeshes, GoodOnesNeedNoRepair) {
-  SUNDER_NEEDS_MESHES();
   for (const auto& file : test::meshes("good")) {
     const std::string name = file.filename().string();
     const RepairedMesh repaired = repair_mesh(read_mesh(file), name, {.repair = false});
@@ -373,7 +372,6 @@ TEST(RealMeshes, GoodOnesNeedNoRepair) {
 }
 
 TEST(RealMeshes, NastyOnesEndInSolidsOrInOneClearLine) {
-  SUNDER_NEEDS_MESHES();
   std::set<std::string> refused;
   for (const auto& file : test::meshes("nasty")) {
     const std::string name = file.filename().string();

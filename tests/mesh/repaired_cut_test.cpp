@@ -9,7 +9,7 @@
 #include "engine/geometry/clip_mesh.h"
 #include "engine/geometry/repair/repair.h"
 #include "engine/io/mesh/mesh_reader.h"
-#include "tests/mesh/meshes.h"
+#include "tests/mesh/mesh_files.h"
 
 namespace sunder {
 namespace {
@@ -47,7 +47,6 @@ void expect_cuts_add_up(const std::vector<PolygonMesh>& shells, const std::strin
 }
 
 TEST(RealMeshes, CanBeCutOnceRepaired) {
-  SUNDER_NEEDS_MESHES();
   for (const std::string set : {"good", "nasty"}) {
     for (const auto& file : test::meshes(set)) {
       const std::string name = file.filename().string();

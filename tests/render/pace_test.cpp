@@ -154,7 +154,7 @@ TEST(Between, PiecesStayTogetherUntilTheBreak) {
   b->bodies[0].before_key = b->bodies[1].before_key = 0;
   BreakEvent event;
   event.time_s = 0.5 * kFrame_s;
-  event.body_key = 0;
+  event.parent_key = 0;
   b->breaks = {event};
   const auto gap_m = [&](double part) {
     const auto frame = between(interval_of(a, b), part);

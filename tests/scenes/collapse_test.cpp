@@ -131,7 +131,7 @@ TEST(Collapse, SlabsBreakByWhatStrikesThem) {
     ASSERT_EQ(slabs.size(), 10u);
     for (int i = 0; i < 330 && (frame = simulation->next()); ++i) {
       for (const BreakEvent& event : frame->breaks)
-        if (slabs.contains(event.body_key)) broken.insert(event.body_key);
+        if (slabs.contains(event.parent_key)) broken.insert(event.parent_key);
     }
     EXPECT_GE(broken.size(), 8u) << "only the first was shot; seed " << seed;
   }
@@ -152,7 +152,7 @@ TEST(Collapse, AGrindstoneBurstsAtASpinThatItsStrengthSets) {
     while ((frame = simulation->next()) && frame->breaks.empty())
       spin = frame->bodies[0].angular_velocity_W.norm();
     ASSERT_TRUE(frame);
-    EXPECT_EQ(frame->breaks[0].body_key, 0u) << "nothing has struck it";
+    EXPECT_EQ(frame->breaks[0].parent_key, 0u) << "nothing has struck it";
     EXPECT_GE(frame->breaks[0].pieces, 2u);
     std::printf("%s: bursts at %.1f rad/s\n", preset, spin);
     EXPECT_GT(spin, std::sqrt(strength / edge));

@@ -55,8 +55,15 @@ TEST(MakeSimulation, WhoLooksInsideSeesTheWeightThatContactsBearAndChangesNothin
     EXPECT_EQ(unseen->inspection, nullptr);
     ASSERT_NE(last->inspection, nullptr);
     double up_N = 0;  // between things is counted once: 3 + 2 + 1 and 1 boxes' weight
-    for (const FrameContact& contact : last->inspection->contacts)
+    double on_ground_N = 0;
+    for (const FrameContact& contact : last->inspection->contacts) {
+      const bool is_of_ground = contact.key_a == kGroundKey || contact.key_b == kGroundKey;
       up_N += std::abs(double{contact.force_W.y()});
+      on_ground_N += is_of_ground ? std::abs(double{contact.force_W.y()}) : 0;
+      EXPECT_TRUE(is_of_ground ||
+                  (contact.key_a < 4 && contact.key_b < 4 && contact.key_a != contact.key_b));
+    }
+    EXPECT_NEAR(on_ground_N, 9.81 * last->report.mass_kg, 0.02 * on_ground_N) << planar;
     EXPECT_NEAR(up_N, 7 * 9.81 * last->report.mass_kg / 4, 0.02 * up_N) << planar;
     ASSERT_EQ(last->bodies.size(), 4u);
     EXPECT_EQ(last->inspection->islands, (std::vector<std::uint32_t>{0, 0, 0, 3}));
@@ -117,6 +124,16 @@ bool told(const Scene& scene, std::initializer_list<const char*> words) {
                     [&](const char* word) { return warning.find(word) != std::string::npos; }))
       return true;
   return false;
+}
+
+TEST(MakeSimulation, RefusesWhatCannotBeRunWhicheverComesFirst) {
+  Scene scene = parse_scene(std::string(kHead) + "[[ball]]\n", "x.toml");
+  SimulationOptions less_than_none;
+  less_than_none.threads = -5;
+  EXPECT_THROW(make_simulation(scene, less_than_none), InputError);
+  scene.balls[0].material = {};
+  EXPECT_THROW(run_info(scene), InputError);
+  EXPECT_THROW(make_simulation(scene), InputError);
 }
 
 TEST(MakeSimulation, TellsOfAStepThatIsLongerThanAFrame) {

@@ -10,7 +10,7 @@
 #include "fracture/solids.h"
 #include "scenes/file/text_file.h"
 #include "tests/cpu_time.h"
-#include "tests/mesh/meshes.h"
+#include "tests/mesh/mesh_files.h"
 #include "tests/scenes/program.h"
 
 namespace sunder::tests {
@@ -327,7 +327,6 @@ TEST(MeshCommands, EachHasHelpForEveryFlag) {
 }
 
 TEST(MeshCommands, EveryNastyMeshEndsSoonWithPiecesOrOneLine) {
-  SUNDER_NEEDS_MESHES();
   for (const auto& mesh : test::meshes("nasty")) {
     const double start_s = test::cpu_time_s();
     const Outcome outcome =
@@ -344,7 +343,6 @@ TEST(MeshCommands, EveryNastyMeshEndsSoonWithPiecesOrOneLine) {
 }
 
 TEST(MeshCommands, EveryGoodMeshBreaksSoundly) {
-  SUNDER_NEEDS_MESHES();
   for (const auto& mesh : test::meshes("good")) {
     for (const std::string cells : {"1", "20", "100"}) {
       const std::string command = "fracture " + mesh.string() + " --pattern voronoi:" + cells;

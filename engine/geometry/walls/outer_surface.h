@@ -21,13 +21,19 @@ struct OuterSurface {
 };
 
 /// Removes what faces with opposite names of different meshes have in common. Each directed edge of
-/// the result has its opposite exactly once, by the numbers of its vertices; where the surface
-/// touches itself, vertices in one place have several numbers. The enclosed volume is the sum of
-/// the volumes of the meshes within 1e-12 of it. Returns none where that cannot be reached.
+/// the result has its opposite exactly once, by the numbers of its vertices. Where the surface
+/// touches itself, vertices in one place have several numbers, and an edge is divided in another
+/// place for each two faces. The
+/// enclosed volume is the sum of the volumes of the meshes within 1e-12 of it. Returns none where
+/// that cannot be reached.
 std::optional<OuterSurface> outer_surface(std::span<const PolygonMesh* const> meshes);
 
-/// Edges, by the places of their ends, that more than two faces share: there the surface touches
-/// itself.
-std::size_t touching_edges(const PolygonMesh& mesh);
+/// Several closed meshes as one, walls and all.
+OuterSurface side_by_side(std::span<const PolygonMesh* const> meshes);
+
+/// Changes a surface so that, once its faces are triangles, every edge lies in two of them by the
+/// places of its ends, as programs see it that join vertices in one place: edges that more than two
+/// share are divided, in another place for each two. What touches nowhere stays as it is.
+void separate_triangles(OuterSurface& outer);
 
 }  // namespace sunder

@@ -4,11 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/geometry/polygon_mesh.h"
+#include "engine/geometry/walls/outer_surface.h"
 
 namespace sunder {
 
@@ -61,6 +63,15 @@ bool split_edges(PieceSurface& surface, std::span<const WallPlane> planes, doubl
 /// Removes what faces of a plane with opposite names have in common. Edges must have been split.
 /// Returns false if the outlines of what is left do not close.
 bool remove_common(PieceSurface& surface, const WallPlane& plane);
+
+/// Divides edges that more than two faces share: each pair of faces with solid between them has a
+/// point of its own there, in a place of its own, so that no two pairs have an edge in common.
+/// Returns false if an edge is not passed as often one way as the other.
+bool divide_touching_edges(PieceSurface& surface);
+
+/// A mesh of the faces. Corners at one point that no chain of faces connects become different
+/// vertices. Returns none if an edge is not passed as often one way as the other.
+std::optional<OuterSurface> assemble(const PieceSurface& surface);
 
 /// Removes repeated corners and parts of a contour that go to a point and straight back.
 void clean_contour(PieceSurface::Contour& contour);

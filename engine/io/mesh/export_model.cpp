@@ -27,8 +27,10 @@ std::uint32_t material_of(const PolygonMesh::Face& face, MaterialIndex material,
   return face.mark > 0 ? first_paint + face.mark - 1 : 2 * material.value;
 }
 
-/// The shells of a piece; several where walls are kept.
-std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_paint, Walls walls) {
+/// The shells of a piece; several where all walls are kept. `is_walled` says if they are kept as
+/// they cannot be removed.
+std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_paint, Walls walls,
+                                    std::uint8_t& is_walled) {
   std::vector<std::shared_ptr<const PolygonMesh>> meshes;
   std::vector<const PolygonMesh*> pointers;
   for (const ConvexPtr& convex : piece.convexes) {
@@ -46,12 +48,14 @@ std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_p
     }
     shells.push_back({std::move(mesh), std::move(materials)});
   };
-  if (walls == Walls::kRemove && meshes.size() > 1) {
-    if (std::optional<OuterSurface> outer = outer_surface(pointers)) {
-      add(std::make_shared<const PolygonMesh>(std::move(outer->mesh)),
-          [&](std::size_t f) { return outer->from[f]; });
-      return shells;
-    }
+  if (walls == Walls::kRemove) {
+    std::optional<OuterSurface> outer = outer_surface(pointers);
+    is_walled = !outer;
+    if (is_walled) outer = side_by_side(pointers);
+    separate_triangles(*outer);
+    add(std::make_shared<const PolygonMesh>(std::move(outer->mesh)),
+        [&](std::size_t f) { return outer->from[f]; });
+    return shells;
   }
   for (std::size_t c = 0; c < meshes.size(); ++c) {
     add(std::move(meshes[c]), [&](std::size_t) { return c; });
@@ -85,11 +89,11 @@ Model make_model(std::span<const Compound> pieces, std::span<const Material> mat
     }
     model.parts.push_back(std::move(part));
   }
+  std::vector<std::uint8_t> is_walled(pieces.size(), 0);
   for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
-    model.parts[p].shells = shells_of(pieces[p], first_paint, walls);
+    model.parts[p].shells = shells_of(pieces[p], first_paint, walls, is_walled[p]);
   });
-  if (walls == Walls::kKeep) return model;
-  for (const Model::Part& part : model.parts) model.walled_parts += part.shells.size() > 1 ? 1 : 0;
+  model.walled_parts = static_cast<std::size_t>(std::ranges::count(is_walled, 1));
   return model;
 }
 

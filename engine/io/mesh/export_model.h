@@ -41,8 +41,9 @@ struct Model {
 /// Says if an export keeps the faces between convexes of one piece.
 enum class Walls : std::uint8_t { kRemove, kKeep };
 
-/// Makes a part of each compound. A part has one shell, its outer surface; or, where walls are kept
-/// or cannot be removed, one shell for each convex: its visual mesh, or itself if it has none.
+/// Makes a part of each compound. A part has one shell, its outer surface, walls included where
+/// they cannot be removed; or, where walls are kept, one shell for each convex: its visual mesh, or
+/// itself if it has none.
 /// Parts are moved away from the middle of all by `explode` times their distance from it. Faces are
 /// marked by `paints`, which are materials of their own.
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,

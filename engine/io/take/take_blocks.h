@@ -1,6 +1,7 @@
-// The blocks a take consists of. Layout of the file: "SUNDERT6" (or 5: without names and lights,
-// and nobody knows what came off what), blocks one after the other, and, where the run came to its
-// end, an index of them, of which the last 16 bytes say where it begins.
+// The blocks a take consists of. Layout of the file: "SUNDERT7" (or 6: breaks without pieces and
+// materials; or 5: without names and lights, and nobody knows what came off what, either), blocks
+// one after the other, and, where the run came to its end, an index of them, of which the last 16
+// bytes say where it begins.
 //
 // A block is a header and bytes in zstd. Blocks of one chunk of frames (a key frame and those that
 // are changes of it) are one zstd stream, flushed after every frame.
@@ -18,9 +19,11 @@ struct ZSTD_DCtx_s;
 
 namespace sunder {
 
-inline constexpr char kTakeMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'T', '6'};
+inline constexpr char kTakeMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'T', '7'};
 inline constexpr std::size_t kTakeName = sizeof kTakeMagic - 1;  ///< What precedes the version.
 inline constexpr char kOldestTake = '5';                         ///< That can be read.
+inline constexpr char kFirstWithNames = '6';   ///< And lights, and what bodies came off.
+inline constexpr char kFirstWithPieces = '7';  ///< Breaks have their pieces and materials.
 inline constexpr char kIndexMagic[8] = {'T', 'A', 'K', 'E', 'E', 'N', 'D', '1'};
 inline constexpr std::uint64_t kFramesAChunk = 120;
 inline constexpr std::uint64_t kMostBlockBytes = 1ull << 30;  ///< Larger ones are refused.

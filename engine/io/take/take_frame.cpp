@@ -181,12 +181,14 @@ void write_report(ByteWriter& out, const Frame& frame) {
   out.put(report.carried_over, report.limits_hit, report.aged, report.frozen, report.joints_lost);
   out.put(static_cast<std::uint32_t>(frame.breaks.size()));
   for (const BreakEvent& event : frame.breaks) {
-    out.put(event.time_s, event.body_key, event.point_W, event.energy_J, event.new_area_m2,
+    out.put(event.time_s, event.parent_key, event.point_W, event.energy_J, event.new_area_m2,
             event.pieces);
+    out.put(event.material, event.before_key, event.name);
+    out.put_list(event.child_keys);
   }
 }
 
-void read_report(ByteReader& in, Frame& frame) {
+void read_report(ByteReader& in, Frame& frame, bool with_pieces) {
   FrameReport& report = frame.report;
   in.take_to(report.counts, report.mass_kg, report.kinetic_J, report.potential_J, report.plastic_J,
              report.momentum_residual);
@@ -194,8 +196,12 @@ void read_report(ByteReader& in, Frame& frame) {
              report.joints_lost);
   frame.breaks.resize(in.take_count(60));
   for (BreakEvent& event : frame.breaks) {
-    in.take_to(event.time_s, event.body_key, event.point_W, event.energy_J, event.new_area_m2,
+    in.take_to(event.time_s, event.parent_key, event.point_W, event.energy_J, event.new_area_m2,
                event.pieces);
+    event.before_key = event.parent_key;
+    if (!with_pieces) continue;
+    in.take_to(event.material, event.before_key, event.name);
+    event.child_keys = in.take_list<std::uint64_t>();
   }
 }
 
@@ -205,9 +211,9 @@ std::int32_t short_hash(const FrameBody& body) {
   return static_cast<std::int32_t>(hash_body(body) & 0xff);
 }
 
-FrameCoder::FrameCoder(bool is_newest)
-    : lit_(is_newest),
-      bodies_(is_newest ? kBodyColumns : kOldBodyColumns, kBodyGlides),
+FrameCoder::FrameCoder(char version)
+    : version_(version),
+      bodies_(version >= kFirstWithNames ? kBodyColumns : kOldBodyColumns, kBodyGlides),
       debris_(kParticleNumbers, kParticleGlides),
       dust_(kParticleNumbers, kParticleGlides) {}
 
@@ -262,8 +268,8 @@ TakeFrame FrameCoder::read(const std::vector<std::byte>& bytes, const std::strin
   TakeFrame take;
   Frame& frame = take.frame;
   in.take_to(frame.index, frame.time_s, frame.recorded_hash, take.meshes);
-  frame.view = take_view(in, lit_);
-  read_report(in, frame);
+  frame.view = take_view(in, version_ >= kFirstWithNames);
+  read_report(in, frame, version_ >= kFirstWithPieces);
   std::vector<std::uint32_t> before;
   const NumberTable table = bodies_.read(in, file, before);
   frame.bodies.resize(table.rows());

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/io/take/take_blocks.h"
 #include "engine/io/take/take_table.h"
 #include "engine/model/frame.h"
 
@@ -25,8 +26,8 @@ struct TakeFrame {
 /// One end of a stream of frames: writer and reader each keep one, in step.
 class FrameCoder {
  public:
-  /// Takes of the version before know neither lights nor where bodies come from.
-  explicit FrameCoder(bool is_newest = true);
+  /// The version is that of the take, from kOldestTake on.
+  explicit FrameCoder(char version = kTakeMagic[kTakeName]);
   /// The next frame stands alone.
   void reset();
   void write(ByteWriter& out, const Frame& frame);
@@ -39,7 +40,7 @@ class FrameCoder {
   void read_instances(ByteReader& in, const std::string& file,
                       const std::vector<std::uint32_t>& before, TakeFrame& take);
 
-  bool lit_;
+  char version_;
   TableCoder bodies_, debris_, dust_;
   std::vector<std::uint64_t> keys_;                 ///< Of the last frame's bodies.
   std::vector<std::vector<std::uint32_t>> meshes_;  ///< Drawn on each of them.

@@ -84,9 +84,9 @@ TakeReader::Playback::Playback(const std::filesystem::path& path) : file_(path.s
   const auto content = content_at(*materials_block_, other_unpacker_);
   ByteReader in(content, file_);
   materials_ = std::make_shared<const std::vector<Material>>(take_materials(in));
-  const bool is_newest = version == kTakeMagic[kTakeName];
-  if (is_newest) names_ = std::make_shared<const std::vector<std::string>>(take_names(in));
-  coder_ = FrameCoder(is_newest);
+  if (version >= kFirstWithNames)
+    names_ = std::make_shared<const std::vector<std::string>>(take_names(in));
+  coder_ = FrameCoder(version);
   if (!in.at_end()) paints_ = std::make_shared<const std::vector<Paint>>(take_paints(in, file_));
 }
 
@@ -226,6 +226,10 @@ FramePtr TakeReader::Playback::decode(std::uint32_t frame) {
   };
   if (!all_fit(take.frame.debris) || !all_fit(take.frame.dust)) {
     throw InputError(file_ + ": corrupt: a particle has no material");
+  }
+  for (const BreakEvent& event : take.frame.breaks) {
+    if (!event.material.none() && !fits(event.material))
+      throw InputError(file_ + ": corrupt: a break has no material");
   }
   auto result = std::make_shared<Frame>(std::move(take.frame));
   result->materials = materials_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "engine/base/check.h"
@@ -34,6 +35,7 @@ std::string item(const char* list, std::size_t i) {
 }
 
 constexpr double kFar = 1e9, kLong_s = 1e7;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class SceneCheck {
  public:
@@ -62,7 +64,10 @@ class SceneCheck {
     if (steps > 1 && std::abs(steps - std::round(steps)) > 1e-6 * steps)
       refuse("accuracy.dt_s is " + text_of(accuracy.dt_s),
              "a frame of 1/60 s divided by a whole number, such as 1/120");
+    need_number(accuracy.error_target_m, 0, kFar, "accuracy.error_target_m");
     need_number(scene_.solver.sweeps, 1, 1000, "solver.sweeps");
+    need_number(scene_.solver.max_colors, 1, 1000000, "solver.max_colors");
+    need_number(scene_.limits.bodies, 1, 1e9, "limits.bodies");
     need_number(scene_.ground.height_m, -kFar, kFar, "ground.height_m");
     need_number(scene_.ground.friction, 0, kFar, "ground.friction");
     need_number(scene_.ground.restitution, 0, 1, "ground.restitution");
@@ -86,8 +91,41 @@ class SceneCheck {
         {material.yield_Pa, "yield_Pa"},
         {material.smallest_break_m3.value_or(0), "smallest_break_m3"},
         {material.smallest_piece_m3, "smallest_piece_m3"}};
-    for (const auto& [size, member] : sizes)
-      need_number(size, 0, std::numeric_limits<double>::infinity(), name + member);
+    for (const auto& [size, member] : sizes) need_number(size, 0, kInfinity, name + member);
+    need_number(material.reinforcement_percent, 0, 100, name + "reinforcement_percent");
+    need_number(material.hardening_Pa, 0, kInfinity, name + "hardening_Pa");
+    need_number(material.elongation, 0, kInfinity, name + "elongation");
+    check_pattern(material.pattern, name + "pattern.");
+    for (std::size_t k = 0; k < material.stronger.size(); ++k) {
+      const StrongerImpact& stronger = material.stronger[k];
+      const std::string of = name + item("stronger", k) + ".";
+      need_number(stronger.energy_J, k > 0 ? material.stronger[k - 1].energy_J : 0, kInfinity,
+                  of + "energy_J");
+      need_number(stronger.impact_radius_m, 0, kInfinity, of + "impact_radius_m");
+      check_pattern(stronger.pattern, of + "pattern.");
+    }
+    const Crumbling& crumbling = material.crumbling;
+    need_number(crumbling.particles_per_m2, 0, kFar, name + "crumbling.particles_per_m2");
+    need_number(crumbling.debris_ratio, 0, 1, name + "crumbling.debris_ratio");
+    need_number(crumbling.debris_smallest_m, 1e-6, kFar, name + "crumbling.debris_smallest_m");
+    need_number(crumbling.debris_largest_m, crumbling.debris_smallest_m, kFar,
+                name + "crumbling.debris_largest_m");
+    need_number(crumbling.dust_kg_m2, 0, kFar, name + "crumbling.dust_kg_m2");
+    need_number(crumbling.dust_settling_m_s, 0, kFar, name + "crumbling.dust_settling_m_s");
+  }
+
+  void check_pattern(const PatternSpec& pattern, const std::string& name) const {
+    constexpr int kMostCells = 100000;
+    need_number(pattern.cells, 1, kMostCells, name + "cells");
+    need_number(pattern.rings, 1, kMostCells, name + "rings");
+    need_number(pattern.spokes, 1, kMostCells, name + "spokes");
+    need_number(pattern.colors, 0, kMostCells, name + "colors");
+    need_number(pattern.falloff, 0, kFar, name + "falloff");
+    need_number(pattern.jitter, 0, 1, name + "jitter");
+    if (pattern.kind == PatternSpec::Kind::kFile && pattern.file.empty())
+      refuse(name + "file is empty", "the name of a file");
+    if (pattern.kind != PatternSpec::Kind::kBrick) return;
+    for (const double side_m : pattern.brick_m) need_number(side_m, 1e-6, kFar, name + "brick_m");
   }
 
   void need_material(MaterialIndex index, const std::string& name) const {
@@ -117,6 +155,18 @@ class SceneCheck {
       if (bond.a >= count || bond.b >= count)
         refuse(name + ".compound has a bond of convex " + std::to_string(std::max(bond.a, bond.b)),
                "one of " + std::to_string(count));
+      if (bond.face_a >= compound.convexes[bond.a]->polyhedron.faces.size() ||
+          bond.face_b >= compound.convexes[bond.b]->polyhedron.faces.size())
+        refuse(name + ".compound has a bond of a face that is not there",
+               "faces of the convexes; make_compound() finds bonds");
+    }
+    for (const Ghost& ghost : compound.ghosts) {
+      if (!ghost.convex) refuse(name + ".compound has a ghost without a convex", "one");
+      for (const std::uint32_t of : ghost.of) {
+        if (of >= count)
+          refuse(name + ".compound has a ghost of convex " + std::to_string(of),
+                 "one of " + std::to_string(count));
+      }
     }
     need_finite(solid.X_WR.position, name + ".X_WR.position");
     need_number(solid.X_WR.rotation.norm(), 0.999, 1.001,
@@ -159,6 +209,12 @@ class SceneCheck {
     need_finite(joint.at_W, name + ".at_W");
     need_finite(joint.to_W, name + ".to_W");
     need_finite(joint.axis_W, name + ".axis_W");
+    need_number(joint.breaking_N, 0, kInfinity, name + ".breaking_N");
+    need_number(joint.breaking_Nm, 0, kInfinity, name + ".breaking_Nm");
+    if (joint.kind == JointKind::kHinge && !(joint.axis_W.norm() > 0))
+      refuse(name + ".axis_W is 0", "a direction");
+    if (joint.kind == JointKind::kPlastic)
+      refuse(name + ".kind is kPlastic", "a kind of joints of scenes");
   }
 
   void need_roots(const std::vector<std::uint32_t>& roots, std::size_t count,
@@ -167,6 +223,19 @@ class SceneCheck {
     if (!roots.empty() && roots.back() >= count)
       refuse(name + " is of body " + std::to_string(roots.back()),
              "one of the " + std::to_string(count) + " that it may be of");
+  }
+
+  /// Returns true if the box holds the centroid of an anchored convex of a solid that stands.
+  bool has_anchors(const Box& box_W) const {
+    return std::ranges::any_of(scene_.solids, [&](const Solid& solid) {
+      for (std::size_t c = 0; c < solid.compound.convexes.size(); ++c) {
+        const Vec3 at_W = solid.X_WR * solid.compound.convexes[c]->solid.centroid;
+        if (solid.compound.anchored[c] != 0 && (at_W.array() >= box_W.min.array()).all() &&
+            (at_W.array() <= box_W.max.array()).all())
+          return true;
+      }
+      return false;
+    });
   }
 
   template <class Act>
@@ -186,17 +255,55 @@ class SceneCheck {
     for (std::size_t i = 0; i < scene_.shots.size(); ++i) {
       const std::string name = item("shots", i);
       check_ball(scene_.shots[i].ball, name + ".ball");
+      const Vec3 from_W = scene_.shots[i].hangs_from_W.value_or(Vec3::Zero());
+      need_finite(from_W, name + ".hangs_from_W");
       for (const Solid& link : scene_.shots[i].links) check_solid(link, name + ".links");
     }
     for (std::size_t i = 0; i < scene_.blasts.size(); ++i)
-      need_finite(scene_.blasts[i].center_W, item("blasts", i) + ".center_W");
-    for (std::size_t i = 0; i < scene_.removals.size(); ++i)
-      need_roots(scene_.removals[i].roots, bodies(), item("removals", i));
+      check_blast(scene_.blasts[i], item("blasts", i));
+    for (std::size_t i = 0; i < scene_.removals.size(); ++i) {
+      const Removal& removal = scene_.removals[i];
+      need_roots(removal.roots, bodies(), item("removals", i));
+      if (removal.roots.empty() && !has_anchors(removal.anchors_W))
+        refuse(item("removals", i) + " takes nothing: it has no roots, and no anchor is in its box",
+               "one or the other");
+    }
     for (std::size_t i = 0; i < scene_.drives.size(); ++i)
-      need_roots(scene_.drives[i].roots, bodies(), item("drives", i));
-    for (std::size_t i = 0; i < scene_.moves.size(); ++i) {
-      for (const std::uint32_t root : scene_.moves[i].roots)
-        need_roots({root}, scene_.solids.size(), item("moves", i));
+      check_drive(scene_.drives[i], item("drives", i));
+    for (std::size_t i = 0; i < scene_.moves.size(); ++i)
+      check_move(scene_.moves[i], item("moves", i));
+  }
+
+  void check_blast(const Blast& blast, const std::string& name) const {
+    need_finite(blast.center_W, name + ".center_W");
+    need_number(blast.radius_m, 1e-9, kFar, name + ".radius_m");
+    need_number(blast.impulse_Ns_m2, 0, 1e15, name + ".impulse_Ns_m2");
+    if (blast.tnt_kg) need_number(*blast.tnt_kg, 1e-9, kFar, name + ".tnt_kg");
+  }
+
+  void check_drive(const Drive& drive, const std::string& name) const {
+    need_roots(drive.roots, bodies(), name);
+    need_number(drive.until_s, drive.time_s, kInfinity, name + ".until_s");
+    if (!drive.velocity_W && !drive.angular_velocity_W)
+      refuse(name + " holds no velocity", "velocity_W, angular_velocity_W or both");
+    need_finite(drive.velocity_W.value_or(Vec3::Zero()), name + ".velocity_W");
+    need_finite(drive.angular_velocity_W.value_or(Vec3::Zero()), name + ".angular_velocity_W");
+    need_number(drive.force_N, 0, kInfinity, name + ".force_N");
+    need_number(drive.torque_Nm, 0, kInfinity, name + ".torque_Nm");
+  }
+
+  void check_move(const Move& move, const std::string& name) const {
+    for (const std::uint32_t root : move.roots) need_roots({root}, scene_.solids.size(), name);
+    if (std::isnan(move.release_s)) refuse(name + ".release_s is no number", "a time");
+    need_finite(move.pivot_W.value_or(Vec3::Zero()), name + ".pivot_W");
+    double last_s = 0;
+    for (const PathKey& key : move.path.keys) {
+      if (!(key.time_s > last_s && key.time_s <= kLong_s))
+        refuse(name + ".path has a key at " + text_of(key.time_s) + " s",
+               "times that ascend from 0");
+      last_s = key.time_s;
+      need_finite(key.shift_W, name + ".path, shift_W");
+      need_finite(key.turn_W, name + ".path, turn_W");
     }
   }
 

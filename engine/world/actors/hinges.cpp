@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/model/breaker.h"
+#include "engine/world/actors/replace.h"
 #include "engine/world/actors/world.h"
 
 namespace sunder {
@@ -56,9 +57,8 @@ void tear(World& world, const Joints::Live& joint) {
   expose(world, joint.a.key, hinge.a, hinge.areas_m2);
   expose(world, joint.b.key, hinge.b, hinge.areas_m2);
   const Actor& actor = *world.actors.find(joint.a.key);
-  BreakEvent event;
-  event.time_s = world.clock.time_s();
-  event.body_key = actor.key;
+  BreakEvent event = break_of(world, actor, hinge.a.convexes[0]->material);
+  event.child_keys = {joint.a.key, joint.b.key};
   event.point_W = rest_pose(actor, world.physics->state(actor.body).X_WB) * joint.a.anchor_R;
   for (const double area_m2 : hinge.areas_m2) event.new_area_m2 += area_m2;
   event.pieces = 2;

@@ -175,7 +175,19 @@ bool has_room(const World& world, const BreakEdit& edit, std::size_t to_come) {
   return world.actors.size() + to_come + edit.loose.pieces.size() <= world.scene.limits.bodies;
 }
 
-void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
+BreakEvent break_of(const World& world, const Actor& actor, MaterialIndex material) {
+  BreakEvent event;
+  event.time_s = world.clock.time_s();
+  event.parent_key = actor.key;
+  event.child_keys = {actor.key};
+  event.material = material;
+  event.before_key = actor.shown_key;
+  event.name = actor.name;
+  event.pieces = 1;
+  return event;
+}
+
+std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
   Actor& parent = *world.actors.find(key);
   const Motion motion = motion_of(parent, world.physics->state(parent.body));
   std::vector<ConvexSlot> changed;
@@ -236,6 +248,8 @@ void carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
   join_hinges(world, parent, edit, pieces.actors, keys);
   if (!stays) world.actors.erase(world.actors.place_of(parent));
   for (Actor& piece : pieces.actors) world.actors.add(std::move(piece));
+  std::erase(keys, kNobodyKey);
+  return {keys.begin(), keys.end()};
 }
 
 }  // namespace sunder

@@ -329,26 +329,33 @@ void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {
 void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
   const Impact& impact = planned.impact;
   Actor& actor = *world.actors.find(impact.key);
-  BreakEvent event{
-      world.clock.time_s(), impact.key, impact.point_W, planned.needed_J, area_m2(planned),
-      planned.plan_ms,      1};
+  const std::vector<ExposedFace>& bare = planned.edit.loose.exposed;
+  const Convex& broken = planned.at_bonds && !bare.empty()
+                             ? planned.edit.exposed_convex(actor.structure, bare[0])
+                             : *actor.structure.convex(impact.convex);
+  BreakEvent event = break_of(world, actor, broken.material);
+  event.point_W = impact.point_W;
+  event.energy_J = planned.needed_J;
+  event.new_area_m2 = area_m2(planned);
+  event.plan_ms = planned.plan_ms;
   if (planned.at_bonds) {
     const Pose X_WB = world.physics->state(actor.body).X_WB;
     event.point_W = X_WB * Vec3(planned.stressed.blow.worst_R - actor.weight.com_R);
     actor.stress.memory = planned.stressed.memory;
   }
+  const bool only_bends = planned.only_bends();
   if (planned.edit.changed) event.pieces = pieces_after(actor.structure, planned.edit);
-  if (!planned.only_bends()) world.ledger.breaks.push_back(event);
   world.ledger.report.failed += planned.edit.loose.failed;
   world.ledger.report.failed_m3 += planned.edit.loose.failed_m3;
   breaker.note_carried_out(planned.edit.loose);
   if (planned.edit.changed) {
     const std::uint32_t first_key = world.actors.next_key();
-    carry_out(world, impact.key, planned.edit);
+    event.child_keys = carry_out(world, impact.key, planned.edit);
     if (!planned.at_bonds) drive_out(world, planned, first_key);
   } else {  // it is cracked, and hangs together still
     actor.structure.apply(planned.edit);
   }
+  if (!only_bends) world.ledger.breaks.push_back(std::move(event));
 }
 
 }  // namespace sunder

@@ -238,15 +238,20 @@ void apply(World& world, Judged& judged) {
   }
   const Pose X_WB = world.physics->state(actor.body).X_WB;
   Vec3 middle_R = actor.weight.com_R;
+  MaterialIndex material = actor.materials[0];
   if (!edit.loose.exposed.empty()) {
-    middle_R = edit.exposed_convex(actor.structure, edit.loose.exposed[0]).solid.centroid;
+    const Convex& broken = edit.exposed_convex(actor.structure, edit.loose.exposed[0]);
+    middle_R = broken.solid.centroid;
+    material = broken.material;
   }
-  if (edit.hinges.empty() || !edit.cut.empty()) {  // it broke, and did not only bend
-    world.ledger.breaks.push_back(
-        {world.clock.time_s(), actor.key, X_WB * Vec3(middle_R - actor.weight.com_R), 0,
-         edit.loose.new_area_m2, judged.ms, pieces_after(actor.structure, edit)});
-  }
-  carry_out(world, judged.key, edit);
+  BreakEvent event = break_of(world, actor, material);
+  event.point_W = X_WB * Vec3(middle_R - actor.weight.com_R);
+  event.new_area_m2 = edit.loose.new_area_m2;
+  event.plan_ms = judged.ms;
+  event.pieces = pieces_after(actor.structure, edit);
+  const bool only_bends = !edit.hinges.empty() && edit.cut.empty();
+  event.child_keys = carry_out(world, judged.key, edit);
+  if (!only_bends) world.ledger.breaks.push_back(std::move(event));
 }
 
 }  // namespace
