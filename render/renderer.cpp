@@ -83,7 +83,6 @@ struct Renderer::Impl {
   void develop();
   Image read_back();
 
-  /// Whether the picture is developed from a sum.
   bool gathers() const { return options.samples > 1 || options.transparent; }
   void begin(const Target& target, GLuint program);
   /// Ends a pass, and times it if that was asked for.

@@ -1,3 +1,5 @@
+// The steps of a decision, in their order. The file is long because they are read one after the
+// other.
 #include "engine/world/break/break_stage.h"
 
 #include <algorithm>
