@@ -59,14 +59,11 @@ double slowed_in_channel(double across_m, double dt_s) {
   RigidWorld world(awake(Vec3::Zero()));
   const auto row = [&](double x_m, double width_m) {
     BodyDesc desc = W::box(Vec3(width_m, kBox_m, kBoxes * kBox_m), Vec3(x_m, 0, 0), 2000);
-    const ShapeDesc one = desc.shapes[0];
     desc.shapes.clear();
     for (int i = 0; i < kBoxes; ++i) {
       const Vec3 half(width_m / 2, kBox_m / 2, kBox_m / 2);
       const Vec3 middle(0, 0, kBox_m * (i - 0.5 * (kBoxes - 1)));
-      ShapeDesc shape =
-          W::with_hull(W::box(2 * half, Vec3::Zero()), make_box(middle - half, middle + half))
-              .shapes[0];
+      ShapeDesc shape = W::hull(make_box(middle - half, middle + half), Vec3::Zero()).shapes[0];
       shape.friction = 0;
       shape.tag = static_cast<std::uint32_t>(i);
       desc.shapes.push_back(shape);
