@@ -25,17 +25,16 @@ class Writer {
   explicit Writer(std::ostream& out) : out_(out) {}
 
   void word(const std::string& text) { out_ << text << ' '; }
+  /// A number, a matrix by its coefficients, or what a stream takes.
   template <class T>
   void put(const T& value) {
     if constexpr (std::is_floating_point_v<T>) {
       put_number(value);
+    } else if constexpr (requires { value.derived().size(); }) {
+      for (Eigen::Index i = 0; i < value.size(); ++i) put(value(i));
     } else {
       out_ << value << ' ';
     }
-  }
-  template <class Derived>
-  void put(const Eigen::MatrixBase<Derived>& matrix) {
-    for (Eigen::Index i = 0; i < matrix.size(); ++i) put(matrix(i));
   }
   void end_line() { out_ << '\n'; }
 

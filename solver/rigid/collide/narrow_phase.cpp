@@ -44,10 +44,14 @@ struct Probe {
     return axis;
   }
 
-  /// The axis along which hulls that touch slide past each other, if they do.
-  std::optional<SeparatingAxis> passing(const RelativePose& pose, const Vec3f& way_A) const {
+  /// The axis along which hulls that touch slide past each other, if they do, and if they would
+  /// meet along the best.
+  std::optional<SeparatingAxis> passing(const RelativePose& pose, const SeparatingAxis& best,
+                                        const Vec3f& way_A) const {
     if (a.kind != Kind::kHull || b.kind != Kind::kHull) return {};
-    return passing_axis(a.hull, b.hull, pose, way_A, kMargin * size_m, scratch.hulls);
+    const float tolerance_m = kMargin * size_m;
+    if (best.separation_m + best.normal_A.dot(way_A) >= -tolerance_m) return {};
+    return passing_axis(a.hull, b.hull, pose, way_A, tolerance_m, scratch.hulls);
   }
 
   void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m,
@@ -176,7 +180,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   const float far = b.kind == Kind::kSphere ? kReuse : kFar;
   const bool fast = kLooksAhead && meet && reach.way_m > far * m.size_m;
   const std::optional<SeparatingAxis> passing =
-      fast ? probe.passing(pose, dt * velocity_A) : std::nullopt;
+      fast ? probe.passing(pose, axis, dt * velocity_A) : std::nullopt;
   if (passing) {
     axis = *passing;
   } else if (fast) {
