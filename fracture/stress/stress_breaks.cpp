@@ -223,7 +223,7 @@ class StressBreaks {
       impulse_Ns += impulse.force_N.norm();
     }
     if (struck != swing.struck || !(swing.impulse_Ns > 0)) {
-      swing = {std::move(struck), impulse_Ns, {}, {}, 0};
+      swing = {std::move(struck), impulse_Ns, {}, {}, swing.work};
       return;
     }
     const double times = impulse_Ns / std::exchange(swing.impulse_Ns, impulse_Ns);
@@ -237,8 +237,9 @@ class StressBreaks {
 
   void note_work(bool is_known, StressAnswer& answer) {
     std::uint64_t& work = memory_->swing.work;
-    work = is_known || !cut_.empty() ? 0 : work + answer.work;
-    answer.undecided = work > 0 && work < load_.blow.most_work;
+    const bool ran_out = !is_known && cut_.empty() && answer.work >= most_work_;
+    work = ran_out ? work + answer.work : 0;
+    answer.undecided = ran_out && work < load_.blow.most_work;
     if (!answer.undecided) work = 0;
   }
 

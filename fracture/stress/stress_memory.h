@@ -17,7 +17,7 @@ struct KnownSwing {
   double impulse_Ns = 0;           ///< Sum of their magnitudes.
   std::vector<Displacement> displacements;
   Nodal<double> way;       ///< The last direction of the solve.
-  std::uint64_t work = 0;  ///< Spent on this impact without an answer.
+  std::uint64_t work = 0;  ///< Spent on impacts since the last answer.
 };
 
 /// What is handed back to the next solve.
