@@ -8,7 +8,7 @@
 namespace sunder::render {
 namespace {
 
-constexpr int kMostPixels = 32768;  // a side
+constexpr int kMostPixels = 1 << 24;  // a side; devices draw fewer, and say how many
 constexpr int kMostSamples = 4096;
 
 void need(int value, int most, const char* name) {

@@ -5,12 +5,9 @@ Usage: check_rooms.py [ROOT]. Read first: the tables, then check_tree().
 """
 import re
 import sys
-from collections import Counter
 from pathlib import Path
 
 ROOMS = ("engine", "fracture", "solver", "render", "scenes", "bench", "tests")
-LONGEST = 400  # lines of a file
-LARGEST = 20  # units (a .cpp with its header, or a header alone) of a folder
 
 # The rooms within a room, from the lowest floor up; "" is the room's own folder. A file includes its
 # own folder and those of lower floors: neither what is above, nor what is beside it. A header may
@@ -121,14 +118,12 @@ def check_foreign_include(path, header):
 
 
 def check_folders(paths):
-    """Folders that are on no floor or too full, and names that a room has twice."""
+    """Folders that are on no floor, and names that a room has twice."""
     found = []
     units = sorted({path.with_suffix("") for path in paths})
-    for folder, count in sorted(Counter(unit.parent for unit in units).items()):
+    for folder in sorted({unit.parent for unit in units}):
         if folder.parts[0] in FLOORS and str(folder) not in FLOOR_OF:
             found.append(f"{folder}/: on no floor of FLOORS in check_rooms.py")
-        if folder.parts[0] in FLOORS and count > LARGEST:
-            found.append(f"{folder}/: {count} units, more than {LARGEST}: divide it")
     first = {}
     for unit in units:
         room = owner(unit)
@@ -148,9 +143,6 @@ def check_source(root, path):
     if PRAGMA_OMP.search(text) and not str(path).startswith(("engine/base/parallel", "solver/")):
         found.append("OpenMP pragmas live only in engine/base/parallel and the solver")
     lines = text.splitlines() or [""]
-    if len(lines) > LONGEST and not re.match(r"//.*\blong\b.*\bbecause\b", lines[0], re.IGNORECASE):
-        found.append(f"{len(lines)} lines: split it, or say in the first line that it is long "
-                     "because ...")
     if path.suffix == ".h":
         if not lines[0].startswith("//"):
             found.append("a header opens with a comment that says what it is for")

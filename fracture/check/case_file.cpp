@@ -1,5 +1,4 @@
-// Break cases as text. The file is long because what is written and what is read stand side by
-// side.
+// Break cases as text: what is written and what is read stand side by side.
 #include "fracture/check/case_file.h"
 
 #include <charconv>

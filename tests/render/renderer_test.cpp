@@ -1,5 +1,5 @@
-// What pictures promise: the same bytes, lit faces, shadows, precision far from the origin. The
-// file is long because its tests share one renderer.
+// Pictures: the same bytes, lit faces, shadows, precision far from the origin. The file is long
+// because its tests share one renderer.
 #include "render/renderer.h"
 
 #include <optional>

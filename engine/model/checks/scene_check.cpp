@@ -66,7 +66,7 @@ class SceneCheck {
              "a frame of 1/60 s divided by a whole number, such as 1/120");
     need_number(accuracy.error_target_m, 0, kFar, "accuracy.error_target_m");
     need_number(scene_.solver.sweeps, 1, 1000, "solver.sweeps");
-    need_number(scene_.solver.max_colors, 1, 1000000, "solver.max_colors");
+    need_number(scene_.solver.max_colors, 0, 64, "solver.max_colors");
     need_number(scene_.limits.bodies, 1, 1e9, "limits.bodies");
     need_number(scene_.ground.height_m, -kFar, kFar, "ground.height_m");
     need_number(scene_.ground.friction, 0, kFar, "ground.friction");

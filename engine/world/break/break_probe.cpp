@@ -207,11 +207,11 @@ bool BreakProbe::may_load() const {
   return false;
 }
 
-std::vector<ProbeLoad> BreakProbe::next() {
+std::vector<ProbeLoad> BreakProbe::next(double least_J) {
   for (;;) {
     if (!with_) {  // the last event is over
       if (!advance_to_event()) return {};
-      if (closing_J_ < least_J_) continue;
+      if (closing_J_ < std::max(least_J, least_J_)) continue;
       for (std::size_t b = 0; b < bodies_.size(); ++b) undecided_[b] = bodies_[b].breakable;
       with_ = solve(std::vector<std::uint8_t>(bodies_.size(), 0));
     }

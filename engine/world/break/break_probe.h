@@ -68,9 +68,9 @@ class BreakProbe {
              double still_m_s, const Vec3& gravity_W = Vec3::Zero(),
              std::vector<ProbeJoint> joints = {});
 
-  /// Runs on to what next loads breakable bodies with more than their least; empty at the end of
-  /// the step. Ordered by body.
-  std::vector<ProbeLoad> next();
+  /// Runs on to what next loads breakable bodies with more than their least, and with no less than
+  /// `least_J` in all; empty at the end of the step. Ordered by body.
+  std::vector<ProbeLoad> next(double least_J = 0);
   /// The loaded bodies hold: what is behind them may be loaded through them, at the same time.
   void hold();
   /// Breaks those of `wanted` that the event can pay for, all told, and ends the probe. Takes

@@ -1,5 +1,4 @@
-// The steps of a decision, in their order. The file is long because they are read one after the
-// other.
+// The steps of a decision, in their order.
 #include "engine/world/break/break_stage.h"
 
 #include <algorithm>
@@ -20,9 +19,10 @@ namespace {
 constexpr std::uint64_t kVisitsAPart = 160;
 // And as a probe's visits of contacts.
 constexpr std::uint64_t kLooksAPart = 1000;
-// Beyond the budget, an impact with less than this share of all kinetic energy holds, and does not
-// wait.
+// Beyond the budget, an impact with less than this share of all kinetic energy holds: it does not
+// wait, and is not looked at.
 constexpr double kWorthWaiting = 1e-3;
+constexpr std::size_t kAskedAtOnce = 16;
 constexpr int kRounds = 8;  // solids that can break one behind the other within one step
 
 bool parts_at_bonds(const Material& material) {
@@ -179,43 +179,13 @@ PlannedBreak planned_by_blast(const Actor& actor, const Impact& impact) {
   return planned;
 }
 
-std::vector<Trial> find_trials(World& world, const WaitingRoom& waiting) {
+std::vector<Trial> find_trials(World& world, const WaitingRoom& waiting, double least_J) {
   WorkSpan span(world.ledger.work, Stage::kBreak, "clusters found");
   std::vector<Trial> trials;
-  for (BreakProbe& probe : find_clusters(world, waiting)) trials.push_back({std::move(probe)});
+  for (BreakProbe& probe : find_clusters(world, waiting, least_J))
+    trials.push_back({std::move(probe)});
   span.count(trials.size());
   return trials;
-}
-
-/// The next loads of the probes that have not been asked. Those without any are done, and so are
-/// those that come again as they were when they `held`: what has broken since is no part of them.
-/// How much was looked at: visits of a contact.
-std::uint64_t ask_all(World& world, std::vector<Trial>& trials, std::set<std::uint64_t>& held) {
-  WorkSpan span(world.ledger.work, Stage::kBreak, "clusters asked");
-  std::vector<Trial*> due;
-  for (Trial& trial : trials) {
-    if (!std::exchange(trial.asked, true)) due.push_back(&trial);
-  }
-  for_chunks(due.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Trial& trial = *due[i];
-      if (trial.fingerprint == 0) trial.fingerprint = fingerprint(trial.probe);
-      if (!held.contains(trial.fingerprint)) trial.loads = trial.probe.next();
-    }
-  });
-  std::size_t asked = due.size();
-  for (const Trial& trial : trials) {
-    if (trial.loads.empty() && !held.insert(trial.fingerprint).second) --asked;
-  }
-  span.count(asked);
-  WorkItem visits{Stage::kBreak, "contacts visited"};
-  for (Trial* trial : due) {
-    const std::uint64_t work = trial->probe.work();
-    visits.count += work - std::exchange(trial->charged, work);
-  }
-  world.ledger.work.add(visits);
-  std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
-  return visits.count;
 }
 
 void plan(World& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
@@ -270,6 +240,47 @@ bool BreakBudget::try_spend(std::uint32_t parts) {
   untouched_ = false;
   charge(parts);
   return true;
+}
+
+/// The probes that have not been asked are followed to their next loads, those with the most energy
+/// first, some at a time so that the budget binds. Those without any are done, and so are those
+/// that come again as they were when they held: what has broken since is no part of them.
+void BreakStage::ask(World& world, std::vector<Trial>& trials) {
+  WorkSpan span(world.ledger.work, Stage::kBreak, "clusters asked");
+  std::vector<Trial*> due;
+  for (Trial& trial : trials) {
+    if (!std::exchange(trial.asked, true)) due.push_back(&trial);
+  }
+  WorkItem visits{Stage::kBreak, "contacts visited"};
+  for (std::size_t first = 0; first < due.size(); first += kAskedAtOnce) {
+    const double least_J = least_worth_J(world);
+    const std::span batch =
+        std::span(due).subspan(first, std::min(kAskedAtOnce, due.size() - first));
+    for_chunks(batch.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (Trial* trial : batch.subspan(begin, end - begin)) {
+        if (trial->fingerprint == 0) trial->fingerprint = fingerprint(trial->probe);
+        if (!held_.contains(trial->fingerprint)) trial->loads = trial->probe.next(least_J);
+      }
+    });
+    std::uint64_t looked_at = 0;
+    for (Trial* trial : batch) {
+      const std::uint64_t work = trial->probe.work();
+      looked_at += work - std::exchange(trial->charged, work);
+    }
+    budget_.charge(looked_at / kLooksAPart);
+    visits.count += looked_at;
+  }
+  std::size_t asked = due.size();
+  for (const Trial& trial : trials) {
+    if (trial.loads.empty() && !held_.insert(trial.fingerprint).second) --asked;
+  }
+  span.count(asked);
+  world.ledger.work.add(visits);
+  std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
+}
+
+double BreakStage::least_worth_J(const World& world) const {
+  return budget_.left() > 0 ? 0 : kWorthWaiting * world.ledger.kinetic_J;
 }
 
 bool BreakStage::take_on(World& world, const Breaker& breaker, std::span<PlannedBreak> all) {
@@ -352,7 +363,7 @@ bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial>
   bool again = false;
   std::vector<std::uint32_t> broken;  // since the stale ones were sorted out
   while (!trials.empty()) {
-    budget_.charge(ask_all(world, trials, held_) / kLooksAPart);
+    ask(world, trials);
     const auto stale = [&](const Trial& trial) { return is_stale(world, trial, broken); };
     again |= std::erase_if(trials, stale) > 0;
     broken.clear();
@@ -413,7 +424,7 @@ void BreakStage::run(World& world, const Breaker& breaker, std::span<const Impac
     const bool in_time = round < kRounds;
     const bool affordable = in_time && !budget_.spent();
     if (affordable) waiting_room_.admit();
-    std::vector<Trial> trials = find_trials(world, waiting_room_);
+    std::vector<Trial> trials = find_trials(world, waiting_room_, least_worth_J(world));
     if (decide(world, breaker, std::move(trials), in_time)) {
       collide();
     } else if (!affordable || waiting_room_.queue_empty()) {

@@ -69,6 +69,9 @@ class BreakStage {
   std::uint32_t waiting() const;
 
  private:
+  void ask(World& world, std::vector<Trial>& trials);
+  /// Energy that an impact must have to be looked at: none while the frame's budget lasts.
+  double least_worth_J(const World& world) const;
   /// Makes impacts ready to be planned, and spends what they cost; false if that is too much.
   bool take_on(World& world, const Breaker& breaker, std::span<PlannedBreak> all);
   /// Shares what is left of the frame among plans by stress: those that may go on in the next

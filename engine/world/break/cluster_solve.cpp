@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostExact = 48;  // contacts that are solved exactly; more, by sweeps
 constexpr int kMostRounds = 20;
-constexpr double kConverged = 1e-3;  // of the greatest closing speed
+constexpr double kConverged = 1e-2;  // of the greatest closing speed
 
 /// Contacts that hang together.
 class Group {

@@ -40,12 +40,13 @@ bool may_break(const World& world, const Actor* actor, const Seed& seed) {
 
 /// Approaches with energy enough to break something in the world, in the order of find_clusters().
 std::vector<Seed> find_seeds(const World& world, const WaitingRoom& waiting,
-                             const JointGraph& joints) {
-  double least_J = std::numeric_limits<double>::infinity();
+                             const JointGraph& joints, double least_J) {
+  double least_of_all_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) {
-    least_J = std::min(least_J, actor.least_of_all_J());
+    least_of_all_J = std::min(least_of_all_J, actor.least_of_all_J());
   }
-  if (least_J == std::numeric_limits<double>::infinity()) return {};
+  if (least_of_all_J == std::numeric_limits<double>::infinity()) return {};
+  least_J = std::max(least_J, least_of_all_J);
   std::vector<Seed> pairs;
   for (const Approach& approach : world.physics->approaches()) {
     Seed& pair = pairs.emplace_back(Seed{approach.body_tag_a, approach.body_tag_b});
@@ -188,9 +189,10 @@ class Reach {
 
 }  // namespace
 
-std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting) {
+std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting,
+                                      double least_J) {
   const JointGraph joints(world);
-  const std::vector<Seed> seeds = find_seeds(world, waiting, joints);
+  const std::vector<Seed> seeds = find_seeds(world, waiting, joints, least_J);
   if (seeds.empty()) return {};
   std::vector<Cluster> clusters;
   Members members(world);

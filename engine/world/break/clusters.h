@@ -12,8 +12,9 @@ namespace sunder {
 
 /// Clusters, without the bodies in the waiting room, around the approaches of the last collide(); a
 /// body that can move is in one at most. What has waited the longest comes first, then the hardest
-/// approach.
-std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting);
+/// approach; approaches with no more than `least_J` are left out.
+std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting,
+                                      double least_J);
 
 /// Moves the bodies of a cluster on as its probe found, once that has ended. The answer is by how
 /// much their kinetic energy has grown, J.

@@ -1,5 +1,4 @@
-// Long because the list of the stages of a solve and what each of them does belong together. Read
-// first: ContactSolver::Stages::plan(), that list.
+// Read first: ContactSolver::Stages::plan(), the list of the stages of a solve.
 #include "solver/rigid/contact/contact_solver.h"
 
 #include <algorithm>
