@@ -17,7 +17,9 @@ constexpr double kRounding_m = 1e-4, kRounding = 3e-7;  // of places, and of how
 constexpr float kAround_m = 0.005f;                     // of ways, that a bounce may need
 constexpr float kTogether_m = 2;                        // so large a place is looked up at once
 constexpr int kLevels = 31;
-constexpr float kFar_m = 8 * kFinest_m;  // on so long a way all shapes are looked at
+constexpr float kFar_m = 8 * kFinest_m;  // in a larger place all shapes are looked at
+constexpr double kPart_m = 2;            // of a longer way, looked up one after the other
+constexpr double kMostParts = 64;
 constexpr std::size_t kObstacles = 512;
 
 /// Cells of a level, along an axis, in a metre.
@@ -234,7 +236,19 @@ void ObstacleGrid::find(std::span<const SphereWay> ways, Near& near) const {
     return;
   }
   near.high = near.low - Vec3f::Ones();  // holds for these ways alone
-  for (const SphereWay& way : ways) find(low_of(way), high_of(way), near.shapes);
+  for (const SphereWay& way : ways) {
+    const double parts = std::ceil((way.to - way.from).cwiseAbs().maxCoeff() / kPart_m);
+    if (!(parts > 1 && parts <= kMostParts)) {
+      find(low_of(way), high_of(way), near.shapes);
+      continue;
+    }
+    SphereWay part = way;
+    for (double k = 1; k <= parts; ++k) {
+      part.to = way.from + k / parts * (way.to - way.from);
+      find(low_of(part), high_of(part), near.shapes);
+      part.from = part.to;
+    }
+  }
   std::ranges::sort(near.shapes);
   near.shapes.erase(std::unique(near.shapes.begin(), near.shapes.end()), near.shapes.end());
 }

@@ -76,8 +76,22 @@ TEST(ObstacleGrid, FindsWhatIsMetAmongAllObstacles) {
   grid.build(obstacles.view(), kDt, kEverywhere, ObstacleGrid::Which::kAll);
   expect_touches_of_all(random, grid, obstacles.shapes.size(), 0.2, 0.2);  // looked up at once
   expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 0.5);    // each by itself
-  expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 6);      // too long for cells
-  expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 6, 1);
+}
+
+TEST(ObstacleGrid, LooksAlongALongWayOnly) {
+  Random random(6);
+  TestObstacles obstacles;
+  for (int i = 0; i < 4000; ++i)
+    obstacles.add_box(random_place(random, 12), Vec3::Constant(0.1), Quat::Identity());
+  ObstacleGrid grid;
+  grid.build(obstacles.view(), kDt, kEverywhere, ObstacleGrid::Which::kAll);
+  const SphereWay way{Vec3::Constant(-30), Vec3::Constant(30), 0.01, kDt};
+  ObstacleGrid::Near near;
+  grid.find({&way, 1}, near);
+  EXPECT_LT(near.shapes.size(), 300u);
+  expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 6);
+  expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 20, 1);
+  expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 300);  // longer than all parts
 }
 
 std::optional<ObstacleTouch> touch_at_rest(const ObstacleGrid& grid, const Vec3& place,
