@@ -93,15 +93,14 @@ double mean_of_seeds(Scene scene, const std::function<double(const Run&)>& figur
 
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,
               const SceneAt& scene, const std::function<double(const Run&)>& figure,
-              const Bounds& bounds, std::size_t tested) {
+              const Bounds& bounds) {
   return extreme(row, what, unit, source, mark, scene,
-                 Measure([=](const Preset& preset) { return figure(run(scene(preset))); }), bounds,
-                 tested);
+                 Measure([=](const Preset& preset) { return figure(run(scene(preset))); }), bounds);
 }
 
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,
-              const SceneAt& scene, Measure measure, const Bounds& bounds, std::size_t tested) {
-  Truth one = truth(row, what, unit, source, mark, std::move(measure), bounds, tested);
+              const SceneAt& scene, Measure measure, const Bounds& bounds) {
+  Truth one = truth(row, what, unit, source, mark, std::move(measure), bounds);
   one.told = [scene](const Preset& preset) { return told(scene(preset), preset); };
   return one;
 }

@@ -46,11 +46,10 @@ double mean_of_seeds(Scene scene, const std::function<double(const Run&)>& figur
 /// A truth about a scene.
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,
               const SceneAt& scene, const std::function<double(const Run&)>& figure,
-              const Bounds& bounds, std::size_t tested = kPresets.size());
+              const Bounds& bounds);
 /// A truth about something else that is done with the scene that a user would be told of.
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,
-              const SceneAt& scene, Measure measure, const Bounds& bounds,
-              std::size_t tested = kPresets.size());
+              const SceneAt& scene, Measure measure, const Bounds& bounds);
 
 Truths mass_extremes();
 Truths size_extremes();

@@ -216,10 +216,9 @@ Truths size_extremes() {
               shot_at_plate, behind_plate, {0, 0, 0, 0}),
       extreme(2, "wall of 100 m broken by a ball of 1 cm: mass", "", "constant", 1e-9, large_wall,
               &Run::mass_off, {1e-10, 1e-10, 1e-10, 1e-10}),
-      extreme(
-          2, "wall of 100 m broken by a ball of 1 cm: bodies made", "", "some", 1e5, large_wall,
-          [](const Run& r) { return double(r.last->bodies.size()) - 2; },
-          {1e+04, 1e+04, 1e+04, 1e+04}, 1),
+      extreme(2, "wall of 100 m broken by a ball of 1 cm: bodies made", "", "some", 1e5, large_wall,
+              [](const Run& r) { return double(r.last->bodies.size()) - 2; },
+              {1e+04, 1e+04, 1e+04, 1e+04}),
       extreme(2, "cube of 1 km falls 1 m: deepest overlap, of its side", "", "rigid", 0.001,
               mountain, [](const Run& r) { return r.deepest_m / 1000; },
               {0.0001, 0.0001, 0.0001, 0.0001}),

@@ -127,13 +127,11 @@ Truths grain_truths() {
   return {
       truth(17, "domino wave: v/√(gH) at H = .1 m against .8 m", "", "similarity", 0.01,
             domino_scales, {0.14, 0.15, 0.094, 0.016}),
-      truth(17, "domino wave: v/√(gH)", "", "van Leeuwen, physics/0401018", 0.1, nullptr, {}),
-      truth(
-          19, "column of 1.5 that collapses: runout", "", "1.24 a, Lube et al. 2004", 0.15,
-          [](const Preset& p) { return heap(p).runout / (1.24 * kAspect) - 1; },
-          {0.42, 0.44, 0.29, 0.55}, 1),
+      truth(19, "column of 1.5 that collapses: runout", "", "1.24 a, Lube et al. 2004", 0.15,
+            [](const Preset& p) { return heap(p).runout / (1.24 * kAspect) - 1; },
+            {0.42, 0.44, 0.29, 0.55}),
       truth(20, "the same: slope of the heap, off the mean of all presets", "°",
-            "the same at every step", 1, slope_off_mean_deg, {2.3, 0.83, 0.29, 1.8}, 0),
+            "the same at every step", 1, slope_off_mean_deg, {2.3, 0.83, 0.29, 1.8}),
   };
 }
 

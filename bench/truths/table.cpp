@@ -27,7 +27,7 @@ struct Figure {
 };
 struct Line {
   Truth truth;
-  std::vector<Figure> figures;  ///< None: not measured yet.
+  std::vector<Figure> figures;
 };
 
 bool misses(double value, double most) { return !(std::abs(value) <= most); }
@@ -47,7 +47,7 @@ std::string mark_of(const Truth& truth) {
 
 Line measure(const Truth& truth, const Options& options) {
   Line line{truth, {}};
-  for (std::size_t i = 0; truth.measure && i < kPresets.size(); ++i) {
+  for (std::size_t i = 0; i < kPresets.size(); ++i) {
     if (!options.preset.empty() && options.preset != kPresets[i].name) continue;
     const double start_ms = cpu_ms();
     const double value = truth.measure(kPresets[i]);
@@ -70,7 +70,6 @@ void print_head(const Options& options) {
 void print_markdown(const Line& line) {
   const Truth& truth = line.truth;
   std::printf("| %d | %s | %s | %s |", truth.row, truth.what, truth.source, mark_of(truth).c_str());
-  if (line.figures.empty()) std::printf(" not measured yet | | | |");
   for (const Figure& figure : line.figures) {
     const char* bold = misses(figure.value, truth.mark) ? "**" : "";
     const char* warned = figure.told.empty() ? "" : " †";
@@ -95,7 +94,6 @@ void print_warnings(const std::vector<Line>& lines) {
 void print_plain(const Line& line) {
   const Truth& truth = line.truth;
   std::printf("%2d %s (mark %s)\n", truth.row, truth.what, mark_of(truth).c_str());
-  if (line.figures.empty()) std::printf("     not measured yet\n");
   for (const Figure& figure : line.figures) {
     const double bound = truth.bounds[figure.preset];
     std::printf("     %-10s %10.3g %s%s%s   %.1f s\n", kPresets[figure.preset].name, figure.value,

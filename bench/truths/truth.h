@@ -31,18 +31,22 @@ struct Truth {
   const char* unit;    ///< "": a share of what it is compared with.
   const char* source;  ///< Of the closed form, or whose figure it is.
   double mark;         ///< What |measure| should not exceed.
-  Measure measure;     ///< None: not measured yet.
-  Bounds bounds;       ///< What it does not exceed, by preset: what is reached and half as much.
-  /// So many presets, from the first: the others take too long for a test, or tell it nothing.
-  std::size_t tested;
+  Measure measure;
+  Bounds bounds;  ///< What it does not exceed, by preset: what is reached and half as much.
   /// What a user is told who asks for this; none: no user can.
   std::function<std::string(const Preset&)> told = {};
+  bool is_timing = false;  ///< Of the machine, too: reported by the bench, asserted by no test.
 };
 using Truths = std::vector<Truth>;
 
 inline Truth truth(int row, const char* what, const char* unit, const char* source, double mark,
-                   Measure measure, const Bounds& bounds, std::size_t tested = kPresets.size()) {
-  return {row, what, unit, source, mark, std::move(measure), bounds, tested, {}};
+                   Measure measure, const Bounds& bounds) {
+  return {row, what, unit, source, mark, std::move(measure), bounds};
+}
+
+inline Truth timing(Truth truth) {
+  truth.is_timing = true;
+  return truth;
 }
 
 Truths friction_truths();

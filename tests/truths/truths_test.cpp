@@ -26,7 +26,9 @@ std::string name_of_case(const testing::TestParamInfo<Case>& one) {
   return name_of(truths()[std::get<0>(one.param)], std::get<1>(one.param));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, AtPreset, all_of(truths().size()), name_of_case);
+INSTANTIATE_TEST_SUITE_P(All, AtPreset, all_of(truths()), name_of_case);
+
+TEST(TruthRows, AreAllRun) { expect_rows(truths(), SUNDER_ROWS); }
 
 TEST(TruthPresets, AreThoseOfSceneFiles) {
   const auto presets = scenes::presets();
