@@ -64,8 +64,8 @@ endif()
 install(TARGETS sunder_options EXPORT sunderTargets)
 set_target_properties(sunder_options PROPERTIES EXPORT_NAME options)
 
-# Headers parsed once for tests, whose files are too alike to share a compiler run: a family of
-# targets with the same flags, where SUNDER_QUICK_BUILD asks for it.
+# Headers parsed once for tests: a family of targets with the same flags, where SUNDER_QUICK_BUILD
+# asks for it.
 function(sunder_precompile target first)
   if(NOT SUNDER_QUICK_BUILD)
     return()
@@ -80,6 +80,7 @@ function(sunder_precompile target first)
 endfunction()
 
 # Several sources a compiler run, where SUNDER_QUICK_BUILD asks for it: their headers are parsed once.
+# Tests whose local names clash with those of others have a namespace of their own, named as the file.
 function(sunder_unity target)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${SUNDER_QUICK_BUILD} UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 8)

@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "bench/truths/standing.h"
 #include "bench/truths/truth.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
@@ -78,22 +79,7 @@ Outcome fire(const Shot& shot, const Preset& preset, int seed) {
     }
     last = std::move(frame);
   }
-  double all_m3 = 0, still_m3 = 0;
-  for (const Instance& instance : last->instances) {
-    const FrameBody& body = last->bodies[instance.body];
-    if (body.key == ball) continue;
-    const Mesh& mesh = *(*last->meshes)[instance.mesh.value];
-    double volume_m3 = 0;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-      const auto corner = [&](std::size_t k) -> const Vec3f& {
-        return mesh.vertices[mesh.indices[i + k]].position;
-      };
-      volume_m3 += double{corner(0).cross(corner(1)).dot(corner(2))} / 6;
-    }
-    all_m3 += volume_m3;
-    if (body.is_static) still_m3 += volume_m3;
-  }
-  outcome.standing = all_m3 > 0 ? still_m3 / all_m3 : 1;
+  outcome.standing = share_standing(*last, ball);
   return outcome;
 }
 

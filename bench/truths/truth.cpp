@@ -7,10 +7,10 @@ namespace sunder::truths {
 Truths all_truths() {
   Truths all;
   for (const auto& list :
-       {friction_truths, rolling_truths, impact_truths, meeting_truths, flight_truths, joint_truths,
-        stack_truths, balance_truths, planar_truths, grain_truths, silo_truths, sphere_truths,
-        energy_truths, break_truths, load_truths, blow_truths, steel_truths, through_truths,
-        perforation_truths}) {
+       {friction_truths, rolling_truths, impact_truths,  meeting_truths,     flight_truths,
+        joint_truths,    stack_truths,   balance_truths, planar_truths,      grain_truths,
+        silo_truths,     sphere_truths,  energy_truths,  break_truths,       load_truths,
+        blow_truths,     steel_truths,   through_truths, perforation_truths, blast_truths}) {
     const Truths truths = list();
     all.insert(all.end(), truths.begin(), truths.end());
   }

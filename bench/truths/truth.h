@@ -68,6 +68,7 @@ Truths blow_truths();
 Truths steel_truths();
 Truths through_truths();
 Truths perforation_truths();
+Truths blast_truths();
 
 /// All of these, in the order of their rows.
 Truths all_truths();

@@ -88,7 +88,7 @@ TEST(SceneCheck, NamesWhatIsWrong) {
       {"materials[1].crumbling.debris_largest_m",
        [](Scene& s) { s.materials[1].crumbling.debris_largest_m = 0; }},
       {"limits.bodies is 0", [](Scene& s) { s.limits.bodies = 0; }},
-      {"max_colors", [](Scene& s) { s.solver.max_colors = 0; }},
+      {"max_colors", [](Scene& s) { s.solver.max_colors = 65; }},
       {"solids[1].compound has a bond of a face",
        [](Scene& s) {
          Compound& compound = s.solids[1].compound;
