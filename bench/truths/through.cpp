@@ -56,7 +56,7 @@ height_m = 2.6
 )",
                           0.1};
 
-enum Figure { kSpeed, kPieces, kDepth, kFigures };
+enum ShotFigure { kSpeed, kPieces, kDepth, kFigures };
 using Figures = std::array<double, kFigures>;
 
 /// One shot, aimed a little otherwise for every seed.
@@ -115,7 +115,7 @@ const Shots& shots(const Target& target, const Preset& preset) {
 
 /// How far a preset is off the mean of all, over 10 % of that or, if that is more, 1.5 times the
 /// scatter of the seeds.
-Measure off_the_mean(const Target& target, Figure figure) {
+Measure off_the_mean(const Target& target, ShotFigure figure) {
   return [=](const Preset& preset) {
     double mean = 0, scatter = 0;
     for (const Preset& other : kPresets) {

@@ -17,7 +17,7 @@
 #include "engine/base/trigonometry.h"
 #include "engine/base/types.h"
 
-namespace sunder {
+namespace sunder::base_test {
 namespace {
 
 struct AppleTag;
@@ -146,7 +146,7 @@ TEST(Box, IsEmptyUntilExtendedAndThenHoldsItsPoints) {
 }
 
 /// Restores the number of threads that a test changes.
-class ForChunks : public testing::TestWithParam<int> {
+class ForChunks : public ::testing::TestWithParam<int> {
  protected:
   void SetUp() override { set_threads(GetParam()); }
   void TearDown() override { set_threads(0); }
@@ -208,7 +208,7 @@ TEST_P(ForChunks, SharesItsWorkOnlyOnce) {
   EXPECT_EQ(may_share_work(), GetParam() > 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, ForChunks, testing::Values(1, 2, 4));
+INSTANTIATE_TEST_SUITE_P(Threads, ForChunks, ::testing::Values(1, 2, 4));
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::base_test

@@ -8,7 +8,7 @@
 #include "engine/geometry/clip_mesh.h"
 #include "tests/engine/geometry_mesh_fixtures.h"
 
-namespace sunder {
+namespace sunder::geometry_mesh_test {
 namespace {
 
 using namespace test;
@@ -195,4 +195,4 @@ TEST(PolygonMesh, OpenEdgesAreCounted) {
 }
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::geometry_mesh_test

@@ -12,7 +12,7 @@
 #include "engine/geometry/mitre.h"
 #include "tests/engine/bent_bar.h"
 
-namespace sunder {
+namespace sunder::geometry_mitre_test {
 namespace {
 
 using namespace test;
@@ -336,4 +336,4 @@ RC_GTEST_PROP(Mitre, AnyConvexEndsInAnyPlane, (std::uint64_t seed)) {
 }
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::geometry_mitre_test

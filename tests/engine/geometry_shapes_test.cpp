@@ -7,7 +7,7 @@
 #include "engine/geometry/hull.h"
 #include "tests/engine/geometry_fixtures.h"
 
-namespace sunder {
+namespace sunder::geometry_shapes_test {
 namespace {
 
 using namespace test;
@@ -191,4 +191,4 @@ TEST(Hull, OfPointsInAPlaneIsEmpty) {
 }
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::geometry_shapes_test

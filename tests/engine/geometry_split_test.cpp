@@ -11,7 +11,7 @@
 #include "engine/geometry/split_mesh.h"
 #include "tests/engine/geometry_mesh_fixtures.h"
 
-namespace sunder {
+namespace sunder::geometry_split_test {
 namespace {
 
 using namespace test;
@@ -149,4 +149,4 @@ TEST(SplitMesh, RegionsThatMissLeaveNothingAndOneThatCoversLeavesAll) {
 }
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::geometry_split_test

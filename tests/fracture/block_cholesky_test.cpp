@@ -5,7 +5,7 @@
 
 #include "engine/base/random.h"
 
-namespace sunder::fracture {
+namespace sunder::fracture::block_cholesky_test {
 namespace {
 
 using Block = BlockCholesky::Block;
@@ -84,4 +84,4 @@ TEST(BlockCholesky, NodesThatHoldOntoNothingElseCostNoMoreThanThemselves) {
 }
 
 }  // namespace
-}  // namespace sunder::fracture
+}  // namespace sunder::fracture::block_cholesky_test

@@ -14,7 +14,7 @@
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"
 
-namespace sunder::fracture {
+namespace sunder::fracture::ghosts_test {
 namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
@@ -239,4 +239,4 @@ TEST(Ghosts, are_the_same_for_any_number_of_threads) {
 }
 
 }  // namespace
-}  // namespace sunder::fracture
+}  // namespace sunder::fracture::ghosts_test

@@ -10,7 +10,7 @@
 #include "engine/base/random.h"
 #include "tests/particles/particles_fixtures.h"
 
-namespace sunder::solver {
+namespace sunder::solver::debris_test {
 namespace {
 
 constexpr double kDt = 1.0 / 120;
@@ -257,4 +257,4 @@ TEST(Debris, OverItsBudgetShrinksSmallChipsBeforeLargeOnes) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::debris_test

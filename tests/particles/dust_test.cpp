@@ -10,7 +10,7 @@
 #include "solver/particles/swirl.h"
 #include "tests/particles/particles_fixtures.h"
 
-namespace sunder::solver {
+namespace sunder::solver::dust_test {
 namespace {
 
 constexpr double kDt = 1.0 / 60;
@@ -235,4 +235,4 @@ TEST(RodSpin, TurnsHalfAsFastAsTheVorticityInRigidRotation) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::dust_test

@@ -11,7 +11,7 @@
 #include "engine/base/random.h"
 #include "tests/particles/particles_fixtures.h"
 
-namespace sunder::solver {
+namespace sunder::solver::obstacle_grid_test {
 namespace {
 
 constexpr double kDt = 1.0 / 60;
@@ -145,4 +145,4 @@ TEST(ObstacleGrid, HoldsOnlyWhatWasAskedFor) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::obstacle_grid_test

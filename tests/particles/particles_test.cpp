@@ -10,7 +10,7 @@
 #include "solver/particles/debris_and_dust.h"
 #include "tests/particles/particles_fixtures.h"
 
-namespace sunder::solver {
+namespace sunder::solver::particles_test {
 namespace {
 
 constexpr double kDt = 1.0 / 60;
@@ -255,4 +255,4 @@ TEST(Particles, HaveNoMoreAirThanTheirCloudIsHigh) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::particles_test

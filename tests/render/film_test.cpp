@@ -9,7 +9,7 @@
 #include "render/renderer.h"
 #include "tests/render/synthetic_frame.h"
 
-namespace sunder::render {
+namespace sunder::render::film_test {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 180;
@@ -158,4 +158,4 @@ TEST(UpTo, DebrisThatIsTheSameGoesStraightAndOtherStays) {
 }
 
 }  // namespace
-}  // namespace sunder::render
+}  // namespace sunder::render::film_test

@@ -13,7 +13,7 @@
 #include "tests/render/synthetic_frame.h"
 #include "tests/render/test_folder.h"
 
-namespace sunder::render {
+namespace sunder::render::layers_test {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 90;
@@ -201,4 +201,4 @@ TEST(PictureSink, WritesLayersBesideThePictureAndRefusesThemForAVideo) {
 }
 
 }  // namespace
-}  // namespace sunder::render
+}  // namespace sunder::render::layers_test

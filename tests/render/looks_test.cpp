@@ -8,7 +8,7 @@
 #include "render/renderer.h"
 #include "tests/render/synthetic_frame.h"
 
-namespace sunder::render {
+namespace sunder::render::looks_test {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 180;
@@ -383,4 +383,4 @@ TEST(WhiteStone, InTheSunKeepsItsShape) {
 }
 
 }  // namespace
-}  // namespace sunder::render
+}  // namespace sunder::render::looks_test

@@ -9,7 +9,7 @@
 #include "engine/base/rotation.h"
 #include "tests/render/synthetic_frame.h"
 
-namespace sunder::render {
+namespace sunder::render::pace_test {
 namespace {
 
 constexpr double kFrame_s = 1.0 / 60;
@@ -251,4 +251,4 @@ TEST(Between, PuffsAreKnownAgainByTheirOrder) {
 }
 
 }  // namespace
-}  // namespace sunder::render
+}  // namespace sunder::render::pace_test

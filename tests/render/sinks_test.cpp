@@ -18,7 +18,7 @@
 #include "tests/render/synthetic_frame.h"
 #include "tests/render/test_folder.h"
 
-namespace sunder::render {
+namespace sunder::render::sinks_test {
 namespace {
 
 Renderer& renderer() {
@@ -276,4 +276,4 @@ TEST(ImageSink, AnUnknownKindOfFileIsRefused) {
 }
 
 }  // namespace
-}  // namespace sunder::render
+}  // namespace sunder::render::sinks_test

@@ -10,7 +10,7 @@
 #include "scenes/file/make_compound.h"
 #include "scenes/load.h"
 
-namespace sunder::scenes {
+namespace sunder::scenes::compound_test {
 namespace {
 
 constexpr const char* kHead = "[scene]\ndescription = \"x\"\n";
@@ -274,4 +274,4 @@ TEST(CompoundStructure, IsTheSameBitsEachTime) {
 }
 
 }  // namespace
-}  // namespace sunder::scenes
+}  // namespace sunder::scenes::compound_test

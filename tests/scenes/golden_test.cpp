@@ -17,7 +17,7 @@
 #include "tests/engine/markup.h"
 #include "tests/scenes/program.h"
 
-namespace sunder::tests {
+namespace sunder::tests::golden_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -273,4 +273,4 @@ TEST(Golden, ARecordingIsOfAFrameOfASceneOrOfAStoredFrame) {
 }
 
 }  // namespace
-}  // namespace sunder::tests
+}  // namespace sunder::tests::golden_test

@@ -11,7 +11,7 @@
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
 
-namespace sunder::scenes {
+namespace sunder::scenes::ground_mesh_test {
 namespace {
 
 constexpr const char* kHead = "[scene]\ndescription = \"x\"\n";
@@ -221,4 +221,4 @@ TEST(GroundMesh, HoldsPiecesDebrisAndDustOfAWallThatBreaksOnIt) {
 }
 
 }  // namespace
-}  // namespace sunder::scenes
+}  // namespace sunder::scenes::ground_mesh_test

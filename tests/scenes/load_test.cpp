@@ -7,7 +7,7 @@
 
 #include "engine/base/check.h"
 
-namespace sunder::scenes {
+namespace sunder::scenes::load_test {
 namespace {
 
 Scene scene_of(const std::string& lines, const LoadOptions& options = {}) {
@@ -152,4 +152,4 @@ TEST(Load, EverySceneOfTheCatalogueLoadsAndSaysWhatItIs) {
 }
 
 }  // namespace
-}  // namespace sunder::scenes
+}  // namespace sunder::scenes::load_test

@@ -13,7 +13,7 @@
 #include "tests/mesh/mesh_files.h"
 #include "tests/scenes/program.h"
 
-namespace sunder::tests {
+namespace sunder::tests::mesh_program_test {
 namespace {
 
 Figures figures(const std::string& arguments) {
@@ -352,4 +352,4 @@ TEST(MeshCommands, EveryGoodMeshBreaksSoundly) {
 }
 
 }  // namespace
-}  // namespace sunder::tests
+}  // namespace sunder::tests::mesh_program_test

@@ -11,7 +11,7 @@
 
 #include "tests/scenes/program.h"
 
-namespace sunder::tests {
+namespace sunder::tests::outputs_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,4 +132,4 @@ TEST_F(Outputs, OfOptionsThatAreNoNumbersAreRefused) {
 }
 
 }  // namespace
-}  // namespace sunder::tests
+}  // namespace sunder::tests::outputs_program_test

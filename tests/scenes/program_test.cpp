@@ -20,7 +20,7 @@
 #include "scenes/load.h"
 #include "tests/engine/markup.h"
 
-namespace sunder::tests {
+namespace sunder::tests::program_test {
 namespace {
 
 constexpr const char* kCommands[] = {"list",  "check", "simulate",   "render",
@@ -331,4 +331,4 @@ TEST(Program, WhatIsStoppedKeepsWhatItHasAndLeavesNothingElse) {
 }
 
 }  // namespace
-}  // namespace sunder::tests
+}  // namespace sunder::tests::program_test

@@ -13,7 +13,7 @@
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
 
-namespace sunder::tests {
+namespace sunder::tests::rebar_test {
 namespace {
 
 constexpr double kG = 9.81, kWide = 0.2, kLong = 1.6;  // m
@@ -174,4 +174,4 @@ TEST(Rebar, breaks_alike_in_any_number_of_threads) {
 }
 
 }  // namespace
-}  // namespace sunder::tests
+}  // namespace sunder::tests::rebar_test

@@ -9,7 +9,7 @@
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
 
-namespace sunder::scenes {
+namespace sunder::scenes::terrain_test {
 namespace {
 
 constexpr const char* kHead = "[scene]\ndescription = \"x\"\n";
@@ -83,4 +83,4 @@ TEST(Terrain, LetsABallRollAlmostAsOnOneFace) {
 }
 
 }  // namespace
-}  // namespace sunder::scenes
+}  // namespace sunder::scenes::terrain_test

@@ -8,7 +8,7 @@
 #include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
 
-namespace sunder::solver {
+namespace sunder::solver::edit_test {
 namespace {
 
 using W = RigidWorld;
@@ -168,4 +168,4 @@ TEST(Edit, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::edit_test

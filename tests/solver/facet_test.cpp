@@ -10,7 +10,7 @@
 #include "engine/base/parallel.h"
 #include "engine/model/facets.h"
 
-namespace sunder::solver {
+namespace sunder::solver::facet_test {
 namespace {
 
 using W = RigidWorld;
@@ -316,4 +316,4 @@ TEST(Facets, TheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::facet_test

@@ -8,7 +8,7 @@
 #include "bench/truths/presets.h"
 #include "engine/base/parallel.h"
 
-namespace sunder::solver {
+namespace sunder::solver::impact_test {
 namespace {
 
 using W = RigidWorld;
@@ -123,4 +123,4 @@ TEST(Impact, OfBallsThatCrossIsWhereTheyMeetAtAnyStep) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::impact_test

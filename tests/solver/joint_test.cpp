@@ -7,7 +7,7 @@
 #include "engine/base/parallel.h"
 #include "tests/solver/chains.h"
 
-namespace sunder::solver {
+namespace sunder::solver::joint_test {
 namespace {
 
 using W = RigidWorld;
@@ -364,4 +364,4 @@ TEST(Joint, ChainsGiveTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::joint_test

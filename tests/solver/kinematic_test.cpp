@@ -5,7 +5,7 @@
 #include "engine/base/parallel.h"
 #include "solver/planar/planar_physics.h"
 
-namespace sunder::solver {
+namespace sunder::solver::kinematic_test {
 namespace {
 
 using W = RigidWorld;
@@ -250,4 +250,4 @@ TEST(KinematicBits, AreTheSameForAnyThreadsAndLanes) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::kinematic_test

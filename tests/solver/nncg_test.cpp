@@ -6,7 +6,7 @@
 #include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
 
-namespace sunder::solver {
+namespace sunder::solver::nncg_test {
 namespace {
 
 using W = RigidWorld;
@@ -86,4 +86,4 @@ TEST(Nncg, GivesTheSameBitsForAnyNumberOfThreadsAndLanes) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::nncg_test

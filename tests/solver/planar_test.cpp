@@ -9,7 +9,7 @@
 #include "engine/geometry/prism.h"
 #include "solver/planar/planar_physics.h"
 
-namespace sunder::solver {
+namespace sunder::solver::planar_test {
 namespace {
 
 using W = RigidWorld;
@@ -332,4 +332,4 @@ TEST(Planar, TheSameBitsComeOutOfEveryRunAndAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::planar_test

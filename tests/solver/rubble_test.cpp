@@ -8,7 +8,7 @@
 #include "engine/geometry/hull.h"
 #include "solver/rigid/collide/patch.h"
 
-namespace sunder::solver {
+namespace sunder::solver::rubble_test {
 namespace {
 
 using W = RigidWorld;
@@ -156,4 +156,4 @@ TEST(Rubble, APieceStandsOnItsLowestPointsAndNotOnThoseThatSpanTheMost) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::rubble_test

@@ -10,7 +10,7 @@
 #include "bench/truths/rigid_world.h"
 #include "engine/geometry/hull.h"
 
-namespace sunder::solver {
+namespace sunder::solver::similarity_test {
 namespace {
 
 using W = RigidWorld;
@@ -262,4 +262,4 @@ TEST(Similarity, PebblesAndBouldersOfOneSceneStandSleepAndPressAlike) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::similarity_test

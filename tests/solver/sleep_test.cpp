@@ -8,7 +8,7 @@
 #include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
 
-namespace sunder::solver {
+namespace sunder::solver::sleep_test {
 namespace {
 
 using W = RigidWorld;
@@ -267,4 +267,4 @@ TEST(Sleep, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::sleep_test

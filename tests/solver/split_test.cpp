@@ -9,7 +9,7 @@
 #include "engine/base/parallel.h"
 #include "solver/rigid/contact/kernels/sweep_kernels.h"
 
-namespace sunder::solver {
+namespace sunder::solver::split_test {
 namespace {
 
 using W = RigidWorld;
@@ -252,4 +252,4 @@ TEST(Lanes, AreAsManyAsAskedForOrFewer) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::split_test

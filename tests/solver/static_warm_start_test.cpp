@@ -7,7 +7,7 @@
 #include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
 
-namespace sunder::solver {
+namespace sunder::solver::static_warm_start_test {
 namespace {
 
 using W = RigidWorld;
@@ -161,4 +161,4 @@ TEST(StaticWarmStart, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace sunder::solver
+}  // namespace sunder::solver::static_warm_start_test
