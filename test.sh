@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the tests. With --all also the extremes, the truths at
-# every preset and the soak; then the unit tests once more under the address and
-# undefined-behaviour sanitizers. Safe to run again.
+# Installs what is missing, builds, and runs the tests. With --all also those that take more than ten
+# seconds, the extremes, the truths at every preset and the soak; then the unit tests once more under
+# the address and undefined-behaviour sanitizers. Safe to run again.
 set -euo pipefail
 all=false
 case "${1:-}" in
@@ -23,8 +23,8 @@ cmake --build --preset release
 
 say "Running the tests"
 mkdir -p out
-# Truths and extremes have an entry of ctest a row, and one a row at the default preset alone.
-skipped="extreme|truth_all|soak"
+# Truths and extremes have an entry of ctest a row; truths one at the default preset alone, too.
+skipped="extreme|truth_all|soak|long"
 if $all; then skipped="_default"; fi
 ctest --preset release -j "$(nproc)" --output-junit "$PWD/out/tests.xml" -LE "$skipped"
 if ! $all; then
