@@ -57,8 +57,8 @@ double power_law(double smallest, double largest, Random& random) {
 /// Uniform over all rotations.
 Quatf any_rotation(Random& random) {
   for (;;) {
-    const Eigen::Vector4d q(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
-                            random.uniform(-1, 1));
+    Eigen::Vector4d q;  // drawn in this order, whoever compiles it
+    for (int i = 3; i >= 0; --i) q[i] = random.uniform(-1, 1);
     const double square = q.squaredNorm();
     if (square > 1e-4 && square <= 1) {
       return Quatf(Eigen::Vector4f((q / std::sqrt(square)).cast<float>()));

@@ -32,7 +32,9 @@ void add_rubble(RigidWorld& world, std::uint64_t seed) {
     std::vector<Vec3> points(8 + random.below(9));
     for (Vec3& point : points) point = 0.5 * size * random.direction();
     const Vec3 cell(i % 5 - 2, i / 25, i / 5 % 5 - 2);
-    const Vec3 jitter(random.uniform(-0.05, 0.05), 0.4, random.uniform(-0.05, 0.05));
+    Vec3 jitter(0, 0.4, 0);  // in this order, whoever compiles it
+    jitter.x() = random.uniform(-0.05, 0.05);
+    jitter.z() = random.uniform(-0.05, 0.05);
     world.add(W::hull(make_hull(points), kPitch_m * cell + jitter, 2000));
   }
 }
