@@ -1,4 +1,4 @@
-// How much of what stood still stands.
+// Share of the volume of a frame that still belongs to static bodies.
 #pragma once
 
 #include <cstdint>
