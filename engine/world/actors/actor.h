@@ -95,7 +95,7 @@ struct Actor {
 };
 
 /// In place of an actor where there is none; kGroundKey is the body tag of the ground.
-inline constexpr std::uint32_t kNobodyKey = 0xfffffffe;
+inline constexpr std::uint32_t kNoActorKey = 0xfffffffe;
 
 inline double ball_radius_m(double volume_m3) {
   return std::cbrt(volume_m3 * 3 / (4 * std::numbers::pi));

@@ -12,44 +12,49 @@ namespace sunder {
 namespace {
 
 constexpr int kMostEvents = 24;
-// After so many events each is the hardest yet to come, and takes what closes before it along, so
-// that a ball behind much debris is not forgotten.
+// Number of events that are taken in order of time. Each later event is the contact with the most
+// closing energy in the rest of the step, solved together with the contacts that close before it,
+// so that a ball behind much debris is still found.
 constexpr int kSingleEvents = 12;
-constexpr double kFaster = 2;  // than before, no contact closes once others have been solved
-// A contact alone that closes with less than this part of the least work is no event of its own.
-constexpr double kLeastEvent = 0.1;
-// Contacts give a little, against the heaviest body, so that supports share what they bear.
-constexpr double kGive = 1e-5;
-constexpr double kHangs = 1e-4;  // of gravity: what joints leave no more of does not fall
+// Bound on a contact's closing speed after other contacts were solved, relative to the highest
+// closing speed of the event.
+constexpr double kMaxSpeedUp = 2;
+// A contact with less than this share of least_J_ as closing energy starts no event.
+constexpr double kMinEventShare = 0.1;
+// Contact softness, relative to the inverse mass of the heaviest body: several supports share a
+// load.
+constexpr double kSoftness = 1e-5;
+// A body that joints leave less than this share of the acceleration by gravity hangs at rest.
+constexpr double kHangingShare = 1e-4;
 
 }  // namespace
 
 BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts,
-                       double dt_s, double still_m_s, const Vec3& gravity_W,
+                       double dt_s, double rest_speed_m_s, const Vec3& gravity_W,
                        std::vector<ProbeJoint> joints)
     : bodies_(std::move(bodies)),
       contacts_(std::move(contacts)),
       joints_(std::move(joints)),
       dt_s_(dt_s),
-      still_m_s_(still_m_s),
-      weight_(bodies_.size()),
+      rest_speed_m_s_(rest_speed_m_s),
+      gravity_(bodies_.size()),
       velocities_(bodies_.size()),
-      way_(bodies_.size()),
+      displacements_(bodies_.size()),
       falls_(bodies_.size(), 0),
-      fallen_s_(bodies_.size(), 0),
-      pushed_(bodies_.size(), 0),
+      fall_times_s_(bodies_.size(), 0),
+      moved_(bodies_.size(), 0),
       undecided_(bodies_.size(), 0) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     velocities_[i] = {bodies_[i].velocity_W, bodies_[i].angular_velocity_W};
   }
-  const Linkage linkage(joint_rows(bodies_, places_after(bodies_, way_), joints_));
+  const Linkage linkage(make_joint_rows(bodies_, poses_after(bodies_, displacements_), joints_));
   for (const ProbeBody& body : bodies_) {
     if (body.breakable) least_J_ = std::min(least_J_, body.least_J);
   }
   rows_.reserve(contacts_.size());
   for (const ProbeContact& c : contacts_) {
     rows_.push_back(make_row(bodies_, c, c.arm_a_W, c.arm_b_W));
-    linkage.join(rows_.back(), bodies_.size());
+    linkage.add_joint_responses(rows_.back(), bodies_.size());
     gaps_m_.push_back(c.separation_m);
   }
   work_ = contacts_.size();
@@ -59,40 +64,42 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   for (const ProbeBody& body : bodies_) {
     if (body.inverse_mass > 0) least = std::min(least, body.inverse_mass);
   }
-  give_ = kGive * least;
-  weigh(linkage, gravity_W);
+  softness_ = kSoftness * least;
+  find_gravity(linkage, gravity_W);
 }
 
-/// What gravity does to what touches nothing but joints and taut ropes; what these hold up leans.
-void BreakProbe::weigh(const Linkage& linkage, const Vec3& gravity_W) {
+/// Finds each body's acceleration by gravity with joints and taut ropes alone. Bodies that these
+/// hold up count as supported.
+void BreakProbe::find_gravity(const Linkage& linkage, const Vec3& gravity_W) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (bodies_[b].inverse_mass > 0) weight_[b].linear = gravity_W;
+    if (bodies_[b].inverse_mass > 0) gravity_[b].linear = gravity_W;
   }
-  linkage.project(weight_);
+  linkage.project(gravity_);
   std::vector<std::uint32_t> taut, all;
   for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
     if (!rows_[i].rope || !touches(i)) continue;
     all.push_back(static_cast<std::uint32_t>(taut.size()));
     taut.push_back(i);
   }
-  weight_ = solve_cluster(rows_, taut, all, give_, gravity_W.norm(), weight_).velocities;
+  gravity_ = solve_cluster(rows_, taut, all, softness_, gravity_W.norm(), gravity_).velocities;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    bodies_[b].leans |= weight_[b].linear.norm() < kHangs * gravity_W.norm();
+    bodies_[b].leans |= gravity_[b].linear.norm() < kHangingShare * gravity_W.norm();
   }
 }
 
-/// What hangs together by touch or joints, and neither stands nor leans on anything, falls.
+/// Finds the bodies in free fall: those of groups connected by touching contacts or joints in which
+/// no body is supported.
 void BreakProbe::find_falling() {
   DisjointSets groups(bodies_.size());
-  std::vector<std::uint8_t> stands(bodies_.size(), 0);
-  for (std::size_t b = 0; b < bodies_.size(); ++b) stands[b] = bodies_[b].leans;
+  std::vector<std::uint8_t> supported(bodies_.size(), 0);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) supported[b] = bodies_[b].leans;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ContactRow& row = rows_[i];
-    if (row.inverse_mass <= 0 || !touches(i) || speeds_m_s_[i] < -still_m_s_) continue;
+    if (row.inverse_mass <= 0 || !touches(i) || speeds_m_s_[i] < -rest_speed_m_s_) continue;
     if (row.moves_a && row.moves_b) {
       groups.join(row.a, row.b);
     } else if (!row.rope) {
-      stands[row.moves_a ? row.a : row.b] = 1;
+      supported[row.moves_a ? row.a : row.b] = 1;
     }
   }
   for (const ProbeJoint& joint : joints_) {
@@ -101,28 +108,30 @@ void BreakProbe::find_falling() {
     }
   }
   const std::vector<std::uint32_t> roots = groups.roots();
-  for (std::size_t b = 0; b < bodies_.size(); ++b) stands[roots[b]] |= stands[b];
+  for (std::size_t b = 0; b < bodies_.size(); ++b) supported[roots[b]] |= supported[b];
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    falls_[b] = bodies_[b].inverse_mass > 0 && stands[roots[b]] == 0;
+    falls_[b] = bodies_[b].inverse_mass > 0 && supported[roots[b]] == 0;
   }
 }
 
-/// How long until contacts close that may matter; infinite if none does within the step.
-double BreakProbe::wait_s() const {
+/// Returns the time until the next contact closes with enough energy for an event; infinite if
+/// there is none.
+double BreakProbe::time_to_next_event_s() const {
   double wait = std::numeric_limits<double>::infinity(), hardest = 0;
-  std::vector<BodyVelocity> fall(bodies_.size());
+  std::vector<BodyVelocity> acceleration(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (falls_[b]) fall[b] = weight_[b];
+    if (falls_[b]) acceleration[b] = gravity_[b];
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ContactRow& row = rows_[i];
     if (row.inverse_mass <= 0) continue;
     const double speed = speeds_m_s_[i], gap = gaps_m_[i];
-    double square = speed * speed;  // when it closes
-    if (falls_[row.a] || falls_[row.b]) square += 2 * row.speed(fall) * std::max(0.0, gap);
-    if (square < still_m_s_ * still_m_s_ || square < 2 * kLeastEvent * least_J_ * row.inverse_mass)
+    double square = speed * speed;  // of the closing speed at the time of closing
+    if (falls_[row.a] || falls_[row.b]) square += 2 * row.speed(acceleration) * std::max(0.0, gap);
+    if (square < rest_speed_m_s_ * rest_speed_m_s_ ||
+        square < 2 * kMinEventShare * least_J_ * row.inverse_mass)
       continue;
-    const double closing = speed + std::sqrt(square);  // twice the mean
+    const double closing = speed + std::sqrt(square);  // twice the mean closing speed
     if (closing <= 0) continue;
     if (touches(i)) {
       if (events_ == 1) return 0;
@@ -136,42 +145,42 @@ double BreakProbe::wait_s() const {
   return wait;
 }
 
-/// All goes on by that time.
-void BreakProbe::fall(double time_s) {
+/// Advances velocities, displacements and separations by `time_s` without contacts.
+void BreakProbe::advance_time(double time_s) {
   time_s_ += time_s;
-  for (std::size_t i = 0; i < way_.size(); ++i) {
-    way_[i].linear += time_s * velocities_[i].linear;
-    way_[i].angular += time_s * velocities_[i].angular;
+  for (std::size_t i = 0; i < displacements_.size(); ++i) {
+    displacements_[i].linear += time_s * velocities_[i].linear;
+    displacements_[i].angular += time_s * velocities_[i].angular;
     if (!falls_[i]) continue;
-    fallen_s_[i] += time_s;
-    way_[i].linear += 0.5 * time_s * time_s * weight_[i].linear;
-    way_[i].angular += 0.5 * time_s * time_s * weight_[i].angular;
-    velocities_[i].linear += time_s * weight_[i].linear;
-    velocities_[i].angular += time_s * weight_[i].angular;
+    fall_times_s_[i] += time_s;
+    displacements_[i].linear += 0.5 * time_s * time_s * gravity_[i].linear;
+    displacements_[i].angular += 0.5 * time_s * time_s * gravity_[i].angular;
+    velocities_[i].linear += time_s * gravity_[i].linear;
+    velocities_[i].angular += time_s * gravity_[i].angular;
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    gaps_m_[i] = contacts_[i].separation_m - first_rows_[i].speed(way_);
+    gaps_m_[i] = contacts_[i].separation_m - first_rows_[i].speed(displacements_);
   }
 }
 
-/// Moves on to when the next contact closes; false if none does within the step.
+/// Advances to the time at which the next contact closes; returns false if none does in the step.
 bool BreakProbe::advance_to_event() {
   if (++events_ > kMostEvents) return false;
   work_ += contacts_.size();
   for (std::size_t i = 0; i < rows_.size(); ++i) speeds_m_s_[i] = rows_[i].speed(velocities_);
   find_falling();
-  const double wait = wait_s();
+  const double wait = time_to_next_event_s();
   if (time_s_ + wait > dt_s_) return false;
-  fall(wait);
-  const std::vector<ProbePlace> places = places_after(bodies_, way_);
-  const Linkage linkage(joint_rows(bodies_, places, joints_));
+  advance_time(wait);
+  const std::vector<ProbePose> poses = poses_after(bodies_, displacements_);
+  const Linkage linkage(make_joint_rows(bodies_, poses, joints_));
   linkage.project(velocities_);
   closed_.clear();
   fastest_m_s_ = closing_J_ = 0;
   for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
     if (rows_[i].inverse_mass <= 0 || !touches(i)) continue;
-    rows_[i] = meet(bodies_, places, contacts_[i]);
-    linkage.join(rows_[i], bodies_.size());
+    rows_[i] = make_current_row(bodies_, poses, contacts_[i]);
+    linkage.add_joint_responses(rows_[i], bodies_.size());
     if (rows_[i].inverse_mass <= 0) continue;
     closed_.push_back(i);
     const double speed = std::max(0.0, rows_[i].speed(velocities_));
@@ -181,27 +190,29 @@ bool BreakProbe::advance_to_event() {
   return true;
 }
 
-/// The closed contacts solved, those of `removed` bodies left out.
+/// Solves the closed contacts without those of `removed` bodies.
 ClusterMotion BreakProbe::solve(const std::vector<std::uint8_t>& removed) {
-  std::vector<std::uint32_t> in_way;  // of closed_
+  std::vector<std::uint32_t> active;  // of closed_
   for (std::uint32_t i = 0; i < closed_.size(); ++i) {
-    if (!rows_[closed_[i]].touches(removed)) in_way.push_back(i);
+    if (!rows_[closed_[i]].touches(removed)) active.push_back(i);
   }
-  ClusterMotion solved = solve_cluster(rows_, closed_, in_way, give_, fastest_m_s_, velocities_);
+  ClusterMotion solved =
+      solve_cluster(rows_, closed_, active, softness_, fastest_m_s_, velocities_);
   work_ += solved.work;
   return solved;
 }
 
-/// Whether the impulses are enough to load an undecided body beyond its least.
-bool BreakProbe::may_load() const {
+/// Returns true if the impulses may load an undecided body beyond its limits.
+bool BreakProbe::may_break_any() const {
   std::vector<double> impulses_Ns(bodies_.size(), 0);
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     impulses_Ns[rows_[closed_[i]].a] += with_->impulses_Ns[i];
     impulses_Ns[rows_[closed_[i]].b] += with_->impulses_Ns[i];
   }
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const double speed_m_s = kFaster * fastest_m_s_;
-    if (undecided_[b] && !bodies_[b].bears(speed_m_s * impulses_Ns[b], impulses_Ns[b], speed_m_s))
+    const double speed_m_s = kMaxSpeedUp * fastest_m_s_;
+    if (undecided_[b] &&
+        !bodies_[b].withstands(speed_m_s * impulses_Ns[b], impulses_Ns[b], speed_m_s))
       return true;
   }
   return false;
@@ -209,28 +220,28 @@ bool BreakProbe::may_load() const {
 
 std::vector<ProbeLoad> BreakProbe::next(double least_J) {
   for (;;) {
-    if (!with_) {  // the last event is over
+    if (!with_) {  // between events
       if (!advance_to_event()) return {};
       if (closing_J_ < std::max(least_J, least_J_)) continue;
       for (std::size_t b = 0; b < bodies_.size(); ++b) undecided_[b] = bodies_[b].breakable;
       with_ = solve(std::vector<std::uint8_t>(bodies_.size(), 0));
     }
-    if (may_load()) {
+    if (may_break_any()) {
       loads_ = loads(solve(undecided_));
       if (!loads_.empty()) return loads_;
     }
-    note_pushed(*with_);
+    mark_moved(*with_);
     velocities_ = with_->velocities;
     with_.reset();
   }
 }
 
-void BreakProbe::note_pushed(const ClusterMotion& motion) {
+void BreakProbe::mark_moved(const ClusterMotion& motion) {
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const ContactRow& row = rows_[closed_[i]];
     if (motion.impulses_Ns[i] == 0) continue;
-    pushed_[row.a] = pushed_[row.b] = 1;
-    for (const ContactRow::PassedOn& on : row.passed_on) pushed_[on.body] = 1;
+    moved_[row.a] = moved_[row.b] = 1;
+    for (const ContactRow::JointResponse& on : row.joint_responses) moved_[on.body] = 1;
   }
 }
 
@@ -238,42 +249,43 @@ void BreakProbe::hold() {
   for (const ProbeLoad& load : loads_) undecided_[load.body] = 0;
 }
 
-/// The kinetic energy of v₁ + s·(v₀ − v₁), v₁ with and v₀ without something in the way, is that of
-/// v₁ and as² + bs more. (Were v₁ exact, b would be 0.)
-BreakProbe::Release BreakProbe::released(const ClusterMotion& without) const {
-  Release release;
+/// Returns the kinetic energy of v₁ + s·(v₀ − v₁) less that of v₁, v₁ with and v₀ without the
+/// removed bodies in the way, as a·s² + b·s. (With an exact v₁, b would be 0.)
+BreakProbe::EnergyDifference BreakProbe::energy_difference(const ClusterMotion& without) const {
+  EnergyDifference difference;
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const ContactRow& row = rows_[closed_[i]];
     const double impulse = with_->impulses_Ns[i] - without.impulses_Ns[i];
     const double u0 = row.speed(without.velocities), u1 = row.speed(with_->velocities);
-    release.a_J += 0.5 * impulse * (u0 - u1);
-    release.b_J += impulse * u1;
+    difference.a_J += 0.5 * impulse * (u0 - u1);
+    difference.b_J += impulse * u1;
   }
-  return release;
+  return difference;
 }
 
-/// The s at which all but `energy_J` is released.
-double BreakProbe::Release::share(double energy_J) const {
+/// Returns the s at which the kinetic energy is that of v₀ less `energy_J`.
+double BreakProbe::EnergyDifference::blend_factor(double energy_J) const {
   const double left = a_J + b_J - energy_J;
   return 2 * left / (b_J + std::sqrt(b_J * b_J + 4 * a_J * left));
 }
 
 std::vector<std::uint32_t> BreakProbe::release(std::span<const ProbeBreak> wanted) {
   std::vector<ProbeBreak> kept(wanted.begin(), wanted.end());
-  // Those that can least be paid for hold first; then the others may bear less, too.
+  // The body with the least work for its energy is kept whole first, which may reduce the load on
+  // the others.
   while (!kept.empty()) {
     std::vector<std::uint8_t> removed(bodies_.size(), 0);
     double energy = 0;
-    for (const ProbeBreak& wish : kept) {
-      removed[loads_[wish.load].body] = 1;
-      energy += wish.energy_J;
+    for (const ProbeBreak& candidate : kept) {
+      removed[loads_[candidate.load].body] = 1;
+      energy += candidate.energy_J;
     }
     const ClusterMotion without = solve(removed);
-    const Release release = released(without);
-    if (release.a_J > 0 && release.a_J + release.b_J > energy) {
-      finish(without, release.share(energy));
+    const EnergyDifference difference = energy_difference(without);
+    if (difference.a_J > 0 && difference.a_J + difference.b_J > energy) {
+      finish(without, difference.blend_factor(energy));
       std::vector<std::uint32_t> broken;
-      for (const ProbeBreak& wish : kept) broken.push_back(wish.load);
+      for (const ProbeBreak& candidate : kept) broken.push_back(candidate.load);
       return broken;
     }
     const auto worst =
@@ -285,23 +297,24 @@ std::vector<std::uint32_t> BreakProbe::release(std::span<const ProbeBreak> wante
   return {};
 }
 
-void BreakProbe::finish(const ClusterMotion& without, double share) {
-  note_pushed(*with_);
-  note_pushed(without);
+void BreakProbe::finish(const ClusterMotion& without, double blend) {
+  mark_moved(*with_);
+  mark_moved(without);
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     ProbeMotion& motion = motions_[b];
-    motion.changed = bodies_[b].inverse_mass > 0 && pushed_[b] != 0;
+    motion.changed = bodies_[b].inverse_mass > 0 && moved_[b] != 0;
     if (!motion.changed) continue;
     const BodyVelocity &with = with_->velocities[b], &v0 = without.velocities[b];
-    const double fallen_s = fallen_s_[b];
-    const BodyVelocity gain{fallen_s * weight_[b].linear, fallen_s * weight_[b].angular};
-    motion.velocity_W = with.linear + share * (v0.linear - with.linear) - gain.linear;
-    motion.angular_velocity_W = with.angular + share * (v0.angular - with.angular) - gain.angular;
-    motion.shift_W = way_[b].linear - time_s_ * motion.velocity_W - 0.5 * fallen_s * gain.linear;
-    motion.rotation_W =
-        way_[b].angular - time_s_ * motion.angular_velocity_W - 0.5 * fallen_s * gain.angular;
-    // Turned back by that, it has the same angular momentum.
+    const double fallen_s = fall_times_s_[b];
+    const BodyVelocity gain{fallen_s * gravity_[b].linear, fallen_s * gravity_[b].angular};
+    motion.velocity_W = with.linear + blend * (v0.linear - with.linear) - gain.linear;
+    motion.angular_velocity_W = with.angular + blend * (v0.angular - with.angular) - gain.angular;
+    motion.shift_W =
+        displacements_[b].linear - time_s_ * motion.velocity_W - 0.5 * fallen_s * gain.linear;
+    motion.rotation_W = displacements_[b].angular - time_s_ * motion.angular_velocity_W -
+                        0.5 * fallen_s * gain.angular;
+    // Rotating the body back to the start of the step keeps its angular momentum.
     const Mat3 turn(rotation_by(motion.rotation_W));
     const Mat3& inverse_W = bodies_[b].inverse_inertia_W;
     const Vec3 spin_W = inverse_W.inverse() * motion.angular_velocity_W;
@@ -313,9 +326,9 @@ void BreakProbe::pause() {
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ProbeBody& body = bodies_[b];
-    motions_[b] = {body.velocity_W + fallen_s_[b] * weight_[b].linear,
-                   body.angular_velocity_W + fallen_s_[b] * weight_[b].angular, way_[b].linear,
-                   way_[b].angular, body.inverse_mass > 0};
+    motions_[b] = {body.velocity_W + fall_times_s_[b] * gravity_[b].linear,
+                   body.angular_velocity_W + fall_times_s_[b] * gravity_[b].angular,
+                   displacements_[b].linear, displacements_[b].angular, body.inverse_mass > 0};
   }
 }
 

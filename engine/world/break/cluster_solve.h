@@ -1,5 +1,5 @@
-// Contacts of a few bodies solved at once, without rebound or friction: what the break probe makes
-// of an impact.
+// Simultaneous solve of the contacts of a few bodies, without restitution or friction, for the
+// break probe. Read first: solve_cluster().
 #pragma once
 
 #include <cstdint>
@@ -14,64 +14,66 @@ struct BodyVelocity {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
 
-/// How the motion of two bodies becomes a speed.
+/// Jacobian row that maps the velocities of two bodies to a closing speed.
 struct RowJacobian {
-  std::uint32_t a = 0, b = 0;  ///< Bodies, by index.
+  std::uint32_t a = 0, b = 0;  ///< Indices of the bodies.
   Vec3 normal = Vec3::Zero();
   Vec3 angular_a = Vec3::Zero(), angular_b = Vec3::Zero();
 
-  /// At which it closes.
+  /// Closing speed.
   double speed(const std::vector<BodyVelocity>& v) const {
     return normal.dot(v[a].linear - v[b].linear) + angular_a.dot(v[a].angular) -
            angular_b.dot(v[b].angular);
   }
 };
 
-/// A point of contact between two bodies, as a solve sees it; or what a joint does not let them do.
+/// Constraint row of a contact point between two bodies, or of one degree of freedom that a joint
+/// removes.
 struct ContactRow : RowJacobian {
-  bool moves_a = false, moves_b = false;              ///< Or it is fixed.
-  Vec3 push_a = Vec3::Zero(), push_b = Vec3::Zero();  ///< Change of velocity per impulse,
-  Vec3 spin_a = Vec3::Zero(), spin_b = Vec3::Zero();  ///< and of angular velocity.
-  double inverse_mass = 0;                            ///< Of the pair along the normal.
-  bool rope = false;                                  ///< Of no account to what may break.
+  bool moves_a = false, moves_b = false;              ///< False: static or kinematic.
+  Vec3 push_a = Vec3::Zero(), push_b = Vec3::Zero();  ///< Velocity change per impulse.
+  Vec3 spin_a = Vec3::Zero(), spin_b = Vec3::Zero();  ///< Angular velocity change.
+  double inverse_mass = 0;                            ///< Inverse effective mass along the row.
+  bool rope = false;                                  ///< A rope: breaks nothing, never removed.
 
-  /// What joints pass on of an impulse, and keep from the two themselves.
-  struct PassedOn {
+  /// Velocity change, per impulse of the row, that joints cause in a body (also in a and b).
+  struct JointResponse {
     std::uint32_t body = 0;
     BodyVelocity change;  ///< Per impulse.
   };
-  std::vector<PassedOn> passed_on;
+  std::vector<JointResponse> joint_responses;
 
   void push(std::vector<BodyVelocity>& v, double impulse_Ns) const {
     v[a].linear -= impulse_Ns * push_a;
     v[a].angular -= impulse_Ns * spin_a;
     v[b].linear += impulse_Ns * push_b;
     v[b].angular += impulse_Ns * spin_b;
-    for (const PassedOn& on : passed_on) {
+    for (const JointResponse& on : joint_responses) {
       v[on.body].linear += impulse_Ns * on.change.linear;
       v[on.body].angular += impulse_Ns * on.change.angular;
     }
   }
-  /// The change of speed per impulse of another row.
+  /// Decrease of this row's closing speed per impulse of another row (an entry of J·M⁻¹·Jᵀ).
   double coupling(const ContactRow& other) const;
   bool touches(const std::vector<std::uint8_t>& bodies) const {
     return !rope && (bodies[a] || bodies[b]);
   }
 };
 
-/// What contacts make of velocities.
+/// Result of a solve.
 struct ClusterMotion {
   std::vector<BodyVelocity> velocities;  ///< Per body.
-  std::vector<double> impulses_Ns;       ///< Per closed contact.
-  std::uint64_t work = 0;                ///< Visits of a contact.
+  std::vector<double> impulses_Ns;       ///< Normal impulse per closed contact.
+  std::uint64_t work = 0;                ///< Contact evaluations.
 };
 
-/// Solves those of the `closed` rows that are listed in `in_way` (by place in `closed`), each group
-/// that hangs together through moving bodies on its own: exactly, or by sweeps if it is large.
-/// `give`: speed per impulse. What closes with less than a thousandth of `fastest_m_s` is at rest.
+/// Solves the rows listed in `active` (positions in `closed`, which has positions in `rows`). Each
+/// group connected through moving bodies is solved separately: exactly, or by sweeps if it is
+/// large. `softness`: speed per impulse. Rows that close with less than a hundredth of
+/// `fastest_m_s` count as at rest.
 ClusterMotion solve_cluster(const std::vector<ContactRow>& rows,
                             std::span<const std::uint32_t> closed,
-                            std::span<const std::uint32_t> in_way, double give, double fastest_m_s,
-                            const std::vector<BodyVelocity>& velocities);
+                            std::span<const std::uint32_t> active, double softness,
+                            double fastest_m_s, const std::vector<BodyVelocity>& velocities);
 
 }  // namespace sunder

@@ -11,7 +11,7 @@ void spread_evenly(std::span<PressedPoint> points) {
   double reach_m = 0;
   for (const PressedPoint& point : points) reach_m = std::max(reach_m, point.arm_W.norm());
   if (n < 2 || !(reach_m > 0)) return;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> G(6, n);  // of unit impulses, sum and moment
+  Eigen::Matrix<double, 6, Eigen::Dynamic> G(6, n);  // force and moment of each unit impulse
   Eigen::VectorXd impulses_Ns(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const PressedPoint& point = points[static_cast<std::size_t>(i)];

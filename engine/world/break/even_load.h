@@ -1,5 +1,5 @@
-// Where two bodies touch at many points, which of them bears how much follows from how they give,
-// and a solve of rigid bodies leaves it open. Internal to engine/world.
+// Even distribution of impulses over many contact points of two bodies, which a rigid-body solve
+// leaves undetermined. Internal to engine/world.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace sunder {
 
-/// A point where one body presses on another.
+/// Normal impulse of a body on another at one contact point.
 struct PressedPoint {
-  std::uint32_t shape = 0;    ///< Opaque.
-  Vec3 arm_W = Vec3::Zero();  ///< From the centre of mass of what is pressed.
+  std::uint32_t shape = 0;    ///< Opaque to this module.
+  Vec3 arm_W = Vec3::Zero();  ///< From the centre of mass of the loaded body.
   Vec3 along_W = Vec3::UnitY();
   double impulse_Ns = 0;
 };
 
-/// Spreads what a body does at all the points where it touches as evenly as sum and moment let it:
-/// the least squares of all. The impulses stay as they are if some would have to pull.
+/// Distributes the impulses over all points so that their sum and moment stay and the sum of their
+/// squares is least. The impulses stay unchanged if one of them would be negative.
 void spread_evenly(std::span<PressedPoint> points);
 
 }  // namespace sunder

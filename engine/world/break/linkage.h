@@ -1,5 +1,5 @@
-// Joints of a few bodies taken out of a solve: what is left of it is contacts, between bodies that
-// give as far as their joints let them.
+// Elimination of the joints of a few bodies from a contact solve: the contacts are solved with the
+// inverse masses that the joints leave to the bodies.
 #pragma once
 
 #include <cstddef>
@@ -12,26 +12,26 @@
 
 namespace sunder {
 
-/// With J the rows of joints and M the masses, M⁻¹ becomes M⁻¹ − M⁻¹Jᵀ(J·M⁻¹·Jᵀ)⁻¹J·M⁻¹: exact
-/// in trees and in rings, and nothing gains energy by it.
+/// Joint rows J of bodies with the masses M. M⁻¹ becomes M⁻¹ − M⁻¹Jᵀ(J·M⁻¹·Jᵀ)⁻¹J·M⁻¹, which is
+/// exact for trees and closed loops and adds no energy.
 class Linkage {
  public:
   Linkage() = default;
-  /// Rows that repeat each other, as a ring has them, are taken as one.
+  /// Linearly dependent rows, as in closed loops of joints, are allowed.
   explicit Linkage(std::vector<ContactRow> rows);
 
-  /// Takes out of velocities what joints do not allow: the nearest that they do, by energy.
+  /// Projects velocities to those that the joints allow, the nearest in kinetic energy.
   void project(std::vector<BodyVelocity>& velocities) const;
-  /// Has the row of a contact move what its bodies are joined to. One that joints leave no way to
-  /// close has an inverse mass of 0.
-  void join(ContactRow& row, std::size_t bodies) const;
+  /// Adds the responses of the `bodies` bodies through joints to a contact's row. If the joints do
+  /// not let the contact close, the inverse mass of the row becomes 0.
+  void add_joint_responses(ContactRow& row, std::size_t bodies) const;
 
  private:
-  /// Impulses that change the speeds of all rows by so much.
+  /// Returns the joint impulses that change the rows' speeds by `speeds_m_s`.
   Eigen::VectorXd impulses_Ns(const Eigen::VectorXd& speeds_m_s) const;
 
   std::vector<ContactRow> rows_;
-  Eigen::VectorXd unit_;  ///< Per row: in these all are alike.
+  Eigen::VectorXd unit_;  ///< Per row: scale to a unit diagonal.
   Eigen::LLT<Eigen::MatrixXd> coupling_;
 };
 

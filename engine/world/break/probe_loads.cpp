@@ -1,4 +1,5 @@
-// What solids have to bear in an event of a break probe, and by what they bear it.
+// Impact loads on breakable bodies in an event of a break probe, and the impulses that make them
+// up: the part of BreakProbe behind loads().
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -8,8 +9,9 @@
 
 namespace sunder {
 
-/// The undecided body that a contact's work counts for: the weaker, if both are.
-std::uint32_t BreakProbe::charged(const ProbeContact& c) const {
+/// Returns the undecided body to which the work at a contact is attributed: the one with the
+/// smaller least_J if both are undecided.
+std::uint32_t BreakProbe::body_to_load(const ProbeContact& c) const {
   if (!undecided_[c.a]) return c.b;
   if (!undecided_[c.b]) return c.a;
   const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
@@ -27,7 +29,7 @@ std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
     const double impulse = with_->impulses_Ns[i];
     const ContactRow& row = rows_[closed_[i]];
     if (impulse <= 0 || !row.touches(undecided_)) continue;
-    const std::uint32_t body = charged(c);
+    const std::uint32_t body = body_to_load(c);
     ProbeLoad& load = all[body];
     load.work_J += 0.5 * impulse * (row.speed(without.velocities) + row.speed(with_->velocities));
     load.impulse_Ns += impulse;
@@ -48,26 +50,27 @@ std::vector<ProbeLoad> BreakProbe::loads(const ClusterMotion& without) const {
     if (flux[load.body] > 0) load.speed_m_s /= flux[load.body];
   std::erase_if(all, [&](const ProbeLoad& load) {
     const ProbeBody& body = bodies_[load.body];
-    return body.bears(load.work_J, load.impulse_Ns, load.speed_m_s) ||
+    return body.withstands(load.work_J, load.impulse_Ns, load.speed_m_s) ||
            load.direction_W.squaredNorm() <= 0;
   });
   for (ProbeLoad& load : all) {
     load.arm_W /= load.impulse_Ns;
     load.direction_W.normalize();
-    add_pushes(load);
+    add_contact_impulses(load);
   }
   return all;
 }
 
-/// By other bodies, of which each presses as evenly as it can.
-void BreakProbe::add_pushes(ProbeLoad& load) const {
+/// Adds the impulses of contacts to a load, those of each other body distributed as evenly as their
+/// sum and moment allow.
+void BreakProbe::add_contact_impulses(ProbeLoad& load) const {
   std::map<std::uint32_t, std::vector<PressedPoint>> by_body;
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const ProbeContact& c = contacts_[closed_[i]];
     const double impulse = with_->impulses_Ns[i];
     const auto add = [&](std::uint32_t other, std::uint32_t shape, const Vec3& arm_W, double sign) {
       by_body[other].push_back(
-          {c.rope ? ProbePush::kNearest : shape, arm_W, sign * c.normal_W, impulse});
+          {c.rope ? ProbeImpulse::kNearestShape : shape, arm_W, sign * c.normal_W, impulse});
     };
     if (c.a == load.body) add(c.b, c.shape_a, c.arm_a_W, -1);
     if (c.b == load.body) add(c.a, c.shape_b, c.arm_b_W, 1);
@@ -76,14 +79,15 @@ void BreakProbe::add_pushes(ProbeLoad& load) const {
     spread_evenly(points);
     for (const PressedPoint& point : points) {
       if (point.impulse_Ns <= 0) continue;
-      load.pushes.push_back({point.shape, point.arm_W, point.impulse_Ns * point.along_W});
+      load.impulses.push_back({point.shape, point.arm_W, point.impulse_Ns * point.along_W});
     }
   }
-  add_joint_pushes(load);
+  add_joint_impulses(load);
 }
 
-/// What its joints do is what its motion tells, less what contacts do: to each an equal share.
-void BreakProbe::add_joint_pushes(ProbeLoad& load) const {
+/// Adds the impulses of joints to a load: the body's change of momentum less the contact impulses,
+/// in equal shares for all joints of the body.
+void BreakProbe::add_joint_impulses(ProbeLoad& load) const {
   const ProbeBody& body = bodies_[load.body];
   std::vector<Vec3> arms_W;
   for (const ProbeJoint& joint : joints_) {
@@ -94,14 +98,14 @@ void BreakProbe::add_joint_pushes(ProbeLoad& load) const {
   const BodyVelocity &after = with_->velocities[load.body], &before = velocities_[load.body];
   Vec3 linear = (after.linear - before.linear) / body.inverse_mass;
   Vec3 angular = body.inverse_inertia_W.inverse() * (after.angular - before.angular);
-  for (const ProbePush& push : load.pushes) {
-    linear -= push.impulse_W;
-    angular -= push.arm_W.cross(push.impulse_W);
+  for (const ProbeImpulse& impulse : load.impulses) {
+    linear -= impulse.impulse_W;
+    angular -= impulse.arm_W.cross(impulse.impulse_W);
   }
   const double share = 1 / static_cast<double>(arms_W.size());
   for (const Vec3& arm_W : arms_W) angular -= share * arm_W.cross(linear);
   for (const Vec3& arm_W : arms_W)
-    load.pushes.push_back({ProbePush::kNearest, arm_W, share * linear, share * angular});
+    load.impulses.push_back({ProbeImpulse::kNearestShape, arm_W, share * linear, share * angular});
 }
 
 }  // namespace sunder

@@ -1,5 +1,5 @@
-// What a break probe is made of: bodies, contacts and joints as the step begins, and what each
-// contact and joint asks of the bodies where they are by now.
+// Input of a break probe (bodies, contacts and joints at the start of the step), and the constraint
+// rows of contacts and joints at later poses of the bodies.
 #pragma once
 
 #include <cstdint>
@@ -12,62 +12,65 @@
 
 namespace sunder {
 
-/// A body of the cluster, as it moves at the start of the step.
+/// A body of the cluster at the start of the step.
 struct ProbeBody {
   std::uint32_t key = 0;
-  double inverse_mass = 0;                ///< 0: static or kinematic.
+  double inverse_mass = 0;                ///< 0 if static or kinematic.
   Mat3 inverse_inertia_W = Mat3::Zero();  ///< About the centre of mass.
-  Vec3 position_W = Vec3::Zero();         ///< Of that.
+  Vec3 position_W = Vec3::Zero();         ///< Centre of mass.
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
-  bool leans = false;  ///< On what is outside of the cluster.
+  bool leans = false;  ///< Supported by something outside the cluster.
   bool breakable = false;
-  double least_J = 0;   ///< Work below this breaks it in no case,
-  ImpactLimits limits;  ///< nor does what does not exceed these.
+  double least_J = 0;   ///< Work up to this cannot break the body.
+  ImpactLimits limits;  ///< An impact that does not exceed these limits cannot break the body.
 
-  bool bears(double work_J, double impulse_Ns, double speed_m_s) const {
+  /// Returns true if an impact with this work, impulse and speed cannot break the body.
+  bool withstands(double work_J, double impulse_Ns, double speed_m_s) const {
     return work_J <= least_J || !limits.exceeded(work_J, impulse_Ns, speed_m_s);
   }
 };
 
-/// A point where two bodies touch, or would touch within the step.
+/// A contact point of two bodies that touch, or would touch within the step.
 struct ProbeContact {
-  std::uint32_t a = 0, b = 0;                           ///< Bodies, by index.
-  std::uint32_t shape_a = 0, shape_b = 0;               ///< Opaque.
+  std::uint32_t a = 0, b = 0;                           ///< Indices of the bodies.
+  std::uint32_t shape_a = 0, shape_b = 0;               ///< Opaque to the probe.
   Vec3 arm_a_W = Vec3::Zero(), arm_b_W = Vec3::Zero();  ///< From the centres of mass.
   Vec3 normal_W = Vec3::UnitY();                        ///< From a to b.
   double separation_m = 0;
-  /// A rope that would run out: the arms are those of its ends, the normal points from b's to a's,
-  /// and the separation is its slack. It breaks nothing, and stays when what it holds breaks.
+  /// True for a rope that may become taut: the arms are those of its ends, the normal points from
+  /// b's end to a's, and the separation is the slack. A rope breaks no body, and stays when a body
+  /// that it holds breaks.
   bool rope = false;
 };
 
-/// What holds two bodies together both ways, whatever it bears: any joint but a rope.
+/// A bilateral joint of two bodies, which never fails in the probe: any joint but a rope.
 struct ProbeJoint {
   JointKind kind = JointKind::kBall;
-  std::uint32_t a = 0, b = 0;                           ///< Bodies, by index.
+  std::uint32_t a = 0, b = 0;                           ///< Indices of the bodies.
   Vec3 arm_a_W = Vec3::Zero(), arm_b_W = Vec3::Zero();  ///< From the centres of mass.
-  Vec3 axis_W = Vec3::UnitZ();                          ///< kHinge, fixed to a.
+  Vec3 axis_W = Vec3::UnitZ();                          ///< Axis of a kHinge, fixed to a.
 };
 
-/// Where a body is by now.
-struct ProbePlace {
+/// Pose of a body at a later time of the step.
+struct ProbePose {
   Vec3 center_W = Vec3::Zero();
-  Quat turn_W = Quat::Identity();  ///< Since the step began.
+  Quat rotation_W = Quat::Identity();  ///< Since the start of the step.
 };
-/// Of all bodies, once they have moved and turned by `way`.
-std::vector<ProbePlace> places_after(const std::vector<ProbeBody>& bodies,
-                                     const std::vector<BodyVelocity>& way);
+/// Returns the poses of all bodies after the given displacements and rotations.
+std::vector<ProbePose> poses_after(const std::vector<ProbeBody>& bodies,
+                                   const std::vector<BodyVelocity>& displacements);
 
-/// The row of a contact, at the ends of those arms.
+/// Returns the row of a contact with the given lever arms.
 ContactRow make_row(const std::vector<ProbeBody>& bodies, const ProbeContact& contact,
                     const Vec3& arm_a_W, const Vec3& arm_b_W);
-/// The same where the bodies are by now.
-ContactRow meet(const std::vector<ProbeBody>& bodies, const std::vector<ProbePlace>& places,
-                const ProbeContact& contact);
-/// The rows of joints likewise: what must be 0 of each. None of those between what cannot move.
-std::vector<ContactRow> joint_rows(const std::vector<ProbeBody>& bodies,
-                                   const std::vector<ProbePlace>& places,
-                                   const std::vector<ProbeJoint>& joints);
+/// Returns the row of a contact at the given poses of the bodies.
+ContactRow make_current_row(const std::vector<ProbeBody>& bodies,
+                            const std::vector<ProbePose>& poses, const ProbeContact& contact);
+/// Returns the rows of all joints at the given poses, the speeds of which must be 0. Joints between
+/// two immovable bodies have none.
+std::vector<ContactRow> make_joint_rows(const std::vector<ProbeBody>& bodies,
+                                        const std::vector<ProbePose>& poses,
+                                        const std::vector<ProbeJoint>& joints);
 
 }  // namespace sunder
