@@ -37,12 +37,12 @@ void add_impacts(const World& world, Trial& trial) {
   const BodyStates states = world.physics->states();
   for (std::uint32_t i = 0; i < trial.loads.size(); ++i) {
     const ProbeLoad& load = trial.loads[i];
-    const Actor& actor = *world.actors.find(trial.probe.bodies()[load.body].key);
+    const Actor& actor = *world.actors.find(trial.probe->bodies()[load.body].key);
     const ConvexSlot slot(load.shape);
     const Material& material = world.material(actor.structure.convex(slot)->material);
     PlannedBreak planned;
     planned.load = i;
-    planned.striker = trial.probe.bodies()[load.striker].key;
+    planned.striker = trial.probe->bodies()[load.striker].key;
     planned.speed_m_s = load.speed_m_s;
     planned.impulse_Ns = load.impulse_Ns;
     planned.by_pattern =
@@ -56,23 +56,14 @@ void add_impacts(const World& world, Trial& trial) {
         load.work_J > actor.stress.least_J && load.impulse_Ns > actor.stress.least_Ns;
     if (!planned.by_pattern && !planned.by_stress) continue;
     const Quat R_of_W = states[actor.body].X_WB.rotation.conjugate();
-<<<<<<< HEAD
-    for (const ProbePush& push : load.pushes) {
-      const Vec3 at_R = R_of_W * push.arm_W + actor.weight.com_R;
-      const Vec3 impulse_R = R_of_W * push.impulse_W, angular_R = R_of_W * push.angular_W;
-      if (push.shape == ProbePush::kNearest) {
-        add_joint_load(actor.structure, at_R, impulse_R, angular_R, planned.impulses);
-      } else {
-        planned.impulses.push_back({ConvexSlot(push.shape), impulse_R, at_R, angular_R});
-      }
-=======
     for (const ProbeImpulse& impulse : load.impulses) {
       const Vec3 at_R = R_of_W * impulse.arm_W + actor.weight.com_R;
-      const bool by_position = impulse.shape == ProbeImpulse::kNearestShape;
-      planned.impulses.push_back(
-          {by_position ? nearest(actor.structure, at_R) : ConvexSlot(impulse.shape),
-           R_of_W * impulse.impulse_W, at_R, R_of_W * impulse.angular_W});
->>>>>>> words-world
+      const Vec3 impulse_R = R_of_W * impulse.impulse_W, angular_R = R_of_W * impulse.angular_W;
+      if (impulse.shape == ProbeImpulse::kNearestShape) {
+        add_joint_load(actor.structure, at_R, impulse_R, angular_R, planned.impulses);
+      } else {
+        planned.impulses.push_back({ConvexSlot(impulse.shape), impulse_R, at_R, angular_R});
+      }
     }
     planned.impact.key = actor.key;
     planned.impact.convex = slot;
@@ -86,7 +77,7 @@ void add_impacts(const World& world, Trial& trial) {
 /// Returns true if a body of a trial was broken by other trials: if the body is gone, a convex with
 /// a contact is gone, or the body has a joint or rope.
 bool is_stale(const World& world, const Trial& trial, std::span<const std::uint32_t> broken) {
-  const std::vector<ProbeBody>& bodies = trial.probe.bodies();
+  const std::vector<ProbeBody>& bodies = trial.probe->bodies();
   for (const std::uint32_t key : broken) {
     const auto body = std::ranges::find(bodies, key, &ProbeBody::key);
     if (body == bodies.end()) continue;
@@ -96,11 +87,11 @@ bool is_stale(const World& world, const Trial& trial, std::span<const std::uint3
     const auto is_gone = [&](std::uint32_t shape) {
       return !actor->structure.has(ConvexSlot(shape));
     };
-    for (const ProbeContact& contact : trial.probe.contacts()) {
+    for (const ProbeContact& contact : trial.probe->contacts()) {
       if (contact.a == index && (contact.rope || is_gone(contact.shape_a))) return true;
       if (contact.b == index && (contact.rope || is_gone(contact.shape_b))) return true;
     }
-    for (const ProbeJoint& joint : trial.probe.joints()) {
+    for (const ProbeJoint& joint : trial.probe->joints()) {
       if (joint.a == index || joint.b == index) return true;
     }
   }
@@ -143,14 +134,14 @@ bool carry_out_breaks(World& world, const Breaker& breaker, Trial& trial,
     wanted.push_back({planned.load, planned.needed_J});
     pieces += planned.edit.loose.pieces.size();
   }
-  const std::vector<std::uint32_t> broken = trial.probe.release(wanted);
+  const std::vector<std::uint32_t> broken = trial.probe->release(wanted);
   if (broken.empty()) return false;
   WorkSpan span(world.ledger.work, Stage::kBreak, "breaks carried out");
   span.count(broken.size());
   const auto bends = [&](auto load) { return trial.planned[of_load[load]].only_bends(); };
   // If all broken bodies only bend, they stay in the way, and the next round probes them.
   EnergyFlows& energy = world.ledger.report.energy;
-  if (!std::ranges::all_of(broken, bends)) energy.contacts -= apply_motion(world, trial.probe);
+  if (!std::ranges::all_of(broken, bends)) energy.contacts -= apply_motion(world, *trial.probe);
   for (const std::uint32_t load : broken) {
     PlannedBreak& planned = trial.planned[of_load[load]];
     energy.contacts -= planned.needed_J;
@@ -196,7 +187,7 @@ PlannedBreak planned_by_blast(const Actor& actor, const Impact& impact) {
 std::vector<Trial> find_trials(World& world, const WaitingRoom& deferred, double min_energy_J) {
   WorkSpan span(world.ledger.work, Stage::kBreak, "clusters found");
   std::vector<Trial> trials;
-  for (BreakProbe& probe : find_clusters(world, deferred, min_energy_J))
+  for (std::unique_ptr<ImpactProbe>& probe : find_clusters(world, deferred, min_energy_J))
     trials.push_back({std::move(probe)});
   span.count(trials.size());
   return trials;
@@ -271,14 +262,14 @@ void BreakStage::run_probes(World& world, std::vector<Trial>& trials) {
         std::span(due).subspan(first, std::min(kProbesAtOnce, due.size() - first));
     for_chunks(batch.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (Trial* trial : batch.subspan(begin, end - begin)) {
-        if (trial->fingerprint == 0) trial->fingerprint = fingerprint(trial->probe);
+        if (trial->fingerprint == 0) trial->fingerprint = fingerprint(*trial->probe);
         if (!unbroken_probes_.contains(trial->fingerprint))
-          trial->loads = trial->probe.next(min_energy_J);
+          trial->loads = trial->probe->next(min_energy_J);
       }
     });
     std::uint64_t evaluations = 0;
     for (Trial* trial : batch) {
-      const std::uint64_t work = trial->probe.work();
+      const std::uint64_t work = trial->probe->work();
       evaluations += work - std::exchange(trial->charged, work);
     }
     budget_.charge(evaluations / kContactEvaluationsPerPart);
@@ -318,9 +309,9 @@ void BreakStage::share_budget(std::span<PlannedBreak* const> resumable) const {
 }
 
 void BreakStage::defer(World& world, Trial& trial) {
-  trial.probe.pause();
-  world.ledger.report.energy.gravity += apply_motion(world, trial.probe);
-  waiting_room_.add(world, trial.probe);
+  trial.probe->pause();
+  world.ledger.report.energy.gravity += apply_motion(world, *trial.probe);
+  waiting_room_.add(world, *trial.probe);
 }
 
 bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
@@ -389,7 +380,7 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
     std::vector<Trial> to_plan;
     for (Trial& trial : trials) {
       trial.may_defer =
-          is_worth_deferring(world, trial) && waiting_room_.may_defer(world, trial.probe);
+          is_worth_deferring(world, trial) && waiting_room_.may_defer(world, *trial.probe);
       if (trial.planned.empty() ||
           (rounds_left && prepare_within_budget(world, breaker, trial.planned))) {
         to_plan.push_back(std::move(trial));
@@ -402,7 +393,7 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
     }
     std::vector<PlannedBreak*> resumable;
     for (Trial& trial : to_plan)
-      if (!trial.planned.empty() && waiting_room_.may_defer(world, trial.probe))
+      if (!trial.planned.empty() && waiting_room_.may_defer(world, *trial.probe))
         for (PlannedBreak& planned : trial.planned) resumable.push_back(&planned);
     share_budget(resumable);
     const std::vector<PlannedBreak*> all = planned_in(to_plan);
@@ -420,7 +411,7 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
         again = true;
         continue;
       }
-      trial.probe.hold();
+      trial.probe->hold();
       trial.loads_known = false;
       next.push_back(std::move(trial));
     }

@@ -10,14 +10,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "engine/model/breaker.h"
+#include "engine/model/impact_probe.h"
 #include "engine/world/actors/impact.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/break_probe.h"
 #include "engine/world/break/planned_break.h"
 #include "engine/world/break/waiting_room.h"
 
@@ -48,7 +49,7 @@ class BreakBudget {
 
 /// A probe in progress, with its loads and planned breaks.
 struct Trial {
-  BreakProbe probe;
+  std::unique_ptr<ImpactProbe> probe;
   std::uint64_t fingerprint = 0;  ///< Of the probe's initial state; 0: not computed yet.
   bool loads_known = false;       ///< `loads` are those of the current event.
   std::uint64_t charged = 0;      ///< Work of the probe charged to the budget so far.

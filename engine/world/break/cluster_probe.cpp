@@ -31,13 +31,14 @@ class ProbeBuilder {
     }
   }
 
-  BreakProbe probe() {
+  std::unique_ptr<ImpactProbe> probe() {
     const double horizon_s = world_.clock.horizon_s();
     const double still_m_s = FroudeScale(world_.scene.gravity_W).still_m_s(world_.clock.dt_s);
     add_contacts(still_m_s * horizon_s);
     for (const std::uint32_t joint : joints_of_cluster()) add_joint(world_.joints.live()[joint]);
-    return BreakProbe(std::move(bodies_), std::move(contacts_), horizon_s, still_m_s,
-                      world_.scene.gravity_W, std::move(probe_joints_));
+    return world_.physics->probe({std::move(bodies_), std::move(contacts_),
+                                  std::move(probe_joints_), horizon_s, still_m_s,
+                                  world_.scene.gravity_W});
   }
 
  private:
@@ -187,11 +188,12 @@ bool may_break(const World& world, const Actor* actor, double energy_J, double i
   return actor->is_static || actor->born_step != world.clock.step + 1;
 }
 
-BreakProbe make_probe(const World& world, const JointGraph& joints, const Cluster& cluster) {
+std::unique_ptr<ImpactProbe> make_probe(const World& world, const JointGraph& joints,
+                                        const Cluster& cluster) {
   return ProbeBuilder(world, joints, cluster).probe();
 }
 
-std::uint64_t fingerprint(const BreakProbe& probe) {
+std::uint64_t fingerprint(const ImpactProbe& probe) {
   std::uint64_t print = probe.bodies().size();
   const auto add = [&](std::uint64_t bits) { print = combine(print, bits); };
   const auto add_pair = [&](std::uint64_t a, std::uint64_t b) { add(a << 32 | b); };

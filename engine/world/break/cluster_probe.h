@@ -1,11 +1,12 @@
-// Construction of a break probe for a cluster of actors. Internal to engine/world.
+// Construction of an impact probe for a cluster of actors. Internal to engine/world.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "engine/model/impact_probe.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/break_probe.h"
 #include "engine/world/break/joint_graph.h"
 
 namespace sunder {
@@ -21,10 +22,11 @@ bool may_break(const World& world, const Actor* actor, double energy_J, double i
 /// Returns the probe of a cluster: its bodies in the order of the actors, the contacts among them
 /// and their joints. May run in parallel once a thread has called Physics::touches() since contacts
 /// were found.
-BreakProbe make_probe(const World& world, const JointGraph& joints, const Cluster& cluster);
+std::unique_ptr<ImpactProbe> make_probe(const World& world, const JointGraph& joints,
+                                        const Cluster& cluster);
 
 /// Returns a hash of a probe's initial state: bodies, contacts and joints, without the limits at
 /// which bodies break.
-std::uint64_t fingerprint(const BreakProbe& probe);
+std::uint64_t fingerprint(const ImpactProbe& probe);
 
 }  // namespace sunder

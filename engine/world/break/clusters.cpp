@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -191,8 +190,9 @@ class ClusterSearch {
 
 }  // namespace
 
-std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& deferred,
-                                      double min_energy_J) {
+std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const World& world,
+                                                        const WaitingRoom& deferred,
+                                                        double min_energy_J) {
   const JointGraph joints(world);
   const std::vector<Seed> seeds = find_seeds(world, deferred, joints, min_energy_J);
   if (seeds.empty()) return {};
@@ -205,16 +205,14 @@ std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& def
     search.grow();
     if (search.could_break(seed)) clusters.push_back(search.cluster());
   }
-  std::vector<std::optional<BreakProbe>> made(clusters.size());
-  for_chunks(made.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) made[i] = make_probe(world, joints, clusters[i]);
+  std::vector<std::unique_ptr<ImpactProbe>> probes(clusters.size());
+  for_chunks(probes.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) probes[i] = make_probe(world, joints, clusters[i]);
   });
-  std::vector<BreakProbe> probes;
-  for (std::optional<BreakProbe>& probe : made) probes.push_back(std::move(*probe));
   return probes;
 }
 
-double apply_motion(World& world, const BreakProbe& probe) {
+double apply_motion(World& world, const ImpactProbe& probe) {
   double gain_J = 0;
   for (std::size_t b = 0; b < probe.bodies().size(); ++b) {
     const ProbeMotion& motion = probe.motions()[b];

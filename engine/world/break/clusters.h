@@ -2,10 +2,11 @@
 // contact that could break something. Internal to engine/world.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "engine/model/impact_probe.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/break_probe.h"
 #include "engine/world/break/waiting_room.h"
 
 namespace sunder {
@@ -13,11 +14,12 @@ namespace sunder {
 /// Returns probes of the clusters around the speculative contacts of the last collide() with more
 /// than `min_energy_J`, without deferred bodies. A body that can move is in one cluster at most.
 /// The longest deferred cluster comes first, then that of the contact with the most energy.
-std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& deferred,
-                                      double min_energy_J);
+std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const World& world,
+                                                        const WaitingRoom& deferred,
+                                                        double min_energy_J);
 
 /// Applies the motions that an ended probe has found to the bodies of its cluster. Returns the
 /// change of their kinetic energy, J.
-double apply_motion(World& world, const BreakProbe& probe);
+double apply_motion(World& world, const ImpactProbe& probe);
 
 }  // namespace sunder

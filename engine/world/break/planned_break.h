@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "engine/model/breaker.h"
+#include "engine/model/impact_probe.h"
 #include "engine/world/actors/impact.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/break_probe.h"
 
 namespace sunder {
 

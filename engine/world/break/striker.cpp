@@ -15,14 +15,8 @@ namespace {
 
 constexpr int kRoundCorners = 8;  // of the section of a sphere
 constexpr std::size_t kMostCorners = 8;
-<<<<<<< HEAD
-constexpr double kAround = 1.5;  // of a section, what is looked at around it
-=======
 // Scale about its centre of a section to the points around it that are tested for material.
 constexpr double kRingScale = 1.5;
-// Parts of a solid with a gap of at most this share of the thickness count as touching.
-constexpr double kMaxGap = 1e-3;
->>>>>>> words-world
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -120,29 +114,6 @@ std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Ve
   return section_W;
 }
 
-<<<<<<< HEAD
-=======
-double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
-                       double most_m) {
-  std::vector<std::pair<double, double>> spans;  // intervals of the ray inside convexes
-  for (const ConvexSlot slot : structure.within(point_R, most_m)) {
-    double enters = -most_m, leaves = most_m;
-    for (const ConvexPolyhedron::Face& face : structure.convex(slot)->polyhedron.faces) {
-      const double away = face.plane.normal.dot(direction_R), depth = face.plane.distance(point_R);
-      if (away > 0) leaves = std::min(leaves, -depth / away);
-      if (away < 0) enters = std::max(enters, -depth / away);
-      if (away == 0 && depth > 0) leaves = enters;
-    }
-    if (leaves > enters && leaves > 0) spans.emplace_back(enters, leaves);
-  }
-  std::ranges::sort(spans);
-  double end = 0;
-  for (const auto& [enters, leaves] : spans)
-    if (end == 0 || enters <= end * (1 + kMaxGap)) end = std::max(end, leaves);
-  return end;
-}
-
->>>>>>> words-world
 double thickness_behind(const Structure& structure, const std::vector<Vec3>& section_R,
                         const Vec3& point_R, const Vec3& direction_R, double most_m) {
   std::vector<double> all_m = {thickness_along(structure, point_R, direction_R, most_m)};

@@ -84,13 +84,13 @@ void WaitingRoom::release_first() {
   queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-bool WaitingRoom::may_defer(const World& world, const BreakProbe& cluster) {
+bool WaitingRoom::may_defer(const World& world, const ImpactProbe& cluster) {
   if (!driven_) driven_ = find_driven(world);
   return std::ranges::none_of(cluster.bodies(),
                               [&](const ProbeBody& body) { return driven_->contains(body.key); });
 }
 
-void WaitingRoom::add(World& world, const BreakProbe& cluster) {
+void WaitingRoom::add(World& world, const ImpactProbe& cluster) {
   const std::size_t first = bodies_.size();
   for (const ProbeBody& body : cluster.bodies()) {
     if (body.inverse_mass <= 0) continue;

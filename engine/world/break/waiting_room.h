@@ -10,8 +10,8 @@
 #include <set>
 #include <vector>
 
+#include "engine/model/impact_probe.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/break_probe.h"
 
 namespace sunder {
 
@@ -33,9 +33,9 @@ class WaitingRoom {
   void invalidate_driven() { driven_.reset(); }
   /// Returns true if no body of a cluster is in contact, direct or through others, with a moving
   /// kinematic body.
-  bool may_defer(const World& world, const BreakProbe& cluster);
+  bool may_defer(const World& world, const ImpactProbe& cluster);
   /// Defers the bodies of a cluster, whose probe has ended by pause(), to the next step.
-  void add(World& world, const BreakProbe& cluster);
+  void add(World& world, const ImpactProbe& cluster);
   /// Ends a step: clusters still in the queue stay deferred. Calls Physics::pause() for all bodies.
   void end_step(World& world);
 

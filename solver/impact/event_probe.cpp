@@ -1,14 +1,16 @@
-#include "engine/world/break/break_probe.h"
+#include "solver/impact/event_probe.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/rotation.h"
+#include "solver/impact/even_load.h"
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 constexpr int kMostEvents = 24;
@@ -29,7 +31,7 @@ constexpr double kHangingShare = 1e-4;
 
 }  // namespace
 
-BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts,
+EventProbe::EventProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts,
                        double dt_s, double rest_speed_m_s, const Vec3& gravity_W,
                        std::vector<ProbeJoint> joints)
     : bodies_(std::move(bodies)),
@@ -70,7 +72,7 @@ BreakProbe::BreakProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
 
 /// Finds each body's acceleration by gravity with joints and taut ropes alone. Bodies that these
 /// hold up count as supported.
-void BreakProbe::find_gravity(const Linkage& linkage, const Vec3& gravity_W) {
+void EventProbe::find_gravity(const Linkage& linkage, const Vec3& gravity_W) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (bodies_[b].inverse_mass > 0) gravity_[b].linear = gravity_W;
   }
@@ -89,7 +91,7 @@ void BreakProbe::find_gravity(const Linkage& linkage, const Vec3& gravity_W) {
 
 /// Finds the bodies in free fall: those of groups connected by touching contacts or joints in which
 /// no body is supported.
-void BreakProbe::find_falling() {
+void EventProbe::find_falling() {
   DisjointSets groups(bodies_.size());
   std::vector<std::uint8_t> supported(bodies_.size(), 0);
   for (std::size_t b = 0; b < bodies_.size(); ++b) supported[b] = bodies_[b].leans;
@@ -116,7 +118,7 @@ void BreakProbe::find_falling() {
 
 /// Returns the time until the next contact closes with enough energy for an event; infinite if
 /// there is none.
-double BreakProbe::time_to_next_event_s() const {
+double EventProbe::time_to_next_event_s() const {
   double wait = std::numeric_limits<double>::infinity(), hardest = 0;
   std::vector<BodyVelocity> acceleration(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -146,7 +148,7 @@ double BreakProbe::time_to_next_event_s() const {
 }
 
 /// Advances velocities, displacements and separations by `time_s` without contacts.
-void BreakProbe::advance_time(double time_s) {
+void EventProbe::advance_time(double time_s) {
   time_s_ += time_s;
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
     displacements_[i].linear += time_s * velocities_[i].linear;
@@ -164,7 +166,7 @@ void BreakProbe::advance_time(double time_s) {
 }
 
 /// Advances to the time at which the next contact closes; returns false if none does in the step.
-bool BreakProbe::advance_to_event() {
+bool EventProbe::advance_to_event() {
   if (++events_ > kMostEvents) return false;
   work_ += contacts_.size();
   for (std::size_t i = 0; i < rows_.size(); ++i) speeds_m_s_[i] = rows_[i].speed(velocities_);
@@ -191,7 +193,7 @@ bool BreakProbe::advance_to_event() {
 }
 
 /// Solves the closed contacts without those of `removed` bodies.
-ClusterMotion BreakProbe::solve(const std::vector<std::uint8_t>& removed) {
+ClusterMotion EventProbe::solve(const std::vector<std::uint8_t>& removed) {
   std::vector<std::uint32_t> active;  // of closed_
   for (std::uint32_t i = 0; i < closed_.size(); ++i) {
     if (!rows_[closed_[i]].touches(removed)) active.push_back(i);
@@ -203,7 +205,7 @@ ClusterMotion BreakProbe::solve(const std::vector<std::uint8_t>& removed) {
 }
 
 /// Returns true if the impulses may load an undecided body beyond its limits.
-bool BreakProbe::may_break_any() const {
+bool EventProbe::may_break_any() const {
   std::vector<double> impulses_Ns(bodies_.size(), 0);
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     impulses_Ns[rows_[closed_[i]].a] += with_->impulses_Ns[i];
@@ -218,7 +220,7 @@ bool BreakProbe::may_break_any() const {
   return false;
 }
 
-std::vector<ProbeLoad> BreakProbe::next(double least_J) {
+std::vector<ProbeLoad> EventProbe::next(double least_J) {
   for (;;) {
     if (!with_) {  // between events
       if (!advance_to_event()) return {};
@@ -236,7 +238,7 @@ std::vector<ProbeLoad> BreakProbe::next(double least_J) {
   }
 }
 
-void BreakProbe::mark_moved(const ClusterMotion& motion) {
+void EventProbe::mark_moved(const ClusterMotion& motion) {
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const ContactRow& row = rows_[closed_[i]];
     if (motion.impulses_Ns[i] == 0) continue;
@@ -245,13 +247,13 @@ void BreakProbe::mark_moved(const ClusterMotion& motion) {
   }
 }
 
-void BreakProbe::hold() {
+void EventProbe::hold() {
   for (const ProbeLoad& load : loads_) undecided_[load.body] = 0;
 }
 
 /// Returns the kinetic energy of v₁ + s·(v₀ − v₁) less that of v₁, v₁ with and v₀ without the
 /// removed bodies in the way, as a·s² + b·s. (With an exact v₁, b would be 0.)
-BreakProbe::EnergyDifference BreakProbe::energy_difference(const ClusterMotion& without) const {
+EventProbe::EnergyDifference EventProbe::energy_difference(const ClusterMotion& without) const {
   EnergyDifference difference;
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const ContactRow& row = rows_[closed_[i]];
@@ -264,12 +266,12 @@ BreakProbe::EnergyDifference BreakProbe::energy_difference(const ClusterMotion& 
 }
 
 /// Returns the s at which the kinetic energy is that of v₀ less `energy_J`.
-double BreakProbe::EnergyDifference::blend_factor(double energy_J) const {
+double EventProbe::EnergyDifference::blend_factor(double energy_J) const {
   const double left = a_J + b_J - energy_J;
   return 2 * left / (b_J + std::sqrt(b_J * b_J + 4 * a_J * left));
 }
 
-std::vector<std::uint32_t> BreakProbe::release(std::span<const ProbeBreak> wanted) {
+std::vector<std::uint32_t> EventProbe::release(std::span<const ProbeBreak> wanted) {
   std::vector<ProbeBreak> kept(wanted.begin(), wanted.end());
   // The body with the least work for its energy is kept whole first, which may reduce the load on
   // the others.
@@ -297,7 +299,7 @@ std::vector<std::uint32_t> BreakProbe::release(std::span<const ProbeBreak> wante
   return {};
 }
 
-void BreakProbe::finish(const ClusterMotion& without, double blend) {
+void EventProbe::finish(const ClusterMotion& without, double blend) {
   mark_moved(*with_);
   mark_moved(without);
   motions_.resize(bodies_.size());
@@ -322,7 +324,7 @@ void BreakProbe::finish(const ClusterMotion& without, double blend) {
   }
 }
 
-void BreakProbe::pause() {
+void EventProbe::pause() {
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ProbeBody& body = bodies_[b];
@@ -332,4 +334,103 @@ void BreakProbe::pause() {
   }
 }
 
-}  // namespace sunder
+/// Returns the undecided body to which the work at a contact is attributed: the one with the
+/// smaller least_J if both are undecided.
+std::uint32_t EventProbe::body_to_load(const ProbeContact& c) const {
+  if (!undecided_[c.a]) return c.b;
+  if (!undecided_[c.b]) return c.a;
+  const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
+  return std::pair(a.least_J, a.key) < std::pair(b.least_J, b.key) ? c.a : c.b;
+}
+
+std::vector<ProbeLoad> EventProbe::loads(const ClusterMotion& without) const {
+  std::vector<ProbeLoad> all(bodies_.size());
+  std::vector<double> most(bodies_.size(), 0), flux(bodies_.size(), 0),
+      most_flux(bodies_.size(), 0);
+  for (std::uint32_t b = 0; b < all.size(); ++b) all[b].body = b;
+  for (ProbeLoad& load : all) load.direction_W.setZero();
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    const ProbeContact& c = contacts_[closed_[i]];
+    const double impulse = with_->impulses_Ns[i];
+    const ContactRow& row = rows_[closed_[i]];
+    if (impulse <= 0 || !row.touches(undecided_)) continue;
+    const std::uint32_t body = body_to_load(c);
+    ProbeLoad& load = all[body];
+    load.work_J += 0.5 * impulse * (row.speed(without.velocities) + row.speed(with_->velocities));
+    load.impulse_Ns += impulse;
+    load.arm_W += impulse * (body == c.b ? c.arm_b_W : c.arm_a_W);
+    load.direction_W += (body == c.b ? impulse : -impulse) * c.normal_W;
+    const double speed = std::max(0.0, row.speed(without.velocities));
+    load.speed_m_s += impulse * speed * speed;
+    flux[body] += impulse * speed;
+    if (impulse * speed > most_flux[body]) {
+      most_flux[body] = impulse * speed;
+      load.striker = body == c.b ? c.a : c.b;
+    }
+    if (impulse <= most[body]) continue;
+    most[body] = impulse;
+    load.shape = body == c.b ? c.shape_b : c.shape_a;
+  }
+  for (ProbeLoad& load : all)
+    if (flux[load.body] > 0) load.speed_m_s /= flux[load.body];
+  std::erase_if(all, [&](const ProbeLoad& load) {
+    const ProbeBody& body = bodies_[load.body];
+    return body.withstands(load.work_J, load.impulse_Ns, load.speed_m_s) ||
+           load.direction_W.squaredNorm() <= 0;
+  });
+  for (ProbeLoad& load : all) {
+    load.arm_W /= load.impulse_Ns;
+    load.direction_W.normalize();
+    add_contact_impulses(load);
+  }
+  return all;
+}
+
+/// Adds the impulses of contacts to a load, those of each other body distributed as evenly as their
+/// sum and moment allow.
+void EventProbe::add_contact_impulses(ProbeLoad& load) const {
+  std::map<std::uint32_t, std::vector<PressedPoint>> by_body;
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    const ProbeContact& c = contacts_[closed_[i]];
+    const double impulse = with_->impulses_Ns[i];
+    const auto add = [&](std::uint32_t other, std::uint32_t shape, const Vec3& arm_W, double sign) {
+      by_body[other].push_back(
+          {c.rope ? ProbeImpulse::kNearestShape : shape, arm_W, sign * c.normal_W, impulse});
+    };
+    if (c.a == load.body) add(c.b, c.shape_a, c.arm_a_W, -1);
+    if (c.b == load.body) add(c.a, c.shape_b, c.arm_b_W, 1);
+  }
+  for (auto& [other, points] : by_body) {
+    spread_evenly(points);
+    for (const PressedPoint& point : points) {
+      if (point.impulse_Ns <= 0) continue;
+      load.impulses.push_back({point.shape, point.arm_W, point.impulse_Ns * point.along_W});
+    }
+  }
+  add_joint_impulses(load);
+}
+
+/// Adds the impulses of joints to a load: the body's change of momentum less the contact impulses,
+/// in equal shares for all joints of the body.
+void EventProbe::add_joint_impulses(ProbeLoad& load) const {
+  const ProbeBody& body = bodies_[load.body];
+  std::vector<Vec3> arms_W;
+  for (const ProbeJoint& joint : joints_) {
+    if (joint.a == load.body) arms_W.push_back(joint.arm_a_W);
+    if (joint.b == load.body) arms_W.push_back(joint.arm_b_W);
+  }
+  if (arms_W.empty() || body.inverse_mass <= 0) return;
+  const BodyVelocity &after = with_->velocities[load.body], &before = velocities_[load.body];
+  Vec3 linear = (after.linear - before.linear) / body.inverse_mass;
+  Vec3 angular = body.inverse_inertia_W.inverse() * (after.angular - before.angular);
+  for (const ProbeImpulse& impulse : load.impulses) {
+    linear -= impulse.impulse_W;
+    angular -= impulse.arm_W.cross(impulse.impulse_W);
+  }
+  const double share = 1 / static_cast<double>(arms_W.size());
+  for (const Vec3& arm_W : arms_W) angular -= share * arm_W.cross(linear);
+  for (const Vec3& arm_W : arms_W)
+    load.impulses.push_back({ProbeImpulse::kNearestShape, arm_W, share * linear, share * angular});
+}
+
+}  // namespace sunder::solver

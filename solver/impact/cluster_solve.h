@@ -1,5 +1,5 @@
 // Simultaneous solve of the contacts of a few bodies, without restitution or friction, for the
-// break probe. Read first: solve_cluster().
+// impact probe. Read first: solve_cluster().
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include "engine/base/types.h"
 
-namespace sunder {
+namespace sunder::solver {
 
 struct BodyVelocity {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
@@ -76,4 +76,4 @@ ClusterMotion solve_cluster(const std::vector<ContactRow>& rows,
                             std::span<const std::uint32_t> active, double softness,
                             double fastest_m_s, const std::vector<BodyVelocity>& velocities);
 
-}  // namespace sunder
+}  // namespace sunder::solver

@@ -1,11 +1,11 @@
-#include "engine/world/break/linkage.h"
+#include "solver/impact/linkage.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 // Added to the unit diagonal, so that linearly dependent rows have a solution.
@@ -71,4 +71,4 @@ void Linkage::add_joint_responses(ContactRow& row, std::size_t bodies) const {
   if (row.inverse_mass < kMinInverseMass * free) row.inverse_mass = 0;
 }
 
-}  // namespace sunder
+}  // namespace sunder::solver

@@ -1,10 +1,10 @@
-#include "engine/world/break/even_load.h"
+#include "solver/impact/even_load.h"
 
 #include <algorithm>
 
 #include <Eigen/Dense>
 
-namespace sunder {
+namespace sunder::solver {
 
 void spread_evenly(std::span<PressedPoint> points) {
   const auto n = static_cast<Eigen::Index>(points.size());
@@ -25,4 +25,4 @@ void spread_evenly(std::span<PressedPoint> points) {
   for (Eigen::Index i = 0; i < n; ++i) points[static_cast<std::size_t>(i)].impulse_Ns = even[i];
 }
 
-}  // namespace sunder
+}  // namespace sunder::solver

@@ -1,4 +1,4 @@
-#include "engine/world/break/complementarity.h"
+#include "solver/impact/complementarity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 constexpr double kTolerance = 1e-9;
@@ -97,4 +97,4 @@ Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& A, const Eigen::Vec
   return unit.cwiseProduct(x);
 }
 
-}  // namespace sunder
+}  // namespace sunder::solver

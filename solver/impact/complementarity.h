@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace sunder {
+namespace sunder::solver {
 
 /// Returns x ≥ 0 with A·x ≥ b, and equality wherever x > 0, for a symmetric positive definite A; by
 /// block principal pivoting (Júdice and Pires 1994), to about 1e-9 of the greatest b. Costs a few
@@ -12,4 +12,4 @@ namespace sunder {
 /// sweeps improve its best result. The energy that x adds, ½xᵀAx − xᵀb, is never more than 0.
 Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
-}  // namespace sunder
+}  // namespace sunder::solver

@@ -1,5 +1,5 @@
 // Even distribution of impulses over many contact points of two bodies, which a rigid-body solve
-// leaves undetermined. Internal to engine/world.
+// leaves undetermined. Internal to solver.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include "engine/base/types.h"
 
-namespace sunder {
+namespace sunder::solver {
 
 /// Normal impulse of a body on another at one contact point.
 struct PressedPoint {
@@ -21,4 +21,4 @@ struct PressedPoint {
 /// squares is least. The impulses stay unchanged if one of them would be negative.
 void spread_evenly(std::span<PressedPoint> points);
 
-}  // namespace sunder
+}  // namespace sunder::solver

@@ -1,13 +1,13 @@
-#include "engine/world/break/cluster_solve.h"
+#include "solver/impact/cluster_solve.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/nncg.h"
-#include "engine/world/break/complementarity.h"
+#include "solver/impact/complementarity.h"
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 constexpr std::size_t kMostExact = 48;  // contacts of a group that is solved exactly
@@ -158,4 +158,4 @@ ClusterMotion solve_cluster(const std::vector<ContactRow>& rows,
   return solved;
 }
 
-}  // namespace sunder
+}  // namespace sunder::solver

@@ -1,8 +1,8 @@
-#include "engine/world/break/probe_rows.h"
+#include "solver/impact/probe_rows.h"
 
 #include "engine/base/rotation.h"
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 /// Returns a row with this Jacobian of two bodies.
@@ -114,4 +114,4 @@ std::vector<ContactRow> make_joint_rows(const std::vector<ProbeBody>& bodies,
   return rows;
 }
 
-}  // namespace sunder
+}  // namespace sunder::solver

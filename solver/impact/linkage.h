@@ -8,9 +8,9 @@
 #include <Eigen/Cholesky>
 
 #include "engine/base/types.h"
-#include "engine/world/break/cluster_solve.h"
+#include "solver/impact/cluster_solve.h"
 
-namespace sunder {
+namespace sunder::solver {
 
 /// Joint rows J of bodies with the masses M. M⁻¹ becomes M⁻¹ − M⁻¹Jᵀ(J·M⁻¹·Jᵀ)⁻¹J·M⁻¹, which is
 /// exact for trees and closed loops and adds no energy.
@@ -35,4 +35,4 @@ class Linkage {
   Eigen::LLT<Eigen::MatrixXd> coupling_;
 };
 
-}  // namespace sunder
+}  // namespace sunder::solver
