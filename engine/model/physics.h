@@ -21,6 +21,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,6 +31,7 @@
 #include "engine/geometry/convex_polyhedron.h"
 #include "engine/model/body_states.h"
 #include "engine/model/energy.h"
+#include "engine/model/impact_probe.h"
 #include "engine/model/joint.h"
 #include "engine/model/section.h"
 #include "engine/model/work.h"
@@ -221,6 +223,8 @@ class Physics {
     }
     return all;
   }
+  /// Returns a probe of the impacts on a cluster within the step. Any thread may call it.
+  virtual std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const = 0;
   /// Puts a body into a state of motion and wakes it; static bodies ignore it. Kinematic ones keep
   /// to it through solves, with its velocities as they are, until they are told otherwise.
   virtual void set_state(BodyId body, const BodyState& state) = 0;

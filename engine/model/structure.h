@@ -119,8 +119,8 @@ double distance_outside(const Structure& structure, const Vec3& point_R);
 /// first of them.
 ConvexSlot nearest(const Structure& structure, const Vec3& point_R);
 
-/// Length of a ray inside a structure, from where it enters near `point_R` to the first gap; at
-/// most about `most_m`.
+/// Returns the length of a ray inside a structure, from the entry near `point_R` to the first gap;
+/// at most about `most_m`, 0 if the ray misses.
 double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
                        double most_m);
 

@@ -103,7 +103,7 @@ FramePtr Simulation::next() {
   StageClock clock;
   for (const WorkItem& item : world.physics->take_work()) world.ledger.work.add(item);
   auto frame = snapshot(world, particles, act.shots_to_come(world.scene),
-                        breaks.waiting() + loads.waiting());
+                        breaks.deferred() + loads.waiting());
   frame->report.work = world.ledger.work.take();
   clock.end(Stage::kSnapshot, frame->report);
   if (inspects) frame->inspection = sunder::inspect(world, *breaker, *frame);

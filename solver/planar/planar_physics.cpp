@@ -12,6 +12,7 @@
 #include "engine/base/trigonometry.h"
 #include "engine/model/work_log.h"
 #include "solver/base/check_bodies.h"
+#include "solver/impact/event_probe.h"
 #include "solver/planar/contact_listener.h"
 #include "solver/planar/planar_reports.h"
 #include "solver/planar/planar_touches.h"
@@ -34,6 +35,9 @@ class PlanarPhysics final : public Physics {
                               std::span<const BodyDesc> add) override;
   void edit(const BodyEdit& edit) override;
   void collide(double dt_s) override;
+  std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
+    return make_event_probe(std::move(cluster));
+  }
   std::vector<Approach> approaches() override;
   std::vector<Touch> touches(std::span<const BodyId> bodies) override;
   void set_state(BodyId body, const BodyState& state) override;

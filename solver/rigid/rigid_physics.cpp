@@ -9,6 +9,7 @@
 #include "engine/base/trace.h"
 #include "engine/model/work_log.h"
 #include "solver/base/check_bodies.h"
+#include "solver/impact/event_probe.h"
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/body/motion.h"
 #include "solver/rigid/body/paused.h"
@@ -44,6 +45,9 @@ class RigidPhysics final : public Physics {
                               std::span<const BodyDesc> add) override;
   void edit(const BodyEdit& edit) override;
   void collide(double dt_s) override;
+  std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
+    return make_event_probe(std::move(cluster));
+  }
   std::vector<Approach> approaches() override {
     return approaches_.find(contacts_, bodies_, shapes_, step_);
   }

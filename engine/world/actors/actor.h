@@ -12,6 +12,7 @@
 #include "engine/model/breaker.h"
 #include "engine/model/compound.h"
 #include "engine/model/frame.h"
+#include "engine/model/impact_probe.h"
 #include "engine/model/physics.h"
 #include "engine/model/structure.h"
 
@@ -39,20 +40,6 @@ struct StressState {
   /// No impact with less energy can overload it, as far as is known,
   double least_J = std::numeric_limits<double>::infinity();
   double least_Ns = 0;  ///< nor one with less impulse.
-};
-
-/// The energy, impulse and speed that an impact must exceed to break a body.
-struct ImpactLimits {
-  double by_pattern_J = 0, by_pattern_Ns = 0;  ///< Both are needed for a break by pattern.
-  double by_pattern_m_s = 0;                   ///< A break by pattern needs this speed,
-  double slow_J = 0;                           ///< or this energy where the impact is slower.
-  double by_stress_J = 0, by_stress_Ns = 0;    ///< Both are needed for a break by stress.
-
-  bool exceeded(double energy_J, double impulse_Ns, double speed_m_s) const {
-    const bool breaks = energy_J > by_pattern_J && impulse_Ns > by_pattern_Ns &&
-                        (speed_m_s > by_pattern_m_s || energy_J > slow_J);
-    return breaks || (energy_J > by_stress_J && impulse_Ns > by_stress_Ns);
-  }
 };
 
 /// Stands for a mesh that is not made yet: until the next snapshot, nobody looks.
@@ -95,7 +82,7 @@ struct Actor {
 };
 
 /// In place of an actor where there is none; kGroundKey is the body tag of the ground.
-inline constexpr std::uint32_t kNobodyKey = 0xfffffffe;
+inline constexpr std::uint32_t kNoActorKey = 0xfffffffe;
 
 inline double ball_radius_m(double volume_m3) {
   return std::cbrt(volume_m3 * 3 / (4 * std::numbers::pi));

@@ -37,7 +37,7 @@ struct Exposed {
 };
 
 /// Notes what a break laid bare, once it is carried out: `edit` was applied to `structure`, and its
-/// pieces are the actors with these keys (kNobodyKey: too small for one).
+/// pieces are the actors with these keys (kNoActorKey: too small for one).
 void note_exposed(World& world, const Structure& structure, const BreakEdit& edit,
                   const Motion& before, std::span<const std::uint32_t> piece_keys);
 /// Notes a piece that is too small to be a body.

@@ -115,7 +115,7 @@ struct Pieces {
                     const Motion& motion) {
     if (!is_body(world, compound, hinged)) {
       note_chip(world, compound, motion);
-      return kNobodyKey;
+      return kNoActorKey;
     }
     Actor& piece = actors.emplace_back(make_actor(world, compound));
     // What hangs on by a hinge is what it was to whoever strikes it.
@@ -203,7 +203,7 @@ std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit&
   const bool stays = parent.is_static && parent.structure.is_anchored();
 
   Pieces pieces;
-  std::vector<std::uint32_t> keys{stays ? parent.key : kNobodyKey};  // as exposed faces name them
+  std::vector<std::uint32_t> keys{stays ? parent.key : kNoActorKey};  // as exposed faces name them
   world.ledger.debris_mass_kg += stays ? left_kg : parent.weight.mass_kg;
   if (!stays && !parent.structure.empty()) {
     const Compound rest = parent.structure.compound();
@@ -248,7 +248,7 @@ std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit&
   join_hinges(world, parent, edit, pieces.actors, keys);
   if (!stays) world.actors.erase(world.actors.place_of(parent));
   for (Actor& piece : pieces.actors) world.actors.add(std::move(piece));
-  std::erase(keys, kNobodyKey);
+  std::erase(keys, kNoActorKey);
   return {keys.begin(), keys.end()};
 }
 
