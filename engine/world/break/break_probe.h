@@ -41,8 +41,8 @@ struct ProbeLoad {
   /// momentum flux (impulse × speed) of each contact.
   double speed_m_s = 0;
   std::uint32_t striker = 0;  ///< Index of the other body at the largest momentum flux.
-  std::vector<ProbeImpulse> impulses =
-      {};  ///< All simultaneous impulses on the body, supports included.
+  /// All simultaneous impulses on the body, supports included.
+  std::vector<ProbeImpulse> impulses = {};
 };
 
 /// Motion of a body at the start of the step that leads to the position and velocity that the body
@@ -61,6 +61,7 @@ struct ProbeBreak {
   double energy_J = 0;     ///< Energy that the break takes from the motion.
 };
 
+/// Event-driven prediction of the step of a cluster; see the head of this file.
 class BreakProbe {
  public:
   /// Contacts that close more slowly than `rest_speed_m_s` count as resting; contacts with a
@@ -123,15 +124,14 @@ class BreakProbe {
   double dt_s_;
   double rest_speed_m_s_;
   std::vector<BodyVelocity> gravity_;  ///< Per body: acceleration by gravity that the joints allow.
-  double least_J_ =
-      std::numeric_limits<double>::infinity();  ///< Smallest of the breakable bodies' least_J.
-  double softness_ = 0;                         ///< Contact softness: speed per impulse.
+  /// Smallest least_J of the breakable bodies.
+  double least_J_ = std::numeric_limits<double>::infinity();
+  double softness_ = 0;  ///< Contact softness: speed per impulse.
   double time_s_ = 0;
   int events_ = 0;
   std::uint64_t work_ = 0;
-  std::vector<BodyVelocity> velocities_;  ///< Per body, at time_s_.
-  std::vector<BodyVelocity>
-      displacements_;                ///< Displacement and rotation since the start of the step.
+  std::vector<BodyVelocity> velocities_;     ///< Per body, at time_s_.
+  std::vector<BodyVelocity> displacements_;  ///< Per body, since the start of the step.
   std::vector<std::uint8_t> falls_;  ///< Per body: true if it is in free fall since the last event.
   std::vector<double> fall_times_s_;     ///< Per body: total time in free fall.
   std::vector<std::uint8_t> moved_;      ///< Per body: true if an impulse has acted on it.

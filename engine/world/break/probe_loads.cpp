@@ -1,5 +1,4 @@
-// Impact loads on breakable bodies in an event of a break probe, and the impulses that make them
-// up: the part of BreakProbe behind loads().
+// The part of BreakProbe behind loads(): impact loads on breakable bodies in an event.
 #include <algorithm>
 #include <map>
 #include <utility>

@@ -1,5 +1,5 @@
-// Input of a break probe (bodies, contacts and joints at the start of the step), and the constraint
-// rows of contacts and joints at later poses of the bodies.
+// Input of a break probe: bodies, contacts and joints at the start of the step; and the constraint
+// rows of contacts and joints at later poses.
 #pragma once
 
 #include <cstdint>
