@@ -14,11 +14,11 @@
 
 namespace sunder {
 
-/// The energy, impulse and speed that an impact must exceed to break a body.
+/// Energy, impulse and speed that an impact must exceed to break a body.
 struct ImpactLimits {
   double by_pattern_J = 0, by_pattern_Ns = 0;  ///< Both are needed for a break by pattern.
   double by_pattern_m_s = 0;                   ///< A break by pattern needs this speed,
-  double slow_J = 0;                           ///< or this energy where the impact is slower.
+  double slow_J = 0;                           ///< or this energy if the impact is slower.
   double by_stress_J = 0, by_stress_Ns = 0;    ///< Both are needed for a break by stress.
 
   bool exceeded(double energy_J, double impulse_Ns, double speed_m_s) const {
@@ -102,8 +102,8 @@ struct ProbeLoad {
   /// momentum flux (impulse × speed) of each contact.
   double speed_m_s = 0;
   std::uint32_t striker = 0;  ///< Index of the other body at the largest momentum flux.
-  std::vector<ProbeImpulse> impulses =
-      {};  ///< All simultaneous impulses on the body, supports included.
+  /// All simultaneous impulses on the body, supports included.
+  std::vector<ProbeImpulse> impulses = {};
 };
 
 /// Motion of a body at the start of the step that leads to the position and velocity that the body

@@ -14,17 +14,15 @@ namespace sunder::solver {
 namespace {
 
 constexpr int kMostEvents = 24;
-// Number of events that are taken in order of time. Each later event is the contact with the most
-// closing energy in the rest of the step, solved together with the contacts that close before it,
-// so that a ball behind much debris is still found.
+// Events that are taken in order of time. Each later one is the contact with the most closing
+// energy in the rest of the step, with all that close before it: a ball behind debris is still
+// found.
 constexpr int kSingleEvents = 12;
-// Bound on a contact's closing speed after other contacts were solved, relative to the highest
-// closing speed of the event.
+// Bound on closing speeds after other contacts were solved, relative to the event's highest.
 constexpr double kMaxSpeedUp = 2;
 // A contact with less than this share of least_J_ as closing energy starts no event.
 constexpr double kMinEventShare = 0.1;
-// Contact softness, relative to the inverse mass of the heaviest body: several supports share a
-// load.
+// Contact softness relative to the inverse mass of the heaviest body, so that supports share loads.
 constexpr double kSoftness = 1e-5;
 // A body that joints leave less than this share of the acceleration by gravity hangs at rest.
 constexpr double kHangingShare = 1e-4;
@@ -116,8 +114,7 @@ void EventProbe::find_falling() {
   }
 }
 
-/// Returns the time until the next contact closes with enough energy for an event; infinite if
-/// there is none.
+/// Returns the time until the next event; infinite if there is none.
 double EventProbe::time_to_next_event_s() const {
   double wait = std::numeric_limits<double>::infinity(), hardest = 0;
   std::vector<BodyVelocity> acceleration(bodies_.size());

@@ -71,15 +71,14 @@ class EventProbe final : public ImpactProbe {
   double dt_s_;
   double rest_speed_m_s_;
   std::vector<BodyVelocity> gravity_;  ///< Per body: acceleration by gravity that the joints allow.
-  double least_J_ =
-      std::numeric_limits<double>::infinity();  ///< Smallest of the breakable bodies' least_J.
-  double softness_ = 0;                         ///< Contact softness: speed per impulse.
+  /// Smallest least_J of the breakable bodies.
+  double least_J_ = std::numeric_limits<double>::infinity();
+  double softness_ = 0;  ///< Contact softness: speed per impulse.
   double time_s_ = 0;
   int events_ = 0;
   std::uint64_t work_ = 0;
-  std::vector<BodyVelocity> velocities_;  ///< Per body, at time_s_.
-  std::vector<BodyVelocity>
-      displacements_;                ///< Displacement and rotation since the start of the step.
+  std::vector<BodyVelocity> velocities_;     ///< Per body, at time_s_.
+  std::vector<BodyVelocity> displacements_;  ///< Per body, since the start of the step.
   std::vector<std::uint8_t> falls_;  ///< Per body: true if it is in free fall since the last event.
   std::vector<double> fall_times_s_;     ///< Per body: total time in free fall.
   std::vector<std::uint8_t> moved_;      ///< Per body: true if an impulse has acted on it.

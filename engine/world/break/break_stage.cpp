@@ -174,7 +174,7 @@ std::vector<Trial> postpone_conflicts(const World& world, std::vector<Trial>& tr
 PlannedBreak planned_by_blast(const Actor& actor, const Impact& impact) {
   PlannedBreak planned;
   planned.impact = impact;
-  planned.impulses = impact.pushes;
+  planned.impulses = impact.impulses;
   std::erase_if(planned.impulses,
                 [&](const Load& push) { return !actor.structure.has(push.convex); });
   for (const Load& push : planned.impulses) planned.impulse_Ns += push.force_N.norm();
@@ -230,7 +230,7 @@ bool retarget(const World& world, std::uint32_t root_key, Impact& impact) {
     least_m = distance_m;
     impact.key = actor.key;
     impact.convex = nearest(actor.structure, point_R);
-    impact.pushes.clear();  // they acted on convexes that are gone
+    impact.impulses.clear();  // they acted on convexes that are gone
   }
   return std::isfinite(least_m);
 }

@@ -88,8 +88,8 @@ class BreakStage {
   bool resolve(World& world, const Breaker& breaker, std::vector<Trial> trials, bool rounds_left);
 
   BreakBudget budget_;
-  std::set<std::uint64_t>
-      unbroken_probes_;  ///< Fingerprints of this step's probes without a break.
+  /// Fingerprints of this step's probes without a break.
+  std::set<std::uint64_t> unbroken_probes_;
   std::vector<Impact> deferred_blast_impacts_;  ///< Over the frame's budget: first in the next.
   WaitingRoom waiting_room_;
 };

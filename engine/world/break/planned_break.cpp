@@ -281,7 +281,7 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         planned.by_stress = false;
       if (planned.by_stress) {
         std::vector<Load> loads;
-        LoadCase load = bearing(world, actor, states[actor.body].X_WB.rotation, loads);
+        LoadCase load = make_load_case(world, actor, states[actor.body].X_WB.rotation, loads);
         const Convex& convex = *actor.structure.convex(planned.impact.convex);
         const bool has_pattern = world.material(convex.material).breakable();
         const std::uint64_t bonds = actor.structure.bond_count() + 1;
@@ -300,7 +300,8 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
 
 Outcome outcome_of(const World& world, const PlannedBreak& planned, std::size_t pieces_planned) {
   if (!planned.breaks) return Outcome::kHolds;
-  return has_room(world, planned.edit, pieces_planned) ? Outcome::kBreaks : Outcome::kBodyLimit;
+  return fits_body_limit(world, planned.edit, pieces_planned) ? Outcome::kBreaks
+                                                              : Outcome::kBodyLimit;
 }
 
 void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) {
@@ -337,7 +338,7 @@ void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
   const Convex& broken = planned.at_bonds && !bare.empty()
                              ? planned.edit.exposed_convex(actor.structure, bare[0])
                              : *actor.structure.convex(impact.convex);
-  BreakEvent event = break_of(world, actor, broken.material);
+  BreakEvent event = make_break_event(world, actor, broken.material);
   event.point_W = impact.point_W;
   event.energy_J = planned.needed_J;
   event.new_area_m2 = area_m2(planned);

@@ -25,6 +25,7 @@ struct SweptPrism {
   double thickness_m = 0;
 };
 
+/// An impact on an actor with the plans of both modes, and the mode chosen of them.
 struct PlannedBreak {
   Impact impact;
   std::uint32_t load = 0;               ///< Index in the loads of the probe.

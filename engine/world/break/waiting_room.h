@@ -29,7 +29,7 @@ class WaitingRoom {
   /// Removes the first clusters from the queue, so that they are probed again.
   void release_first();
   bool queue_empty() const { return queue_.empty(); }
-  /// Must be called when contacts have been found anew.
+  /// To be called when contacts have been found anew.
   void invalidate_driven() { driven_.reset(); }
   /// Returns true if no body of a cluster is in contact, direct or through others, with a moving
   /// kinematic body.
