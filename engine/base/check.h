@@ -8,7 +8,7 @@
 namespace sunder {
 
 /// Bad input from the user. `what()` names the file, the line if known, and the remedy. The program
-/// prints this text and exits with code 2.
+/// prints it and exits with code 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -6,8 +6,8 @@
 
 namespace sunder {
 
-/// Returns the slope at a key from the slopes of the chords before and after it, whose durations
-/// are `before_s` and `after_s`. A component is 0 where it changes direction or one chord is level.
+/// Returns the slope at a key from those of the chords before and after, of durations `before_s`
+/// and `after_s`; 0 in components that turn back or where a chord is level.
 template <class Vector>
 Vector slope_between(const Vector& before, double before_s, const Vector& after, double after_s) {
   const double weight = (before_s + 2 * after_s) / (3 * (before_s + after_s));

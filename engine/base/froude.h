@@ -1,6 +1,6 @@
 // Reference speeds and times for bodies of a given size, by Froude scaling. Tolerances of motion
 // derive from these and the time step, not from fixed lengths, so that behaviour does not depend on
-// the scale of the scene (docs/decisions/034-tolerances-scale.md).
+// scale (decision 034).
 #pragma once
 
 #include <algorithm>

@@ -17,8 +17,7 @@ namespace sunder {
 void set_threads(int count);
 /// Returns the number of threads of parallel loops.
 int threads();
-/// Returns true if a loop started now could use other threads: there is more than one thread, and
-/// the caller is not within a parallel loop.
+/// Returns true if other threads could take part in a loop that this thread starts now.
 bool may_share_work();
 
 namespace detail {

@@ -1,5 +1,4 @@
-// Counter-based random numbers. A value depends on (seed, stream, counter) only, so any thread may
-// compute any value.
+// Counter-based random numbers: a value depends on (seed, stream, counter) only.
 #pragma once
 
 #include <cmath>

@@ -103,11 +103,9 @@ struct Gloss {
 struct Paint {
   Vec3f color = Vec3f::Ones();  ///< Linear RGB.
   Picture picture;              ///< Base colour texture, multiplied by `color`.
-  /// True if the texture coordinate v is 0 at the bottom row of an image (OBJ), false if at the top
-  /// row (glTF).
+  /// True if v = 0 is the bottom row of an image (as in OBJ), false if the top row (glTF).
   bool from_below = false;
-  /// Normal map (red to the right of the image, green up, blue out of the face); a bump map if all
-  /// of its pixels are grey.
+  /// Normal map (red: right in the image, green: up, blue: outward), or a bump map if it is grey.
   Picture relief = nullptr;
   float relief_scale = 1;                     ///< Factor on the slopes of `relief`.
   std::optional<Gloss> gloss = std::nullopt;  ///< None: diffuse colour only.
