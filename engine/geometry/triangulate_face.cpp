@@ -82,7 +82,7 @@ class FaceTriangulator {
     for (Loop& loop : outer_) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const Vec2 &a = at(loop[i]), &b = at(loop[(i + 1) % loop.size()]);
-        if (!(a.y() <= from.y() && b.y() > from.y())) continue;  // its inside is not on the left
+        if (!(a.y() <= from.y() && b.y() > from.y())) continue;  // no upward edge at this height
         const double x = a.x() + (from.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
         if (x < from.x() || x >= nearest) continue;
         nearest = x;
