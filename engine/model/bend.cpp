@@ -11,14 +11,14 @@
 namespace sunder {
 namespace {
 
-// Of the sides of a mitre at its sharpest, 75°: how far from the centroid its tip is, in parts of
-// the section's reach.
+// Distance of a mitre's tip from the section's centroid, over the section's reach, at the sharpest
+// mitre, 75°.
 constexpr double kFarthest = 4;
-constexpr double kSame = 1e-6;  // areas of faces that cover each other
-// Of the faces that a section is of, how much it is of at least, for these to end with it.
+constexpr double kSame = 1e-6;  // relative tolerance of areas of faces that cover each other
+// Least share of its faces' area that a section must cover for the faces to end with it.
 constexpr double kWhole = 0.9;
 
-/// Whether a section is all of the faces that it is of.
+/// True if a section covers all of the faces that it is on.
 bool is_whole(const BentSide& side) {
   SUNDER_CHECK(side.slots.size() == side.areas_m2.size());
   std::set<std::pair<std::uint32_t, std::uint32_t>> counted;
@@ -32,7 +32,7 @@ bool is_whole(const BentSide& side) {
   return bonds_m2 > kWhole * all_m2;
 }
 
-/// What the plane of a wall is called; none if it has several.
+/// Returns the id of the plane of a wall's faces; none if they lie in several.
 PlaneId name_of(const BentSide& wall) {
   const auto id = [&](std::size_t i) {
     return wall.structure.convex(ConvexSlot(wall.slots[i]))->polyhedron.faces[wall.faces[i]].id;
@@ -66,7 +66,7 @@ class SideEnder {
   }
 
  private:
-  /// The face of a convex that looks most the other way.
+  /// Returns the face of a convex that is most opposite to another.
   std::uint32_t back_of(const Convex& convex, std::uint32_t front) const {
     const auto& faces = convex.polyhedron.faces;
     const auto along = [&](const ConvexPolyhedron::Face& face) {
@@ -75,7 +75,7 @@ class SideEnder {
     return static_cast<std::uint32_t>(std::ranges::min_element(faces, {}, along) - faces.begin());
   }
 
-  /// The convex behind one, if what they share is the whole of a face of both.
+  /// Returns the link to the convex behind another, if they share the whole of a face of both.
   const Link* behind(ConvexSlot slot, std::uint32_t front) const {
     const Convex& convex = *structure_.convex(slot);
     const std::uint32_t back = back_of(convex, front);
@@ -98,7 +98,7 @@ class SideEnder {
     });
   }
 
-  /// Ends the convexes behind one face of the section.
+  /// Ends the column of convexes behind one face of the section at the midplane.
   void end_column(ConvexSlot slot, std::uint32_t front) {
     std::vector<ColumnCell> column;
     std::vector<ConvexSlot> slots;
@@ -135,7 +135,7 @@ class SideEnder {
     return std::ranges::find(side_.slots, slot.value) != side_.slots.end();
   }
 
-  /// What the midplane reaches beside and behind the columns.
+  /// Cuts convexes beside and behind the columns at the midplane.
   void cut_behind() {
     std::vector<ConvexSlot> heap;
     const auto add_around = [&](ConvexSlot slot) {

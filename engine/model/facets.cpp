@@ -1,4 +1,4 @@
-// Read first: make_facets().
+// Begin with make_facets().
 #include "engine/model/facets.h"
 
 #include <algorithm>
@@ -12,9 +12,10 @@
 namespace sunder {
 namespace {
 
-constexpr double kDepth = 0.05;          // of the surface's diagonal, at least
-constexpr double kLeastDepth = 1e-3;     // of that depth, where sides meet at an edge
-constexpr double kCreaseCosine = 0.766;  // 40 degrees, as of other meshes
+constexpr double kDepth = 0.05;  // least depth of facets, over the surface's diagonal
+// least depth of one facet, over the largest, where sides meet at an edge
+constexpr double kLeastDepth = 1e-3;
+constexpr double kCreaseCosine = 0.766;  // cosine of 40 degrees, as for other meshes
 constexpr std::size_t kDrawnTogether = 16384;
 constexpr std::size_t kChunk = 256;
 
@@ -41,14 +42,14 @@ class Surface {
   std::vector<Vec3> normals_;
 };
 
-/// Edge `side` of a triangle, from corner to corner.
+/// Edge `side` of a triangle, to the next corner.
 struct HalfEdge {
-  std::uint32_t least, most;  ///< Its vertices.
+  std::uint32_t least, most;  ///< Its vertices, ascending.
   std::uint32_t triangle, side;
   auto operator<=>(const HalfEdge&) const = default;
 };
 
-/// How `other` goes on beyond an edge of a triangle.
+/// Returns the angle, as in FacetBends, by which `other` bends away beyond an edge of a triangle.
 Vec2 bend_to(const Surface& surface, const HalfEdge& edge, std::size_t other) {
   const Vec3 &n = surface.normal(edge.triangle), &m = surface.normal(other);
   const Vec3 along =
@@ -76,7 +77,8 @@ std::vector<FacetBends> bends_of(const GroundMesh& ground, const Surface& surfac
                                    [&](const HalfEdge& e) { return ends(e) != ends(*first); });
     for (auto edge = first; edge != last; ++edge) {
       Vec2& bend = bends[edge->triangle][edge->side];
-      for (auto other = first; other != last; ++other) {  // where three meet, the least bend
+      // an edge of three or more triangles has the smallest angle
+      for (auto other = first; other != last; ++other) {
         if (other == edge) continue;
         const Vec2 to = bend_to(surface, *edge, other->triangle);
         if (to.y() < bend.y()) bend = to;
@@ -87,7 +89,7 @@ std::vector<FacetBends> bends_of(const GroundMesh& ground, const Surface& surfac
   return bends;
 }
 
-/// How far behind a point the surface is seen from behind, up to `most_m`.
+/// Returns the distance behind a point at which the surface is met from its back; at most `most_m`.
 double room_behind(const Surface& surface, const Bvh& tree, std::size_t t, const Vec3& point,
                    double most_m, std::vector<std::uint32_t>& near) {
   const Vec3 down = -surface.normal(t);
@@ -114,7 +116,7 @@ double room_behind(const Surface& surface, const Bvh& tree, std::size_t t, const
   return room_m;
 }
 
-/// What depth the facets have where there is room.
+/// Returns the depth of facets where the solid is thick enough.
 double depth_of(const Surface& surface) {
   Box box;
   double lengths_m = 0;
@@ -155,8 +157,8 @@ ConvexPolyhedron prism_behind(const Surface& surface, std::size_t t, double dept
   return prism;
 }
 
-/// Shading normals of the triangles' corners: the mean of the faces around a vertex that no crease
-/// parts from their own.
+/// Returns shading normals of the triangles' corners: the mean, weighted by area, of the faces
+/// around a vertex that no crease separates from the triangle.
 std::vector<std::array<Vec3f, 3>> corner_normals(const GroundMesh& ground, const Surface& surface) {
   std::vector<std::vector<std::uint32_t>> around(ground.vertices_W.size());
   for (std::uint32_t t = 0; t < surface.size(); ++t)
@@ -207,7 +209,8 @@ std::vector<std::shared_ptr<const Mesh>> make_meshes(const GroundMesh& ground) {
     for (std::size_t t = first; t < last; ++t)
       for (std::size_t i = 0; i < 3; ++i) box.extend(surface.corner(t, i));
     mesh->origin_T = box.center();
-    std::unordered_map<std::uint32_t, std::uint32_t> latest;  // drawn, of each of its vertices
+    // latest drawn vertex of each ground vertex
+    std::unordered_map<std::uint32_t, std::uint32_t> latest;
     for (std::size_t t = first; t < last; ++t) {
       for (std::size_t i = 0; i < 3; ++i) {
         const auto next = static_cast<std::uint32_t>(mesh->vertices.size());

@@ -12,16 +12,17 @@
 namespace sunder {
 namespace {
 
-// A face counts as covered when less than this part of it shows: bond areas carry rounding.
+// Least covered fraction of a face that counts as covered; bond areas have rounding errors.
 constexpr double kCovered = 1 - 1e-6;
 
-/// What overlaps what, directly or over others, found out where somebody asks.
+/// Groups of convexes that overlap, directly or through others; computed on demand.
 class Heaps {
  public:
   explicit Heaps(const Structure& structure) : structure_(structure) {}
 
-  /// The lowest slot that a convex overlaps; none() if it overlaps none. Faces beyond which two of
-  /// a heap lie are covered by the larger: nobody knows how far both cover it.
+  /// Returns the lowest slot of a convex's group; none() if it overlaps no other convex. Where
+  /// several convexes of a group lie beyond a face, only the largest bond counts as cover, since
+  /// the overlap of their areas is unknown.
   ConvexSlot of(ConvexSlot slot) {
     if (structure_.ghosts_of(slot).empty()) return {};
     if (const auto known = lowest_.find(slot.value); known != lowest_.end()) return known->second;
@@ -55,7 +56,7 @@ std::vector<std::uint8_t> covered_faces(const ConvexPolyhedron& polyhedron,
   return covered;
 }
 
-/// Marks the faces whose caps are covered: of a surface convex, caps are what touches.
+/// Returns flags of the faces of a surface convex whose caps are covered.
 std::vector<std::uint8_t> covered_caps(const Convex& convex,
                                        const std::vector<double>& covered_m2) {
   const auto& faces = convex.polyhedron.faces;
@@ -73,7 +74,7 @@ std::vector<std::uint8_t> covered_caps(const Convex& convex,
   return covered;
 }
 
-/// From the origin of a mesh, in the frame that it is painted in.
+/// Returns a point relative to the origin of a mesh, in its texture frame.
 Vec3f place_T(const Mesh& mesh, const Vec3& point_R) {
   return (mesh.X_RT.inverse() * point_R - mesh.origin_T).cast<float>();
 }
@@ -107,14 +108,15 @@ bool is_hidden(const Convex& convex, const std::vector<std::uint8_t>& hidden, Pl
   return false;
 }
 
-/// The triangles of a visual mesh; corners that look alike share a vertex.
+/// Adds the triangles of a visual mesh; corners of equal appearance share a vertex.
 void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, Mesh& mesh) {
   constexpr std::uint32_t kNone = 0xffffffff;
   const PolygonMesh& visual = *convex.visual;
   const bool textured = !visual.corner_uvs.empty() &&
                         std::any_of(visual.faces.begin(), visual.faces.end(),
                                     [](const PolygonMesh::Face& face) { return face.mark > 0; });
-  std::vector<std::uint32_t> latest(visual.vertices.size(), kNone);  // of each of its vertices
+  // latest drawn vertex of each visual vertex
+  std::vector<std::uint32_t> latest(visual.vertices.size(), kNone);
   for (std::size_t f = 0; f < visual.faces.size(); ++f) {
     const PolygonMesh::Face& face = visual.faces[f];
     if (!face.id.none() && is_hidden(convex, hidden, face.id)) continue;
@@ -147,7 +149,7 @@ std::vector<std::vector<std::uint8_t>> hidden_faces(const Structure& structure,
   std::vector<std::vector<std::uint8_t>> hidden;
   hidden.reserve(slots.size());
   std::vector<double> covered_m2;
-  std::map<std::pair<std::uint32_t, ConvexSlot>, double> most_m2;  // by face and heap beyond
+  std::map<std::pair<std::uint32_t, ConvexSlot>, double> most_m2;  // key: face, and group beyond it
   for (const ConvexSlot slot : slots) {
     const Convex& convex = *structure.convex(slot);
     covered_m2.assign(convex.polyhedron.faces.size(), 0.0);

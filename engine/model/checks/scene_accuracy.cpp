@@ -12,26 +12,29 @@
 namespace sunder {
 namespace {
 
-constexpr double kSink = 1.55;   // measured: sink over load·g·h²
-constexpr double kReach = 0.02;  // of a body's size: what is so near touches
-constexpr double kAbove = 0.25;  // of the smaller height: centres so far apart are above each other
-// A chain of blocks on springs of rotation buckles so (docs/decisions/027); near that
-// it takes a minute to.
+constexpr double kSink = 1.55;   // penetration over load·g·h²; measured (docs/decisions/027)
+constexpr double kReach = 0.02;  // distance over a body's size within which bodies touch
+// least height difference of centres, over the smaller size, of bodies on each other
+constexpr double kAbove = 0.25;
+// Buckling limits of a chain of blocks on rotational springs (docs/decisions/027), of size/N² in
+// penetration. Close to the limit, buckling takes a minute.
 constexpr double kBuckleSelf = 1.96, kBuckleLoaded = 0.62;
-constexpr double kDeepest = 0.02;  // of a body's size
-constexpr double kCrushed = 0.5;   // of it: what is deeper in may be let through
+constexpr double kDeepest = 0.02;  // largest penetration over a body's size for a stack to stand
+// penetration over a body's size beyond which bodies may pass through each other
+constexpr double kCrushed = 0.5;
 constexpr double kFrame_s = 1.0 / 60;
 constexpr double kFloat = std::numeric_limits<float>::epsilon();
-constexpr double kFarthest_m = 32768;  // engine/io/particle_codes.cpp: 2^22 steps of 1/128 m
+// limit in engine/io/particle_codes.cpp: 2^22 steps of 1/128 m
+constexpr double kFarthest_m = 32768;
 
-/// A body that can move, as far as it matters here.
+/// A movable body, reduced to its box.
 struct Block {
   std::string name;
   Box box;
-  double height = 0;  ///< Of its centre, against gravity.
+  double height = 0;  ///< Height of its centre, against gravity.
   double mass_kg = 0;
   double size_m = 0;
-  double tilt_1_m = 0;  ///< Its height over its narrower width squared: a wide brick tilts less.
+  double tilt_1_m = 0;  ///< Height over squared narrower width.
 };
 
 std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
@@ -64,7 +67,7 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
   return blocks;
 }
 
-/// What each block stands on.
+/// Returns for each block the blocks below that it touches.
 std::vector<std::vector<std::uint32_t>> supports(const std::vector<Block>& blocks) {
   std::vector<Box> boxes;
   for (const Block& block : blocks) boxes.push_back(block.box);
@@ -187,7 +190,7 @@ std::string crush_warning(const Scene& scene, int most_substeps) {
   const std::vector<Block> blocks = blocks_of(scene, -scene.gravity_W.normalized());
   if (blocks.size() < 2) return {};
   const Block& heavy = *std::ranges::max_element(blocks, {}, &Block::mass_kg);
-  // What sinks in by the largest part of its size is the lightest for it.
+  // The body with the largest penetration over its size has the least mass times size.
   const Block& light = *std::ranges::min_element(
       blocks, {}, [](const Block& block) { return block.mass_kg * block.size_m; });
   const double ratio = heavy.mass_kg / light.mass_kg, g = scene.gravity_W.norm();

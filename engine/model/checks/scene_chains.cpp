@@ -12,16 +12,17 @@
 namespace sunder {
 namespace {
 
-constexpr double kSwing = 3;  // weights that a chain bears at the lowest point, let go level
-// h²·K/I of a link that still holds, by measurement: with the damping of joints that turn, and of
-// rods and ropes, whose ends are not damped.
+// tension over weight at the lowest point of a pendulum released from the horizontal
+constexpr double kSwing = 3;
+// Largest stable h²·K/I, as measured: for rotational joints, which are damped, and for rods and
+// ropes, whose ends are not.
 constexpr double kMostTurning = 200, kMostRods = 1;
 
-/// A thing that may hang.
+/// A body that may hang.
 struct Body {
   std::string name;
   double mass_kg = 0;
-  double inertia_kg_m2 = 0;  ///< The least.
+  double inertia_kg_m2 = 0;  ///< About the axis of second largest inertia, for links.
   Vec3 center_W = Vec3::Zero();
   bool moves = true;
 };
@@ -29,7 +30,7 @@ struct Body {
 Body body_of(const Solid& solid, const Scene& scene) {
   const Weight weight = weigh(solid.compound, scene.materials);
   const Vec3 diagonal = weight.inertia_R.diagonal();
-  // A rod's about its own axis does not matter to what turns it by its end.
+  // The moment of inertia about a rod's own axis does not matter: forces at its end turn it across.
   const double across = diagonal.sum() - diagonal.minCoeff() - diagonal.maxCoeff();
   return {solid.name, weight.mass_kg, across, solid.X_WR * weight.com_R,
           !solid.compound.is_anchored()};
@@ -40,8 +41,8 @@ Body body_of(const Ball& ball, const Scene& scene) {
   return {ball.name, mass, 0.4 * mass * ball.radius_m * ball.radius_m, ball.center_W};
 }
 
-/// h²·K/I at h = 1 s, over what holds: of what hangs by a joint, at its end there, and bears a
-/// pull.
+/// Returns h²·K/I at h = 1 s over its stable limit, for a link under tension `pull_N` whose joint
+/// is at `end_W`.
 double need(const Joint& joint, const Vec3& end_W, const Body& link, double pull_N) {
   if (joint.kind == JointKind::kFixed) return 0;
   const double turns = 2 * pull_N * (end_W - link.center_W).norm() / link.inertia_kg_m2;
@@ -52,7 +53,7 @@ double need(const Joint& joint, const Vec3& end_W, const Body& link, double pull
   return turns / kMostTurning;
 }
 
-/// Bodies and joints, and what hangs from what.
+/// Finds chains in a graph of bodies and joints.
 class Hanging {
  public:
   Hanging(const Scene& scene, std::vector<Body> bodies, std::span<const Joint> joints)
@@ -62,7 +63,7 @@ class Hanging {
         joints_(joints),
         seen_(bodies_.size(), 0) {}
 
-  /// A chain for each joint to what cannot move.
+  /// Appends one chain for each joint to a static body.
   void find(std::vector<ChainLink>& chains) {
     for (const Joint& joint : joints_) {
       const bool fixed_a = fixed(joint.a), fixed_b = fixed(joint.b);
@@ -81,7 +82,7 @@ class Hanging {
  private:
   bool fixed(const std::optional<std::uint32_t>& end) const { return !end || !bodies_[*end].moves; }
 
-  /// Everything that hangs by `joint`, from `top` on, each before what it hangs from.
+  /// Finds the worst link among all bodies that hang by `joint`, in an order from `top` down.
   void hang(std::uint32_t top, const Joint& joint) {
     std::vector<std::pair<std::uint32_t, const Joint*>> order = {{top, &joint}};
     std::vector<std::size_t> above = {0};
@@ -102,7 +103,7 @@ class Hanging {
       const Body& link = bodies_[order[at].first];
       load_kg[at] += link.mass_kg;
       if (at > 0) load_kg[above[at]] += load_kg[at];
-      // What nothing hangs from swings, and has nothing to be thrown about by.
+      // A link with nothing below it only swings; no load amplifies its motion.
       if (load_kg[at] == link.mass_kg) continue;
       const Joint& by = *order[at].second;
       const bool rod = by.kind == JointKind::kDistance || by.kind == JointKind::kRope;
@@ -122,7 +123,7 @@ class Hanging {
   double worst_need_ = 0;
 };
 
-/// The chain of a wrecking ball as it will be made.
+/// Appends the chain of a wrecking ball, with the joints it will have.
 void find_chain(const Scene& scene, const Shot& shot, std::vector<ChainLink>& chains) {
   std::vector<Body> bodies;
   std::vector<Joint> joints;

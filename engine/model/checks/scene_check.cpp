@@ -1,4 +1,4 @@
-// Read first: check_scene(), at the end.
+// Begin with check_scene(), at the end.
 #include "engine/model/checks/scene_check.h"
 
 #include <algorithm>
@@ -34,6 +34,7 @@ std::string item(const char* list, std::size_t i) {
   return std::string(list) + "[" + std::to_string(i) + "]";
 }
 
+// Largest length, coefficient or other number, and largest time, that a scene may have.
 constexpr double kFar = 1e9, kLong_s = 1e7;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -225,7 +226,7 @@ class SceneCheck {
              "one of the " + std::to_string(count) + " that it may be of");
   }
 
-  /// Returns true if the box holds the centroid of an anchored convex of a solid that stands.
+  /// Returns true if the box contains the centroid of an anchored convex of a solid.
   bool has_anchors(const Box& box_W) const {
     return std::ranges::any_of(scene_.solids, [&](const Solid& solid) {
       for (std::size_t c = 0; c < solid.compound.convexes.size(); ++c) {
