@@ -12,7 +12,7 @@ namespace sunder {
 namespace {
 
 // largest thickness of thin convexes over the cube root of their volume
-constexpr double kThin = 0.25;
+constexpr double kMaxThinness = 0.25;
 
 /// Calls visit(convex, sign) for every convex, and for every ghost that counts in sums.
 template <class Visit>
@@ -47,7 +47,7 @@ double mean_thickness_m(const Convex& convex) {
 }
 
 bool is_thin(const Convex& convex) {
-  return mean_thickness_m(convex) < kThin * std::cbrt(convex.solid.volume_m3);
+  return mean_thickness_m(convex) < kMaxThinness * std::cbrt(convex.solid.volume_m3);
 }
 
 bool Compound::is_anchored() const {

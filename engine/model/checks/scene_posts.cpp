@@ -15,15 +15,15 @@
 namespace sunder {
 namespace {
 
-constexpr double kSlender = 4;            // least height over narrowest width of a post's box
-constexpr double kLeastSlenderness = 30;  // least effective length over radius of gyration
-constexpr double kTouch = 0.02;    // largest gap, over the smaller width, across which a body rests
-constexpr double kUpright = 1e-3;  // largest share of gravity across the axis of posts
-constexpr std::size_t kLevels = 32;  // number of sections along a post
-constexpr int kIterations = 12;      // each divides the error of the shape by 9, for a prism
+constexpr double kMinHeightToWidth = 4;  // least height over narrowest width of a post's box
+constexpr double kMinSlenderness = 30;   // least effective length over radius of gyration
+constexpr double kMaxGap = 0.02;  // largest gap, over the smaller width, across which a body rests
+constexpr double kMaxObliquity = 1e-3;  // largest share of gravity across the axis of posts
+constexpr std::size_t kLevels = 32;     // number of sections along a post
+constexpr int kIterations = 12;         // each divides the error of the shape by 9, for a prism
 // Load on the head that is equivalent to self-weight, over the self-weight: 9.87/4/7.84 with a free
 // head, 9.87/18.6 with a held one (Timoshenko and Gere, chapter 2).
-constexpr double kOwnWeightFree = 0.315, kOwnWeightHeld = 0.53;
+constexpr double kSelfWeightFree = 0.315, kSelfWeightHeld = 0.53;
 
 /// The axis of gravity, and the two across it.
 struct Axes {
@@ -38,7 +38,7 @@ std::optional<Axes> axes_of(const Scene& scene) {
   const double most = scene.gravity_W.cwiseAbs().maxCoeff(&axes.up);
   axes.a = (axes.up + 1) % 3, axes.b = (axes.up + 2) % 3;
   const double across = std::hypot(scene.gravity_W[axes.a], scene.gravity_W[axes.b]);
-  if (across > kUpright * most) return {};
+  if (across > kMaxObliquity * most) return {};
   axes.sign = scene.gravity_W[axes.up] < 0 ? 1 : -1;
   return axes;
 }
@@ -55,7 +55,7 @@ struct Body {
   std::vector<Vec2> places;  ///< Points of support on the bodies in `below`, across.
 };
 
-Vec3 turned(const Vec3& point_W, const Axes& axes) {
+Vec3 to_axes(const Vec3& point_W, const Axes& axes) {
   return {point_W[axes.a], point_W[axes.b], axes.sign * point_W[axes.up]};
 }
 
@@ -67,16 +67,16 @@ std::vector<Body> bodies_of(const Scene& scene, const Axes& axes) {
     Body& body = bodies.emplace_back();
     for (const ConvexPtr& convex : solid.compound.convexes)
       for (const Vec3& corner : convex->polyhedron.vertices)
-        body.box.extend(turned(solid.X_WR * corner, axes));
+        body.box.extend(to_axes(solid.X_WR * corner, axes));
     const Weight weight = weigh(solid.compound, scene.materials);
     body.mass_kg = weight.mass_kg;
-    body.center = turned(solid.X_WR * weight.com_R, axes).head<2>();
+    body.center = to_axes(solid.X_WR * weight.com_R, axes).head<2>();
     body.held = solid.compound.is_anchored();
-    body.slender = body.box.extent().z() >= kSlender * narrower(body.box);
+    body.slender = body.box.extent().z() >= kMinHeightToWidth * narrower(body.box);
   }
   for (const Ball& ball : scene.balls) {
     Body& body = bodies.emplace_back();
-    const Vec3 center = turned(ball.center_W, axes), reach = Vec3::Constant(ball.radius_m);
+    const Vec3 center = to_axes(ball.center_W, axes), reach = Vec3::Constant(ball.radius_m);
     body.box = {center - reach, center + reach};
     body.mass_kg = ball_mass_kg(ball, scene.materials);
     body.center = center.head<2>();
@@ -123,7 +123,7 @@ void find_supports(std::vector<Body>& bodies) {
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
     Box foot = body.box;
-    const double bottom = body.box.min.z(), reach = kTouch * narrower(body.box);
+    const double bottom = body.box.min.z(), reach = kMaxGap * narrower(body.box);
     foot.min.z() = bottom - reach, foot.max.z() = bottom + reach;
     hits.clear();
     tree.overlaps(foot, hits);
@@ -131,7 +131,7 @@ void find_supports(std::vector<Body>& bodies) {
       const Box& lower = bodies[other].box;
       const Vec2 min = body.box.min.cwiseMax(lower.min).head<2>();
       const Vec2 max = body.box.max.cwiseMin(lower.max).head<2>();
-      const double gap = kTouch * std::min(narrower(body.box), narrower(lower));
+      const double gap = kMaxGap * std::min(narrower(body.box), narrower(lower));
       if (other == i || std::abs(bottom - lower.max.z()) > gap) continue;
       if ((max - min).minCoeff() <= 0) continue;
       body.below.push_back(other);
@@ -180,13 +180,13 @@ struct Section {
       std::array<Vec2, 2> ends;
       std::size_t found = 0;
       for (std::size_t i = 0; i < corners.size() && found < 2; ++i) {
-        const Vec3 p = turned(X_WR * hull.vertices[corners[i]], axes);
-        const Vec3 q = turned(X_WR * hull.vertices[corners[(i + 1) % corners.size()]], axes);
+        const Vec3 p = to_axes(X_WR * hull.vertices[corners[i]], axes);
+        const Vec3 q = to_axes(X_WR * hull.vertices[corners[(i + 1) % corners.size()]], axes);
         if ((p.z() < level) == (q.z() < level)) continue;
         ends[found++] = (p + (level - p.z()) / (q.z() - p.z()) * (q - p)).head<2>();
       }
       if (found == 2)
-        add_edge(ends, turned(X_WR.rotation * hull.faces[f].plane.normal, axes),
+        add_edge(ends, to_axes(X_WR.rotation * hull.faces[f].plane.normal, axes),
                  sign * material.youngs_Pa, sign * material.density_kg_m3);
     }
   }
@@ -293,12 +293,12 @@ double length_factor_of(const std::vector<Body>& bodies, const Body& post) {
 }
 
 /// Returns the top of the anchored part of a solid, or else the bottom of the solid.
-double clamped_at(const Solid& solid, const Body& body, const Axes& axes) {
+double clamp_height(const Solid& solid, const Body& body, const Axes& axes) {
   double top = body.box.min.z();
   for (std::size_t i = 0; i < solid.compound.convexes.size(); ++i) {
     if (solid.compound.anchored[i] == 0) continue;
     for (const Vec3& corner : solid.compound.convexes[i]->polyhedron.vertices)
-      top = std::max(top, turned(solid.X_WR * corner, axes).z());
+      top = std::max(top, to_axes(solid.X_WR * corner, axes).z());
   }
   return top;
 }
@@ -312,9 +312,9 @@ bool is_held_by_joint(const Scene& scene, const Body& post, std::uint32_t index)
   });
 }
 
-bool stands(const Scene& scene, const Body& body, const Axes& axes) {
+bool is_supported(const Scene& scene, const Body& body, const Axes& axes) {
   if (body.held || !body.below.empty() || !scene.ground.meshes.empty()) return true;
-  const double gap = kTouch * narrower(body.box);
+  const double gap = kMaxGap * narrower(body.box);
   return axes.up == 1 && axes.sign > 0 && std::abs(body.box.min.z() - scene.ground.height_m) <= gap;
 }
 
@@ -332,17 +332,18 @@ std::vector<Post> posts_in(const Scene& scene) {
   for (std::uint32_t i = 0; i < scene.solids.size(); ++i) {
     const Solid& solid = scene.solids[i];
     const Body& body = bodies[i];
-    if (!body.slender || !stands(scene, body, *axes) || is_held_by_joint(scene, body, i)) continue;
-    const double foot_m = clamped_at(solid, body, *axes);
+    if (!body.slender || !is_supported(scene, body, *axes) || is_held_by_joint(scene, body, i))
+      continue;
+    const double foot_m = clamp_height(solid, body, *axes);
     const double height_m = body.box.max.z() - foot_m;
-    if (height_m < kSlender * narrower(body.box)) continue;
+    if (height_m < kMinHeightToWidth * narrower(body.box)) continue;
     const double factor = length_factor_of(bodies, body);
     const auto column = column_of(scene, solid, *axes, foot_m, height_m);
-    if (!column || factor * height_m < kLeastSlenderness * column->gyration_m) continue;
+    if (!column || factor * height_m < kMinSlenderness * column->gyration_m) continue;
     const double euler_kg = column->critical_N() * (2 / factor) * (2 / factor) / g;
-    const double own = factor == 2 ? kOwnWeightFree : kOwnWeightHeld;
+    const double self_weight = factor == 2 ? kSelfWeightFree : kSelfWeightHeld;
     posts.push_back({solid.name, height_m, loads[i], column->weight_kg,
-                     std::max(0.0, euler_kg - own * column->weight_kg), factor});
+                     std::max(0.0, euler_kg - self_weight * column->weight_kg), factor});
   }
   return posts;
 }
