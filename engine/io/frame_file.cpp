@@ -1,7 +1,9 @@
-// Layout: "SUNDERF6" (or 5: contacts without keys of bodies; or 4: without paints, lights and what
-// happens inside, either; or 3: nothing is known to be asleep, either; or 2: without poses of
-// meshes, either; or 1: without debris and dust, either), XXH3 of the rest (8 bytes), size of the
-// content (8 bytes), content in zstd.
+// Layout: "SUNDERF" and the version, XXH3 of the rest (8 bytes), size of the content (8 bytes),
+// content in zstd.
+//
+// Versions: 6 is current; 5 has contacts without keys of bodies; 4 also lacks textures, lights and
+// the inspection; 3 also lacks the sleep flag; 2 also lacks poses of meshes; 1 also lacks debris
+// and dust.
 #include "engine/io/frame_file.h"
 
 #include <algorithm>
@@ -18,10 +20,10 @@ namespace sunder {
 namespace {
 
 constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '6'};
-constexpr std::size_t kName = sizeof kMagic - 1;  // what precedes the version
+constexpr std::size_t kName = sizeof kMagic - 1;  // length of the magic number without the version
 constexpr std::size_t kHeader = sizeof kMagic + 8;
-constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refused
-constexpr int kLevel = 19;                      // written once, kept for years
+constexpr std::uint64_t kLargest = 1ull << 31;  // largest accepted content
+constexpr int kLevel = 19;  // compression level; files are written once and kept for years
 
 void put(ByteWriter& out, const FrameBody& body) {
   out.put(body.key, body.X_WB.position, body.X_WB.rotation.coeffs(), body.com_R,
@@ -88,7 +90,8 @@ std::shared_ptr<const Inspection> take_inspection(ByteReader& in, const std::str
   return inspection;
 }
 
-/// Only the meshes that the frame draws; `new_of_old` numbers them.
+/// Appends the indices of the meshes that the frame draws to `drawn`; returns the new index of each
+/// mesh.
 std::vector<std::uint32_t> drawn_meshes(const Frame& frame, std::vector<std::uint32_t>& drawn) {
   std::vector<std::uint32_t> new_of_old(frame.meshes->size(), MeshIndex::kNone);
   for (const Instance& instance : frame.instances) {

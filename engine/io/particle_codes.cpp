@@ -6,14 +6,16 @@
 namespace sunder {
 namespace {
 
-constexpr float kDebrisSteps_m = 128;  // positions to 8 mm
-constexpr float kDustSteps_m = 32;     // 31 mm
-constexpr float kChipSteps_m = 4096;   // radii to 0.2 mm
-constexpr float kPuffSteps_m = 64;     // 16 mm
+// Steps per unit; positions and radii per metre.
+constexpr float kDebrisSteps_m = 128;  // resolution 8 mm
+constexpr float kDustSteps_m = 32;     // resolution 31 mm
+constexpr float kChipSteps_m = 4096;   // resolution 0.2 mm
+constexpr float kPuffSteps_m = 64;     // resolution 16 mm
 constexpr float kTurnSteps = 15;
 constexpr float kOpacitySteps = 63;
 
-/// The nearest whole number of steps; what is not finite is 0. Exact both ways up to 2^22.
+/// Returns the nearest integer number of steps, clamped to ±2^22, up to which floats are exact both
+/// ways; 0 if `value` is not finite.
 std::int32_t code(float value, float steps) {
   const float scaled = value * steps;
   if (!std::isfinite(scaled)) return 0;

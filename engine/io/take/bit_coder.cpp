@@ -9,7 +9,7 @@ constexpr std::uint32_t kLeastRange = 1u << 24;
 
 }  // namespace
 
-/// Moves the highest byte out; a run of 0xff waits for a carry.
+/// Outputs the highest byte; bytes 0xff are held back until a carry is decided.
 void BitWriter::shift() {
   const auto low = static_cast<std::uint32_t>(low_);
   const bool carry = (low_ >> 32) != 0;
@@ -51,7 +51,8 @@ void BitWriter::put_plain(std::uint32_t bits, int count) {
 
 void BitWriter::finish(ByteWriter& out) {
   for (int i = 0; i < 5; ++i) shift();
-  while (!bytes_.empty() && bytes_.back() == std::byte{}) bytes_.pop_back();  // as reads go on
+  // the reader supplies these zeros
+  while (!bytes_.empty() && bytes_.back() == std::byte{}) bytes_.pop_back();
   out.put(static_cast<std::uint32_t>(bytes_.size()));
   out.bytes.insert(out.bytes.end(), bytes_.begin(), bytes_.end());
 }

@@ -8,7 +8,7 @@
 namespace sunder {
 namespace {
 
-constexpr int kLevel = 3;  // more costs the run more than it saves the disk
+constexpr int kLevel = 3;  // compression level; a higher one slows the run more than it saves space
 
 std::uint64_t hash_header(const BlockHeader& header) {
   return XXH3_64bits(&header, offsetof(BlockHeader, header_hash));
@@ -80,7 +80,7 @@ std::vector<std::byte> Unpacker::unpack(const std::vector<std::byte>& packed,
     const bool stuck = in.pos == in_before && out.pos == out_before;
     if (ZSTD_isError(left) || stuck) break;
   }
-  // What the stream still holds back comes out without more input.
+  // Output that the stream still buffers needs no more input.
   while (out.pos < out.size) {
     const std::size_t before = out.pos;
     if (ZSTD_isError(ZSTD_decompressStream(stream_.get(), &out, &in)) || out.pos == before) break;

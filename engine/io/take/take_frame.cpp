@@ -1,4 +1,4 @@
-// Read first: FrameCoder::write() and read(), which mirror each other.
+// Begin with FrameCoder::write() and read(), which mirror each other.
 #include "engine/io/take/take_frame.h"
 
 #include <algorithm>
@@ -16,14 +16,15 @@ namespace {
 constexpr std::size_t kMostInstances = 1 << 24;
 constexpr double kPlaceSteps_m = 8192;
 constexpr double kTurnSteps = 4096;
-constexpr double kSpeedSteps_m_s = 2;  // no picture shows a speed
+constexpr double kSpeedSteps_m_s = 2;  // coarse: speeds are not drawn
 
-// Columns of a body: position and rotation (gliding), velocities, flags, hash, key, centre of mass;
-// by how much its key has grown since the frame before, name.
+// Columns of a body: position and rotation (extrapolated), velocities, flags, hash, key, centre of
+// mass, key less the key in the previous frame, name.
 constexpr std::size_t kBodyColumns = 25;
-constexpr std::size_t kOldBodyColumns = 23;  // without the last two
+constexpr std::size_t kOldBodyColumns = 23;  // without the last two columns
 constexpr std::size_t kBodyGlides = 7;
-// Of particles only positions: their rotations are too coarse to tell a pace from rounding.
+// Only positions of particles are extrapolated: their rotations are too coarse to tell a rate of
+// change from rounding.
 constexpr std::size_t kParticleGlides = 3;
 
 std::int32_t code(double value, double steps) {
@@ -88,7 +89,7 @@ FrameBody decode_body(std::span<const std::int32_t> row, std::int32_t& hash) {
   return body;
 }
 
-/// Both lists ascend by key.
+/// Returns for each body its row in the last frame, or kNewRow; both lists ascend by key.
 std::vector<std::uint32_t> match_keys(const std::vector<FrameBody>& bodies,
                                       const std::vector<std::uint64_t>& before) {
   std::vector<std::uint32_t> rows(bodies.size(), kNewRow);
@@ -100,7 +101,7 @@ std::vector<std::uint32_t> match_keys(const std::vector<FrameBody>& bodies,
   return rows;
 }
 
-/// Whether a row may be what another was a frame ago.
+/// True if two rows may be of one particle in consecutive frames.
 bool is_near(std::span<const std::int32_t> now, std::span<const std::int32_t> then) {
   constexpr std::int32_t kFar = 512;  // steps of position
   constexpr std::int32_t kTurned = 8;
@@ -111,7 +112,8 @@ bool is_near(std::span<const std::int32_t> now, std::span<const std::int32_t> th
   return true;
 }
 
-/// Debris keeps its place; where a piece went, another from the end may have taken it.
+/// Returns the rows of debris in the last frame. Debris keeps its index, except that the last piece
+/// may move to the index of a removed one.
 std::vector<std::uint32_t> match_debris(const NumberTable& table, const NumberTable& before) {
   std::vector<std::uint32_t> rows(table.rows(), kNewRow);
   for (std::size_t r = 0; r < std::min(rows.size(), before.rows()); ++r) {
@@ -120,10 +122,11 @@ std::vector<std::uint32_t> match_debris(const NumberTable& table, const NumberTa
   return rows;
 }
 
-/// Dust keeps its order but for gaps: of the next few, the one that is most like it.
+/// Returns the rows of dust in the last frame. Dust keeps its order with gaps: a row matches the
+/// most similar of the next rows.
 std::vector<std::uint32_t> match_dust(const NumberTable& table, const NumberTable& before) {
   constexpr std::size_t kWindow = 24;
-  constexpr std::int64_t kSame = 8;  // so little apart it need not be another
+  constexpr std::int64_t kSame = 8;  // difference below which no further row is tried
   std::vector<std::uint32_t> rows(table.rows(), kNewRow);
   std::size_t expected = 0;
   for (std::size_t r = 0; r < rows.size() && expected < before.rows(); ++r) {
@@ -172,7 +175,7 @@ std::vector<Particle> read_particles(ByteReader& in, const std::string& file, Ta
   return particles;
 }
 
-/// Counted, not timed, so that the same run gives the same bytes.
+/// Appends counts only, no times, so that equal runs give equal bytes.
 void write_report(ByteWriter& out, const Frame& frame) {
   const FrameReport& report = frame.report;
   out.put(report.counts);
@@ -241,7 +244,7 @@ void FrameCoder::write(ByteWriter& out, const Frame& frame) {
   write_particles(out, frame.dust, dust_, match_dust);
 }
 
-/// Only of bodies that are new or drawn otherwise than before: which, and their meshes.
+/// Writes the meshes of those bodies that are new or whose meshes have changed.
 void FrameCoder::write_instances(ByteWriter& out, const Frame& frame,
                                  const std::vector<std::uint32_t>& before) {
   std::vector<std::vector<std::uint32_t>> meshes(frame.bodies.size());

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t kMostRows = 1 << 21;
 
-// Unsigned arithmetic wraps, so every difference has its way back.
+// Unsigned arithmetic wraps, so every difference can be inverted.
 std::int32_t difference(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
@@ -16,7 +16,7 @@ std::int32_t sum(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
 
-/// Small numbers of either sign become small numbers.
+/// Maps small numbers of either sign to small unsigned numbers (zigzag coding).
 std::uint32_t folded(std::int32_t n) {
   return (static_cast<std::uint32_t>(n) << 1) ^ static_cast<std::uint32_t>(n >> 31);
 }
@@ -59,7 +59,8 @@ std::span<const std::uint8_t> TableCoder::lengths(std::uint32_t before) const {
   return std::span(lengths_).subspan(before * last_.columns, last_.columns);
 }
 
-/// Whether the row where one is expected to have been, or the row above now, was not as predicted.
+/// Returns a context from 0 to 3: bit 1 if the expected previous row had a residual in the
+/// extrapolated columns, bit 0 if the row above differs from its prediction.
 std::size_t TableCoder::was_off(std::uint32_t expected, bool off_above) const {
   bool off = false;
   if (expected < last_.rows()) {
@@ -90,9 +91,9 @@ void TableCoder::remember(NumberTable table, std::span<const std::uint32_t> befo
   last_ = std::move(table);
 }
 
-/// Row count; for each row a bit that says whether it is not as predicted, and if so where it was
-/// before and, column by column, how far off the prediction is. A row is expected to have been
-/// behind the one that the row before it was.
+/// Format: row count; for each row a bit that is 1 if the row differs from its prediction, and if
+/// so the position of its previous row and the residual of each column. The expected previous row
+/// is the one after that of the row above.
 void TableCoder::write(ByteWriter& out, NumberTable table, std::span<const std::uint32_t> before) {
   SUNDER_CHECK(table.columns == last_.columns && before.size() == table.rows());
   const std::size_t columns = table.columns;
@@ -111,7 +112,7 @@ void TableCoder::write(ByteWriter& out, NumberTable table, std::span<const std::
       ++expected;
       continue;
     }
-    // 0: as expected; 1: new; more: so far from what was expected.
+    // 0: as expected; 1: new; else the distance from the expected row.
     const bool is_new = before[r] == kNewRow;
     const auto way = static_cast<std::int32_t>(before[r] - expected);
     moved_.put(bits, is_new ? 1 : way == 0 ? 0 : folded(way) + 1);
