@@ -1,6 +1,7 @@
-// glTF 2.0 and GLB: the triangles of the scene's meshes, placed by their nodes. The JSON is parsed
-// by nlohmann-json; every number of it is checked before it is used.
-// Read first: read_gltf(), then class GltfScene; engine/io/mesh/mesh_gltf_data.h knows the bytes.
+// glTF 2.0 and GLB: the triangles of the scene's meshes, transformed by their nodes. The JSON is
+// parsed by nlohmann-json; every number is checked before use.
+//
+// Begin with read_gltf(), then class GltfScene; engine/io/mesh/mesh_gltf_data.h reads the buffers.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -13,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kDeepest = 64;  ///< Nodes within nodes.
+constexpr std::size_t kDeepest = 64;  ///< Largest depth of the node hierarchy.
 
 Eigen::Matrix4d local_matrix(const json& node, const GltfData& data) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
@@ -46,7 +47,7 @@ class GltfScene {
   void add_scene() {
     const json& document = data_.document();
     const json& scenes = data_.array(document, "scenes");
-    if (scenes.empty()) {  // a library of meshes
+    if (scenes.empty()) {  // a file without scenes: all meshes are read
       for (const json& mesh : data_.array(document, "meshes")) {
         add_mesh(mesh, Eigen::Matrix4d::Identity(), {});
       }
@@ -110,7 +111,7 @@ class GltfScene {
     }
     const Mat3 linear = matrix.topLeftCorner<3, 3>();
     const bool mirrored = linear.determinant() < 0;
-    // The transpose of the inverse, up to a factor, where there is an inverse.
+    // The transposed inverse up to a factor; defined for singular matrices as well.
     Mat3 turn;
     for (int k = 0; k < 3; ++k) {
       turn.col(k) = linear.col((k + 1) % 3).cross(linear.col((k + 2) % 3));
@@ -137,7 +138,7 @@ class GltfScene {
     source_.check_size(mesh_);
   }
 
-  /// Triangle t of a list (mode 4), strip (5) or fan (6).
+  /// Returns triangle t of a list (mode 4), strip (5) or fan (6).
   static std::array<std::uint32_t, 3> corners_of(std::size_t t, std::size_t mode,
                                                  const std::vector<std::uint32_t>& order) {
     if (mode == 4) return {order[3 * t], order[3 * t + 1], order[3 * t + 2]};

@@ -16,7 +16,7 @@ using nlohmann::json;
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 32;
 
-/// A value for a message; what is nested in it may be endless.
+/// Returns a value for an error message, shortened; nested values could be of any size.
 std::string brief(const json& value) {
   return value.is_primitive() ? value.dump().substr(0, 40) : std::string(value.type_name());
 }
@@ -27,7 +27,7 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   return word;
 }
 
-/// The value of a base-64 digit; 64 if it is none.
+/// Returns the value of a base-64 digit; 64 if invalid.
 std::uint32_t digit(char c) {
   if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
   if (c >= 'a' && c <= 'z') return static_cast<std::uint32_t>(c - 'a') + 26;
@@ -51,7 +51,8 @@ std::string decode_base64(std::string_view text) {
   return bytes;
 }
 
-/// Whether meshes cannot be read without knowing an extension; those of looks are passed over.
+/// True if meshes cannot be read without support for an extension; extensions of appearance are
+/// ignored.
 bool changes_geometry(const std::string& extension) {
   constexpr std::string_view kLooks[] = {"KHR_materials_", "KHR_texture_",  "KHR_lights_",
                                          "KHR_xmp",        "EXT_texture_",  "EXT_lights_",
@@ -61,7 +62,7 @@ bool changes_geometry(const std::string& extension) {
                       [&](std::string_view start) { return extension.starts_with(start); });
 }
 
-/// A relative reference with its escapes (%20) resolved.
+/// Resolves the escapes (%20) of a relative reference.
 std::string unescaped(const std::string& uri) {
   const auto digit_of = [](char c) {
     return c >= '0' && c <= '9'   ? c - '0'
@@ -79,11 +80,11 @@ std::string unescaped(const std::string& uri) {
   return text;
 }
 
-/// How an accessor's components are stored.
+/// Storage of an accessor's components.
 struct Component {
   std::size_t size = 0;
   double (*read)(const char*) = nullptr;
-  double scale = 1;  ///< Of normalized integers.
+  double scale = 1;  ///< Factor for normalized integers.
 };
 
 template <class T>
@@ -170,7 +171,7 @@ std::string GltfData::load_uri(const std::string& reference) const {
   }
   const std::string uri = unescaped(reference);
   if (uri.find('\0') != std::string::npos) fail("a buffer's uri is no text: export it again");
-  // A mesh from elsewhere must not make us read what is not its own.
+  // Security: a file from elsewhere must not make the program read other files.
   const std::filesystem::path path(uri);
   if (path.is_absolute() || uri.find("..") != std::string::npos || uri.find(':') < uri.size()) {
     fail("its buffers must lie in the same folder: export it as .glb");
