@@ -9,14 +9,14 @@
 namespace sunder {
 namespace {
 
-constexpr int kDeepest = 100;
+constexpr int kMaxDepth = 100;
 
 }  // namespace
 
 Figures parse_figures(const std::string& text, const std::string& file) {
   using Json = nlohmann::json;
   const auto is_shallow = [&](int depth, Json::parse_event_t, const Json&) {
-    if (depth > kDeepest) throw InputError(file + ": lists in lists, deeper than any of ours");
+    if (depth > kMaxDepth) throw InputError(file + ": lists in lists, deeper than any of ours");
     return true;
   };
   const Json document = Json::parse(text, is_shallow, false);

@@ -20,10 +20,11 @@ namespace sunder {
 namespace {
 
 constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '6'};
-constexpr std::size_t kName = sizeof kMagic - 1;  // length of the magic number without the version
-constexpr std::size_t kHeader = sizeof kMagic + 8;
-constexpr std::uint64_t kLargest = 1ull << 31;  // largest accepted content
-constexpr int kLevel = 19;  // compression level; files are written once and kept for years
+// Length of the magic number without the version.
+constexpr std::size_t kMagicLength = sizeof kMagic - 1;
+constexpr std::size_t kHeaderBytes = sizeof kMagic + 8;
+constexpr std::uint64_t kMaxContentBytes = 1ull << 31;  // largest accepted content
+constexpr int kCompressionLevel = 19;                   // files are written once and kept for years
 
 void put(ByteWriter& out, const FrameBody& body) {
   out.put(body.key, body.X_WB.position, body.X_WB.rotation.coeffs(), body.com_R,
@@ -174,8 +175,8 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
 void write_frame(const std::filesystem::path& path, const Frame& frame) {
   const std::vector<std::byte> content = content_of(frame);
   std::vector<std::byte> packed(ZSTD_compressBound(content.size()));
-  const std::size_t size =
-      ZSTD_compress(packed.data(), packed.size(), content.data(), content.size(), kLevel);
+  const std::size_t size = ZSTD_compress(packed.data(), packed.size(), content.data(),
+                                         content.size(), kCompressionLevel);
   SUNDER_CHECK(!ZSTD_isError(size));
   packed.resize(size);
 
@@ -192,22 +193,24 @@ void write_frame(const std::filesystem::path& path, const Frame& frame) {
 FramePtr read_frame(const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::vector<std::byte> file = read_file(path);
-  const bool is_frame = file.size() >= kHeader + 8 && std::memcmp(file.data(), kMagic, kName) == 0;
-  const int version = is_frame ? static_cast<char>(file[kName]) - '0' : 0;
-  if (version < 1 || version > kMagic[kName] - '0') {
+  const bool is_frame =
+      file.size() >= kHeaderBytes + 8 && std::memcmp(file.data(), kMagic, kMagicLength) == 0;
+  const int version = is_frame ? static_cast<char>(file[kMagicLength]) - '0' : 0;
+  if (version < 1 || version > kMagic[kMagicLength] - '0') {
     throw InputError(name + ": not a frame file of this version of sunder; record it again");
   }
   ByteReader header(file, name);
   for (std::size_t i = 0; i < sizeof kMagic; ++i) header.take<char>();
   const auto expected = header.take<std::uint64_t>();
-  if (XXH3_64bits(file.data() + kHeader, file.size() - kHeader) != expected) {
+  if (XXH3_64bits(file.data() + kHeaderBytes, file.size() - kHeaderBytes) != expected) {
     throw InputError(name + ": corrupt: the checksum does not match; record it again");
   }
   const auto size = header.take<std::uint64_t>();
-  if (size > kLargest) throw InputError(name + ": corrupt: it claims to be too large");
+  if (size > kMaxContentBytes) throw InputError(name + ": corrupt: it claims to be too large");
   std::vector<std::byte> content(size);
-  const std::size_t got = ZSTD_decompress(content.data(), content.size(), file.data() + kHeader + 8,
-                                          file.size() - kHeader - 8);
+  const std::size_t got =
+      ZSTD_decompress(content.data(), content.size(), file.data() + kHeaderBytes + 8,
+                      file.size() - kHeaderBytes - 8);
   if (ZSTD_isError(got) || got != size) throw InputError(name + ": corrupt: cannot be unpacked");
   return frame_of(content, name, version);
 }

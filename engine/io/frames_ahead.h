@@ -23,14 +23,14 @@ class FramesAhead final : public FrameSource {
   FramePtr next() override;
 
  private:
-  static constexpr std::size_t kMostWaiting = 2;  ///< Largest number of prefetched frames.
+  static constexpr std::size_t kMaxPrefetched = 2;  ///< Largest number of prefetched frames.
 
-  void work();
+  void prefetch();
 
   FrameSource& source_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<FramePtr> made_;
+  std::deque<FramePtr> ready_;
   bool stopped_ = false;        ///< True: the thread must end.
   bool ended_ = false;          ///< True: the source has no more frames, or has thrown.
   std::exception_ptr failure_;  ///< Exception that ended the source, if any.

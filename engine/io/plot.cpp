@@ -14,7 +14,7 @@ namespace {
 constexpr double kPlotWidth = 720, kPlotHeight = 460;  // size of the picture
 constexpr double kLeft = 70, kRight = 20, kTop = 60, kBottom = 60;
 constexpr double kTick = 5, kDot = 4.5;
-constexpr double kLegend = 42, kLegendGap = 16;      // vertical position, and gap between entries
+constexpr double kLegendY = 42, kLegendGap = 16;     // vertical position, and gap between entries
 constexpr double kLetter = 6.6, kLetterHeight = 12;  // approximate size of a letter
 
 // Distinguishable with red-green colour blindness (after Okabe and Ito), on light and dark
@@ -39,14 +39,14 @@ class Scale {
       : logarithmic_(logarithmic), low_(low), high_(high) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const double value : values) {
-      if (!shows(value)) continue;
-      least = std::min(least, measure(value));
-      most = std::max(most, measure(value));
+      if (!is_drawable(value)) continue;
+      least = std::min(least, to_linear(value));
+      most = std::max(most, to_linear(value));
     }
     if (least > most) least = 0, most = 1;
-    const double room = least == most ? 0.5 : 0.06 * (most - least);
-    first_ = least - room;
-    last_ = most + room;
+    const double margin = least == most ? 0.5 : 0.06 * (most - least);
+    first_ = least - margin;
+    last_ = most + margin;
   }
 
   /// Starts a linear axis of non-negative values at 0.
@@ -55,8 +55,8 @@ class Scale {
   }
 
   double place(double value) const {
-    const double share =
-        shows(value) ? (measure(value) - first_) / (last_ - first_) : (value > 0 ? 1.0 : 0.0);
+    const double share = is_drawable(value) ? (to_linear(value) - first_) / (last_ - first_)
+                                            : (value > 0 ? 1.0 : 0.0);
     return low_ + std::clamp(share, 0.0, 1.0) * (high_ - low_);
   }
 
@@ -70,15 +70,17 @@ class Scale {
       for (const double digit : {1.0, 2.0, 5.0}) {
         if (digit > 1 && decades > 3) break;
         const double value = digit * std::pow(10, power);
-        if (measure(value) >= first_ && measure(value) <= last_) values.push_back(value);
+        if (to_linear(value) >= first_ && to_linear(value) <= last_) values.push_back(value);
       }
     }
     return values;
   }
 
  private:
-  bool shows(double value) const { return std::isfinite(value) && (!logarithmic_ || value > 0); }
-  double measure(double value) const { return logarithmic_ ? std::log10(value) : value; }
+  bool is_drawable(double value) const {
+    return std::isfinite(value) && (!logarithmic_ || value > 0);
+  }
+  double to_linear(double value) const { return logarithmic_ ? std::log10(value) : value; }
   static std::vector<double> steps(double first, double last) {
     const double rough = (last - first) / 8, power = std::pow(10, std::floor(std::log10(rough)));
     const double step = power * (rough / power < 2 ? 2 : rough / power < 5 ? 5 : 10);
@@ -240,8 +242,8 @@ std::string svg_curves(const Axes& axes, std::span<const Curve> curves) {
     }
     if (curve.line) canvas.line(places, color, 1.5);
     if (curve.name.empty()) continue;
-    canvas.box({legend, kLegend - 9}, 10, 10, color, "");
-    canvas.text({legend + kLegendGap, kLegend}, curve.name, "start");
+    canvas.box({legend, kLegendY - 9}, 10, 10, color, "");
+    canvas.text({legend + kLegendGap, kLegendY}, curve.name, "start");
     legend += 2 * kLegendGap + kLetter * static_cast<double>(curve.name.size());
   }
   for (const Curve& curve : curves) {

@@ -58,14 +58,14 @@ struct Statistics::Series {
   /// Totals of all frames: flows and residual, and sums of absolute values.
   struct Energy {
     EnergyFlows flows;
-    double residual_J = 0, off_J = 0, moved_J = 0;
+    double residual_J = 0, abs_residual_J = 0, moved_J = 0;
   };
   Energy energy() const {
     Energy all;
     for (const FrameReport& report : reports) {
       all.flows += report.energy;
       all.residual_J += report.energy_residual_J;
-      all.off_J += std::abs(report.energy_residual_J);
+      all.abs_residual_J += std::abs(report.energy_residual_J);
       all.moved_J += report.energy.moved();
     }
     return all;
@@ -274,13 +274,13 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["penetration_m"] = {
       {"p50", quantile(depth, 0.5)}, {"p99", quantile(depth, 0.99)}, {"max", quantile(depth, 1)}};
   if (s.info.accuracy.error_target_m > 0) json["error_target_m"] = s.info.accuracy.error_target_m;
-  const auto [flows, residual_J, off_J, moved_J] = s.energy();
+  const auto [flows, residual_J, abs_residual_J, moved_J] = s.energy();
   json["energy_J"] = {{"kinetic", s.last.kinetic_J},
                       {"potential", s.last.potential_J},
                       {"plastic", s.last.plastic_J},
                       {"moved", moved_J}};
   json["energy_flows_J"] = energy_json(flows, residual_J);
-  json["energy_residual"] = ratio(off_J, moved_J);
+  json["energy_residual"] = ratio(abs_residual_J, moved_J);
   json["momentum_residual"] = s.worst(&FrameReport::momentum_residual);
   json["friction_excess"] =
       ratio(s.sum(&FrameReport::friction_excess_Ns), s.sum(&FrameReport::friction_allowed_Ns));

@@ -30,7 +30,7 @@ struct Primitive {
 };
 
 /// Returns a size rounded up to the alignment of 4 bytes.
-std::size_t filled(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
+std::size_t aligned(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
 
 class GlbWriter {
  public:
@@ -50,7 +50,7 @@ class GlbWriter {
     text.append((4 - text.size() % 4) % 4, ' ');
     std::size_t binary_size = 0;
     for (const ByteWriter& view : views_) binary_size += view.bytes.size();
-    for (const Picture& picture : pictures_) binary_size += filled(picture->size());
+    for (const Picture& picture : pictures_) binary_size += aligned(picture->size());
     ByteWriter out;
     for (const std::size_t value :
          {std::size_t{kMagic}, std::size_t{2}, 28 + text.size() + binary_size, text.size(),
@@ -65,7 +65,7 @@ class GlbWriter {
     }
     for (const Picture& picture : pictures_) {
       out.bytes.insert(out.bytes.end(), picture->begin(), picture->end());
-      out.bytes.resize(out.bytes.size() + filled(picture->size()) - picture->size());
+      out.bytes.resize(out.bytes.size() + aligned(picture->size()) - picture->size());
     }
     return out;
   }
@@ -188,7 +188,7 @@ class GlbWriter {
     for (const Picture& picture : pictures_) {
       document_["bufferViews"].push_back(
           {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", picture->size()}});
-      offset += filled(picture->size());
+      offset += aligned(picture->size());
     }
     document_["buffers"] = {{{"byteLength", offset}}};
   }

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kDeepest = 64;  ///< Largest depth of the node hierarchy.
+constexpr std::size_t kMaxNodeDepth = 64;  ///< Largest depth of the node hierarchy.
 
 Eigen::Matrix4d local_matrix(const json& node, const GltfData& data) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
@@ -61,7 +61,7 @@ class GltfScene {
 
   void add_node(const json& node_index, const Eigen::Matrix4d& parent, std::size_t depth) {
     const json& nodes = data_.array(data_.document(), "nodes");
-    if (depth > kDeepest || ++nodes_visited_ > nodes.size()) {
+    if (depth > kMaxNodeDepth || ++nodes_visited_ > nodes.size()) {
       data_.fail("nodes contain one another: export the mesh again");
     }
     const json& node = nodes[data_.to_index(node_index, nodes.size())];
@@ -112,11 +112,11 @@ class GltfScene {
     const Mat3 linear = matrix.topLeftCorner<3, 3>();
     const bool mirrored = linear.determinant() < 0;
     // The transposed inverse up to a factor; defined for singular matrices as well.
-    Mat3 turn;
+    Mat3 normal_matrix;
     for (int k = 0; k < 3; ++k) {
-      turn.col(k) = linear.col((k + 1) % 3).cross(linear.col((k + 2) % 3));
+      normal_matrix.col(k) = linear.col((k + 1) % 3).cross(linear.col((k + 2) % 3));
     }
-    if (mirrored) turn = -turn;
+    if (mirrored) normal_matrix = -normal_matrix;
     const std::size_t triangles =
         mode == 4 ? order.size() / 3 : std::max<std::size_t>(order.size(), 2) - 2;
     for (std::size_t t = 0; t < triangles; ++t) {
@@ -127,7 +127,7 @@ class GltfScene {
         mesh_.corner_normals.push_back(Vec3f::Zero());
         mesh_.corner_uvs.push_back(Vec2f::Zero());
         if (normals.size() == 3 * count) {
-          const Vec3 normal = turn * Eigen::Map<const Vec3>(normals.data() + 3 * v);
+          const Vec3 normal = normal_matrix * Eigen::Map<const Vec3>(normals.data() + 3 * v);
           mesh_.corner_normals.back() = normal.normalized().cast<float>();
         }
         if (uvs.size() == 2 * count) {

@@ -27,13 +27,13 @@ struct MtlMaterial {
   Paint paint;
   std::optional<float> roughness, metallic;  ///< Pr and Pm.
   std::optional<double> exponent;            ///< Ns.
-  bool shines = true;                        ///< False if Ks is black.
+  bool has_highlights = true;                ///< False if Ks is black.
 
-  Paint finished() const {
+  Paint appearance() const {
     Paint result = paint;
-    if (!roughness && !metallic && !(exponent && shines)) return result;
+    if (!roughness && !metallic && !(exponent && has_highlights)) return result;
     result.gloss.emplace().metallic = metallic.value_or(0);
-    if (roughness || (exponent && shines)) {
+    if (roughness || (exponent && has_highlights)) {
       result.gloss->roughness = roughness ? *roughness : roughness_of(*exponent);
     }
     return result;
@@ -56,7 +56,7 @@ bool is_option_value(std::string_view word) {
 /// Reference to an image, with the option that is used; other options are skipped.
 struct PictureUse {
   std::string name;
-  double steeper = 1;  ///< Factor of the height map (-bm).
+  double scale = 1;  ///< Factor of the height map (-bm).
 };
 
 PictureUse take_picture_use(MeshText& text) {
@@ -64,7 +64,7 @@ PictureUse take_picture_use(MeshText& text) {
   bool in_option = false;
   for (std::string_view word; !(word = text.word()).empty();) {
     if (use.name.empty() && word == "-bm") {
-      use.steeper = text.number();
+      use.scale = text.number();
     } else if (use.name.empty() && (word == "-imfchan" || word == "-type")) {
       text.word();  // these options have a non-numeric value
     } else if (use.name.empty() && word.starts_with('-')) {
@@ -78,9 +78,9 @@ PictureUse take_picture_use(MeshText& text) {
 }
 
 /// Images in the folder of a file; each is read once.
-class PicturesBeside {
+class FolderImages {
  public:
-  PicturesBeside(const MeshSource& source, std::vector<std::string>& missing)
+  FolderImages(const MeshSource& source, std::vector<std::string>& missing)
       : source_(source), missing_(missing) {}
 
   /// Returns an image; null if the file is missing.
@@ -114,7 +114,7 @@ std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::strin
   }
   const MeshSource file{*bytes, source.file.parent_path() / name, source.limits};
   std::map<std::string, MtlMaterial> materials;
-  PicturesBeside pictures(source, missing);
+  FolderImages pictures(source, missing);
   MeshText text(file);
   MtlMaterial none;
   MtlMaterial* material = &none;
@@ -134,9 +134,9 @@ std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::strin
                                                        keyword == "map_Bump"))) {
       const PictureUse use = take_picture_use(text);
       paint.relief = pictures.find(use.name);
-      paint.relief_scale = static_cast<float>(use.steeper);
+      paint.relief_scale = static_cast<float>(use.scale);
     } else if (keyword == "Ks") {
-      if (const auto color = take_color(text)) material->shines = !color->isZero();
+      if (const auto color = take_color(text)) material->has_highlights = !color->isZero();
     } else if (keyword == "Ns") {
       material->exponent = text.number();
     } else if (keyword == "Pr") {
@@ -145,7 +145,7 @@ std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::strin
       material->metallic = share(text.number());
     }
   }
-  for (const auto& [called, found] : materials) paints.emplace(called, found.finished());
+  for (const auto& [called, found] : materials) paints.emplace(called, found.appearance());
   return paints;
 }
 

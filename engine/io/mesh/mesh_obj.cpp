@@ -14,8 +14,8 @@ namespace {
 struct ObjList {
   const char* name;
   std::size_t count = 0;
-  std::size_t most_wanted = 0;  ///< Highest index used so far, from 1.
-  std::size_t wanted_line = 0;  ///< Line that used it.
+  std::size_t highest_index = 0;  ///< Highest index used so far, from 1.
+  std::size_t highest_line = 0;   ///< Line that used it.
 };
 
 /// Names of polygons.
@@ -32,12 +32,12 @@ class ObjReader {
   RawMesh read() {
     while (text_.next_line()) statement(text_.word());
     for (const ObjList& list : lists_) {
-      if (list.most_wanted <= list.count) continue;
-      text_.fail_at(list.wanted_line, "there is no " + std::string(list.name) + " " +
-                                          std::to_string(list.most_wanted) + ", the file has " +
-                                          std::to_string(list.count) + ": export the mesh again");
+      if (list.highest_index <= list.count) continue;
+      text_.fail_at(list.highest_line, "there is no " + std::string(list.name) + " " +
+                                           std::to_string(list.highest_index) + ", the file has " +
+                                           std::to_string(list.count) + ": export the mesh again");
     }
-    spread();
+    set_corner_attributes();
     return std::move(mesh_);
   }
 
@@ -75,7 +75,7 @@ class ObjReader {
   std::uint32_t group() {
     if (group_ != RawMesh::kNoGroup || names_ == Names()) return group_;
     const auto number = static_cast<std::uint32_t>(mesh_.groups.size());
-    const auto [known, is_new] = known_.try_emplace(names_, number);
+    const auto [known, is_new] = group_of_names_.try_emplace(names_, number);
     group_ = known->second;
     if (!is_new) return group_;
     std::vector<std::string> names = names_.groups;
@@ -115,14 +115,14 @@ class ObjReader {
                  std::to_string(count) + ": export the mesh again");
     }
     const auto from_one = static_cast<std::size_t>(index > 0 ? index : count + index + 1);
-    if (from_one > list.most_wanted) {
-      list.most_wanted = from_one;
-      list.wanted_line = text_.line();
+    if (from_one > list.highest_index) {
+      list.highest_index = from_one;
+      list.highest_line = text_.line();
     }
     return static_cast<std::uint32_t>(from_one);
   }
 
-  void spread() {
+  void set_corner_attributes() {
     for (std::size_t c = 0; c < mesh_.corners.size(); ++c) {
       const std::uint32_t uv = corner_uvs_[c], normal = corner_normals_[c];
       mesh_.corner_uvs.push_back(uv > 0 ? uvs_[uv - 1] : Vec2f(Vec2f::Zero()));
@@ -138,7 +138,7 @@ class ObjReader {
   Names names_;
   /// Group of `names_`, or kNoGroup if not determined yet.
   std::uint32_t group_ = RawMesh::kNoGroup;
-  std::map<Names, std::uint32_t> known_;
+  std::map<Names, std::uint32_t> group_of_names_;
   std::map<std::string, Paint> paints_;  ///< By name of the material.
   std::vector<std::uint32_t> polygon_, corner_uvs_, corner_normals_;
   std::array<ObjList, 3> lists_{{{"vertex"}, {"texture coordinate"}, {"normal"}}};

@@ -10,7 +10,7 @@ namespace sunder {
 namespace {
 
 /// Larger coordinates (in metres) are invalid or would overflow in later computations.
-constexpr double kFarthest_m = 1e9;
+constexpr double kMaxCoordinate_m = 1e9;
 
 const std::map<std::string, MeshFormat>& formats() {
   static const std::map<std::string, MeshFormat> by_extension = {
@@ -64,7 +64,7 @@ void check(RawMesh& mesh, const MeshSource& source) {
   }
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     // maxCoeff() could ignore NaN.
-    if (!(mesh.vertices[v].array().abs() <= kFarthest_m).all()) {
+    if (!(mesh.vertices[v].array().abs() <= kMaxCoordinate_m).all()) {
       source.fail("vertex " + std::to_string(v + 1) +
                   " is not within 1e9 m of the origin: export the mesh again, or scale it");
     }

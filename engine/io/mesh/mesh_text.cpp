@@ -111,7 +111,7 @@ double MeshText::to_number(std::string_view word) const {
   const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range && end == digits.data() + digits.size()) {
-    return value;  // underflow, or an overflow that check() in mesh_reader.cpp rejects
+    return value;  // out of range: from_chars() leaves `value` 0
   }
   if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
     fail(word.empty() ? "a number is missing: export the mesh again"

@@ -90,14 +90,14 @@ void write_part(const fs::path& file, const Model::Part& part, const Model& mode
 /// Throws InputError if a folder has files that were not written by this module.
 void check_replaceable(const fs::path& folder) {
   if (!fs::exists(folder)) return;
-  bool ours = fs::is_directory(folder);
-  if (ours) {
+  bool is_export = fs::is_directory(folder);
+  if (is_export) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
       const std::string name = entry.path().filename().string();
-      ours &= name == kMaterials || (name.starts_with("piece_") && name.ends_with(".obj"));
+      is_export &= name == kMaterials || (name.starts_with("piece_") && name.ends_with(".obj"));
     }
   }
-  if (!ours) {
+  if (!is_export) {
     throw InputError(folder.string() +
                      ": holds other files than an earlier export; name another folder");
   }

@@ -5,7 +5,7 @@
 namespace sunder {
 namespace {
 
-constexpr std::uint32_t kLeastRange = 1u << 24;
+constexpr std::uint32_t kMinRange = 1u << 24;
 
 }  // namespace
 
@@ -38,14 +38,14 @@ void BitWriter::put(BitModel& model, bool bit) {
     range_ = zero;
   }
   model.learn(bit);
-  for (; range_ < kLeastRange; range_ <<= 8) shift();
+  for (; range_ < kMinRange; range_ <<= 8) shift();
 }
 
 void BitWriter::put_plain(std::uint32_t bits, int count) {
   for (int b = count - 1; b >= 0; --b) {
     range_ >>= 1;
     if ((bits >> b & 1) != 0) low_ += range_;
-    for (; range_ < kLeastRange; range_ <<= 8) shift();
+    for (; range_ < kMinRange; range_ <<= 8) shift();
   }
 }
 
@@ -67,7 +67,7 @@ std::uint32_t BitReader::next_byte() {
 }
 
 void BitReader::shift() {
-  for (; range_ < kLeastRange; range_ <<= 8) code_ = code_ << 8 | next_byte();
+  for (; range_ < kMinRange; range_ <<= 8) code_ = code_ << 8 | next_byte();
 }
 
 bool BitReader::take(BitModel& model) {

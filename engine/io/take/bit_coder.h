@@ -20,16 +20,17 @@ class BitModel {
   /// Probability of 0, in 65536ths; never 0 or 1.
   std::uint32_t zero() const { return zero_; }
   void learn(bool bit) {
-    const int rate = rate_ < kSlowest ? rate_++ : kSlowest;
+    const int rate = rate_ < kMaxRate ? rate_++ : kMaxRate;
     zero_ = static_cast<std::uint16_t>(bit ? zero_ - (zero_ >> rate)
                                            : zero_ + ((65536u - zero_) >> rate));
-    if (zero_ < kLeast) zero_ = kLeast;
-    if (zero_ > 65536 - kLeast) zero_ = static_cast<std::uint16_t>(65536 - kLeast);
+    if (zero_ < kMinProbability) zero_ = kMinProbability;
+    if (zero_ > 65536 - kMinProbability)
+      zero_ = static_cast<std::uint16_t>(65536 - kMinProbability);
   }
 
  private:
-  static constexpr std::uint8_t kSlowest = 6;
-  static constexpr std::uint16_t kLeast = 64;
+  static constexpr std::uint8_t kMaxRate = 6;
+  static constexpr std::uint16_t kMinProbability = 64;
   std::uint16_t zero_ = 32768;
   std::uint8_t rate_ = 1;
 };

@@ -60,7 +60,7 @@ struct BlockPlace {
 std::vector<std::byte> make_block(BlockKind kind, std::uint32_t first, std::uint64_t content_bytes,
                                   const std::vector<std::byte>& packed);
 /// True if the header is of a known kind, within limits, and has the right hash.
-bool is_sound(const BlockHeader& header);
+bool is_valid(const BlockHeader& header);
 /// True if the data has the size and hash that the header states.
 bool matches(const BlockHeader& header, const std::vector<std::byte>& packed);
 

@@ -30,7 +30,7 @@ class TakeReader::Playback {
 
   bool read_index();
   void scan();
-  void note(const BlockPlace& place);
+  void register_block(const BlockPlace& place);
   std::optional<Block> block_at(std::uint64_t offset);
   std::vector<std::byte> content_at(const BlockPlace& place, Unpacker& unpacker);
   FramePtr decode(std::uint32_t frame);
@@ -91,11 +91,13 @@ TakeReader::Playback::Playback(const std::filesystem::path& path) : file_(path.s
 }
 
 /// Registers a block. Blocks are in the order of the run, each with its frame or mesh index.
-void TakeReader::Playback::note(const BlockPlace& place) {
-  const auto wrong = [&] { throw InputError(file_ + ": corrupt: its blocks are out of order"); };
+void TakeReader::Playback::register_block(const BlockPlace& place) {
+  const auto fail_order = [&] {
+    throw InputError(file_ + ": corrupt: its blocks are out of order");
+  };
   switch (place.kind) {
     case BlockKind::kMaterials:
-      if (materials_block_) wrong();
+      if (materials_block_) fail_order();
       materials_block_ = place;
       break;
     case BlockKind::kMeshes:
@@ -103,8 +105,8 @@ void TakeReader::Playback::note(const BlockPlace& place) {
       break;
     case BlockKind::kKeyFrame:
     case BlockKind::kFrame:
-      if (place.first != frame_blocks_.size()) wrong();
-      if (frame_blocks_.empty() && place.kind != BlockKind::kKeyFrame) wrong();
+      if (place.first != frame_blocks_.size()) fail_order();
+      if (frame_blocks_.empty() && place.kind != BlockKind::kKeyFrame) fail_order();
       frame_blocks_.push_back(place);
       break;
     case BlockKind::kIndex:
@@ -133,7 +135,7 @@ bool TakeReader::Playback::read_index() {
     while (!in.at_end()) {
       BlockPlace place;
       in.take_to(place.offset, place.kind, place.first);
-      note(place);
+      register_block(place);
     }
   } catch (const InputError&) {
     materials_block_.reset();
@@ -157,7 +159,7 @@ void TakeReader::Playback::scan() {
       damage_ = "the take is cut short or corrupt " + frame + " (byte " + std::to_string(at) + ")";
       return;
     }
-    note({at, block->header.kind, block->header.first});
+    register_block({at, block->header.kind, block->header.first});
     at += sizeof(BlockHeader) + block->header.bytes;
   }
 }
@@ -169,7 +171,7 @@ std::optional<TakeReader::Playback::Block> TakeReader::Playback::block_at(std::u
   in_.clear();
   in_.seekg(static_cast<std::streamoff>(offset));
   in_.read(reinterpret_cast<char*>(&block.header), sizeof(BlockHeader));
-  if (!in_ || !is_sound(block.header)) return {};
+  if (!in_ || !is_valid(block.header)) return {};
   if (block.header.bytes > size_ - offset - sizeof(BlockHeader)) return {};
   block.packed.resize(block.header.bytes);
   in_.read(reinterpret_cast<char*>(block.packed.data()),

@@ -33,7 +33,7 @@ class TableCoder {
  public:
   /// Makes a coder. The first `gliding` columns are extrapolated at their last rate of change, the
   /// others are predicted to stay constant.
-  TableCoder(std::size_t columns, std::size_t gliding);
+  TableCoder(std::size_t columns, std::size_t extrapolated);
 
   /// Forgets the last table: the next one is encoded without reference to it.
   void reset();
@@ -46,26 +46,27 @@ class TableCoder {
 
  private:
   /// Numbers of classes of residuals: of the previous frame, of the preceding column.
-  static constexpr std::size_t kSizes = 8, kBeside = 4;
+  static constexpr std::size_t kLengthClasses = 8, kNeighbourClasses = 4;
 
   /// Sets `row` to the prediction for a row.
   void predict(std::uint32_t before, std::span<std::int32_t> row) const;
   /// Returns the lengths in bits of a row's residuals in the last table; empty for a new row.
   std::span<const std::uint8_t> lengths(std::uint32_t before) const;
-  std::size_t was_off(std::uint32_t expected, bool off_above) const;
-  NumberModel& model(std::size_t column, std::span<const std::uint8_t> then, std::uint8_t beside);
-  void remember(NumberTable table, std::span<const std::uint32_t> before,
-                std::vector<std::uint8_t> lengths);
+  std::size_t context_of(std::uint32_t expected, bool above_differs) const;
+  NumberModel& model(std::size_t column, std::span<const std::uint8_t> last_lengths,
+                     std::uint8_t neighbour_length);
+  void store_last(NumberTable table, std::span<const std::uint32_t> before,
+                  std::vector<std::uint8_t> lengths);
 
-  std::size_t gliding_;
+  std::size_t extrapolated_;
   NumberTable last_;
-  std::vector<std::int32_t> pace_;     ///< Last change of the extrapolated columns, by row.
-  std::vector<std::uint8_t> lengths_;  ///< Length in bits of the residual of each number.
+  std::vector<std::int32_t> last_change_;  ///< Last change of the extrapolated columns, by row.
+  std::vector<std::uint8_t> lengths_;      ///< Length in bits of the residual of each number.
   // Adaptive models, trained since the last reset.
-  std::array<BitModel, 4> is_off_;
-  NumberModel moved_;
-  /// `new_` by column; `known_` by column and classes of residuals.
-  std::vector<NumberModel> new_, known_;
+  std::array<BitModel, 4> differs_models_;
+  NumberModel move_model_;
+  /// `new_row_models_` by column; `known_row_models_` by column and classes of residuals.
+  std::vector<NumberModel> new_row_models_, known_row_models_;
 };
 
 }  // namespace sunder

@@ -14,7 +14,7 @@
 namespace sunder {
 namespace {
 
-constexpr std::size_t kMostWaiting = 16;  // queued frames; a faster run has to wait
+constexpr std::size_t kMaxQueued = 16;  // queued frames; a faster run has to wait
 
 }  // namespace
 
@@ -28,7 +28,7 @@ class TakeWriter::Recording {
   std::uint64_t bytes() const { return offset_; }
 
  private:
-  void work();
+  void write_queued();
   void write(const Frame& frame);
   void write_new_meshes(const Frame& frame);
   void append(BlockKind kind, std::uint32_t first, std::uint64_t content_bytes,
@@ -64,14 +64,14 @@ TakeWriter::Recording::Recording(const std::filesystem::path& path) : path_(path
     throw FileError(path.string() + ": cannot be written; check the folder and its permissions");
   }
   offset_ = sizeof kTakeMagic;
-  thread_ = std::thread([this] { work(); });
+  thread_ = std::thread([this] { write_queued(); });
 }
 
 TakeWriter::Recording::~Recording() { stop(); }
 
 void TakeWriter::Recording::take(const FramePtr& frame) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return failure_ || queue_.size() < kMostWaiting; });
+  changed_.wait(lock, [&] { return failure_ || queue_.size() < kMaxQueued; });
   if (failure_) std::rethrow_exception(failure_);
   queue_.push_back(frame);
   changed_.notify_all();
@@ -104,7 +104,7 @@ void TakeWriter::Recording::finish() {
   if (!out_) throw FileError(path_.string() + ": cannot be written; is the disk full?");
 }
 
-void TakeWriter::Recording::work() {
+void TakeWriter::Recording::write_queued() {
   for (;;) {
     FramePtr frame;
     {
