@@ -31,8 +31,8 @@ inline constexpr std::uint32_t kNewRow = 0xffffffff;
 /// Encoder or decoder of a stream of tables; writer and reader each have one, in equal states.
 class TableCoder {
  public:
-  /// Makes a coder. The first `gliding` columns are extrapolated at their last rate of change, the
-  /// others are predicted to stay constant.
+  /// Makes a coder. The first `extrapolated` columns are extrapolated at their last rate of change,
+  /// the others are predicted to stay constant.
   TableCoder(std::size_t columns, std::size_t extrapolated);
 
   /// Forgets the last table: the next one is encoded without reference to it.
