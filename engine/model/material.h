@@ -65,8 +65,7 @@ struct StrongerImpact {
 struct MaterialTag;
 using MaterialIndex = Index<MaterialTag>;
 
-/// Mechanical and visual properties of a solid. The values of a default Material are a weak
-/// default, not a real material.
+/// Mechanical and visual properties of a solid.
 struct Material {
   std::string name;
   double density_kg_m3 = 2000;

@@ -89,8 +89,8 @@ struct Drive {
 
 /// Moves solids along a path as kinematic, unbreakable bodies of infinite mass until `release_s`.
 struct Move {
-  std::vector<std::uint32_t>
-      roots;  ///< Indices of solids; none is anchored, or jointed to a body that is not free.
+  /// Indices of solids; none is anchored, or jointed to a body that is not free.
+  std::vector<std::uint32_t> roots;
   Path path;
   std::optional<Vec3> pivot_W;  ///< Centre of rotation at the start; none: each solid's own origin.
   double release_s = std::numeric_limits<double>::infinity();

@@ -81,9 +81,9 @@ std::vector<Body> bodies_of(const Scene& scene, const Axes& axes) {
     body.mass_kg = ball_mass_kg(ball, scene.materials);
     body.center = center.head<2>();
   }
-  for (const Move& move : scene.moves)  ///< bodies that joints hold to the world
+  for (const Move& move : scene.moves)
     for (const std::uint32_t root : move.roots) bodies[root].held = true;
-  for (const Joint& joint : scene.joints) {  // what the world holds by a joint
+  for (const Joint& joint : scene.joints) {  // bodies jointed to the world
     if (!joint.b && joint.a) bodies[*joint.a].held = true;
     if (!joint.a && joint.b) bodies[*joint.b].held = true;
   }

@@ -41,7 +41,6 @@ struct Post {
 /// their load, are ignored.
 std::vector<Post> posts_in(const Scene& scene);
 
-/// The message about the post that is farthest beyond its critical load; empty if no post is.
 /// Returns a warning about the post that exceeds its critical load most; empty if there is none.
 std::string post_warning(const Scene& scene);
 
