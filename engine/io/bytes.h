@@ -81,8 +81,7 @@ class ByteReader {
     for (char& c : text) c = take<char>();
     return text;
   }
-  /// Reads the number of items of at least `item_bytes` each; throws if the file is too short for
-  /// them.
+  /// Reads the number of items of at least `item_bytes` each; throws if the file is too short.
   std::uint32_t take_count(std::size_t item_bytes) {
     const auto count = take<std::uint32_t>();
     need(std::size_t{count} * item_bytes);
@@ -118,14 +117,12 @@ class ByteReader {
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 /// Returns the XXH3 hash of bytes; equal on every machine.
 std::uint64_t hash_bytes(const std::vector<std::byte>& bytes);
-/// Returns the path that a file is or will be at, after following symbolic links, dangling ones
-/// included.
+/// Returns the path of a file after following symbolic links, dangling ones included.
 std::filesystem::path place_of(const std::filesystem::path& path);
 /// True if the path exists and is neither a regular file nor a folder: a device or a pipe, which is
 /// written to directly and not replaced.
 bool is_device(const std::filesystem::path& path);
-/// Returns the path to write a file at until it is complete: in the same folder, with the process
-/// id in its name.
+/// Returns the path of an incomplete file: in the same folder, with the process id in its name.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 /// Renames a complete file to its path; on failure removes it and throws FileError.
 void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path);

@@ -15,8 +15,7 @@ struct EmptyList {};
 using Figures =
     std::map<std::string, std::variant<bool, std::int64_t, double, std::string, EmptyList>>;
 
-/// Parses a JSON document; throws InputError naming `file` if the text is not JSON. Nulls and empty
-/// lists are omitted.
+/// Parses JSON; throws InputError naming `file` on failure. Nulls and empty lists are omitted.
 Figures parse_figures(const std::string& text, const std::string& file);
 /// Returns the number at a path, integer or not; 0 if there is none.
 double number_at(const Figures& figures, const std::string& place);

@@ -1,5 +1,4 @@
-// Layout: "SUNDERF" and the version, XXH3 of the rest (8 bytes), size of the content (8 bytes),
-// content in zstd.
+// Layout: "SUNDERF" and the version, XXH3 of the rest (8 bytes), content size (8 bytes), zstd data.
 //
 // Versions: 6 is current; 5 has contacts without keys of bodies; 4 also lacks textures, lights and
 // the inspection; 3 also lacks the sleep flag; 2 also lacks poses of meshes; 1 also lacks debris
@@ -91,8 +90,7 @@ std::shared_ptr<const Inspection> take_inspection(ByteReader& in, const std::str
   return inspection;
 }
 
-/// Appends the indices of the meshes that the frame draws to `drawn`; returns the new index of each
-/// mesh.
+/// Appends the indices of the meshes that are drawn to `drawn`; returns the new index of each mesh.
 std::vector<std::uint32_t> drawn_meshes(const Frame& frame, std::vector<std::uint32_t>& drawn) {
   std::vector<std::uint32_t> new_of_old(frame.meshes->size(), MeshIndex::kNone);
   for (const Instance& instance : frame.instances) {

@@ -17,8 +17,7 @@ constexpr double kTick = 5, kDot = 4.5;
 constexpr double kLegendY = 42, kLegendGap = 16;     // vertical position, and gap between entries
 constexpr double kLetter = 6.6, kLetterHeight = 12;  // approximate size of a letter
 
-// Distinguishable with red-green colour blindness (after Okabe and Ito), on light and dark
-// backgrounds.
+// Distinguishable with red-green colour blindness (Okabe and Ito), on light and dark backgrounds.
 constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                    "#e69f00", "#56b4e9", "#888888", "#a6761d"};
 constexpr const char* kPlotStyle =

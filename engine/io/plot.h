@@ -18,8 +18,7 @@ struct Axes {
   Axis x, y;
 };
 
-/// A point of a curve. Values that are not finite, or not positive on a logarithmic axis, are drawn
-/// at the end of the axis.
+/// A point of a curve. Values that cannot be shown on the axis are drawn at its end.
 struct PlotPoint {
   double x = 0, y = 0;
   std::string label = {};  ///< Text beside the point; empty: none.
@@ -34,8 +33,7 @@ struct Curve {
   bool dots = false;  ///< Draws a dot at each point.
 };
 
-/// Returns a plot of curves with common axes, such as a scatter plot, a Pareto front or a time
-/// series.
+/// Returns a plot of curves with common axes.
 std::string svg_curves(const Axes& axes, std::span<const Curve> curves);
 
 struct Bar {

@@ -17,8 +17,7 @@ namespace sunder {
 class StateHash final : public FrameSink {
  public:
   void take(const FramePtr& frame) override;
-  /// Returns 16 hexadecimal digits: the hash over the first `frames` frames, or all if there are
-  /// fewer.
+  /// Returns 16 hexadecimal digits: the hash over the first `frames` frames, at most all of them.
   std::string hex(std::size_t frames = SIZE_MAX) const;
   const std::vector<std::uint64_t>& per_frame() const { return per_frame_; }
 
@@ -50,8 +49,7 @@ std::string cpu_name();
 /// Returns the q-th quantile (0 to 1) by the nearest-rank rule; 0 without values.
 double quantile(std::vector<double> values, double q);
 
-/// Collects the reports of all frames. Timings leave out the first frame, which has no simulated
-/// time.
+/// Collects the reports of all frames. Timings leave out the first frame, which simulates no time.
 class Statistics final : public FrameSink {
  public:
   explicit Statistics(RunInfo info);

@@ -11,8 +11,7 @@
 namespace sunder {
 namespace {
 
-// Distance of a mitre's tip from the section's centroid, over the section's reach, at the sharpest
-// mitre, 75°.
+// Distance of a mitre's tip from the centroid over the section's reach, at the largest bend, 75°.
 constexpr double kMaxTipDistance = 4;
 // Relative tolerance of areas of faces that cover each other.
 constexpr double kAreaTolerance = 1e-6;

@@ -13,8 +13,7 @@ namespace sunder {
 struct BodyTag;
 using BodyId = Id<BodyTag>;
 
-/// Velocity field of a rigid body: point p has the velocity velocity_W + angular_velocity_W × (p −
-/// at_W).
+/// Velocity field of a rigid body: velocity_W + angular_velocity_W × (p − at_W) at point p.
 struct VelocityField {
   Vec3 at_W = Vec3::Zero();
   Vec3 velocity_W = Vec3::Zero();

@@ -82,8 +82,7 @@ struct Plug {
 
   /// Returns the distance from the axis to the farthest corner of the section.
   double section_reach_m() const;
-  /// True if a point, in the pattern's frame, is in the prism; a prism that goes through extends
-  /// beyond its ends.
+  /// True if a point, in the pattern's frame, is in the prism, or beyond its ends if `through`.
   bool contains(const Vec3& point_P) const;
   /// Returns the approximate number of cells of the prism and its rings.
   int cell_count() const {
@@ -121,8 +120,7 @@ struct ExposedFace {
   MaterialIndex material;
 };
 
-/// The pieces of a broken compound. Each piece is one island (connected by bonds); their volumes
-/// sum to the compound's.
+/// The pieces of a broken compound. Each is one island; their volumes sum to the compound's.
 struct BreakPlan {
   std::vector<Compound> pieces;
   double new_area_m2 = 0;  ///< Crack area; the two sides of a crack count once.
@@ -165,8 +163,7 @@ struct BreakEdit {
   bool changed = false;  ///< True if pieces came loose; otherwise no member above is set.
   /// Bonds that no longer hold, by slots; they may be cut without loose pieces.
   std::vector<Bond> cut;
-  /// Sections between loose pieces, or between them and the structure; their bonds are not in
-  /// `cut`.
+  /// Sections between loose pieces, or between them and the structure; not included in `cut`.
   std::vector<PlasticHinge> hinges;
 
   /// Returns the convex of a face of `loose.exposed`; `structure` is in the state before the edit.
@@ -186,8 +183,7 @@ struct Load {
   Vec3 torque_Nm = Vec3::Zero();  ///< Torque in addition to the moment of the force.
 };
 
-/// State of the stress solver for a structure under load, passed back in the next call; immutable
-/// and opaque.
+/// State of the stress solver for a structure, passed back in the next call; immutable and opaque.
 class StressMemory {
  public:
   virtual ~StressMemory() = default;
@@ -213,8 +209,7 @@ struct LoadCase {
   Vec3 gravity_R = Vec3::Zero();
   /// Angular velocity in rad/s; used only for structures without anchors.
   Vec3 spin_R = Vec3::Zero();
-  /// Work units to spend on this call, in bond evaluations, approximately; a few iterations are
-  /// made in any case.
+  /// Approximate work units (bond evaluations) for this call; a few iterations are always made.
   std::uint64_t most_work = 0;
   /// Memory of this structure, or of the structure that it was a piece of; null at first.
   StressMemoryPtr memory;
@@ -234,8 +229,7 @@ struct BlowStress {
 /// Result of a load on a structure.
 struct StressAnswer {
   BreakEdit edit;  ///< Cuts the bonds that failed; separated parts become loose pieces.
-  /// Highest stress over its limit in the remaining structure; <= 1, except for yielding bonds that
-  /// cannot come loose.
+  /// Highest stress over its limit in what remains; <= 1, except for bonds that can only yield.
   double worst = 0;
   /// True if no further call is needed until the load or the structure changes.
   bool settled = false;

@@ -36,8 +36,7 @@ ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
 
 /// Returns twice the volume over the surface area: the thickness of a plate or shell.
 double mean_thickness_m(const Convex& convex);
-/// Returns true if a convex is a plate or shell, which bends: more than about four times as long
-/// and wide as thick.
+/// Returns true for plates and shells, which bend: four times as long and wide as thick, about.
 bool is_thin(const Convex& convex);
 
 /// A pair of convexes of a compound with coplanar touching faces (property (c) of paper 3.1).
@@ -53,8 +52,7 @@ struct Bond {
 /// faces point outward as those of any convex.
 struct Ghost {
   ConvexPtr convex;  ///< The intersection.
-  /// Convexes, ascending: indices, or slots of a structure. Two or more when made; a break may
-  /// leave one.
+  /// Ascending; indices, or slots of a structure. Two or more when made; a break may leave one.
   std::vector<std::uint32_t> of;
   /// −1 for two convexes, +1 for three, −1 for four. 0: the ghost connects, but does not count in
   /// sums, because one of its convexes is a surface convex, whose visual mesh may not reach into

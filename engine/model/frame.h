@@ -112,8 +112,7 @@ struct FrameBox {
 struct Inspection {
   std::vector<FrameContact> contacts;
   std::vector<FrameBox> boxes;
-  /// For each body, the first body of its island: bodies connected by contacts and joints, not
-  /// through static ones.
+  /// For each body, the first body of its island (connected by contacts and joints).
   std::vector<std::uint32_t> islands;
   /// For each instance, the highest stress over its limit among the bonds of its convex; negative
   /// if no load can break any.
@@ -220,8 +219,7 @@ struct Frame {
   std::vector<FrameDust> dust;
   std::vector<BreakEvent> breaks;  ///< Breaks since the previous frame.
   FrameReport report;
-  /// For a frame from a recording: hash of the original state, which is stored with less precision;
-  /// else 0.
+  /// For a frame from a recording: hash of the original state, which was more precise; else 0.
   std::uint64_t recorded_hash = 0;
   std::shared_ptr<const Inspection> inspection;  ///< Null unless requested.
 };

@@ -18,8 +18,7 @@ enum class JointKind : std::uint8_t {
   kPlastic,   ///< As kFixed, until the section between the bodies yields; not for scenes.
 };
 
-/// A joint between two things of the scene, or between one and the world, given in their poses at
-/// the start.
+/// A joint between two things of the scene, or to the world, in their poses at the start.
 struct Joint {
   JointKind kind = JointKind::kBall;
   /// Indices of solids, then of balls; none: the world.

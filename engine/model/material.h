@@ -78,21 +78,18 @@ struct Material {
   std::optional<double> strength_Ns;
   /// Energy per new crack area (the two sides of a crack count once).
   double toughness_J_m2 = 0;
-  /// kNone: unbreakable. Its convexes are never cut; a break next to them separates them at their
-  /// bonds.
+  /// kNone: unbreakable, never cut; a break next to its convexes separates them at their bonds.
   PatternSpec pattern;
   /// Radius of the impact sphere (paper 3.2); infinity breaks the whole solid.
   double impact_radius_m = 1;
-  /// Patterns for stronger impacts, ascending by energy; each replaces `pattern` and
-  /// `impact_radius_m`.
+  /// Patterns for stronger impacts, ascending by energy, with their own radii.
   std::vector<StrongerImpact> stronger;
   /// Stress that breaks bonds between convexes, under self-weight and slow loads as well; 0:
   /// unlimited. A bond of two materials has the lower limit.
   double tensile_Pa = 0;
   double shear_Pa = 0;
   double compressive_Pa = 0;
-  /// Reinforcement that resists perforation: per cent of the cross-section, in each direction at
-  /// each face.
+  /// Reinforcement against perforation: per cent of the section, in each direction at each face.
   double reinforcement_percent = 0;
   /// Young's modulus; determines the distribution of load over convexes.
   double youngs_Pa = 3e10;
@@ -104,8 +101,7 @@ struct Material {
   Fit fit;
   /// Obsolete: volume below which pieces do not break; see smallest_broken_m3().
   std::optional<double> smallest_break_m3;
-  /// Volume below which pieces become debris instead of bodies; smaller bodies would destabilise
-  /// the solver (paper 5).
+  /// Volume below which pieces become debris: such bodies would destabilise the solver (paper 5).
   double smallest_piece_m3 = 1e-6;
   Look surface;
   Look interior;
@@ -122,8 +118,7 @@ struct Material {
       if (limit > 0 && limit < least) least = limit;
     return least;
   }
-  /// Returns the volume below which a piece does not break: 8 times the smallest piece, which three
-  /// halvings reach.
+  /// Returns the volume below which a piece does not break: eight times the smallest piece.
   double smallest_broken_m3() const { return smallest_break_m3.value_or(8 * smallest_piece_m3); }
   /// Returns the stress at which an impact breaks a convex at the point of impact: the tensile
   /// limit for thin convexes, which bend, else the compressive limit. 0: any stress.
@@ -140,8 +135,7 @@ struct Material {
   bool breaks_by_load() const { return weakest_Pa() < std::numeric_limits<double>::infinity(); }
 };
 
-/// Returns the crack energy per area between two materials: the mean of both, or, if only one of
-/// them breaks, that one's.
+/// Returns the crack energy per area between two materials: the mean, or the breakable one's.
 inline double crack_J_m2(const Material& a, const Material& b) {
   if (a.breakable() != b.breakable()) return (a.breakable() ? a : b).toughness_J_m2;
   return 0.5 * (a.toughness_J_m2 + b.toughness_J_m2);

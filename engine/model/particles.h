@@ -101,8 +101,7 @@ struct ParticleLimits {
   std::uint32_t dust = 20000;
 };
 
-/// Counts of one kind of particle. emitted + ignored is the number requested; alive = emitted −
-/// gone.
+/// Counts of one kind of particle; emitted + ignored were requested, alive = emitted − gone.
 struct ParticleLedger {
   std::uint32_t alive = 0;
   std::uint32_t awake = 0;    ///< Number awake, out of `alive`.

@@ -24,8 +24,7 @@ struct Path {
   /// True: repeats; the last key must equal the start, except for whole turns.
   bool loops = false;
 
-  /// Returns the interpolated key at a time; `time_s` outside the path is clamped, or wrapped if it
-  /// loops.
+  /// Returns the interpolated key; times outside the path are clamped, or wrapped if it loops.
   PathKey at(double time_s) const;
 };
 

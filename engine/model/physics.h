@@ -60,8 +60,7 @@ struct ShapeDesc {
   std::uint32_t tag = 0;  ///< Not read by the solver; returned with contacts.
 };
 
-/// A body to add. Its frame B has the axes of the rest frame R and its origin at the centre of
-/// mass.
+/// A body to add. Frame B has the axes of rest frame R and its origin at the centre of mass.
 struct BodyDesc {
   Pose X_WB;
   Vec3 com_R = Vec3::Zero();  ///< Origin of B in R: point_B = point_R − com_R.
@@ -150,8 +149,7 @@ struct ContactLoad {
   Vec3 point_W = Vec3::Zero();
 };
 
-/// Impulse of a joint on a body that has `reports_load`, over one solve, at the joint's anchor on
-/// it.
+/// Impulse of a joint on a body that has `reports_load`, over one solve, at the body's anchor.
 struct JointLoad {
   std::uint32_t body_tag = 0;
   Vec3 impulse_W = Vec3::Zero();  ///< On the body, in N s.
@@ -215,16 +213,14 @@ class Physics {
                                       std::span<const BodyDesc> add) = 0;
   /// Changes the shapes of a static body and wakes bodies that lose a support.
   virtual void edit(const BodyEdit& edit) = 0;
-  /// Finds contacts and speculative contacts within `horizon_s`. A second call in a step adds the
-  /// contacts of new bodies.
+  /// Finds contacts, speculative ones within `horizon_s` included; a second call adds new bodies.
   virtual void collide(double horizon_s) = 0;
   /// Returns the contacts of the last collide() that close at the current velocities.
   virtual std::vector<Approach> approaches() = 0;
   /// Returns the contact points of `bodies`, each once, as the last collide() found them, in order
   /// of their keys. Valid until the next call that changes anything.
   virtual std::vector<Touch> touches(std::span<const BodyId> bodies) = 0;
-  /// Returns the body pairs of touches(bodies), in its order; consecutive points of one pair give
-  /// one entry.
+  /// Returns the body pairs of touches(bodies), in its order; consecutive equal pairs once.
   virtual std::vector<TouchingBodies> touching(std::span<const BodyId> bodies) {
     std::vector<TouchingBodies> all;
     for (const Touch& touch : touches(bodies)) {
@@ -236,8 +232,7 @@ class Physics {
   /// Sets a body's pose and velocities and wakes it; ignored for static bodies. A kinematic body
   /// keeps these velocities through all solves until the next call.
   virtual void set_state(BodyId body, const BodyState& state) = 0;
-  /// Changes a body's momentum by an impulse at a point and wakes it; ignored for static and
-  /// kinematic bodies.
+  /// Changes a body's momentum and wakes it; ignored for static and kinematic bodies.
   virtual void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) = 0;
   /// Makes bodies stand still in the next solve, after which they have their former velocities:
   /// nothing pushes them, and other bodies collide with them as with sleeping ones. Bodies joined
@@ -273,8 +268,7 @@ class Physics {
   virtual std::vector<JointLoad> joint_loads() const { return {}; }
   /// Returns the plastic joints that flowed in the last solve(); ascending.
   virtual std::vector<JointFlow> joint_flows() const { return {}; }
-  /// Returns the penetrations (m, >= 0) of all contact points that carry load, unordered; for
-  /// statistics.
+  /// Returns the penetrations (m, >= 0) of contact points that carry load, unordered; statistics.
   virtual std::vector<float> penetrations() const = 0;
   /// Returns the current internal state; called for debug views only.
   virtual PhysicsInspection inspect() const { return {}; }

@@ -20,8 +20,7 @@ std::vector<std::vector<std::uint8_t>> hidden_faces(const Structure& structure,
 /// Returns the flags of all convexes of a compound.
 std::vector<std::vector<std::uint8_t>> hidden_faces(const Compound& compound);
 
-/// Returns the mesh of a convex without the faces, or caps in faces, whose flag in `hidden` is 1;
-/// null if nothing is left.
+/// Returns the mesh of a convex without faces and caps whose flag in `hidden` is 1; null if empty.
 std::shared_ptr<const Mesh> make_mesh(const Convex& convex,
                                       const std::vector<std::uint8_t>& hidden);
 

@@ -76,8 +76,7 @@ struct Removal {
   Box anchors_W;
 };
 
-/// Holds bodies at a velocity with a limited force, or at an angular velocity with a limited
-/// torque, or both.
+/// Holds bodies at a velocity by limited force, an angular velocity by limited torque, or both.
 struct Drive {
   double time_s = 0, until_s = 0;
   std::vector<std::uint32_t> roots;  ///< As in Removal; a body is driven until it breaks.
@@ -135,8 +134,7 @@ struct Limits {
   /// Approximate number of parts cut per frame: cells of a pattern, and eight for each convex in
   /// its reach. Further breaks wait for the next frame.
   std::uint32_t parts_a_frame = 1000;
-  /// Bond evaluations per frame to find the bonds that load breaks. Further work waits for the next
-  /// frame.
+  /// Bond evaluations per frame to find the bonds that load breaks; more work waits for the next.
   std::uint32_t load_work_a_frame = 40000;
   std::uint32_t debris = 20000;  ///< Pieces of debris alive at once.
   std::uint32_t dust = 4000;     ///< Puffs of dust alive at once.

@@ -33,8 +33,7 @@ struct Link {
 class Structure {
  public:
   Structure() = default;
-  /// Makes a structure of a connected compound; unconnected parts stay together until a break
-  /// reaches them.
+  /// Makes a structure; unconnected parts of the compound stay together until a break reaches them.
   explicit Structure(const Compound& compound);
 
   /// Number of slots ever used, empty ones included.
@@ -72,8 +71,7 @@ class Structure {
   /// Returns the slots that have a convex; ascending.
   std::vector<ConvexSlot> slots() const;
 
-  /// Returns the slots whose boxes are within `radius_m` of a point, ascending; all if `radius_m`
-  /// is infinite.
+  /// Returns the slots whose boxes are within `radius_m` (maybe infinite) of a point, ascending.
   std::vector<ConvexSlot> within(const Vec3& center_R, double radius_m) const;
   /// Applies an edit, in time proportional to the change.
   void apply(const BreakEdit& edit);

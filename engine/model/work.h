@@ -11,8 +11,7 @@ inline constexpr int kStages = 7;
 inline constexpr const char* kStageNames[kStages] = {"act",  "collide",   "break",   "solve",
                                                      "load", "particles", "snapshot"};
 
-/// A part of a stage: a count that is equal on every machine, and the time of all counted work in
-/// ms; 0: not timed.
+/// A part of a stage: a count, equal on every machine, and its time in ms; 0: not timed.
 struct WorkItem {
   Stage stage = Stage::kAct;
   const char* name = "";

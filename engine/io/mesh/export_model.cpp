@@ -20,8 +20,7 @@ std::string part_name(std::size_t index, std::size_t count) {
   return "piece_" + std::string(most.size() - digits.size(), '0') + digits;
 }
 
-/// Returns the index of a face's material in a model: two for each material of the scene, then the
-/// appearances from files.
+/// Returns the index of a face's material: two per material of the scene, then those from files.
 std::uint32_t material_of(const PolygonMesh::Face& face, MaterialIndex material,
                           std::uint32_t first_paint) {
   if (face.kind == FaceKind::kInterior) return 2 * material.value + 1;

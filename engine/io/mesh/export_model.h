@@ -1,7 +1,6 @@
 // Export of solids to other programs: closed surfaces with materials, in parts.
 //
-// Begin with make_model(); engine/io/mesh/glb_writer.h and engine/io/mesh/obj_writer.h write the
-// model.
+// Begin with make_model(); glb_writer.h and obj_writer.h beside it write the model.
 #pragma once
 
 #include <cstddef>
@@ -56,8 +55,7 @@ struct ShellTriangles {
   struct Vertex {
     std::uint32_t point = 0;  ///< Index of a vertex of the shell's mesh.
     Vec3f normal = Vec3f::Zero();
-    /// If the mesh has no texture coordinates: position in metres in the rest frame, projected on
-    /// the face.
+    /// Without texture coordinates in the mesh: metres in the rest frame, projected on the face.
     Vec2f uv = Vec2f::Zero();
   };
   std::vector<Vertex> vertices;  ///< Unique.

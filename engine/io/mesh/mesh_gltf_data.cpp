@@ -51,8 +51,7 @@ std::string decode_base64(std::string_view text) {
   return bytes;
 }
 
-/// True if meshes cannot be read without support for an extension; extensions of appearance are
-/// ignored.
+/// True if an extension is needed to read meshes; extensions of appearance are ignored.
 bool changes_geometry(const std::string& extension) {
   constexpr std::string_view kAppearancePrefixes[] = {
       "KHR_materials_", "KHR_texture_", "KHR_lights_",   "KHR_xmp",

@@ -28,14 +28,12 @@ class GltfData {
                     std::size_t fallback = kNone) const;
   /// Returns a value as an index below `count`.
   std::size_t to_index(const nlohmann::json& value, std::size_t count) const;
-  /// Returns the member `name`, an array of as many numbers as `fallback`; `fallback` if there is
-  /// none.
+  /// Returns the member `name`, an array as long as `fallback`; `fallback` if there is none.
   std::vector<double> numbers(const nlohmann::json& parent, const char* name,
                               std::initializer_list<double> fallback) const;
   /// Returns the member `name`, a number; `fallback` if there is none.
   double number(const nlohmann::json& parent, const char* name, double fallback) const;
-  /// Returns the data of an attribute's accessor, `width` numbers per item; empty if the attribute
-  /// is absent.
+  /// Returns the data of an attribute's accessor, `width` numbers per item; empty if it is absent.
   std::vector<double> floats(const nlohmann::json& attributes, const char* name,
                              std::size_t width) const;
   /// Returns the vertex indices of a primitive in order, each below `vertex_count`.

@@ -24,8 +24,7 @@ class GltfPaints {
   const std::vector<std::string>& missing() const { return missing_; }
 
  private:
-  /// Returns the image of a texture reference; null if it is missing or uses other texture
-  /// coordinates.
+  /// Returns the image of a texture reference; null if missing or for other texture coordinates.
   Picture used(const nlohmann::json& use);
   Picture picture(std::size_t image);
 

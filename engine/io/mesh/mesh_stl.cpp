@@ -1,5 +1,4 @@
-// STL, text or binary: triangles without shared vertices. Facet normals are ignored, since vertices
-// determine them.
+// STL, text or binary: triangles without shared vertices. Facet normals are ignored as redundant.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,8 +11,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 80, kTriangleBytes = 50;
 
-/// Returns the number of triangles of a binary file; writers that did not know it in advance leave
-/// it 0.
+/// Returns the number of triangles of a binary file; some writers leave the stored count 0.
 std::size_t triangle_count(std::string_view bytes) {
   std::uint32_t count = 0;
   std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof count);

@@ -37,8 +37,7 @@ RawMesh read_gltf(const MeshSource& source);
 
 /// Appends a polygon, in the last group.
 void add_polygon(RawMesh& mesh, std::span<const std::uint32_t> vertices);
-/// Sets every corner's normal and texture coordinate to those of its vertex; an empty span sets
-/// none.
+/// Copies normals and texture coordinates of vertices to corners; an empty span sets none.
 void spread_to_corners(RawMesh& mesh, std::span<const Vec3f> normals, std::span<const Vec2f> uvs);
 
 /// Parser of lines and words; numbers do not depend on the locale. A '#' ends a line; a '\' joins
@@ -49,8 +48,7 @@ class MeshText {
 
   /// Moves to the next line; returns false if there is none.
   bool next_line();
-  /// Moves to the next line that has a word; throws InputError that `what` is missing if there is
-  /// none.
+  /// Moves to the next line that has a word; throws InputError that `what` is missing otherwise.
   void need_line(const std::string& what);
   /// Returns the next word of the line; empty at its end.
   std::string_view word();

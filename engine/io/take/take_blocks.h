@@ -82,8 +82,7 @@ class Unpacker {
  public:
   Unpacker();
   void restart();
-  /// Decompresses a block; throws InputError, naming `file`, if it does not have `content_bytes`
-  /// bytes.
+  /// Decompresses a block; throws InputError, naming `file`, if its size is not `content_bytes`.
   std::vector<std::byte> unpack(const std::vector<std::byte>& packed, std::uint64_t content_bytes,
                                 const std::string& file);
 

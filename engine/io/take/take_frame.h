@@ -32,8 +32,7 @@ class FrameCoder {
   void reset();
   /// Appends a frame as a difference to the last one.
   void write(ByteWriter& out, const Frame& frame);
-  /// Decodes a frame; throws InputError, naming `file`, if the bytes are not a frame of this
-  /// stream.
+  /// Decodes a frame; throws InputError, naming `file`, if the bytes are no frame of this stream.
   TakeFrame read(const std::vector<std::byte>& bytes, const std::string& file);
 
  private:

@@ -115,8 +115,7 @@ void TakeReader::Playback::register_block(const BlockPlace& place) {
   }
 }
 
-/// Reads the index; returns false if there is none or it is invalid, in which case scan() is
-/// needed.
+/// Reads the index; returns false if it is missing or invalid, in which case scan() is needed.
 bool TakeReader::Playback::read_index() {
   constexpr std::uint64_t kEnd = 8 + sizeof kIndexMagic;
   std::vector<std::byte> end(kEnd);

@@ -1,5 +1,4 @@
-// Compression of integer tables that change little from frame to frame: bodies, debris and dust of
-// a recording.
+// Compression of integer tables that change little from frame to frame, for recordings.
 //
 // Begin with TableCoder::write(). Rows are matched with the previous table, numbers are
 // extrapolated, and residuals are entropy-coded. The model of a residual depends on the residual of

@@ -23,8 +23,7 @@ struct Stacks {
 /// Returns these stacks of a scene.
 Stacks stacks_in(const Scene& scene);
 
-/// Returns the approximate penetration of the lowest body: 1.55·load·g·h² (docs/decisions/027), h
-/// the substep in s.
+/// Returns the approximate penetration of the lowest body: 1.55·load·g·h² (docs/decisions/027).
 double expected_sink_m(const Stack& stack, double gravity_m_s2, double h_s);
 /// Returns the substeps of `dt_s` that limit the penetration to `target_m`; at least 1.
 int substeps_for_sink(const Stack& stack, double gravity_m_s2, double dt_s, double target_m);
@@ -40,8 +39,7 @@ Accuracy accuracy_to_stand(const Scene& scene, int most_substeps);
 /// these are more than `most_substeps`.
 Accuracy cut_in_substeps(Accuracy accuracy, int all, int most_substeps);
 
-/// Returns a warning about a step longer than scene files allow, possible in scenes made in code;
-/// empty if there is none.
+/// Returns a warning about a step longer than scene files allow; empty if there is none.
 std::string long_step_warning(const Scene& scene);
 /// Returns a warning about bodies too far from the origin for the precision of debris and
 /// recordings; empty if there are none.

@@ -97,8 +97,7 @@ std::vector<double> shares_of(const Vec2& center, const std::vector<Vec2>& place
   const Vec2 mean = std::accumulate(places.begin(), places.end(), Vec2(Vec2::Zero())) / count;
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   for (const Vec2& place : places) spread += (place - mean) * (place - mean).transpose();
-  // Points on one line make the matrix singular; the small addition makes it regular without effect
-  // on points of that line.
+  // Points on one line make the matrix singular; the small addition makes it regular.
   const double more = 1e-9 * spread.trace() + 1e-12;
   const double aa = spread(0, 0) + more, bb = spread(1, 1) + more, ab = spread(0, 1);
   const Vec2 arm = center - mean;
@@ -191,8 +190,7 @@ struct Section {
     }
   }
 
-  /// Returns the least bending stiffness EI about the centroid; in planar scenes the one in the
-  /// plane.
+  /// Returns the least bending stiffness EI about the centroid; in planar scenes that in the plane.
   double bending_Nm2(bool planar, const Axes& axes) const {
     const Eigen::Matrix2d central = second - first * first.transpose() / stiffness_N;
     if (planar) return axes.a == 2 ? central(1, 1) : central(0, 0);
