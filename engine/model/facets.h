@@ -15,9 +15,8 @@ struct Facet {
   FacetBends bends;
 };
 
-/// Returns one facet per triangle, in order. A facet's depth depends on the length of the surface's
-/// edges and is limited to half the local thickness. Triangles are neighbours if they share
-/// vertices.
+/// Returns one facet per triangle, in order. The depth follows from the surface's size and edge
+/// lengths, and is at most half the local thickness. Triangles that share vertices are neighbours.
 std::vector<Facet> make_facets(const GroundMesh& ground);
 /// Returns meshes of limited size, with smooth normals except at creases.
 std::vector<std::shared_ptr<const Mesh>> make_meshes(const GroundMesh& ground);

@@ -167,7 +167,7 @@ struct JointFlow {
 
 /// Results of one solve, for the accounting of momentum and energy.
 struct SolveReport {
-  /// Impulse of gravity and of static and kinematic bodies, less the momentum that sleep removed.
+  /// Impulse of gravity, of static and kinematic bodies, and of putting bodies to sleep.
   Vec3 external_impulse_Ns = Vec3::Zero();
   /// Momentum of all bodies that are neither static nor kinematic.
   Vec3 momentum_before_Ns = Vec3::Zero(), momentum_after_Ns = Vec3::Zero();
