@@ -139,7 +139,7 @@ void Dust::place_air(double ground_m) {
   if (flow_ && flow_->air.grid().lattice.counts != cells) {
     Flow next(cells);
     next.air.place(box, ground_m);
-    next.air.take_over(flow_->air);
+    next.air.copy_flow_from(flow_->air);
     flow_ = std::move(next);
     return;
   }
