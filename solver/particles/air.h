@@ -56,8 +56,8 @@ class Air : public Flow {
   Field emitted_kg_;
   std::array<Field, 3> emitted_Ns_;
   PressureSolver solver_;
-  std::vector<float>
-      max_speed_of_layer_;  ///< Greatest speed in each layer of cells, before the projection.
+  /// Greatest speed in each layer of cells, before the projection.
+  std::vector<float> max_speed_of_layer_;
   int iterations_ = 0;
 };
 

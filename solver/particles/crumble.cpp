@@ -127,7 +127,7 @@ CapacityShares capacity_shares(std::span<const Emission> faces, const Debris& de
   const auto share = [](std::uint32_t capacity, double expected) {
     return expected > capacity ? capacity / expected : 1;
   };
-  return {share(debris.capacity(), expected_debris), share(dust.capacity(), expected_dust)};
+  return {share(debris.room(), expected_debris), share(dust.room(), expected_dust)};
 }
 
 void crumble(const Emission& face, const CapacityShares& shares, Random& random, Debris& debris,

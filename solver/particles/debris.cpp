@@ -22,8 +22,8 @@ constexpr float kRestitution = 0.3f;
 constexpr float kRestitutionThreshold_m_s = 0.4f;  // least closing speed for restitution
 constexpr double kContactGap_m = 2e-4;  // gap kept between a chip and the surface it touches
 constexpr double kMaxPushOut_m_s = 2;   // greatest speed at which penetration is corrected
-constexpr float kContactSpinDamping_s =
-    150;  // of the spin in contact, 1/s; high: chips do not roll
+// of the spin in contact, 1/s; high: chips do not roll
+constexpr float kContactSpinDamping_s = 150;
 constexpr float kFlightSpinDamping_s = 0.5f;  // of the spin in flight, 1/s
 constexpr float kSleepSpeed_m_s = 0.1f;       // slower chips may fall asleep
 constexpr float kTimeToSleep_s = 0.25f;       // time below that speed before a chip falls asleep
@@ -139,15 +139,15 @@ void Debris::wake_hit(double dt_s, const Obstacles& obstacles) {
   std::vector<std::uint8_t> touched(asleep_.size());
   for_chunks(asleep_.size(), kChipsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     ObstacleGrid::Near near;
-    std::array<SphereWay, kLanes> ways;
+    std::array<SphereWay, kLanes> paths;
     std::array<std::optional<ObstacleTouch>, kLanes> touches;
     for (std::size_t i = begin; i < end; i += kLanes) {
       const std::size_t count = std::min<std::size_t>(kLanes, end - i);
       for (std::size_t w = 0; w < count; ++w) {
         const Vec3 here = position_W_[asleep_[i + w]].cast<double>();
-        ways[w] = {here, here, double{radius_m_[asleep_[i + w]]}, dt_s};
+        paths[w] = {here, here, double{radius_m_[asleep_[i + w]]}, dt_s};
       }
-      const std::span some(ways.data(), count);
+      const std::span some(paths.data(), count);
       moving_grid_.find(some, near);
       moving_grid_.sweep(some, near, touches);
       for (std::size_t w = 0; w < count; ++w) touched[i + w] = touches[w].has_value();
@@ -168,8 +168,8 @@ Box Debris::reach_of_awake(double dt_s) {
                Vec3f low = Vec3f::Constant(1e30f), high = -low;
                for (std::size_t i = begin; i < end; ++i) {
                  const std::uint32_t chip = awake_[i];
-                 const Vec3f way = step_s * (velocity_W_[chip] + fall);
-                 const Vec3f reach = way.cwiseAbs().array() + radius_m_[chip];
+                 const Vec3f path = step_s * (velocity_W_[chip] + fall);
+                 const Vec3f reach = path.cwiseAbs().array() + radius_m_[chip];
                  low = low.cwiseMin(position_W_[chip] - reach);
                  high = high.cwiseMax(position_W_[chip] + reach);
                }
@@ -208,15 +208,15 @@ void Debris::prefetch_chip(std::uint32_t chip) const {
 /// kBounces + 1 rounds.
 void Debris::move(std::span<const std::uint32_t> chips, std::span<StepResult> results, double dt_s,
                   double ground_m, ObstacleGrid::Near& near) {
-  std::array<SphereWay, kChipsPerBatch> ways;      // remaining paths of the chips that still fly
+  std::array<SphereWay, kChipsPerBatch> paths;     // remaining paths of the chips that still fly
   std::array<std::size_t, kChipsPerBatch> flying;  // their indices in `chips`
   std::array<std::optional<ObstacleTouch>, kChipsPerBatch> touches;
   const Vec3f fall = (dt_s * gravity_W_).cast<float>();
   for (std::size_t i = 0; i < chips.size(); ++i) {
     velocity_W_[chips[i]] += fall;
-    ways[i].from = position_W_[chips[i]].cast<double>();
-    ways[i].radius_m = double{radius_m_[chips[i]]};
-    ways[i].duration_s = dt_s;
+    paths[i].from = position_W_[chips[i]].cast<double>();
+    paths[i].radius_m = double{radius_m_[chips[i]]};
+    paths[i].duration_s = dt_s;
     flying[i] = i;
     results[i] = {};
   }
@@ -224,20 +224,20 @@ void Debris::move(std::span<const std::uint32_t> chips, std::span<StepResult> re
   for (int bounces = 0; count > 0; ++bounces) {
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3f& velocity = velocity_W_[chips[flying[i]]];
-      ways[i].to = ways[i].from + ways[i].duration_s * velocity.cast<double>();
+      paths[i].to = paths[i].from + paths[i].duration_s * velocity.cast<double>();
     }
-    grid_.find(std::span(ways.data(), count), near);
+    grid_.find(std::span(paths.data(), count), near);
     for (std::size_t i = 0; i < count; i += kLanes) {
       const std::size_t some = std::min<std::size_t>(kLanes, count - i);
-      grid_.sweep({&ways[i], some}, near, {&touches[i], some});
+      grid_.sweep({&paths[i], some}, near, {&touches[i], some});
     }
     std::size_t left = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t which = flying[i];
       const bool on =
-          advance_to_contact(chips[which], ways[i], touches[i], dt_s, ground_m, results[which]);
+          advance_to_contact(chips[which], paths[i], touches[i], dt_s, ground_m, results[which]);
       if (!on || bounces == kMaxBounces) continue;
-      ways[left] = ways[i];
+      paths[left] = paths[i];
       flying[left++] = which;
     }
     count = left;
@@ -246,36 +246,36 @@ void Debris::move(std::span<const std::uint32_t> chips, std::span<StepResult> re
 
 /// Moves a chip to the end of its path or to its first contact, and applies the contact. Returns
 /// true if time is left in the step.
-bool Debris::advance_to_contact(std::uint32_t chip, SphereWay& way,
+bool Debris::advance_to_contact(std::uint32_t chip, SphereWay& path,
                                 std::optional<ObstacleTouch> touch, double dt_s, double ground_m,
                                 StepResult& result) {
-  const double lowest = ground_m + way.radius_m;
-  const double fall = way.from.y() - way.to.y();
-  if (way.to.y() < lowest) {
-    const double time = way.from.y() > lowest && fall > 0 ? (way.from.y() - lowest) / fall : 0;
+  const double lowest = ground_m + path.radius_m;
+  const double fall = path.from.y() - path.to.y();
+  if (path.to.y() < lowest) {
+    const double time = path.from.y() > lowest && fall > 0 ? (path.from.y() - lowest) / fall : 0;
     if (!touch || time < touch->time) {
-      touch = ObstacleTouch{time, lowest - way.to.y(), Vec3::UnitY(), Vec3::Zero(), kGround};
+      touch = ObstacleTouch{time, lowest - path.to.y(), Vec3::UnitY(), Vec3::Zero(), kGround};
     }
   }
   if (!touch) {
-    way.from = way.to;
-    way.duration_s = 0;
+    path.from = path.to;
+    path.duration_s = 0;
   } else {
     result = {true, touch->velocity_W.norm() < ObstacleGrid::kCreep_m_s, touch->body};
     if (touch->depth_m > 0 && touch->time <= 0) {
-      way.from = way.to + std::min(touch->depth_m, kMaxPushOut_m_s * dt_s) * touch->normal_W;
-      way.duration_s = 0;
+      path.from = path.to + std::min(touch->depth_m, kMaxPushOut_m_s * dt_s) * touch->normal_W;
+      path.duration_s = 0;
     } else {
-      way.from += touch->time * (way.to - way.from);
-      way.duration_s *= 1 - touch->time;
+      path.from += touch->time * (path.to - path.from);
+      path.duration_s *= 1 - touch->time;
     }
-    way.from += kContactGap_m * touch->normal_W;
+    path.from += kContactGap_m * touch->normal_W;
     apply_contact(velocity_W_[chip], angular_velocity_W_[chip], radius_m_[chip],
                   touch->normal_W.cast<float>(), touch->velocity_W.cast<float>());
   }
-  way.from.y() = std::max(way.from.y(), lowest);
-  position_W_[chip] = way.from.cast<float>();
-  return way.duration_s > 0;
+  path.from.y() = std::max(path.from.y(), lowest);
+  position_W_[chip] = path.from.cast<float>();
+  return path.duration_s > 0;
 }
 
 /// Damps the spin of chips and integrates their rotations; accurate for turns well below a radian.

@@ -61,7 +61,7 @@ class Debris {
   void prefetch_chip(std::uint32_t chip) const;
   void move(std::span<const std::uint32_t> chips, std::span<StepResult> results, double dt_s,
             double ground_m, ObstacleGrid::Near& near);
-  bool advance_to_contact(std::uint32_t chip, SphereWay& way, std::optional<ObstacleTouch> touch,
+  bool advance_to_contact(std::uint32_t chip, SphereWay& path, std::optional<ObstacleTouch> touch,
                           double dt_s, double ground_m, StepResult& result);
   void integrate_rotations(std::span<const std::uint32_t> chips,
                            std::span<const StepResult> results, float dt_s);
@@ -84,8 +84,8 @@ class Debris {
   std::vector<MaterialIndex> material_;
   std::vector<State> state_;
   std::vector<std::uint32_t> support_;  ///< Key of the body that a sleeping chip rests on.
-  std::vector<std::uint64_t>
-      sleep_order_;  ///< Position of a sleeping chip in the order of sleeping.
+  /// Position of a sleeping chip in the order of sleeping.
+  std::vector<std::uint64_t> sleep_order_;
 
   /// All chips, sorted by place at the last sort(), so that neighbours in space are close in
   /// memory.
