@@ -1,5 +1,5 @@
-// Which texture unit holds what: each texture stays on its own for good, and shaders call what
-// reads it by one name.
+// Texture units: each texture stays bound to its own unit, and its sampler has the same name in all
+// shaders.
 #pragma once
 
 namespace sunder::render {
@@ -19,7 +19,7 @@ enum Unit {
   kSumUnit
 };
 
-/// The samplers of unit 0, 1 and so on.
+/// Sampler names of units 0, 1 and so on, in the order of Unit.
 inline constexpr const char* kSamplers[] = {"shadow_map", "zenith_map", "slots",  "materials",
                                             "tiles",      "pictures",   "depths", "lights",
                                             "openness",   "occlusion",  "dust",   "sums"};
