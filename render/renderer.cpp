@@ -94,7 +94,7 @@ struct Renderer::Impl {
   const GlTable& gl;
   Programs programs;
   Pieces pieces;
-  CoveredTiles covered;
+  DepthTiles depth_tiles;
   Chips chips;
   Puffs puffs;
   std::optional<Pictures> pictures;
@@ -128,7 +128,7 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
       gl(context->gl()),
       programs(make_programs(gl, wanted.samples > 1 || wanted.transparent, wanted.transparent)),
       pieces(gl),
-      covered(gl),
+      depth_tiles(gl),
       chips(gl),
       puffs(gl) {
   if (view_mode.looks_inside()) marks.emplace(gl);
@@ -204,7 +204,7 @@ void Renderer::Impl::upload(const Frame& frame, const Sample& sample) {
     fill_buffer(gl, GL_TEXTURE_BUFFER, material_buffer, rows, GL_STATIC_DRAW);
   }
   uniforms = make_uniforms(frame.view, pieces.casters(), options.width, options.height, sample);
-  uniforms.ground_offset[2] = static_cast<float>(kTexelsAMaterial * materials->size());
+  uniforms.ground_offset[2] = static_cast<float>(kTexelsPerMaterial * materials->size());
   gl.BindBuffer(GL_UNIFORM_BUFFER, uniform_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
   chips.update(frame, uniforms.lens[1], uniforms.to_sun[3]);
@@ -220,15 +220,15 @@ void Renderer::Impl::draw_shadows() {
   gl.PolygonOffset(1.5f, 2);
   begin(shadow, programs.shadow);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  covered.start(seen_by_light(uniforms.shadow_of_eye, kShadowTexels));
-  pieces.draw_shadows(covered);
+  depth_tiles.start(view_of_light(uniforms.shadow_of_eye, kShadowTexels));
+  pieces.draw_shadows(depth_tiles);
   chips.draw_shadows();
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   done("shadows");
   begin(zenith, programs.zenith);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  covered.start(seen_by_light(uniforms.zenith_of_eye, kZenithTexels));
-  pieces.draw_heights(covered);
+  depth_tiles.start(view_of_light(uniforms.zenith_of_eye, kZenithTexels));
+  pieces.draw_heights(depth_tiles);
   done("zenith");
 }
 
@@ -237,14 +237,14 @@ void Renderer::Impl::draw_pieces() {
   gl.ClearColor(0, 0, 0, 1);  // of what is transparent: all of what is behind it shows
   gl.Clear(GL_DEPTH_BUFFER_BIT | (options.transparent ? GL_COLOR_BUFFER_BIT : 0u));
   gl.PolygonMode(GL_FRONT_AND_BACK, view_mode.edges() ? GL_LINE : GL_FILL);
-  covered.start(seen_by_camera(uniforms.clip_of_eye, options.width, options.height));
+  depth_tiles.start(view_of_camera(uniforms.clip_of_eye, options.width, options.height));
   using Group = Pieces::Group;
   for (const auto& [group, program] :
        {std::pair(Group::kMatte, programs.matte), std::pair(Group::kPainted, programs.painted),
         std::pair(Group::kBlocks, programs.blocks), std::pair(Group::kShiny, programs.shiny)}) {
     if (!pieces.has(group)) continue;
     begin(light, program);
-    pieces.draw(group, covered);
+    pieces.draw(group, depth_tiles);
   }
   gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   chips.draw();
