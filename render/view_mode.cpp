@@ -23,7 +23,7 @@ const std::array<Vec3f, 12> kColors = {
     Vec3f(0.6f, 0.62f, 0.6f),   Vec3f(0.85f, 0.4f, 0.45f),  Vec3f(0.3f, 0.6f, 0.05f)};
 enum : std::uint32_t { kStaticColor, kAwakeColor, kSleepingColor };
 constexpr std::uint32_t kHeatSteps = 17;
-/// Offsets in the palette after kColors: a dim copy of kColors for sleeping bodies, then kHeats
+/// Offsets in the palette after kColors: a dim copy of kColors for sleeping bodies, then kHeatSteps
 /// heat colours.
 constexpr std::uint32_t kFirstDim = kColors.size(), kFirstHeat = 2 * kColors.size();
 

@@ -1,5 +1,5 @@
-// Bare dry ground. The place is found along the pixel's ray: interpolating it over so large a quad
-// would lose it.
+// Bare dry ground. The position is computed along the ray of the pixel, because interpolation over so
+// large a quad is inaccurate.
 uniform sampler2DArray tiles;
 out vec4 color;
 
