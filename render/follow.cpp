@@ -12,8 +12,7 @@ constexpr double kFollowRate = 5;
 
 }  // namespace
 
-/// Finds the names that match name_: the parts "wall.0", "wall.1" and so on of a structure match
-/// "wall", as in scene files.
+/// Finds the names that match name_; "wall" matches "wall.0", "wall.1" and so on, as in scenes.
 void FollowCamera::find_names(const Frame& frame) {
   std::string there;
   const std::vector<std::string> none;

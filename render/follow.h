@@ -13,8 +13,7 @@
 namespace sunder::render {
 
 /// Follows a solid or ball by name; when that breaks, its largest piece, and so on. Distance and
-/// direction are those of the frames' own view from its target. Until the body exists, the view is
-/// that of the frames.
+/// direction to the target are those of the frames' own view, which is used until the body exists.
 class FollowCamera final : public Camera {
  public:
   explicit FollowCamera(std::string name) : name_(std::move(name)) {}

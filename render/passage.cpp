@@ -30,8 +30,7 @@ std::vector<std::uint32_t> match_bodies(const Frame& before, const Frame& after)
   return found;
 }
 
-/// Returns true if two chips may be the same one. A chip whose radius shrinks fades, and is at
-/// rest.
+/// Returns true if two chips may be the same one. A chip that shrinks is fading and at rest.
 bool may_be_same(const FrameDebris& now, const FrameDebris& then) {
   if (now.variant != then.variant || now.material != then.material) return false;
   const float motion_m = (now.position_W - then.position_W).norm();
@@ -40,8 +39,7 @@ bool may_be_same(const FrameDebris& now, const FrameDebris& then) {
              : now.radius_m < then.radius_m && motion_m < 0.5f * then.radius_m;
 }
 
-/// Matches debris by index, and then the rest by radius, because a removal moves the last chip into
-/// the gap.
+/// Matches debris by index, then by radius: a removal moves the last chip into the gap.
 std::vector<std::uint32_t> match_debris(const std::vector<FrameDebris>& before,
                                         const std::vector<FrameDebris>& after) {
   std::vector<std::uint32_t> found(after.size(), kNoMatch);
@@ -74,8 +72,7 @@ std::vector<std::uint32_t> match_debris(const std::vector<FrameDebris>& before,
   return found;
 }
 
-/// Returns a measure of the difference of two puffs; they drift and turn slowly, and their
-/// rotations are almost unique.
+/// Returns the difference of two puffs. Puffs drift slowly; their rotations are almost unique.
 float difference_of(const FrameDust& now, const FrameDust& then) {
   if (now.material != then.material) return std::numeric_limits<float>::infinity();
   const float turned =
@@ -84,8 +81,7 @@ float difference_of(const FrameDust& now, const FrameDust& then) {
          4 * turned;
 }
 
-/// Matches dust, which keeps its order except for removals: with the most similar of the next
-/// kWindow puffs.
+/// Matches dust, which keeps its order, with the most similar of the next kWindow puffs.
 std::vector<std::uint32_t> match_dust(const std::vector<FrameDust>& before,
                                       const std::vector<FrameDust>& after) {
   constexpr std::size_t kWindow = 24;
@@ -106,8 +102,7 @@ std::vector<std::uint32_t> match_dust(const std::vector<FrameDust>& before,
   return found;
 }
 
-/// Returns the rotation vector from one rotation to another, with full turns added to come closest
-/// to `expected_W`.
+/// Returns the rotation vector between rotations, with full turns added to match `expected_W`.
 Vec3 turn_between(const Quat& from, const Quat& to, const Vec3& expected_W) {
   const Vec3 turn_W = rotation_vector(to * from.conjugate());
   const double angle = turn_W.norm();
@@ -149,8 +144,7 @@ Pose extrapolated(const FrameBody& body, const Pose& pose, double for_s) {
           (rotation_by(turn_W) * pose.rotation).normalized()};
 }
 
-/// Returns the pose of a piece: fixed to the whole until the break at `start`, then interpolated to
-/// its final pose.
+/// Returns the pose of a piece: fixed to the whole until `start`, then interpolated to its own.
 Pose pose_of_piece(const FrameBody& piece, const FrameBody& whole, double start, double part,
                    double frame_s) {
   const Pose from = pose_before(piece, whole);

@@ -35,10 +35,9 @@ struct Interval {
 Interval up_to(const Frame& after, const Frame* before);
 
 /// Interpolates between the two frames at `part` (0 to 1). Bodies move along straight lines and
-/// turn at constant rates. A body that breaks in the interval moves as a whole until the time of
-/// the break, and then its pieces move to their final poses. New bodies are extrapolated backwards,
-/// removed ones forwards. New debris and dust grow from their points of emission, removed ones
-/// shrink.
+/// turn at constant rates. A body that breaks moves as a whole until the time of the break; then
+/// its pieces move to their final poses. New bodies are extrapolated backwards, removed ones
+/// forwards. New debris and dust grow from their points of emission, removed ones shrink.
 std::shared_ptr<Frame> between(const Interval& interval, double part);
 
 }  // namespace sunder::render

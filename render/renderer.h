@@ -18,12 +18,11 @@ struct PassTime {
   double cpu_ms;  ///< CPU time of all threads, including those of a software driver.
 };
 
-/// Draws frames with OpenGL. Owns a GL context and must be used on the thread that made it. Equal
-/// frames give equal bytes.
+/// Draws frames with OpenGL, on the thread that made it. Equal frames give equal bytes.
 class Renderer {
  public:
-  /// Makes a renderer. Throws InputError for invalid options, and if no context can be made, with a
-  /// list of the attempts.
+  /// Makes a GL context. Throws InputError for invalid options or if no kind of context is
+  /// available.
   explicit Renderer(const RenderOptions& options);
   ~Renderer();
 

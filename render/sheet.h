@@ -16,9 +16,8 @@ struct SheetFrames {
 };
 
 /// Makes a sink that draws these frames into one PNG, row by row, with their times if `captions`. A
-/// run that ends early gives a sheet of the frames it had. Throws InputError if `path` is no .png,
-/// there are fewer frames than images, or the sheet is too large; FileError if `path` cannot be
-/// written.
+/// run that ends early gives a smaller sheet. Throws InputError if `path` is no .png, there are too
+/// few frames or the sheet is too large; FileError if `path` cannot be written.
 std::unique_ptr<FrameSink> make_sheet_sink(const std::filesystem::path& path, Renderer& renderer,
                                            const SheetFrames& frames, bool captions = true);
 

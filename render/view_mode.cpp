@@ -23,8 +23,7 @@ const std::array<Vec3f, 12> kColors = {
     Vec3f(0.6f, 0.62f, 0.6f),   Vec3f(0.85f, 0.4f, 0.45f),  Vec3f(0.3f, 0.6f, 0.05f)};
 enum : std::uint32_t { kStaticColor, kAwakeColor, kSleepingColor };
 constexpr std::uint32_t kHeatSteps = 17;
-/// Offsets in the palette after kColors: a dim copy of kColors for sleeping bodies, then kHeatSteps
-/// heat colours.
+/// Offsets in the palette: dim copies of kColors for sleeping bodies, then kHeatSteps heat colours.
 constexpr std::uint32_t kFirstDim = kColors.size(), kFirstHeat = 2 * kColors.size();
 
 /// Returns a heat colour, from blue at 0 through green and yellow to red at 1.
@@ -175,8 +174,7 @@ void ViewMode::add_marks(const Frame& frame) {
   }
 }
 
-/// Moves bodies away from the centre of all bodies at ground height, so that none is moved into the
-/// ground.
+/// Moves bodies away from their centre, taken at ground height so that none gets below it.
 void ViewMode::explode() {
   Box box;
   for (const FrameBody& body : shown_.bodies)

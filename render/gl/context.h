@@ -24,8 +24,7 @@ class GlContext {
   const std::string& description() const { return description_; }
 
  protected:
-  /// Fills the function table and checks the version. Throws InputError if a function is missing or
-  /// the version is below 3.3.
+  /// Fills the function table. Throws InputError if a function is missing or the version below 3.3.
   template <class Procedure>
   void load_functions(std::string kind, const Procedure& procedure) {
     kind_ = std::move(kind);

@@ -1,5 +1,5 @@
-// OpenGL contexts by EGL without a window: on a device (hardware or Mesa's software device), or on
-// Mesa's surfaceless platform.
+// Windowless OpenGL contexts by EGL, on a hardware or software device or Mesa's surfaceless
+// platform.
 #include <cstring>
 #include <vector>
 

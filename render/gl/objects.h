@@ -36,8 +36,7 @@ void fill_buffer(const GlTable& gl, GLenum target, GLuint buffer, const std::vec
   gl.BufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
 }
 
-/// Makes an empty texture with nearest filtering, clamped to its edges. Throws InputError if it is
-/// too large for the device.
+/// Makes an empty texture: nearest filtering, clamped. Throws InputError if it is too large.
 GLuint make_texture(const GlTable& gl, GLenum format, int width, int height);
 /// Makes a 16-bit depth texture with depth comparison; lit outside its border.
 GLuint make_shadow_texture(const GlTable& gl, int size);

@@ -1,5 +1,4 @@
-// Texture units: each texture stays bound to its own unit, and its sampler has the same name in all
-// shaders.
+// Texture units. A texture stays bound to its unit; its sampler has one name in all shaders.
 #pragma once
 
 namespace sunder::render {

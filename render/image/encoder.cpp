@@ -4,10 +4,10 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/wait.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -31,8 +31,7 @@ void append(Words& words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// Returns the command line. Colours are converted to BT.709 and the file is tagged so, because
-/// players guess otherwise.
+/// Returns the command line. Colours are BT.709 and the file is tagged so: players guess otherwise.
 Words arguments(const std::filesystem::path& file, bool webm, int width, int height,
                 int frames_per_s) {
   Words words = {"ffmpeg", "-hide_banner", "-loglevel", "error", "-y"};
@@ -54,8 +53,7 @@ Words arguments(const std::filesystem::path& file, bool webm, int width, int hei
   return words;
 }
 
-/// Starts a program with `input` as standard input and `log` as both outputs. Returns 0 or an
-/// errno.
+/// Starts a program with the given standard input and output (also error). Returns 0 or an errno.
 int spawn(std::vector<std::string> words, int input, int log, int& pid) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

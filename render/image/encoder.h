@@ -18,8 +18,7 @@ class Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  /// Appends a frame. Throws FileError with ffmpeg's error output if there is any or ffmpeg
-  /// stopped.
+  /// Appends a frame. Throws FileError with ffmpeg's error output, or if ffmpeg stopped.
   void add(const Image& image);
   void finish();
 

@@ -1,5 +1,4 @@
-// The layout follows "OpenEXR File Layout" (openexr.com): a header of attributes, a table of row
-// offsets, and the rows.
+// Layout by "OpenEXR File Layout" (openexr.com): attributes, table of row offsets, rows.
 #include "render/image/exr.h"
 
 #include <cstdint>

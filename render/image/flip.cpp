@@ -146,8 +146,7 @@ Planes opponent_planes(const Image& image) {
   return planes;
 }
 
-/// The spatial filter of the eye for one channel: a sum of Gaussians a·√(π/b)·exp(−π²x²/b), x in
-/// degrees (3.2).
+/// The eye's spatial filter of a channel (3.2): Gaussians a·√(π/b)·exp(−π²x²/b), x in degrees.
 struct Blur {
   struct Term {
     float a;
@@ -200,8 +199,7 @@ std::vector<Vec3f> perceived_colors(const Planes& opponent) {
   return colors;
 }
 
-/// Maps a colour distance to an error in [0, 1]: small distances are spread, large ones compressed
-/// (3.4).
+/// Maps a colour distance to an error in [0, 1], with small distances spread (3.4).
 float color_error(float distance) {
   constexpr float kExponent = 0.7f;
   constexpr float kKnee = 0.4f;

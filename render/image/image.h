@@ -50,7 +50,7 @@ void write_png(const std::filesystem::path& path, const DeepImage& image);
 /// Reads a PNG file without its alpha. Throws InputError if that fails.
 Image read_png(const std::filesystem::path& path);
 
-/// Decodes a PNG or JPEG in memory. Throws InputError if it is neither, or larger than 16384 a
+/// Decodes a PNG or JPEG in memory. Throws InputError if it is neither, or over 16384 pixels a
 /// side.
 Image decode_picture(std::span<const std::byte> bytes);
 

@@ -15,8 +15,7 @@ struct OrientedBox {
   Mat3f half_axes;  ///< Half axes in columns.
 };
 
-/// The view of a camera or of a shadow map: maps eye space to an image with width, height and depth
-/// from 0 to 1.
+/// View of a camera or shadow map: maps eye space to an image with coordinates and depth in [0, 1].
 struct CullingView {
   Eigen::Matrix4f picture_of_eye;
   Vec3f ahead;     ///< Unit direction of view.

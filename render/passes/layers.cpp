@@ -113,9 +113,8 @@ std::vector<float> Layers::read_metres() const {
   return metres;
 }
 
-/// Returns layer "depth". All images have the scale of the first. The scale is a power of two, so
-/// that parts of a run drawn separately have the same, unless their camera distances differ by a
-/// factor of two.
+/// Returns layer "depth". All images have the scale of the first, a power of two, so that parts of
+/// a run drawn separately agree unless their camera distances differ by a factor of two.
 DeepImage Layers::depth_image(const View& view) {
   constexpr double kWhite = 65535;
   if (!far_m_) {

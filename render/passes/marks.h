@@ -1,5 +1,4 @@
-// Drawing of the marks of view modes: plain shapes, which show faintly through surfaces that hide
-// them.
+// Drawing of the marks of view modes: plain shapes, which show faintly where they are hidden.
 #pragma once
 
 #include <span>
@@ -30,8 +29,7 @@ class Marks {
 
   void update(const MarkList& marks, const Vec3& eye_W);
   bool any() const { return spindles_.count + boxes_.count > 0; }
-  /// Draws into the bound framebuffer, with its depths: first the hidden parts, then the visible
-  /// ones.
+  /// Draws into the bound framebuffer and its depths: hidden parts first, then visible ones.
   void draw() const;
 
  private:

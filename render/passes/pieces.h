@@ -22,8 +22,7 @@ class Pieces {
   void update(const Frame& frame);
   /// Returns bounding spheres of the opaque pieces, relative to the eye.
   const std::vector<Caster>& casters() const { return casters_; }
-  /// Groups of pieces by kind of surface; opaque ones are drawn nearest first, glass farthest
-  /// first.
+  /// Groups of pieces by kind of surface: opaque ones nearest first, glass farthest first.
   enum class Group : std::uint8_t {
     kMatte,
     kPainted,  ///< Matte pieces with the appearance of a mesh file.
@@ -37,14 +36,13 @@ class Pieces {
   bool has(Group group) const { return !placed(group).empty(); }
   /// Draws all pieces of a group.
   void draw(Group group) const;
-  /// Draws the pieces of a group that are not hidden by what has been drawn.
+  /// Draws the pieces of a group that are not hidden by what was drawn before.
   void draw(Group group, DepthTiles& depth_tiles) const;
   /// Draw depths alone: of all shadow casters, and of large pieces as heights seen from above.
   void draw_shadows(DepthTiles& depth_tiles) const;
   void draw_heights(DepthTiles& depth_tiles) const;
 
-  /// Writes the key of each body + 1 in place of the material to the slots, until the next
-  /// update().
+  /// Writes body key + 1 in place of the material to the slots, until the next update().
   void write_body_ids(const Frame& frame);
 
   GLuint slot_texture() const { return slot_texture_; }
@@ -61,8 +59,8 @@ class Pieces {
     std::uint32_t count = 0;
   };
 
-  /// An uploaded copy of a mesh. Vertices contain the index of their slot, so a mesh drawn twice in
-  /// a frame is uploaded twice.
+  /// An uploaded copy of a mesh, one for each instance in a frame: vertices contain their slot
+  /// index.
   struct Slot {
     std::shared_ptr<const Mesh> mesh;
     std::uint32_t next_copy = kNone;

@@ -1,5 +1,4 @@
-// Periodic noise, and a function for each tile. Basic arithmetic only (no libm), so that the bytes
-// are the same on every machine.
+// Periodic noise and the tiles. Only basic arithmetic (no libm): equal bytes on every machine.
 #include "render/passes/tiles.h"
 
 #include <algorithm>
@@ -19,8 +18,8 @@ float smooth(float low, float high, float x) {
 
 float lerp(float a, float b, float t) { return a + (b - a) * t; }
 
-/// Returns a random number in [0, 1) for a cell of a lattice that repeats every (period_x,
-/// period_y) cells.
+/// Returns a random number in [0, 1) for a cell; the lattice repeats every (period_x, period_y)
+/// cells.
 float cell_random(int x, int y, int period_x, int period_y, int seed) {
   const int wx = ((x % period_x) + period_x) % period_x;
   const int wy = ((y % period_y) + period_y) % period_y;
@@ -50,8 +49,7 @@ struct Cells {
   int y;
 };
 
-/// Returns fractal value noise in [0, 1]; each octave is twice as fine and `gain` times as strong
-/// as the previous one.
+/// Returns fractal value noise in [0, 1]; each octave is twice as fine and `gain` times as strong.
 float fractal(float u, float v, Cells cells, int octaves, float gain, int seed) {
   float sum = 0;
   float weight = 1;

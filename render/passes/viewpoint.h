@@ -1,5 +1,4 @@
-// Matrices of the camera and the sun. World coordinates in double are converted to floats relative
-// to the eye only here.
+// Matrices of camera and sun; the only conversion from the world in double to eye space in float.
 #pragma once
 
 #include <span>

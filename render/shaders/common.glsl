@@ -38,8 +38,7 @@ vec3 sky_at(float height, float sunward) {
 // Returns the sky in a direction; also the colour that distant surfaces fade into.
 vec3 sky(vec3 direction) { return sky_at(direction.y, dot(direction, to_sun.xyz)); }
 
-// Returns the reflection in a mirror: sky above, sunlit ground below, with a transition at the horizon
-// of width `soft`.
+// Returns the reflection in a mirror: sky and sunlit ground, with a horizon of width `soft`.
 vec3 mirrored_at(float height, float sunward, float soft) {
   vec3 below = ground.rgb * (0.14 * sun_light.rgb * max(to_sun.y, 0.0) + 0.3 * sky_light.rgb);
   return mix(below, sky_at(height, sunward), smoothstep(-soft, soft, height));

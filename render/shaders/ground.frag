@@ -1,5 +1,5 @@
-// Bare dry ground. The position is computed along the ray of the pixel, because interpolation over so
-// large a quad is inaccurate.
+// Bare dry ground. Positions follow from the pixel's ray: interpolation over the quad is
+// inaccurate.
 uniform sampler2DArray tiles;
 out vec4 color;
 

@@ -6,8 +6,7 @@ out vec4 value;
 
 void main() {
 #ifdef DEPTH
-  // In metres, from the depth: positions interpolated on the very large quad of the ground are
-  // inaccurate.
+  // In metres, from the depth: positions interpolated over the ground's quad are inaccurate.
   value = vec4(lens.x / max(1.0 - gl_FragCoord.z, 1e-6));
 #endif
 #ifdef NORMALS

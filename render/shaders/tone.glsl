@@ -16,8 +16,7 @@ vec3 srgb(vec3 c) {
   return mix(12.92 * c, curve, step(0.0031308, c));
 }
 
-// Returns the screen values of the light at a place in the image; alpha is the brightness, for
-// anti-aliasing.
+// Returns the screen values of light at a place in the image; alpha is the brightness.
 vec4 developed(vec3 light, vec2 at) {
   float vignette = 1.0 - 0.22 * dot(at - 0.5, at - 0.5);
   vec3 shown = srgb(filmic(light * (lens.z * vignette)));

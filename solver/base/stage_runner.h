@@ -15,8 +15,7 @@
 
 namespace sunder::solver {
 
-/// Items of a stage: `count` items from `first` on, in blocks of `grain` items. The blocks do not
-/// depend on the number of threads.
+/// `count` items from `first` on, in blocks of `grain` items, whatever the number of threads.
 struct StageItems {
   std::uint32_t first = 0;
   std::uint32_t count = 0;

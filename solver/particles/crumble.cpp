@@ -11,8 +11,7 @@ constexpr double kSpall_m_s = 0.25, kSpallPerOpeningSpeed = 0.04;
 // Chips leave at the spall speed / (u + this), u uniform in [0, 1): one in ten at least about six
 // times as fast as the spall speed, none more than about 14 times.
 constexpr double kSpallSpeedOffset = 0.07;
-// Share of its particles that a crack emits which stays closed, and the opening speed, in m/s, from
-// which a crack emits all of them.
+// Share of particles that a closed crack emits, and opening speed, in m/s, for all particles.
 constexpr double kClosedCrackShare = 0.05, kFullEmissionSpeed_m_s = 4;
 constexpr double kMaxChipSpin_s = 15;  // greatest angular speed of a new chip, in rad/s
 // Share of the velocity of its solid that new dust has: air drag slows it down.
@@ -34,8 +33,7 @@ double emission_density_m2(const Emission& face) {
          std::min(1.0, kClosedCrackShare + face.parting_m_s / kFullEmissionSpeed_m_s);
 }
 
-/// Returns a random point, uniform on the polygon: a triangle of its fan by area, then a point of
-/// that triangle.
+/// Returns a uniform random point of the polygon: a triangle of its fan by area, a point of that.
 Vec3 point_on(const Emission& face, double face_area_m2, Random& random) {
   double left_m2 = random.uniform() * face_area_m2;
   const Vec3& apex = face.corners_W[0];

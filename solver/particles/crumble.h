@@ -26,8 +26,7 @@ CapacityShares capacity_shares(std::span<const Emission> faces, const Debris& de
 void crumble(const Emission& face, const CapacityShares& shares, Random& random, Debris& debris,
              Dust& dust);
 
-/// Adds a chip of debris in place of a body, with its position, velocity and size, and a random
-/// shape and rotation.
+/// Adds a chip in place of a body, with its motion and size, and a random shape and rotation.
 void add_chip(const Chip& chip, Random& random, Debris& debris);
 
 }  // namespace sunder::solver

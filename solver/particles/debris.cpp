@@ -204,8 +204,7 @@ void Debris::prefetch_chip(std::uint32_t chip) const {
   prefetch_each(position_W_, velocity_W_, angular_velocity_W_, rotation_WD_, radius_m_);
 }
 
-/// Moves chips in rounds: each chip flies to its first contact, bounces and flies on, at most
-/// kBounces + 1 rounds.
+/// Moves chips: each flies to its first contact, bounces and flies on, at most kMaxBounces times.
 void Debris::move(std::span<const std::uint32_t> chips, std::span<StepResult> results, double dt_s,
                   double ground_m, ObstacleGrid::Near& near) {
   std::array<SphereWay, kChipsPerBatch> paths;     // remaining paths of the chips that still fly
@@ -244,8 +243,7 @@ void Debris::move(std::span<const std::uint32_t> chips, std::span<StepResult> re
   }
 }
 
-/// Moves a chip to the end of its path or to its first contact, and applies the contact. Returns
-/// true if time is left in the step.
+/// Moves a chip to its first contact or the end of its path. Returns true if time is left.
 bool Debris::advance_to_contact(std::uint32_t chip, SphereWay& path,
                                 std::optional<ObstacleTouch> touch, double dt_s, double ground_m,
                                 StepResult& result) {

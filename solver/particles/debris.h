@@ -1,5 +1,4 @@
-// Debris: chips that fall, bounce, come to rest and fade, simulated as spheres. Debris is visual
-// only: it does not act on bodies.
+// Debris: visual chips that fall, bounce, come to rest and fade, as spheres that act on no body.
 #pragma once
 
 #include <cstdint>
@@ -87,8 +86,7 @@ class Debris {
   /// Position of a sleeping chip in the order of sleeping.
   std::vector<std::uint64_t> sleep_order_;
 
-  /// All chips, sorted by place at the last sort(), so that neighbours in space are close in
-  /// memory.
+  /// All chips in the order of the last sort(): neighbours in space are close in memory.
   std::vector<std::uint32_t> order_;
   std::uint32_t steps_ = 0;                             ///< Steps with awake chips.
   std::vector<std::uint32_t> awake_, asleep_, fading_;  ///< Chips by state, in the order of order_.

@@ -16,8 +16,7 @@ struct DebrisAndDustOptions {
   Eigen::Vector3i air_cells = Eigen::Vector3i(64, 32, 64);
 };
 
-/// Makes the debris and dust solver. Results are bit-identical for any number of threads (set in
-/// engine/base/parallel.h).
+/// Makes the solver. Results are bit-identical for any number of threads (engine/base/parallel.h).
 std::unique_ptr<Particles> make_debris_and_dust(const DebrisAndDustOptions& options);
 
 }  // namespace sunder::solver

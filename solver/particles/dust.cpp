@@ -119,7 +119,7 @@ Vec3i Dust::cells_for(std::size_t puffs) const {
 /// Returns `cells` halved along the axes on which the cloud fits into half of them, at the same
 /// cell size; about half of all clouds are flat or long.
 Vec3i Dust::halve_where_possible(Vec3i cells, const Vec3& extent) const {
-  // hysteresis: share of the room that must suffice to halve
+  // Hysteresis: share of the halved extent into which the cloud must fit before cells are halved.
   constexpr double kHalvingMargin = 0.75;
   const Vec3i now = flow_ ? flow_->air.grid().lattice.counts : Vec3i(Vec3i::Zero());
   const double cell_m = cell_m_for(extent, cells);

@@ -1,5 +1,4 @@
-// Dust: puffs carried by the air. Each is an oriented particle that adds turbulence below the
-// resolution of the grid.
+// Dust: puffs carried by the air, oriented particles that add turbulence finer than its grid.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,4 @@
-// Fields on a box of cubic cells and their faces, stored with a border of zeros so that stencils
-// need no special case at the edge.
+// Fields on a box of cubic cells and their faces, with a border of zeros for stencils at the edge.
 #pragma once
 
 #include <algorithm>
@@ -30,16 +29,14 @@ struct Lattice {
     return static_cast<std::size_t>(stride(2)) * static_cast<std::size_t>(counts.z() + 3);
   }
   std::size_t cells() const { return static_cast<std::size_t>(counts.prod()); }
-  /// Returns the number of layers of cells per chunk of parallel work; depends on the lattice
-  /// alone.
+  /// Returns the number of cell layers per parallel chunk; depends on the lattice alone.
   std::size_t layers_a_chunk() const {
     const auto layer = static_cast<std::size_t>(counts.x() * counts.y());
     return std::max<std::size_t>(1, (1 << 13) / layer);
   }
 };
 
-/// Returns the greatest magnitude in a row, computed by lanes, because the compiler may not reorder
-/// the comparisons itself.
+/// Returns the greatest magnitude in a row, by lanes: the compiler may not reorder comparisons.
 inline float largest_in(const float* x, int count) {
   constexpr int kLanes = 8;
   float lanes[kLanes] = {};

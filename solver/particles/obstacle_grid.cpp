@@ -50,8 +50,7 @@ Eigen::Vector3i cell_of(const Vec3f& point_W) {
   return (point_W / kFinestCell_m).array().floor().max(-1e9f).min(1e9f).cast<int>();
 }
 
-/// Calls visit(hash, cell) for the cells of a level that contain the cells `first` to `last` of
-/// level 0.
+/// Calls visit(hash, cell) for the cells of a level around the level-0 cells `first` to `last`.
 template <class Visit>
 void for_cells(int level, const Eigen::Vector3i& first, const Eigen::Vector3i& last,
                const Visit& visit) {

@@ -21,8 +21,8 @@ class ObstacleGrid {
   /// Speed below which an obstacle counts as at rest for chips.
   static constexpr double kCreep_m_s = 0.05;
 
-  /// Builds the grid of the obstacles that touch `region` during the last dt_s. `obstacles` must
-  /// outlive the queries.
+  /// Builds the grid of obstacles that touch `region` within the last dt_s; they must outlive
+  /// queries.
   void build(const Obstacles& obstacles, double dt_s, const Box& region, Which which);
   bool empty() const { return placed_.shapes.empty(); }
 
@@ -31,8 +31,7 @@ class ObstacleGrid {
     std::vector<std::uint32_t> shapes;  ///< Indices of placed shapes; may contain duplicates.
     Vec3f low = Vec3f::Constant(1), high = Vec3f::Zero();
   };
-  /// Finds the shapes near some paths. Reuses `near` if its box holds the paths. Fastest for paths
-  /// that are close together.
+  /// Finds the shapes near some paths, which should be close together. Reuses `near` if sufficient.
   void find(std::span<const SphereWay> paths, Near& near) const;
   /// Finds the first contact of each of up to eight paths with the shapes of `near`.
   void sweep(std::span<const SphereWay> paths, const Near& near,

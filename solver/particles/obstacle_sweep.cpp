@@ -105,8 +105,7 @@ LocalPaths::LocalPaths(const WidePaths& paths, const PlacedObstacle& shape) {
   meet = bits(meets);
 }
 
-/// Finds the contacts of the paths that meet a shape's box with the shape itself, and keeps those
-/// that are earlier than `touches`.
+/// Finds the contacts of paths that meet a shape's box; keeps those earlier than `touches`.
 void meet(const PlacedObstacles& all, const PlacedObstacle& placed, const WidePaths& wide,
           const LocalPaths& seen, std::span<const SphereWay> paths,
           std::span<std::optional<ObstacleTouch>> touches) {
@@ -166,8 +165,7 @@ void meet(const PlacedObstacles& all, const PlacedObstacle& placed, const WidePa
 
 }  // namespace
 
-/// A shape whose box is met is prefetched, and tested when the next such shape is found, by which
-/// time its data are in the cache.
+/// Each shape met is prefetched, and tested when the next is found: its data are then in the cache.
 void sweep_spheres(const PlacedObstacles& placed, std::span<const std::uint32_t> near,
                    std::span<const SphereWay> paths,
                    std::span<std::optional<ObstacleTouch>> touches) {

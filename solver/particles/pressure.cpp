@@ -27,14 +27,12 @@ void for_rows(const Lattice& lattice, const Work& work) {
              });
 }
 
-/// A row of cells of the linear system: pointers to the coefficients of its first cell, and
-/// strides.
+/// A row of the linear system: pointers to the coefficients of its first cell, and strides.
 struct Row {
   const float *ax, *ay, *az;
   std::ptrdiff_t sy, sz;
 
-  /// Return Σ a · neighbour at cell i: across() over the four neighbours in other rows,
-  /// neighbours() over all six.
+  /// Return Σ a · neighbour at cell i: over the four neighbours in other rows, over all six.
   float across(const float* x, int i) const {
     return ay[i] * x[i - sy] + ay[i + sy] * x[i + sy] +
            (az[i] * x[i - sz] + az[i + sz] * x[i + sz]);
@@ -128,8 +126,7 @@ void PressureSolver::coarsen(const Level& fine, Level& coarse) {
   }
 }
 
-/// Smooths the rows of one colour of the checkerboard (j + k): Gauss-Seidel between rows, Jacobi
-/// along a row.
+/// Smooths rows of one colour of the checkerboard (j + k): Gauss-Seidel, Jacobi along a row.
 void PressureSolver::smooth_colour(Level& level, int colour) {
   for_rows(level.lattice, [&](int j, int k) {
     if (((j + k) & 1) != colour) return;
@@ -167,8 +164,7 @@ void PressureSolver::smooth_from_zero(Level& level) {
   });
 }
 
-/// One smoothing sweep. The backward sweep is the transpose of the forward one, so that the V-cycle
-/// is a symmetric preconditioner.
+/// One smoothing sweep; backward is the transpose of forward, which keeps the V-cycle symmetric.
 void PressureSolver::smooth(Level& level, Order order) {
   smooth_colour(level, order == Order::kForward ? 0 : 1);
   smooth_colour(level, order == Order::kForward ? 1 : 0);
@@ -253,8 +249,7 @@ void PressureSolver::update_direction(float beta) {
   });
 }
 
-/// Computes pressure += alpha · direction, residual −= alpha · image; returns the
-/// greatest |residual|.
+/// Computes pressure += alpha · direction, residual −= alpha · image; returns max |residual|.
 float PressureSolver::step(float alpha) {
   const Lattice& lattice = levels_[0].lattice;
   const int count = lattice.counts.x();
@@ -275,8 +270,7 @@ float PressureSolver::step(float alpha) {
   return static_cast<float>(*std::max_element(partial_.begin(), partial_.end()));
 }
 
-/// Steps along direction_ to the minimum; `slope` is direction_ · residual. Returns the
-/// greatest |residual|.
+/// Minimizes along direction_; `slope` is direction_ · residual. Returns max |residual|.
 float PressureSolver::line_search(double slope) {
   const double curvature = apply_and_dot();
   return step(curvature > 0 ? static_cast<float>(slope / curvature) : 0);

@@ -23,8 +23,7 @@ class PressureSolver {
   Field& inflow() { return levels_[0].residual; }
   /// Returns the pressure of the last solve, from which the next one starts.
   Field& pressure() { return pressure_; }
-  /// Solves until no cell's net outflow exceeds the tolerance, in at most 16 iterations. Returns
-  /// the number of iterations.
+  /// Solves until no net outflow exceeds the tolerance; returns the number of iterations, up to 16.
   int solve(float tolerance);
 
  private:

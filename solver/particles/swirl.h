@@ -3,8 +3,7 @@
 // After Pfaff et al. 2010 ("Scalable fluid simulation using anisotropic turbulence particles"), as
 // adapted in section 5 of the paper: every particle carries turbulent energy, produced by the
 // strain of the coarse flow, and an orientation, rotated by that flow. Here the orientation is the
-// axis of a small vortex, and the vortices of a cell are merged into one of their mean axis and
-// energy.
+// axis of a vortex, and the vortices of a cell are merged into one of their mean axis and energy.
 #pragma once
 
 #include <cstdint>
@@ -55,9 +54,8 @@ class Swirl {
   std::vector<Vortex> vortices_;
 };
 
-/// Returns the turbulent speed (square root of the turbulent energy per mass) after a step in a
-/// flow of this strain rate on a grid of this cell size, by the one-equation subgrid model of
-/// Yoshizawa and Horiuti (1985).
+/// Returns the turbulent speed (square root of the energy per mass) after a step, by the
+/// one-equation subgrid model of Yoshizawa and Horiuti (1985).
 float grow_turbulence(float speed_m_s, const Mat3f& strain_s, float cell_m, float dt_s);
 
 /// Returns the angular velocity of a thin rod along `axis` in a flow (Jeffery 1922).

@@ -28,8 +28,7 @@ class ContactListener final : public b2ContactListener {
 
   /// Starts a solve: drops the sums of all pairs but sleeping ones.
   void begin();
-  /// Ends a solve of `steps` Box2D steps: extrapolates the sums of pairs that fell asleep during
-  /// the solve to all steps.
+  /// Ends a solve of `steps` Box2D steps: extrapolates pairs that fell asleep in it to all steps.
   void end(int steps);
 
   b2Vec2 impulse_from_static = {0, 0};  ///< Impulse of static bodies on dynamic ones since begin().

@@ -42,8 +42,7 @@ using ConvertedShapes = std::vector<std::vector<std::unique_ptr<b2Shape>>>;
 
 class PlanarBodies {
  public:
-  /// Makes an empty list. `world` must outlive it. Contacts with a closing speed below `bounce_m_s`
-  /// have no restitution.
+  /// `world` must outlive this. Below a closing speed of `bounce_m_s` there is no restitution.
   PlanarBodies(b2World& world, const Plane2& plane, double bounce_m_s)
       : world_(world), plane_(plane), restitution_threshold_m_s_(bounce_m_s) {}
 
@@ -51,8 +50,7 @@ class PlanarBodies {
   std::vector<PlanarShape> shapes;  ///< Shapes by slot.
   float min_width = b2_maxFloat;    ///< Least width of all shapes ever added, in units.
 
-  /// Converts the shapes of a body at `X_WB`. Throws InputError that names the shape and the tag of
-  /// the body.
+  /// Converts the shapes of a body at `X_WB`. Throws InputError that names the shape and body tag.
   ConvertedShapes convert_shapes(std::span<const ShapeDesc> descs, std::uint32_t tag,
                                  const Vec3& com_R, const Pose& X_WB) const;
   /// Adds a body and returns its slot.

@@ -131,8 +131,7 @@ void PlanarPhysics::edit(const BodyEdit& edit) {
   update_whole_table();
 }
 
-/// Invalidates the contacts, which approaches() and touches() find when called; Box2D finds
-/// its own in the solve.
+/// Contacts are found when approaches() or touches() is called; Box2D finds its own in the solve.
 void PlanarPhysics::collide(double dt_s) {
   dt_s_ = dt_s;
   contacts_valid_ = false;

@@ -41,8 +41,7 @@ Shape with_thicker_skin(const b2Fixture* fixture, float by) {
   return shape;
 }
 
-/// Returns the contact manifold of two fixtures, rank(a) <= rank(b), with points up to `reach`
-/// apart.
+/// Returns the manifold of two fixtures, rank(a) <= rank(b), with points up to `reach` apart.
 b2Manifold collide(const b2Fixture* a, const b2Fixture* b, float reach) {
   b2Manifold m;
   m.pointCount = 0;

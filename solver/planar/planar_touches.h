@@ -20,8 +20,7 @@ struct FixtureContact {
   double separations_m[2] = {};
 };
 
-/// Returns the contacts of all fixtures that may touch within dt_s at their current velocities, in
-/// order of keys.
+/// Returns all contacts that may close within dt_s at current velocities, in order of keys.
 std::vector<FixtureContact> find_fixture_contacts(const b2World& world,
                                                   std::span<const PlanarBody> bodies,
                                                   std::span<const PlanarShape> shapes,
