@@ -74,7 +74,7 @@ Mark mark_of(const FrameBox& box, const FrameBody& body) {
   mark.center_W = 0.5f * (box.min_W + box.max_W);
   mark.half_axes_W = (0.5f * (box.max_W - box.min_W)).asDiagonal();
   mark.color = kColors[state_of(body)] + Vec3f::Constant(0.1f);
-  mark.through = 0.12f;
+  mark.hidden_opacity = 0.12f;
   return mark;
 }
 

@@ -50,7 +50,7 @@ MarkInstance instance_of(const Mark& mark, const Vec3& eye_W) {
   const Vec3f center = (mark.center_W.cast<double>() - eye_W).cast<float>();
   MarkInstance made{{center.x(), center.y(), center.z()},
                     {},
-                    {mark.color.x(), mark.color.y(), mark.color.z(), mark.through}};
+                    {mark.color.x(), mark.color.y(), mark.color.z(), mark.hidden_opacity}};
   for (int i = 0; i < 9; ++i) made.axes[i] = mark.half_axes_W(i % 3, i / 3);
   return made;
 }

@@ -14,7 +14,7 @@ struct Mark {
   Vec3f center_W = Vec3f::Zero();
   Mat3f half_axes_W = Mat3f::Identity();  ///< Half axes in columns.
   Vec3f color = Vec3f::Ones();            ///< Linear RGB.
-  float through = 0.5f;                   ///< Opacity where the mark is hidden, 0 to 1.
+  float hidden_opacity = 0.5f;            ///< Opacity where the mark is hidden, 0 to 1.
 };
 struct MarkList {
   std::vector<Mark> spindles;  ///< Solid octahedra.
