@@ -14,7 +14,8 @@ struct RenderOptions {
   int width = 1280;
   int height = 720;
   std::string gl = "auto";  ///< auto | egl-device:N | egl-surfaceless | osmesa
-  /// materials | convexes | compounds | asleep | wireframe | exploded
+  /// materials | convexes | compounds | asleep | wireframe | exploded | contacts | stress | islands
+  /// | broadphase; the last four need Frame::inspection.
   std::string view_mode = "materials";
   /// Number of samples per image, averaged in linear light: each is offset by less than a pixel
   /// and, within the time the view's shutter is open, in time.

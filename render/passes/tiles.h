@@ -22,7 +22,7 @@ enum class Tile : std::uint8_t {
   kCloud,     ///< Large smooth variation, for weathering.
 };
 inline constexpr int kTiles = 7;
-inline constexpr int kTileSize = 512;  ///< Texels a side.
+inline constexpr int kTileSize = 512;  ///< Width and height of a tile, in texels.
 
 /// Size of a tile on a surface, in m.
 inline constexpr float kTileMetres[kTiles] = {0.7f, 2, 2.7f, 1.9f, 1.2f, 0.8f, 7.3f};
