@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kGoalRate = 4, kFramingRate = 2.5;  // rates of the goal and of the spring, 1/s
 constexpr double kHalfWeightSpeed_m_s = 0.5;  // speed at which a body has half of its full weight
-// moving share of the scene at which the goal has half its rate
+// Moving share of the scene at which the goal has half its rate.
 constexpr double kHalfRateShare = 0.02;
 constexpr double kShownRadii = 1.8;  // radius that is shown, in radii of gyration of what moves
 // Least and greatest distance to the target, as fractions of that in the frames' own view.

@@ -55,8 +55,7 @@ Target make_shadow_target(const GlTable& gl, Unit unit, int texels) {
   return {make_framebuffer(gl, 0, texture), texels, texels};
 }
 
-/// Returns the offset of a sample from the centre of a pixel: the R2 sequence (Roberts 2018),
-/// evenly distributed for any number of samples.
+/// Returns the offset of a sample from the pixel's centre, by the R2 sequence (Roberts 2018).
 Vec2 jitter_of(int sample) {
   const auto of = [&](double step) {
     const double x = 0.5 + step * sample;

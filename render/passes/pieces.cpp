@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kFloatsPerSlot = 24;
 constexpr float kLargeRadius_m = 0.25f;   // least radius of a piece of Group::kLarge
 constexpr float kHeightDetail_m = 0.06f;  // size of the cubes in which vertices are merged
-// least number of pieces for a round of occlusion culling
+// Least number of pieces for a round of occlusion culling.
 constexpr std::size_t kMinPiecesToCull = 2000;
 constexpr int kMaxCullingRounds = 3;  // greatest number of rounds of occlusion culling
 
@@ -72,8 +72,8 @@ std::vector<std::uint32_t> indices_for_depths(const Mesh& mesh) {
                         }));
 }
 
-/// Returns the triangles for heights: vertices in the same small cube are merged, which is finer
-/// than the resolution at which the light of the sky is sampled.
+/// Returns the triangles for heights: vertices in small cubes, finer than the sky light, are
+/// merged.
 std::vector<std::uint32_t> indices_for_heights(const Mesh& mesh) {
   return merge_vertices(mesh, first_with_same_key(mesh, [](const Vec3f& place) {
                           const auto cube = [](float x) {
@@ -83,8 +83,8 @@ std::vector<std::uint32_t> indices_for_heights(const Mesh& mesh) {
                         }));
 }
 
-/// Flags the instances that are likely to occlude others: in each part of the image the nearest,
-/// and those farther by at most half their size.
+/// Flags likely occluders: in each part of the image the nearest, and those behind by half their
+/// size.
 std::vector<std::uint8_t> find_likely_occluders(const std::vector<std::uint32_t>& instances,
                                                 const std::vector<OrientedBox>& boxes,
                                                 const CullingView& view) {

@@ -13,7 +13,7 @@ constexpr float kAir_kg_m3 = 1.2f;
 // Net outflow of a cell at which the pressure solve ends, as a fraction of the fastest flow.
 constexpr float kOutflowTolerance = 8e-4f;
 constexpr float kLinearShare = 0.25f;  // share of linear interpolation; 1: advection of first order
-// a wall of a thickness of at least 1 / kCoverGain cells is airtight
+// A wall of a thickness of at least 1 / this, in cells, is airtight.
 constexpr float kCoverGain = 1.5f;
 // Least open fraction of a face; above 0, so that the pressure in closed cavities is defined.
 constexpr float kMinOpenFraction = 0.02f;

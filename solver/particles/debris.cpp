@@ -16,15 +16,15 @@ namespace {
 constexpr std::uint32_t kGround = 0xffffffff;  // support index of the ground
 constexpr std::size_t kChipsPerBatch = 16;     // chips that query the obstacle grid together
 constexpr std::size_t kChipsPerChunk = 32 * kChipsPerBatch;
-constexpr std::uint32_t kStepsPerSort = 16;  // steps
+constexpr std::uint32_t kStepsPerSort = 16;
 constexpr float kFriction = 0.6f;
 constexpr float kRestitution = 0.3f;
 constexpr float kRestitutionThreshold_m_s = 0.4f;  // least closing speed for restitution
 constexpr double kContactGap_m = 2e-4;  // gap kept between a chip and the surface it touches
 constexpr double kMaxPushOut_m_s = 2;   // greatest speed at which penetration is corrected
-// of the spin in contact, 1/s; high: chips do not roll
+// Damping of the spin in contact, in 1/s; high, so that chips do not roll.
 constexpr float kContactSpinDamping_s = 150;
-constexpr float kFlightSpinDamping_s = 0.5f;  // of the spin in flight, 1/s
+constexpr float kFlightSpinDamping_s = 0.5f;  // damping of the spin in flight, 1/s
 constexpr float kSleepSpeed_m_s = 0.1f;       // slower chips may fall asleep
 constexpr float kTimeToSleep_s = 0.25f;       // time below that speed before a chip falls asleep
 constexpr float kFade_s = 0.75f;              // time in which a fading chip shrinks to nothing

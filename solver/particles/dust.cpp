@@ -20,7 +20,7 @@ constexpr float kMaxOpacity = 0.45f;
 constexpr float kMinOpacity = 0.008f;  // puffs of less are removed
 constexpr float kFadeIn_s = 0.1f;
 constexpr float kFadeOut_s = 2;  // fade time of settled dust
-// solid fraction of a cell from which its dust is settled
+// Solid fraction of a cell from which its dust is settled.
 constexpr float kSettlingSolidFraction = 0.9f;
 constexpr float kEarlyFadeFactor = 4;  // speed-up of the fading of the oldest puffs near the limit
 constexpr std::size_t kCellsPerPuff = 8;  // air cells wanted per puff; more are not worth the cost

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMinCell_m = 0.125;
 constexpr double kCellSizeStep = 1.4142135623730951;  // factor by which the cell size changes
-// margin around the dust when placed, as a fraction of the grid
+// Margin around the dust when placed, as a fraction of the grid.
 constexpr double kPlacingMargin = 0.15;
 // Height above the ground, in cells, below which dust gets a grid with the ground as its floor.
 constexpr double kGroundCells = 6;

@@ -17,10 +17,10 @@ constexpr float kMaxCellsPerShape = 8;  // greatest number of cells per shape
 // Rounding error of positions: absolute, and as a fraction of the distance from the origin.
 constexpr double kPositionError_m = 1e-4, kRelativePositionError = 3e-7;
 constexpr float kQueryMargin_m = 0.005f;  // margin of a query, so that bounces can reuse its result
-// greatest size of a box that holds several paths in one query
+// Greatest size of a box that holds several paths in one query.
 constexpr float kMaxSharedQuery_m = 2;
 constexpr int kLevels = 31;
-// larger query boxes are tested against all shapes
+// Query boxes larger than this are tested against all shapes.
 constexpr float kMaxHashedQuery_m = 8 * kFinestCell_m;
 constexpr double kPathPart_m = 2;     // longer paths are queried in parts of this length
 constexpr double kMaxPathParts = 64;  // paths of more parts are queried in one

@@ -272,9 +272,8 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   return report;
 }
 
-/// Returns the number of Box2D steps in which no body moves farther than half the least width of a
-/// shape, so that none tunnels, nor as far as Box2D's own limit of translation; at most
-/// kMaxBox2DSteps unless `substeps` is more.
+/// Returns the Box2D steps, at most kMaxBox2DSteps or `substeps`, in which no body moves farther
+/// than half the least width of a shape, so that none tunnels, nor Box2D's own limit.
 int PlanarPhysics::steps_for(double dt_s, int substeps) const {
   double fastest = 0;  // units/s
   for (const PlanarBody& body : bodies_.items) {
@@ -362,8 +361,7 @@ double PlanarPhysics::kinetic_J() const {
     if (!body.dynamic()) continue;
     const b2Body& b = *body.body;
     const float about_center = b.GetInertia() - b.GetMass() * b.GetLocalCenter().LengthSquared();
-    const double radius =
-        std::sqrt(double{about_center / b.GetMass()});  // radius of gyration, units
+    const double radius = std::sqrt(double{about_center / b.GetMass()});  // of gyration, units
     const double rim_m_s = double{b.GetAngularVelocity()} * radius / plane_.units_per_m;
     const Vec3 velocity_W = plane_.metres(b.GetLinearVelocity());
     sum += 0.5 * body.mass_kg * (velocity_W.squaredNorm() + rim_m_s * rim_m_s);
