@@ -19,7 +19,7 @@ constexpr double kOutside = 1e-9;
 /// The vertices that a mesh's faces have; of built-in solids, all.
 std::vector<Vec3> points_of(const std::string& mesh, scenes::MeshSolid& solid) {
   std::vector<Vec3> points;
-  if (scenes::names_solid(mesh)) {
+  if (scenes::is_built_in_solid(mesh)) {
     solid = scenes::as_mesh_solid(mesh, fracture::make_solid(mesh));
     for (const ConvexPtr& convex : solid.compound.convexes) {
       const auto& vertices = convex->polyhedron.vertices;

@@ -94,7 +94,7 @@ void decompose_once(const VacdOptions& options) {
 
 int vacd(const VacdOptions& options) {
   options.apply();
-  if (scenes::names_solid(options.mesh)) {
+  if (scenes::is_built_in_solid(options.mesh)) {
     throw InputError(options.mesh + ": is made of convexes already; name a file of a mesh");
   }
   check_output(options.output);

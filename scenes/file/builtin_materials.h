@@ -1,4 +1,5 @@
-// The library of materials, scenes/materials.toml, compiled in as a string (sunder_embed).
+// The library of materials, scenes/materials.toml, compiled in as a string by sunder_embed() of
+// cmake/Sunder.cmake.
 #pragma once
 
 namespace sunder::scenes::builtin {
