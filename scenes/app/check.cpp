@@ -1,5 +1,5 @@
-// sunder list: the scenes, one line each; sunder check: loads and validates some, without running
-// them.
+// sunder list: lists the scenes, one line each. sunder check: loads and validates scenes without
+// running them.
 #include "engine/base/check.h"
 
 #include <cstdio>
@@ -29,7 +29,7 @@ int list(const ListOptions& options) {
   return 0;
 }
 
-// Every scene is looked at, also after one that is wrong.
+// Checks all scenes, also after one with an error.
 int check(const CheckOptions& options) {
   Figures figures;
   int wrong = 0;

@@ -10,11 +10,11 @@
 namespace sunder::app {
 
 void CommonOptions::apply() const {
-  constexpr int kMany = 4;  // a processor
+  constexpr int kMaxThreadsPerProcessor = 4;
   set_threads(0);
   const int processors = sunder::threads();
   set_threads(threads);
-  if (threads > kMany * processors) {
+  if (threads > kMaxThreadsPerProcessor * processors) {
     std::fprintf(stderr, "warning: --threads %d on %d processors: they wait for each other\n",
                  threads, processors);
   }

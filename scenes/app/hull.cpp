@@ -13,10 +13,11 @@
 namespace sunder::app {
 namespace {
 
-/// Farther outside than this part of the size counts as not enclosed.
-constexpr double kOutside = 1e-9;
+/// Tolerance of encloses(): largest distance of a point outside the hull, relative to its size.
+constexpr double kOutsideTolerance = 1e-9;
 
-/// The vertices that a mesh's faces have; of built-in solids, all.
+/// Returns the vertices that faces of a mesh use, or all vertices of a built-in solid; sets the
+/// name and the counts of `solid`.
 std::vector<Vec3> points_of(const std::string& mesh, scenes::MeshSolid& solid) {
   std::vector<Vec3> points;
   if (scenes::is_built_in_solid(mesh)) {
@@ -40,7 +41,7 @@ std::vector<Vec3> points_of(const std::string& mesh, scenes::MeshSolid& solid) {
 }
 
 bool encloses(const ConvexPolyhedron& hull, const std::vector<Vec3>& points) {
-  const double allowed = kOutside * bounds(hull).extent().norm();
+  const double allowed = kOutsideTolerance * bounds(hull).extent().norm();
   for (const ConvexPolyhedron::Face& face : hull.faces) {
     for (const Vec3& point : points) {
       if (face.plane.distance(point) > allowed) return false;

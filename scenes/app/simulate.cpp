@@ -1,4 +1,4 @@
-// sunder simulate: a run without pictures, with its figures and its state hash.
+// sunder simulate: runs a scene without pictures, and reports its figures and state hash.
 #include <cstdio>
 #include <optional>
 

@@ -1,4 +1,5 @@
-// sunder vacd: the approximate convex decomposition of a mesh (paper 4.1), and how tight it is.
+// sunder vacd: computes the approximate convex decomposition of a mesh (paper 4.1), and measures
+// how much larger its hulls are than the mesh.
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -43,7 +44,7 @@ std::string summary(const scenes::MeshSolid& solid, const Doubled& doubled) {
   return input_summary(solid) + text + doubled_summary(doubled);
 }
 
-/// Every convex by itself, in a colour of its own.
+/// Returns each convex as a compound of its own; colours repeat after `colors` convexes.
 std::vector<Compound> one_by_one(const Compound& compound, std::size_t colors) {
   std::vector<Compound> convexes;
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
@@ -72,8 +73,8 @@ void decompose_once(const VacdOptions& options) {
   options.write_json(format_figures(figures_of(solid, doubled)));
 }
 
-/// Again whenever the node file changes, until the program is stopped; a mistake in the file is
-/// shown and waited out.
+/// Decomposes the mesh again whenever the file of nodes changes, until the program is stopped.
+/// Prints errors of the file and goes on.
 [[noreturn]] void watch_nodes(const VacdOptions& options) {
   std::error_code ignored;
   for (;;) {
