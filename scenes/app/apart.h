@@ -9,7 +9,7 @@
 
 namespace sunder::app {
 
-/// How a process ended.
+/// The exit code or signal that ended a process.
 struct ProcessResult {
   int exit_code = 0;
   int signal = 0;  ///< Signal that ended it; 0 if none did.

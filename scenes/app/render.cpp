@@ -245,7 +245,7 @@ int render_scene(const RenderOptions& options) {
   FramesFrom from(counter, first);
   StateRecorder record;
   FramesUntil frames(*input.source, input.drawn.last - input.skipped);
-  // With one thread, drawing and simulation alternate.
+  // Drawing and simulation alternate if there is only one thread.
   std::optional<FramesAhead> ahead;
   if (threads() > 1) ahead.emplace(frames);
   TeeSource watched(ahead ? static_cast<FrameSource&>(*ahead) : frames, record);
