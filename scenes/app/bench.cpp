@@ -254,8 +254,8 @@ int bench(const BenchOptions& options) {
   const int stopped = stop_signal();
   const std::vector<Figures>& scenes = measured.scenes;
   if (stopped != 0) {
-    options.say(scenes.empty() ? "stopped before anything was timed; nothing is written\n"
-                               : "stopped; this is what was timed before:\n");
+    options.print(scenes.empty() ? "stopped before anything was timed; nothing is written\n"
+                                 : "stopped; this is what was timed before:\n");
     if (scenes.empty()) return 128 + stopped;
   }
   const std::string old_name = options.against.empty() ? options.compare : options.against;
@@ -271,8 +271,8 @@ int bench(const BenchOptions& options) {
     verdicts.insert(verdicts.end(), comparison.verdicts.begin(), comparison.verdicts.end());
   }
 
-  options.say(bench::timing_table(scenes) + bench::features_table(scenes) +
-              bench::changes_table(comparison.changes) + bench::verdict_lines(verdicts, false));
+  options.print(bench::timing_table(scenes) + bench::features_table(scenes) +
+                bench::changes_table(comparison.changes) + bench::verdict_lines(verdicts, false));
   options.write_json(format_figures(bench::document_of(scenes)));
   if (!options.junit.empty()) write_text(options.junit, bench::junit_xml("bench", verdicts));
   if (!options.page.empty()) {

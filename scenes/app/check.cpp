@@ -12,14 +12,15 @@ namespace sunder::app {
 
 int list(const ListOptions& options) {
   if (options.keys) {
-    options.say(scenes::key_reference());
+    options.print(scenes::key_reference());
     return 0;
   }
   Figures figures;
   std::size_t index = 0;
   for (const scenes::CatalogEntry& entry : scenes::catalog()) {
-    options.say(entry.name + std::string(entry.name.size() < 14 ? 14 - entry.name.size() : 1, ' ') +
-                entry.description + "\n");
+    options.print(entry.name +
+                  std::string(entry.name.size() < 14 ? 14 - entry.name.size() : 1, ' ') +
+                  entry.description + "\n");
     const std::string at = "/scenes/" + std::to_string(index++);
     figures[at + "/name"] = entry.name;
     figures[at + "/file"] = entry.file.string();
@@ -41,9 +42,9 @@ int check(const CheckOptions& options) {
       const Scene scene = scenes::load_scene(name, options.load);
       std::size_t convexes = 0;
       for (const Solid& solid : scene.solids) convexes += solid.compound.convexes.size();
-      options.say(name + ": good (" + std::to_string(scene.solids.size()) + " solids of " +
-                  std::to_string(convexes) + " convexes, " +
-                  std::to_string(scene.balls.size() + scene.shots.size()) + " balls)\n");
+      options.print(name + ": good (" + std::to_string(scene.solids.size()) + " solids of " +
+                    std::to_string(convexes) + " convexes, " +
+                    std::to_string(scene.balls.size() + scene.shots.size()) + " balls)\n");
       for (const std::string& warning : scenes::run_info(scene, options.load.preset).warnings)
         std::fprintf(stderr, "warning: %s: %s\n", name.c_str(), warning.c_str());
       figures[at + "/good"] = true;

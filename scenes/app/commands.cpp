@@ -20,7 +20,7 @@ void CommonOptions::apply() const {
   }
 }
 
-void CommonOptions::say(const std::string& text) const {
+void CommonOptions::print(const std::string& text) const {
   if (!quiet && json != "-") std::fputs(text.c_str(), stdout);
 }
 

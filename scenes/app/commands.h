@@ -21,7 +21,7 @@ struct CommonOptions {
   /// Sets the threads of the whole program.
   void apply() const;
   /// Prints text for the user on stdout, unless --quiet is given or JSON is written there.
-  void say(const std::string& text) const;
+  void print(const std::string& text) const;
   /// Writes JSON to the file of --json, under a temporary name first, or to stdout for "-"; does
   /// nothing without --json. Throws FileError.
   void write_json(const std::string& text) const;

@@ -306,15 +306,15 @@ int fracture_mesh(const FractureOptions& options) {
   const auto& [solid, paints, example, broken] = attempt;
   progress.reset();
   print_warnings(solid);
-  options.say(summary(solid, broken));
+  options.print(summary(solid, broken));
   if (!options.output.empty()) {
     const std::size_t walled =
         write_solids(options.output, broken.plan.pieces, stone(), paints, options.explode,
                      options.walls == "keep" ? Walls::kKeep : Walls::kRemove);
-    options.say("wrote " + options.output + "\n");
+    options.print("wrote " + options.output + "\n");
     if (walled > 0) {
-      options.say("walls    kept in " + std::to_string(walled) +
-                  " pieces: without them a surface would not close; other --nodes may help\n");
+      options.print("walls    kept in " + std::to_string(walled) +
+                    " pieces: without them a surface would not close; other --nodes may help\n");
     }
   }
   options.write_json(format_figures(figures_of(solid, broken)));

@@ -135,17 +135,17 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
           bench::judge_frames(result.golden.run(), bench::read_hashes(book), book, options.full);
       result.verdicts.insert(result.verdicts.end(), verdicts.begin(), verdicts.end());
     }
-    options.say((result.passed() ? "pass " : "FAIL ") + name + ": " + result.sentence() + "\n");
+    options.print((result.passed() ? "pass " : "FAIL ") + name + ": " + result.sentence() + "\n");
     if (!result.passed()) failed += (failed.empty() ? "" : " ") + name;
     if (!result.drawing_passed()) {
       fs::create_directories(options.out);
       const fs::path picture = fs::path(options.out) / (name + ".png");
       render::write_png(picture, result.actual);
-      options.say("     what was drawn: " + picture.string() + "\n");
+      options.print("     what was drawn: " + picture.string() + "\n");
     }
   }
   if (!failed.empty()) {
-    options.say("If this is right: " + accept_command(options.folder, failed) + "\n");
+    options.print("If this is right: " + accept_command(options.folder, failed) + "\n");
   }
   if (!options.junit.empty()) {
     std::vector<Verdict> verdicts;
@@ -205,7 +205,7 @@ int golden_report(const GoldenOptions& options) {
     }
   }
   write_text(page.string(), render::golden_report(pictures));
-  options.say("wrote " + page.string() + "\n");
+  options.print("wrote " + page.string() + "\n");
   return exit_code(results);
 }
 
@@ -238,7 +238,7 @@ int golden_accept(const GoldenOptions& options) {
       if (book != before) write_text(file, bench::format_hashes(book));
       message += book == before ? ", simulation as before" : ", simulation anew";
     }
-    options.say("accepted " + name + ": " + message + "\n");
+    options.print("accepted " + name + ": " + message + "\n");
   }
   return 0;
 }
@@ -276,8 +276,8 @@ int golden_record(const GoldenOptions& options) {
     Drawer(options.gl).draw(golden);  // throws if the frame cannot be drawn
   }
   write_golden(golden);
-  options.say("recorded " + golden.file(".json").string() +
-              "; look at it, then: " + golden.accept_command() + "\n");
+  options.print("recorded " + golden.file(".json").string() +
+                "; look at it, then: " + golden.accept_command() + "\n");
   return 0;
 }
 

@@ -73,7 +73,7 @@ int hull(const HullOptions& options) {
       "hull     of %zu vertices chosen: %zu faces, %.4f of the true hull's volume, %s all "
       "vertices; %.2f ms\n",
       used, fitted.faces.size(), ratio, all ? "encloses" : "does NOT enclose", total_ms);
-  options.say(solid.name + ": " + std::to_string(points.size()) + " vertices\n" + text);
+  options.print(solid.name + ": " + std::to_string(points.size()) + " vertices\n" + text);
   options.write_json(format_figures({{"/input/vertices", std::int64_t(solid.vertices)},
                                      {"/input/faces", std::int64_t(solid.faces)},
                                      {"/vertices_used", std::int64_t(used)},

@@ -239,7 +239,7 @@ int render_scene(const RenderOptions& options) {
                      "and --fps; take more of them");
   }
   render::Renderer renderer(render_options);
-  options.say(renderer.description() + "\n");
+  options.print(renderer.description() + "\n");
   const auto pictures = make_sink(options, renderer, first, last);
   CountingSink counter(*pictures);
   FramesFrom from(counter, first);
@@ -248,8 +248,8 @@ int render_scene(const RenderOptions& options) {
   // Drawing and simulation alternate if there is only one thread.
   std::optional<FramesAhead> ahead;
   if (threads() > 1) ahead.emplace(frames);
-  TeeSource watched(ahead ? static_cast<FrameSource&>(*ahead) : frames, record);
-  render::PacedSource paced(watched, pace, camera->remembers() ? 0 : first);
+  TeeSource tee(ahead ? static_cast<FrameSource&>(*ahead) : frames, record);
+  render::PacedSource paced(tee, pace, camera->remembers() ? 0 : first);
   CameraSource seen(paced, options, *camera, input.is_recorded);
   Progress progress("render " + options.scene, static_cast<int>(last), options.quiet);
   FrameSink* const sinks[] = {&from, &progress};
@@ -258,10 +258,10 @@ int render_scene(const RenderOptions& options) {
   if (const std::string warning = record.warning(); !warning.empty())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   if (counter.taken() == 0) {
-    options.say("stopped before anything was drawn; nothing is written\n");
+    options.print("stopped before anything was drawn; nothing is written\n");
   } else {
-    options.say((stopped == 0 ? "wrote " : "stopped; kept what was drawn: ") + options.output +
-                "\n");
+    options.print((stopped == 0 ? "wrote " : "stopped; kept what was drawn: ") + options.output +
+                  "\n");
   }
   options.write_json(format_figures({{"/output", options.output},
                                      {"/gl", renderer.description()},

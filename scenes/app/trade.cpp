@@ -50,7 +50,7 @@ int list_runs(const TradeOptions& options, const std::vector<StudyRun>& runs) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     std::string line = runs[i].name() + "  " + runs[i].point.preset;
     for (const std::string& assignment : runs[i].set) line += " " + assignment;
-    options.say(line + "\n");
+    options.print(line + "\n");
     figures["/runs/" + std::to_string(i)] = runs[i].name();
   }
   options.write_json(format_figures(figures));
@@ -117,8 +117,8 @@ bool carry_out(const TradeOptions& options, const std::vector<StudyRun>& runs) {
   const std::vector<PendingRun> pending = pending_runs(runs, options.output);
   double all = 0, done = 0;
   for (const PendingRun& each : pending) all += each.work;
-  options.say(std::to_string(pending.size()) + " of " + std::to_string(runs.size()) +
-              " runs to be done\n");
+  options.print(std::to_string(pending.size()) + " of " + std::to_string(runs.size()) +
+                " runs to be done\n");
   bool complete = true;
   WorkProgress progress("trade", options.quiet);
   for (const PendingRun& each : pending) {
@@ -139,7 +139,7 @@ int report(const TradeOptions& options, const std::vector<StudyRun>& runs) {
   for (const bench::SceneTrade& scene : found.scenes) {
     write_text((folder / (scene.scene + ".svg")).string(), bench::trade_svg(scene));
   }
-  options.say(bench::trade_table(found) + "wrote " + (folder / "trade.html").string() + "\n");
+  options.print(bench::trade_table(found) + "wrote " + (folder / "trade.html").string() + "\n");
   options.write_json(json);
   if (found.missing.empty()) return 0;
   for (const std::string& name : found.missing) std::fprintf(stderr, "missing: %s\n", name.c_str());

@@ -63,12 +63,12 @@ void decompose_once(const VacdOptions& options) {
   progress.reset();
   print_warnings(solid);
   const Doubled doubled = fracture::doubled_volume(solid.compound);
-  options.say(summary(solid, doubled));
+  options.print(summary(solid, doubled));
   if (!options.output.empty()) {
     const std::vector<Material> colors = palette();
     write_solids(options.output, one_by_one(solid.compound, colors.size()), colors, {},
                  options.explode, Walls::kKeep);
-    options.say("wrote " + options.output + "\n");
+    options.print("wrote " + options.output + "\n");
   }
   options.write_json(format_figures(figures_of(solid, doubled)));
 }
