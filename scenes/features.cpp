@@ -54,8 +54,7 @@ bool any_material(const Scene& scene, const Predicate& is) {
 
 bool has_pattern(const Material& material) { return material.breakable(); }
 
-/// Returns true if stress may break the solid now, or may break pieces of it that have several
-/// convexes.
+/// Returns true if stress may break the solid, or pieces of it that have several convexes.
 bool may_break_by_stress(const Scene& scene, const Solid& solid) {
   return (solid.compound.convexes.size() > 1 || is_made_of(scene, solid, has_pattern)) &&
          is_made_of(scene, solid, [](const Material& m) { return m.breaks_by_load(); });

@@ -12,8 +12,7 @@ struct Feature {
   const char* name;
   /// Returns "on", "off", or "off: REASON", where the reason is found in the scene.
   std::string (*state)(const Scene& scene);
-  /// Changes a scene in which the feature is on so that it is off; null: the feature cannot be
-  /// turned off.
+  /// Turns the feature off in a scene in which it is on; null if that is not possible.
   void (*turn_off)(Scene& scene);
 };
 

@@ -131,8 +131,7 @@ void Loader::read_accuracy() {
   }
 }
 
-/// Sets the number of substeps from error_target_m, if that is given. The scene must have all its
-/// solids.
+/// Sets the number of substeps from error_target_m, if given, and from the scene's solids.
 void Loader::find_substeps() {
   Accuracy& accuracy = scene_.accuracy;
   if (accuracy.error_target_m <= 0) return;
@@ -150,8 +149,7 @@ void read_crumbling(const Value& table, Crumbling& crumbling) {
   }
 }
 
-/// Adds the materials of a document to the scene. A material replaces another of its name, so that
-/// a scene may change those of the library.
+/// Adds the materials of a document to the scene; each replaces an earlier one of its name.
 void Loader::add_materials(const Value& document, const std::filesystem::path& folder) {
   const Schema& s = schema();
   std::set<std::string> seen;
@@ -187,8 +185,7 @@ void Loader::add_materials(const Value& document, const std::filesystem::path& f
   }
 }
 
-/// Returns the solids that pieces make, one for each island of each copy, in the frame S of the
-/// structure.
+/// Returns the solids of pieces, one for each island and copy, in the frame S of the structure.
 std::vector<Solid> solids_of(std::vector<Piece> pieces) {
   std::vector<Solid> solids;
   for (Piece& piece : pieces) {
@@ -290,8 +287,7 @@ void Loader::reserve_names(const Value& parent, std::initializer_list<std::strin
   }
 }
 
-/// Names all solids: by the given name or a default one, with ".0", ".1" and so on where a table
-/// made several.
+/// Names all solids; those of a table that made several get ".0", ".1" and so on appended.
 void Loader::name_solids() {
   reserve_names(document_, {"solid", "body", "ball"});
   if (const Value* script = find(document_, "script")) {

@@ -26,8 +26,7 @@ struct LoadOptions {
 /// catalogue, scenes_folder(folder). Throws InputError that lists the scenes if there is neither.
 std::filesystem::path scene_file(const std::string& file_or_name,
                                  const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
-/// Loads the scene in scene_file(). Throws InputError that names file, line, key and the allowed
-/// values.
+/// Loads scene_file(). Throws InputError that names file, line, key and the allowed values.
 Scene load_scene(const std::string& file_or_name, const LoadOptions& options = {},
                  const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
 /// Returns the scene that a text describes. Errors name `file`, its stem is the scene's name, and
@@ -38,8 +37,7 @@ Scene parse_scene(const std::string& text, const std::string& file,
 /// Returns the materials that every scene file starts from: brick, concrete, glass, steel and so on
 /// (scenes/materials.toml). For scenes made in code.
 std::vector<Material> builtin_materials();
-/// Returns the material of this name in a scene. Throws InputError that lists the materials if
-/// there is none.
+/// Returns the material of this name. Throws InputError that lists the materials if there is none.
 MaterialIndex material_named(const Scene& scene, const std::string& name);
 
 struct CatalogEntry {

@@ -1,5 +1,4 @@
-// Makes simulations of scenes, with the solver, the fracture, the debris and the dust that the
-// program uses.
+// Makes simulations of scenes, with the program's solver, fracture, debris and dust.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +13,10 @@
 namespace sunder::scenes {
 
 struct SimulationOptions {
-  /// Number of threads of the whole process from now on; 0 leaves the number as it is, by default
-  /// one for each processor.
-  int threads = 0;
-  /// Folder for case files of breaks that failed because their parts did not sum to the volume
-  /// before; `sunder fracture` replays these. Empty: none are written.
+  int threads =
+      0;  ///< Threads of the process from now on; 0: unchanged, initially one a processor.
+  /// Folder for case files of breaks whose parts do not sum to the volume before, for
+  /// `sunder fracture`; empty: none are written.
   std::filesystem::path cases_folder;
   /// Called with each warning to the user, a sentence, now and at the end of the run; may be empty.
   std::function<void(const std::string& warning)> warn;
@@ -31,8 +29,7 @@ struct SimulationOptions {
 /// InputError for a planar scene that needs a third dimension.
 std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOptions& options = {});
 
-/// Returns the description of a run of the scene for Statistics; `preset` is that of the scene's
-/// LoadOptions.
+/// Returns the description of a run for Statistics; `preset` is that of the scene's LoadOptions.
 RunInfo run_info(const Scene& scene, const std::string& preset = "realtime");
 
 }  // namespace sunder::scenes

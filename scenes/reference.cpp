@@ -32,8 +32,7 @@ std::string show(const Eigen::Matrix<Scalar, 3, 1>& v) {
   return text + "]";
 }
 
-/// Returns the default of a key as text: the value of its field in the default-constructed object
-/// `fresh`.
+/// Returns the default of a key: the value of its field in the default-constructed object `fresh`.
 std::string default_of(const Key& key, void* fresh) {
   using Kind = Key::Kind;
   if (key.required) return "required";

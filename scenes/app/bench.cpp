@@ -36,8 +36,7 @@ namespace {
 using bench::TimedRun;
 using bench::Verdict;
 
-/// A scene to time, unchanged, without a feature, or with another program, and the figures of its
-/// repeats.
+/// A scene to time, maybe without a feature or by another program, and the figures of its repeats.
 struct Timed {
   TimedRun run;
   std::string program;  ///< Path of the other program; empty: this one.

@@ -1,5 +1,4 @@
-// sunder list: lists the scenes, one line each. sunder check: loads and validates scenes without
-// running them.
+// sunder list: lists the scenes. sunder check: loads and validates scenes without running them.
 #include "engine/base/check.h"
 
 #include <cstdio>

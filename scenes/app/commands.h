@@ -83,9 +83,7 @@ struct BenchOptions : CommonOptions {
 };
 
 struct TradeOptions : CommonOptions {
-  /// One thread: threads that wait for each other would count as time. Shards use the other
-  /// processors.
-  TradeOptions() { threads = 1; }
+  TradeOptions() { threads = 1; }  ///< As in BenchOptions; shards use the other processors.
   std::vector<std::string> scenes;
   scenes::LoadOptions load;  ///< Only `set` is used; each point has a preset.
   std::string output;

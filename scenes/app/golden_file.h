@@ -68,8 +68,7 @@ struct GoldenResult {
 
   bool drawing_passed() const;
   bool passed() const;
-  /// Returns the texts of the verdicts that failed, and those of drawing and simulation that
-  /// passed.
+  /// Returns the results of drawing and simulation, and the texts of failed verdicts.
   std::string sentence() const;
 };
 /// Returns the results as JSON.
@@ -81,8 +80,7 @@ std::string format_results(const std::vector<GoldenResult>& results);
 std::string view_differences(const Frame& stored, const Scene& scene);
 /// Returns a hash of size and pixels as 16 hexadecimal digits.
 std::string pixel_hash(const render::Image& image);
-/// Returns a frame without the meshes that no instance shows; the picture is unchanged and the file
-/// smaller.
+/// Returns a frame without the meshes that no instance shows, for a smaller file.
 Frame without_unused_meshes(const Frame& frame);
 
 }  // namespace sunder::app

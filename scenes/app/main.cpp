@@ -17,9 +17,8 @@ int main(int argc, char** argv) {
     return 1;
   }
 #endif
-  // Keep freed memory in the process: each frame allocates as much as the last one freed, and for a
-  // large solid, returning the memory and getting zeroed pages takes a third of the time of its
-  // stress computation.
+  // Keep freed memory for the next frame: for a large solid, returning it and getting zeroed pages
+  // takes a third of the time of its stress computation.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
   try {

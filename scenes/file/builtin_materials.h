@@ -1,5 +1,4 @@
-// The library of materials, scenes/materials.toml, compiled in as a string by sunder_embed() of
-// cmake/Sunder.cmake.
+// The library of materials, scenes/materials.toml, compiled in as a string (CMake: sunder_embed).
 #pragma once
 
 namespace sunder::scenes::builtin {

@@ -117,8 +117,7 @@ GroundMesh mesh_of(const std::string& file, double scale, const Value& table) {
   return mesh;
 }
 
-/// Removes degenerate triangles: those whose doubled area is at most 1e-6 of the square of their
-/// longest side.
+/// Removes degenerate triangles, whose doubled area is at most 1e-6 of their longest side squared.
 void drop_degenerate_triangles(GroundMesh& mesh) {
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
     const Vec3 &a = mesh.vertices_W[t[0]], &b = mesh.vertices_W[t[1]], &c = mesh.vertices_W[t[2]];

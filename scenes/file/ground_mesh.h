@@ -1,5 +1,4 @@
-// Ground other than the plane: the keys of [[ground.mesh]] in a scene file, and the triangles made
-// of them.
+// Ground meshes: the keys of [[ground.mesh]] in a scene file, and the triangles made of them.
 #pragma once
 
 #include <filesystem>
@@ -26,9 +25,8 @@ struct GroundMeshTable {
 };
 const Keys<GroundMeshTable>& ground_mesh_keys();
 
-/// Appends the meshes of a [[ground.mesh]] to the ground of a scene that has its materials,
-/// [ground] and [view]; files are relative to `folder`. May append a material to the scene. Throws
-/// InputError.
+/// Appends the meshes of a [[ground.mesh]], and their material if they name none, to a scene that
+/// has its materials, [ground] and [view]. Files are relative to `folder`. Throws InputError.
 void read_ground_mesh(const Value& table, const std::filesystem::path& folder, Scene& scene);
 
 }  // namespace sunder::scenes

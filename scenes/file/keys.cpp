@@ -133,8 +133,7 @@ void store(const Reading& reading, void* object) {
   use_field(reading.key, object, [&](auto& field) { reading.read(field); });
 }
 
-/// Returns the key of an angle as it is in degrees, under the name `name`, with limits rounded to
-/// 0.01°.
+/// Returns the key of an angle in degrees, called `name`, with limits rounded to 0.01°.
 Key in_degrees(const Key& key, std::string_view name) {
   const auto limit = [](double angle_rad) { return std::round(100 * angle_rad / kDegree) / 100; };
   Key degrees = key;
@@ -261,8 +260,7 @@ void check_known(const Value& table, std::string_view name,
   }
 }
 
-/// Throws InputError for a required key that the table lacks, at the place of an unknown key with a
-/// similar name if there is one.
+/// Throws InputError for a missing key, at the place of an unknown key with a similar name, if any.
 [[noreturn]] void refuse_missing(const Value& table, std::string_view name, const Key& key,
                                  std::span<const Key> keys) {
   constexpr std::size_t kShort = 2;  // names up to this length are similar to any other

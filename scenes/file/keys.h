@@ -128,8 +128,7 @@ void use_field(Key::Kind kind, void* field, const Use& use, TypeList<T...>) {
 
 }  // namespace detail
 
-/// Returns a key that is stored in a member. Its default is the member's value in a
-/// default-constructed object.
+/// Returns a key that is stored in a member, whose initial value is the default.
 template <auto member>
 Key key(std::string_view name, std::string_view unit, Range range, std::string_view help) {
   using Owner = typename detail::MemberOf<decltype(member)>::owner;
@@ -175,8 +174,7 @@ Key choice(std::string_view name, std::span<const std::string_view> choices,
   return key;
 }
 
-/// Calls `use` with the field of `object` that a key is stored in; does nothing for choices and
-/// tables.
+/// Calls `use` with the field of a key in `object`; does nothing for choices and tables.
 template <class Use>
 void use_field(const Key& key, void* object, const Use& use) {
   if (key.kind >= Key::Kind::kChoice) return;
@@ -207,12 +205,11 @@ void read_keys(const Value& table, std::string_view name, std::span<const Key> k
                std::span<const Material> materials, void* object);
 /// Returns the entries of `value`. Throws InputError if it is not a table.
 const Table& as_table(const Value& value, std::string_view name);
-/// Returns the elements of the array of tables under `key`; none if the key is absent. Throws
-/// InputError if the value is anything else.
+/// Returns the elements of the array of tables under `key`; none if absent. Throws InputError.
 std::vector<const Value*> tables(const Value& parent, std::string_view key);
 
-/// Reads a table into `object`, whose fields stay where the table has no key for them. Throws
-/// InputError that names file, line, key and the allowed values.
+/// Reads the keys that the table has into `object`. Throws InputError that names file, line, key
+/// and the allowed values.
 template <class T>
 void read(const Keys<T>& keys, const Value& table, std::span<const Material> materials, T& object) {
   check_known(table, keys.table, {keys.keys});
@@ -224,8 +221,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 /// Returns the words as "a, b, c".
 std::string join(std::span<const std::string_view> words, std::string_view separator = ", ");
 
-/// Returns the element of this name. Throws InputError if there is none: `complaint`, the most
-/// similar name, and a list of all names.
+/// Returns the element of this name, or throws InputError: `complaint` and a list of all names.
 template <class T>
 const T& find_named(std::span<const T> all, std::string_view name, const std::string& complaint,
                     const std::string& list = "; allowed: ", std::string_view separator = " | ") {

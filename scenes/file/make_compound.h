@@ -18,9 +18,7 @@ Compound make_compound(std::vector<Part> parts);
 
 /// How a mesh is repaired and decomposed. Built-in solids are made of convexes already.
 struct MeshOptions {
-  /// Number of nodes of the decomposition, or a file with x y z of a node on each line; empty: the
-  /// default number.
-  std::string nodes;
+  std::string nodes;  ///< Number of nodes, or a file with x y z on each line; empty: automatic.
   std::uint32_t convexes = 0;  ///< Most convexes; 0: as many as the nodes give.
   std::string fit = "hull:24";
   std::string repair = "auto";   ///< "off" throws InputError for a mesh that needs repair.
@@ -35,8 +33,7 @@ struct MeshOptions {
   /// Warnings about appearances are appended to this, each once; null: there are none.
   std::vector<std::string>* warnings = nullptr;
   bool cached = false;  ///< True if decompositions are cached on disk (mesh_cache.h).
-  /// Called with each step when it begins, and with the fraction of all work that is done; may be
-  /// empty.
+  /// Called at the start of each step, and with the fraction of all work done; may be empty.
   std::function<void(const char* step, double share)> progress{};
 };
 

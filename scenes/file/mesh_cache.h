@@ -20,8 +20,7 @@ std::uint64_t cache_key(const RawMesh& mesh, const fracture::VacdOptions& vacd,
 /// ~/.cache; empty if none of these variables is set, which turns the cache off.
 std::filesystem::path cache_folder();
 
-/// Returns the solid stored under a key; nothing if there is none, or if the file is damaged or of
-/// another version.
+/// Returns the solid stored under a key; nothing if missing, damaged or of another version.
 std::optional<MeshSolid> load_cached(std::uint64_t key);
 /// Stores a solid under a key; does nothing if the file cannot be written.
 void store_cached(std::uint64_t key, const MeshSolid& solid);

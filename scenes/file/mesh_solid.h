@@ -39,16 +39,14 @@ MeshSolid as_mesh_solid(const std::string& name, Compound compound);
 /// Returns true if two appearances are equal; pictures are compared by their bytes.
 bool same_paint(const Paint& a, const Paint& b);
 
-/// Returns true if `mesh` begins like a built-in solid ("box:1,1,1") or a built-in mesh
-/// ("statue:80000"), and no file has this name.
+/// Returns true if `mesh` is no file and begins like a built-in solid ("box:1,1,1") or a built-in
+/// mesh ("statue:80000").
 bool is_built_in(const std::string& mesh);
-/// Returns true if `mesh` begins like a built-in solid, which is made of convexes, and no file has
-/// this name.
+/// Returns true if `mesh` is no file and begins like a built-in solid, which is made of convexes.
 bool is_built_in_solid(const std::string& mesh);
 /// Returns the mesh of a file, or a built-in mesh, without repairs. Throws InputError.
 RawMesh make_raw_mesh(const std::string& mesh);
-/// Returns the options of a decomposition. Throws InputError for wrong ones, so that errors are
-/// found before work that takes long.
+/// Returns the options of a decomposition. Throws InputError for wrong ones, before expensive work.
 fracture::VacdOptions vacd_options(const MeshOptions& options);
 
 }  // namespace sunder::scenes

@@ -15,15 +15,13 @@ namespace sunder::scenes {
 /// names for tables that give none.
 class Names {
  public:
-  /// Reserves a name that is given at `where`. Throws InputError that names both places if the name
-  /// is reserved already.
+  /// Reserves a name given at `where`. Throws InputError if it is reserved, naming both places.
   void reserve(const std::string& name, const std::string& where);
   /// Reserves and returns a name for a table at `where` that gives none: `default_name`, or
   /// "default_name 2", "default_name 3" and so on if that is taken. To be called once all given
   /// names are reserved.
   std::string reserve_default(const std::string& default_name, const std::string& where);
-  /// Throws InputError if `value` is a default name that several tables would have, and so is
-  /// ambiguous.
+  /// Throws InputError if `value` is a default name of several tables, and so ambiguous.
   void check_reference(const Value& value) const;
 
  private:

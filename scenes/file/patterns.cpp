@@ -13,10 +13,9 @@ namespace {
 
 constexpr int kMaxGridCells = 30;  // along each side
 
-/// Theoretical strength of a flawless solid as a fraction of its Young's modulus. Bonds between
-/// atoms break at a stress of sqrt(E·gamma/a), which is E/10 within a factor of two (A. A.
-/// Griffith, Phil. Trans. R. Soc. A 221, 1921; E. Orowan, Rep. Prog. Phys. 12, 1949). No bulk solid
-/// reaches it.
+/// Theoretical strength of a flawless solid over Young's modulus. Atomic bonds break at a stress of
+/// sqrt(E·gamma/a), which is E/10 within a factor of two (A. A. Griffith, Phil. Trans. R. Soc. A
+/// 221, 1921; E. Orowan, Rep. Prog. Phys. 12, 1949). No bulk solid reaches this strength.
 constexpr double kTheoreticalStrength = 0.1;
 
 /// A property of a material, with its key.

@@ -69,9 +69,8 @@ void repeat(const Value& table, std::vector<Copy>& copies) {
   }
 }
 
-/// Appends mirror images of all copies, mirrored along an axis at the coordinate `at_m`. A rotation
-/// followed by this reflection equals the model's own reflection along x followed by another
-/// rotation.
+/// Appends copies mirrored along an axis at the coordinate `at_m`. A rotation followed by this
+/// reflection equals the model's own reflection along x followed by another rotation.
 void mirror(int axis, double at_m, std::vector<Copy>& copies) {
   const std::size_t before = copies.size();
   for (std::size_t i = 0; i < before; ++i) {

@@ -1,5 +1,4 @@
-// Placement of a solid, a body or a part of a compound, and of its copies in rows, rings and
-// mirror images.
+// Placement of solids, bodies and parts of compounds, and their copies in rows, rings and mirrors.
 //
 // Read first: read_copies().
 #pragma once

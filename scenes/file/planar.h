@@ -1,5 +1,4 @@
-// Planar scenes, which move in the plane z = 0 alone: checks and the unit of length of their
-// solver.
+// Planar scenes, which move in the plane z = 0 alone: checks, and a unit of length for the solver.
 #pragma once
 
 #include <string>

@@ -11,10 +11,9 @@ namespace sunder::scenes {
 using Field = std::function<double(const Vec3&)>;
 
 /// Returns the zero surface of a field, which must be within `box`, as a watertight mesh of
-/// triangles that face outward (dual contouring on a grid with cells of `cell_m`). Each sheet of
-/// the surface in a cell has one vertex, which is moved onto the surface and has the field's
-/// gradient as normal. Details thinner than a cell may be missed. Bit-identical for any number of
-/// threads.
+/// outward triangles (dual contouring on a grid with cells of `cell_m`). Each sheet of the surface
+/// in a cell has one vertex, which is moved onto the surface, with the field's gradient as normal.
+/// Details thinner than a cell may be missed. Bit-identical for any number of threads.
 RawMesh triangulate(const Field& field, const Box& box, double cell_m);
 
 }  // namespace sunder::scenes

@@ -21,8 +21,7 @@ double join(double a, double b, double radius_m) {
   return std::min(a, b) - near * near * radius_m / 4;
 }
 
-/// Returns the smooth difference of the first shape and the second, with a fillet of about the
-/// given radius.
+/// Returns the smooth difference of two shapes, with a fillet of about the given radius.
 double carve(double a, double b, double radius_m) { return -join(-a, b, radius_m); }
 
 /// Returns 0 up to `from`, 1 from `to` on, and a smooth step between.

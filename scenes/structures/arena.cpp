@@ -37,8 +37,7 @@ void check_arena(const Arena& arena, const WedgePlan& end) {
   }
 }
 
-/// Adds the poses of the wedges of one arc about `center`; `towards_rad` is the direction of the
-/// arc's middle.
+/// Adds poses of an arc's wedges about `center`; `towards_rad` is the direction of its middle.
 void add_copies(Piece& piece, int wedges, double arc_rad, double towards_rad, const Vec3& center) {
   for (int i = 0; i < wedges; ++i) {
     const double angle = towards_rad + arc_rad * ((i + 0.5) / wedges - 0.5);

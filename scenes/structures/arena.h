@@ -1,5 +1,4 @@
-// The parts of the structure `arena`: wedges of bays, and a temple in the middle. Internal to the
-// arena.
+// The parts of an arena: wedges of bays, and a temple in the middle. Internal to the arena.
 #pragma once
 
 #include "scenes/structures/arena_members.h"
@@ -39,8 +38,8 @@ struct WedgePlan {
   ArchedWall arch;
   double springing;  ///< Height of an arch's springing over its floor.
 };
-/// Returns the parts of `arena.bays` bays, centred on the z-axis. Parts that stand on the ground
-/// are anchored.
+/// Returns the parts of `arena.bays` bays, centred on the z-axis, with those at the ground
+/// anchored.
 Parts wedge(const Arena& arena, const WedgePlan& plan);
 
 /// A round temple on a stepped base.

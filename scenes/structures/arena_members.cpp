@@ -49,8 +49,7 @@ std::vector<Vec2> capital_profile(double r, double from, int n) {
   return shifted(capital.points(), from);
 }
 
-/// Adds the drums of a shaft, which tapers upwards; its flutes end below the capital and above the
-/// base.
+/// Adds the drums of a tapering shaft; its flutes end below the capital and above the base.
 void add_shaft(const Column& column, double from, double to, const StoneOptions& options,
                Parts& parts) {
   constexpr int kFlutes = 20;
@@ -114,8 +113,7 @@ struct Voussoir {
   Vec2 at(double radius, double share) const {
     return on_circle(radius, from_rad + share * (to_rad - from_rad));
   }
-  /// Returns the outer corners of the outline; the first and the last stone extend down to the
-  /// piers.
+  /// Returns the outer corners of the outline; the end stones extend down to the piers.
   std::vector<Vec2> back() const {
     const double outer = arch.outer_m();
     if (from_rad == 0) return {{outer, 0}, {outer, arch.shoulder_y()}, at(outer, 1)};

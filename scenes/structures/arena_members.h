@@ -28,8 +28,7 @@ struct StoneOptions {
 void append_moved(const Pose& pose, Parts members, Parts& parts);
 /// Returns the frame at the origin that is rotated about y by an angle.
 Pose radial_frame(double angle_rad);
-/// Returns the frame that is rotated about y by an angle, with its origin moved to (x, y, z) in the
-/// rotated axes.
+/// Returns the frame with its origin at (x, y, z) of the frame radial_frame(angle_rad).
 Pose radial_frame(double angle_rad, double x, double y, double z);
 
 /// Returns a box with two opposite corners.
@@ -65,8 +64,7 @@ struct ArchedWall {
   double shoulder_x() const;  ///< Edge of the wall over the arch, above shoulder_y().
   double shoulder_y() const;
 };
-/// Returns voussoirs of `options.stone` with a moulding in front of them, under spandrels of
-/// `wall`.
+/// Returns voussoirs of `options.stone` with a moulding in front, under spandrels of `wall`.
 Parts arched_wall(const ArchedWall& arch, const StoneOptions& options, MaterialIndex wall);
 
 /// The sector between two radii of an arc, centred on the z-axis; makes parts that extend from one
@@ -75,8 +73,7 @@ class Bay {
  public:
   explicit Bay(double half_rad) : half_rad_(half_rad), half_(sin_cos(half_rad)) {}
 
-  /// Returns half the width of the sector at z, less a strip that is `inset_m` wide at either
-  /// radius.
+  /// Returns half the width of the sector at z, less a strip of `inset_m` at either radius.
   double half_width(double z, double inset_m = 0) const {
     return (z * half_.sin - inset_m) / half_.cos;
   }

@@ -62,8 +62,7 @@ class BridgeBuilder {
 
   void add_pier(double x) { add_box(x - bridge_.ring_m, x + bridge_.ring_m, 0, bridge_.pier_m); }
 
-  /// Adds a polygon of four corners in the plane of the arch, extruded over the whole width in
-  /// slices.
+  /// Adds a quadrangle in the plane of the arch, extruded over the whole width in slices.
   void add_prism(const std::array<Vec2, 4>& corners) {
     for (int k = 0; k < slices_; ++k) {
       std::vector<Vec3> points;

@@ -1,5 +1,4 @@
-// The structure `hall`: portal frames of I-sections in steel, purlins on them, and loose slabs on
-// the purlins.
+// The structure `hall`: steel portal frames of I-sections, purlins, and loose slabs on these.
 //
 // Read first: HallBuilder::build(). Members are cut across into slices, so that each cross-section
 // between slices is a plane of bonds, which may yield. The slabs are solids of their own, and load

@@ -27,8 +27,7 @@ class Profile {
   Profile(double x, double y) : points_{{x, y}} {}
   /// Appends a line to (x, y).
   Profile& to(double x, double y);
-  /// Appends a parabola to (x, y), the quadratic Bézier curve with the control point `control`, as
-  /// `segments` lines.
+  /// Appends a quadratic Bézier curve to (x, y), as `segments` lines.
   Profile& curve(const Vec2& control, double x, double y, int segments);
   const std::vector<Vec2>& points() const { return points_; }
 

@@ -149,8 +149,7 @@ void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3&
         std::max(1, static_cast<int>(std::ceil(extent[a] / longest_m - 1e-9)));
   }
   check_parts(static_cast<double>(parts.size()) + double(count[0]) * count[1] * count[2]);
-  // The outermost levels are exactly min and max, so that neighbouring boxes share them bit for
-  // bit.
+  // The outermost levels are exactly min and max, so that neighbouring boxes share planes.
   const auto level = [&](int axis, int i) {
     const int n = count[static_cast<std::size_t>(axis)];
     return i == n ? max[axis] : min[axis] + extent[axis] * i / n;

@@ -1,5 +1,4 @@
-// The structure `terrain`: a height field, with a prism under every triangle down to a level
-// bottom.
+// The structure `terrain`: a height field, with a prism under every triangle.
 #include <algorithm>
 
 #include "engine/geometry/hull.h"
