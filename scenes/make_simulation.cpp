@@ -21,8 +21,7 @@
 namespace sunder::scenes {
 namespace {
 
-/// Number of cells of the air grid that carries dust: enough for the largest scenes, and few enough
-/// for the time of a frame.
+/// Cells of the air grid for dust: enough for the largest scenes, few enough for a frame's time.
 const Eigen::Vector3i kAirCells(40, 24, 40);
 
 /// Returns a log that writes failed breaks to case files and warns of them when it is destroyed, at
@@ -75,8 +74,7 @@ std::unique_ptr<Particles> make_particles(const Scene& scene) {
   return solver::make_debris_and_dust(options);
 }
 
-/// Returns a warning of solids that begin under the ground plane, or of an empty scene; empty if
-/// there is nothing to warn of.
+/// Returns a warning of solids under the ground plane, or of an empty scene; empty if neither.
 std::string placement_warning(const Scene& scene) {
   if (scene.solids.empty() && scene.balls.empty() && scene.shots.empty()) return "nothing is in it";
   if (!scene.ground.meshes.empty()) return "";

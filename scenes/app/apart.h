@@ -1,5 +1,4 @@
-// Runs work in child processes, so that a crash of the work ends nothing else, and its memory and
-// time can be measured alone.
+// Runs work in child processes, which isolates its crashes, and its memory and time.
 #pragma once
 
 #include <functional>

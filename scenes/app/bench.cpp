@@ -44,8 +44,7 @@ struct Timed {
   std::vector<std::string> repeats = {};
 };
 
-/// Returns the runs of a turn, in order. Loads every scene, so that errors of the input are found
-/// before anything runs.
+/// Returns the runs of a turn, in order. Loads every scene, to find errors before anything runs.
 std::vector<Timed> timed_runs(const BenchOptions& options) {
   std::vector<Timed> all;
   std::set<std::string> names;
@@ -87,8 +86,7 @@ int run_here(const BenchOptions& options, const Timed& timed, bool warn, std::FI
   }
 }
 
-/// Replaces this process by the other program, which writes its figures to the file. Returns an
-/// exit code if that fails.
+/// Replaces this process by the other program, with the file as output. Returns 1 if that fails.
 int exec_program(const BenchOptions& options, const Timed& timed, std::FILE* file) {
   std::vector<std::string> words = {timed.program,   "simulate",
                                     timed.run.scene, "--quiet",
@@ -126,8 +124,7 @@ void pin_to(int processor) {
 
 /// Carries out runs and returns their figures as JSON; none if a stop signal was caught. Each run
 /// has a process of its own, so that its peak memory is measured alone. Several runs share one
-/// processor at the same time, so that disturbances, such as other users of the memory bus, affect
-/// all of them equally.
+/// processor at the same time, so that disturbances, such as memory traffic, affect all equally.
 std::vector<std::string> run_once(const BenchOptions& options, std::span<const Timed> runs,
                                   bool warn) {
   std::vector<File> files;

@@ -136,8 +136,7 @@ struct GoldenOptions : CommonOptions {
   render::RenderOptions render;
 };
 
-/// The commands. Each returns the program's exit code, 0 for success and 1 for failure, and throws
-/// InputError for wrong input.
+/// The commands return the exit code, 0 for success or 1, and throw InputError for wrong input.
 int list(const ListOptions& options);
 int check(const CheckOptions& options);
 int simulate(const SimulateOptions& options);

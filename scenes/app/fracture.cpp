@@ -54,8 +54,7 @@ Mat3 stretch_onto(const Vec3& reach, const Quat& rotation) {
   return Mat3((half_P / reach.norm()).asDiagonal());
 }
 
-/// Throws InputError for bricks that are too small for the compound; their parts would all be
-/// welded again, one by one.
+/// Throws InputError for bricks so small that all their parts would be welded again.
 void check_bricks(const FractureOptions& options, const Vec3& brick_m, const Compound& compound) {
   double largest_m3 = 0;
   for (const ConvexPtr& convex : compound.convexes) {
@@ -137,12 +136,10 @@ void collect(Structure& structure, BreakEdit edit, BreakPlan& plan) {
   std::move(loose.pieces.begin(), loose.pieces.end(), std::back_inserter(plan.pieces));
 }
 
-/// Fractions of all work that are done after the mesh is prepared, and after the break; estimates
-/// for the progress display.
+/// Estimated fractions of all work after preparation of the mesh, and after the break.
 constexpr double kMeshShare = 0.7, kBrokenShare = 0.9;
 
-/// Carries out the break several times and reports the fastest, as the first has cold caches, and
-/// other programs may slow down any.
+/// Carries out the break several times for the fastest: caches are cold in the first.
 Broken carry_out(const Compound& compound, const BreakCommand& command, WorkProgress& progress) {
   progress("breaking", kMeshShare);
   Broken broken;
@@ -238,8 +235,7 @@ struct Attempt {
   fracture::BreakCase example;
   Broken broken;
 
-  /// Returns the fraction of the volume that was left whole because the volumes of its parts did
-  /// not sum to that of the whole.
+  /// Returns the fraction of the volume in convexes that were left whole as they failed to break.
   double failed_fraction() const { return broken.plan.failed_m3 / broken.before.volume_m3; }
 };
 

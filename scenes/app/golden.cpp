@@ -101,8 +101,7 @@ Verdict check_drawing(Drawer& drawer, GoldenResult& result) {
   return verdict;
 }
 
-/// Checks that the stored frame, from which the picture is drawn, still has the camera and the
-/// colours of its scene.
+/// Checks that the stored frame, which is drawn, still has the camera and colours of its scene.
 Verdict check_view(const Golden& golden) {
   const Stopwatch watch;
   const std::string other = view_differences(*read_frame(golden.frame_file()),

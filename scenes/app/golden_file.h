@@ -13,13 +13,12 @@
 
 namespace sunder::app {
 
-/// The content of NAME.json: the sources of the frame and of the baseline picture, and the allowed
-/// difference of a picture.
+/// NAME.json: the sources of the frame and of the baseline, and the allowed difference of a
+/// picture.
 struct Golden {
   std::filesystem::path folder;
   std::string name;
-  /// File (relative to the folder) or name of a scene; or a stored frame of another golden, drawn
-  /// with other settings.
+  /// File (relative to the folder) or name of a scene, or stored frame of another golden.
   std::string scene;
   scenes::LoadOptions load;
   int frame = 0;  ///< Index of the frame in the scene's run.
@@ -62,8 +61,7 @@ struct GoldenResult {
   render::Image actual;
   render::Difference difference;
   std::string renderer;
-  /// The first verdict is on the drawing. For a golden of a scene, the second is on its view, and
-  /// the others are on its simulations.
+  /// Verdict on the drawing; for a golden of a scene, then on its view and on each simulation.
   std::vector<bench::Verdict> verdicts;
 
   bool drawing_passed() const;

@@ -1,5 +1,4 @@
-// The program `sunder`. Read first: commands.h, then the file of a command; run.h has what the
-// commands that simulate share.
+// The program `sunder`. Read first: commands.h, then the file of a command.
 #include <malloc.h>
 
 #include <cstdio>

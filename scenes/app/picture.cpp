@@ -10,8 +10,7 @@
 namespace sunder::app {
 namespace {
 
-/// Returns a view of a box from the front, a little from above and from the right, in which all of
-/// the box is visible.
+/// Returns a view of a whole box from the front, a little from above and from the right.
 View view_of(const Box& box) {
   View view;
   const double radius = 0.5 * box.extent().norm();

@@ -67,8 +67,7 @@ class StoredFrame final : public FrameSource {
 /// A source of another source's frames with the view of a camera.
 class CameraSource final : public FrameSource {
  public:
-  /// `is_recorded`: frames are stored ones, whose view --set changes here; in a scene, --set has
-  /// changed it already.
+  /// `is_recorded`: frames are stored ones, to whose views --set must be applied here.
   CameraSource(FrameSource& source, const RenderOptions& options, render::Camera& camera,
                bool is_recorded)
       : source_(source),
@@ -175,8 +174,7 @@ RenderInput open_frame(const RenderOptions& options) {
   return {std::move(frame), {number, number}, number, nullptr, true};
 }
 
-/// Opens the scene, recording or stored frame. `from_start`: a recording is read from frame 0 on,
-/// not from the first frame drawn.
+/// Opens the scene, recording or stored frame. `from_start`: a recording is read from frame 0 on.
 RenderInput open(const RenderOptions& options, const Span& span, bool from_start) {
   RenderInput input;
   input.is_recorded = options.scene.ends_with(".frame") || options.scene.ends_with(".take");

@@ -1,5 +1,4 @@
-// Shared by the commands that simulate: making the simulation, limiting its frames, stopping at
-// signals, and showing progress.
+// Shared by the commands that simulate: the simulation, limits of frames, stop signals, progress.
 #pragma once
 
 #include <chrono>
@@ -59,8 +58,7 @@ void release_stop_signals();
 /// 0, or 128 plus the signal.
 int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks);
 
-/// Shows progress and the remaining time of a run on stderr: a bar on a terminal, otherwise a line
-/// after every fifth of the frames.
+/// Shows the progress of a run on stderr: a bar on a terminal, otherwise a line every fifth of it.
 class Progress final : public FrameSink {
  public:
   Progress(std::string title, int last_frame, bool quiet);

@@ -6,8 +6,7 @@
 
 namespace sunder::app {
 
-/// Shows a bar with the remaining time on a terminal, otherwise a line every 2 s; nothing in the
-/// first 0.5 s.
+/// Shows, after 0.5 s, a bar with the remaining time on a terminal, otherwise a line every 2 s.
 class WorkProgress {
  public:
   WorkProgress(std::string title, bool quiet);

@@ -53,8 +53,7 @@ void check_count(double triangles, const Value& table) {
                    "; make it coarser, or smaller");
 }
 
-/// Returns a mesh of two triangles for each cell of a height grid, which is split along the
-/// diagonal whose middle is lower.
+/// Returns a mesh of a height grid, each cell of which is split along the lower diagonal.
 GroundMesh mesh_of(const HeightGrid& grid, double spacing_m) {
   GroundMesh mesh;
   const auto place = [&](std::size_t i, std::size_t count) {
@@ -127,8 +126,7 @@ void drop_degenerate_triangles(GroundMesh& mesh) {
   });
 }
 
-/// Throws InputError if the two triangles at an edge have opposite orientations. Edges of more than
-/// two triangles are not checked.
+/// Throws InputError if two triangles at an edge, and no others, have opposite orientations.
 void check_orientation(const GroundMesh& mesh, const Value& table) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<std::uint32_t, 2>> edges;
   for (const Triangle& t : mesh.triangles) {

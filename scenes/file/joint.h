@@ -24,8 +24,7 @@ struct JointTable {
 };
 const Keys<JointTable>& joint_keys();
 
-/// Reads a joint. The scene must have its solids and balls with their names. Throws InputError with
-/// file and line.
+/// Reads a joint of a scene that has its solids and balls. Throws InputError with file and line.
 Joint read_joint(const Value& table, const Scene& scene);
 
 }  // namespace sunder::scenes

@@ -9,8 +9,7 @@
 namespace sunder::scenes {
 namespace {
 
-/// Version of the cache: increase it whenever the results of reading, repair or decomposition, or
-/// this layout, change.
+/// To be increased whenever results of reading, repair or decomposition, or this layout, change.
 constexpr std::uint64_t kVersion = 5;
 
 template <class Vectors>

@@ -98,8 +98,7 @@ std::vector<MaterialIndex> materials_of(const RawMesh& mesh, const std::string& 
 /// through itself so much that its inside is undefined.
 constexpr double kMaxInsideOutFraction = 1e-3;
 
-/// Repairs and decomposes a mesh. If too much of it is inside out, encloses all of it in a new
-/// surface and decomposes that.
+/// Repairs and decomposes a mesh; if too much is inside out, again with a new, enclosing surface.
 fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const MeshOptions& options,
                                   const fracture::VacdOptions& vacd_of, MeshSolid& solid) {
   RepairOptions repair;

@@ -11,8 +11,7 @@
 
 namespace sunder::scenes {
 
-/// The names used in a scene while it is read, and the place of each in the file. Makes unique
-/// names for tables that give none.
+/// The names used in a scene while it is read, with their places; makes unique default names.
 class Names {
  public:
   /// Reserves a name given at `where`. Throws InputError if it is reserved, naming both places.

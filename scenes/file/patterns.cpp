@@ -92,8 +92,7 @@ void check_strengths(const Value& table, const Material& material) {
     refuse(table, strength, "is above the theoretical strength of a solid, a tenth of", stiffness,
            "lower " + std::string(strength.key) + ", or raise youngs_Pa");
   }
-  // Only fibrous materials, such as wood along its grain, bear more tension than compression;
-  // materials of scenes are isotropic.
+  // Only fibrous materials, such as wood, bear more tension; materials of scenes are isotropic.
   if (tensile.breaks() && compressive.breaks() && compressive.value < tensile.value) {
     refuse(table, compressive, "is below", tensile, "raise compressive_Pa, or lower tensile_Pa");
   }

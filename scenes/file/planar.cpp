@@ -8,8 +8,7 @@
 namespace sunder::scenes {
 namespace {
 
-/// Components of places (m), velocities (m/s) and spins (rad/s) out of the plane are rounding
-/// errors up to this.
+/// Components out of the plane, in m, m/s and rad/s, are rounding errors up to this.
 constexpr double kPlaneTolerance = 1e-9;
 
 /// Throws InputError for parts of a scene that need a third dimension.

@@ -24,8 +24,7 @@ using Corner = std::array<std::uint32_t, 3>;  ///< Grid coordinates of a corner 
 /// A number for each edge of a cell; see edge().
 using CellEdges = std::array<std::uint32_t, 12>;
 
-/// Returns the grid coordinates of a corner of a cell. Bit a of `corner` is 1 for the far corner
-/// along axis a.
+/// Returns a corner of a cell; bit a of `corner` is 1 if it is the far one along axis a.
 Corner corner_of(Corner cell, std::uint32_t corner) {
   for (const std::size_t a : kAxes) cell[a] += corner >> a & 1;
   return cell;
@@ -93,8 +92,7 @@ class SurfaceNet {
           values_[index({x, y, z})] = near ? field_(position({x, y, z})) : middle;
   }
 
-  /// Adds a vertex for each sheet of the surface in a cell: the mean of the sheet's crossings with
-  /// edges of the cell.
+  /// Adds a vertex for each sheet of the surface in a cell: the mean of its crossings with edges.
   void place_vertices() {
     cell_at_.assign(values_.size(), kNone);
     for_points([&](Corner at) {

@@ -80,8 +80,7 @@ double hanging_cloth(const Vec3& p) {
   return d;
 }
 
-/// Returns the distance to the upper body in a gown, with curved folds between the shoulders,
-/// upright folds below, and a belt.
+/// Returns the distance to the upper body: curved folds at the chest, upright ones below, a belt.
 double torso(const Vec3& p) {
   double d = ellipsoid(p, Vec3(0, 1.3, 0), Vec3(0.155, 0.24, 0.12));
   d = join(d, ellipsoid(p, Vec3(0, 1.47, -0.005), Vec3(0.18, 0.15, 0.125)), 0.08);

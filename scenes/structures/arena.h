@@ -38,8 +38,7 @@ struct WedgePlan {
   ArchedWall arch;
   double springing;  ///< Height of an arch's springing over its floor.
 };
-/// Returns the parts of `arena.bays` bays, centred on the z-axis, with those at the ground
-/// anchored.
+/// Returns `arena.bays` bays, centred on the z-axis; parts at the ground are anchored.
 Parts wedge(const Arena& arena, const WedgePlan& plan);
 
 /// A round temple on a stepped base.

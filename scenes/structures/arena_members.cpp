@@ -152,9 +152,8 @@ struct Voussoir {
   }
 };
 
-/// A cross-section of a figure, as fractions of its height: an ellipse at the height `y`, with the
-/// half-axes `x` and `z`, its centre at z = `before`. `folds` is the depth of folds as a fraction
-/// of the half-axes.
+/// A cross-section of a figure, as fractions of its height: an ellipse at the height `y` with the
+/// half-axes `x` and `z` about z = `before`. `folds` is the depth of folds, of the half-axes.
 struct CrossSection {
   double y, x, z, before, folds;
 };

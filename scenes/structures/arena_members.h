@@ -67,8 +67,7 @@ struct ArchedWall {
 /// Returns voussoirs of `options.stone` with a moulding in front, under spandrels of `wall`.
 Parts arched_wall(const ArchedWall& arch, const StoneOptions& options, MaterialIndex wall);
 
-/// The sector between two radii of an arc, centred on the z-axis; makes parts that extend from one
-/// radius to the other.
+/// The sector between two radii, centred on the z-axis; makes parts from one radius to the other.
 class Bay {
  public:
   explicit Bay(double half_rad) : half_rad_(half_rad), half_(sin_cos(half_rad)) {}

@@ -53,8 +53,7 @@ class WedgeBuilder {
   double tier_y(int i) const { return kPodium + i * kRise; }
   double tier_z(int i) const { return plan_.seats + i * kTread; }
 
-  /// Returns the parts on the k-th radius of the wedge; at its edges, half of the piers and walls
-  /// that two wedges share.
+  /// Returns the parts on the k-th radius; at the wedge's edges, half of what two wedges share.
   Parts radius_parts(int k) const {
     Parts parts;
     const double left = k == 0 ? 0 : -1, right = k == arena_.bays ? 0 : 1;

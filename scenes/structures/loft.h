@@ -40,8 +40,7 @@ class Profile {
 std::vector<Ring> turned(std::span<const Vec2> outline, std::span<const Vec2> profile);
 /// Returns a circle of unit radius.
 std::vector<Vec2> circle(int segments);
-/// Returns the outline of a fluted shaft of unit radius, with flutes of the depth `depth`; with 0,
-/// a circle with as many points.
+/// Returns the outline of a fluted shaft of unit radius; for depth 0, a circle of as many points.
 std::vector<Vec2> fluted(int flutes, int segments, double depth);
 
 /// Returns an upright regular prism about y with `sides` sides that encloses the rings.

@@ -37,8 +37,7 @@ void add_segments(std::vector<fracture::Part>& parts, const Vec3& min, const Vec
   }
 }
 
-/// Builds the box. Bars are the first parts, so that the mass of an overlap with concrete is that
-/// of the bar.
+/// Builds the box. Bars come first, so that their overlap with concrete has their density.
 std::vector<Piece> build_reinforced(const Reinforced& box) {
   int along = 0;
   box.size_m.maxCoeff(&along);
