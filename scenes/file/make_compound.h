@@ -16,7 +16,7 @@ namespace sunder::scenes {
 /// overlap. Throws InputError if too many overlap.
 Compound make_compound(std::vector<Part> parts);
 
-/// How a mesh is repaired and decomposed. Built-in solids are made of convexes already.
+/// Options of the repair and decomposition of a mesh. Built-in solids need neither.
 struct MeshOptions {
   std::string nodes;  ///< Number of nodes, or a file with x y z on each line; empty: automatic.
   std::uint32_t convexes = 0;  ///< Most convexes; 0: as many as the nodes give.
