@@ -1,4 +1,5 @@
-// The rigid solver behind the seam. Read first: collide() and solve(), the lists of their stages.
+// Implements Physics by the rigid solver. Read first: collide() and solve(), which list their
+// stages.
 #include "solver/rigid/rigid_physics.h"
 
 #include <algorithm>
@@ -95,7 +96,7 @@ class RigidPhysics final : public Physics {
   Contacts contacts_;
   Joints joints_;
   BroadPhase broad_phase_;
-  std::vector<ContactChanges> changes_;  ///< By chunk of pairs.
+  std::vector<ContactChanges> changes_;  ///< Contact changes by chunk of pairs.
   Crowd crowd_;
   Sleep sleep_;
   ContactSolver contact_solver_;
@@ -103,9 +104,10 @@ class RigidPhysics final : public Physics {
   Approaches approaches_;
   ContactsOfBodies contacts_of_bodies_;
   Paused paused_;
-  StepContext step_;          ///< Of the last collide.
-  double last_h_s_ = 0;       ///< Of the impulses that contacts and joints keep; 0: none.
-  std::uint32_t frozen_ = 0;  ///< Since the last solve began.
+  StepContext step_;  ///< Context of the last collide().
+  /// Length of the substep that the stored impulses are from; 0: no impulses stored.
+  double last_h_s_ = 0;
+  std::uint32_t frozen_ = 0;  ///< Number of bodies frozen since the last solve began.
   ByBody<StepReach> reach_;
   WorkLog work_;
 };
@@ -136,7 +138,7 @@ void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
   }
   remove_shapes(shapes);
   for (const BodyId id : ids) {
-    const BodySlot body = bodies_.slot(id);  // each once
+    const BodySlot body = bodies_.slot(id);  // fails for an id given twice
     sleep_.wake_held(joints_.all(), body, options_.gravity_W, contacts_, bodies_);
     joints_.lose(body, bodies_);
     bodies_.remove(body);
@@ -199,8 +201,8 @@ void RigidPhysics::find_reaches() {
   });
 }
 
-/// Narrow phase over pairs of which a body changed; then, in order of slots, what came to touch
-/// gets a manifold and what drifted apart goes.
+/// Runs the narrow phase over pairs with a body that changed. Then, in order of slots, adds a
+/// manifold for each pair that began to touch, and removes pairs that moved apart.
 void RigidPhysics::update_contacts() {
   constexpr std::size_t kChunk = 1024;
   WorkSpan span(work_, Stage::kCollide, "pairs looked at");
@@ -227,7 +229,7 @@ void RigidPhysics::update_contacts() {
       }
       ++changes[c].looks;
       const bool apart = joints_.apart(pair, shapes_, bodies_);
-      pair.fresh = apart;  // looked at again when they cease to ignore each other
+      pair.fresh = apart;  // tested again once the bodies collide again
       const bool near = !apart && broad_phase_.near(pair);
       if (near) update_contact(step_, shapes_, bodies_, pair, m, scratch);
       m.deep = m.count > 0 && m.least_separation() < -kDeep * m.size_m;
@@ -298,7 +300,8 @@ void RigidPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& p
   bodies_.apply_impulse(bodies_.slot(id), impulse_W, point_W);
 }
 
-/// Pairs that begin to ignore each other are looked at, even if they rest.
+/// Marks the pairs of a joint's bodies for a test, since the joint may have made them ignore each
+/// other.
 void RigidPhysics::look_again(JointId id) {
   const Joint& joint = joints_[id.slot];
   for (Pair& pair : contacts_.pairs) {
@@ -310,7 +313,8 @@ void RigidPhysics::look_again(JointId id) {
 JointId RigidPhysics::join(const JointDesc& joint) {
   const JointId id = joints_.add(joint, bodies_);
   look_again(id);
-  // StaticWarmStart knows of contacts only: it would let them bear what hangs in joints.
+  // Bodies in joints get no static warm start, which would let their contacts bear what joints
+  // bear.
   for (const BodyId end : {joint.a, joint.b})
     if (bodies_.contains(end)) bodies_.is_new[bodies_.slot(end)] = 0;
   return id;
@@ -358,7 +362,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   report.energy = energy_of(solved, step, start, end);
   report.friction_allowed_Ns = solved.work.allowed_Ns;
   report.friction_excess_Ns = solved.work.excess_Ns;
-  paused_.release(bodies_);  // no sleepers: what presses on them now wakes nobody
+  paused_.release(bodies_);  // paused bodies are not asleep: contacts no longer wake them
   if (options_.sleeping) {
     const WorkSpan span(work_, Stage::kSolve, "sleep");
     sleep_.wake_changed(step, contacts_, bodies_);

@@ -1,4 +1,4 @@
-// Adding, removing, placing, freezing and waking of bodies; adding of shapes.
+// Adds, removes, places, freezes and wakes bodies; adds shapes.
 #include "solver/rigid/body/bodies.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kBodiesAChunk = 256;
 
-/// Principal axes scaled by the square roots of the inverse moments, and whether those differ by
+/// Principal axes divided by the square roots of the moments; `uneven` if the moments differ by
 /// more than rounding.
 struct InertiaRoot {
   Mat3f root = Mat3f::Zero();
@@ -142,7 +142,7 @@ void Bodies::place(BodySlot body, const Vec3& position_W, const Quat& rotation_W
 }
 
 bool Bodies::finite(BodySlot body) const {
-  // Beyond 1e9 m/s squares no longer fit a float: as good as infinite.
+  // Above 1e9 m/s squares do not fit a float: counts as infinite.
   return position[body].allFinite() && rotation[body].coeffs().allFinite() &&
          velocity[body].cwiseAbs().maxCoeff() < 1e9 && velocity[body].allFinite() &&
          angular_velocity[body].cwiseAbs().maxCoeff() < 1e9 && angular_velocity[body].allFinite();

@@ -11,9 +11,9 @@ namespace sunder::solver {
 namespace {
 
 constexpr int kMidpointRounds = 12;
-constexpr double kMostTurn = 100;  // rad in a step; faster, no rule follows it
+constexpr double kMostTurn = 100;  // rad per step; the integration is not valid above
 constexpr int kEnergyRounds = 6;
-constexpr double kEnergyStep = 1.0001;  // of Newton's: to end below
+constexpr double kEnergyStep = 1.0001;  // factor of Newton's step, so that it ends below the energy
 
 struct Spin {
   Quat rotation;
@@ -21,7 +21,7 @@ struct Spin {
 };
 
 /// One midpoint step: w1 = w0 + h I⁻¹((I wm) × wm), wm = (w0 + w1)/2, then R1 = R0 Cay(h wm). The
-/// rule keeps angular momentum for Cayley's map alone, so this is no place for rotation_by().
+/// rule keeps angular momentum for Cayley's map only, so rotation_by() cannot be used.
 void midpoint_step(const Mat3& inertia_B, const Mat3& inverse_B, double h, Quat& rotation,
                    Vec3& w_B) {
   const Vec3 w0 = w_B;
@@ -54,7 +54,7 @@ Spin spun_freely(const Bodies& bodies, BodySlot body, double dt_s) {
 
 bool wobbles(const Bodies& bodies, BodySlot body, double dt_s) {
   const double angle = bodies.angular_velocity[body].norm() * dt_s;
-  return bodies.spins_freely[body] != 0 && angle >= double{kStill} && angle < kMostTurn;
+  return bodies.spins_freely[body] != 0 && angle >= double{kStillAngle} && angle < kMostTurn;
 }
 
 void fly(const StepContext& step, BodySlot body, Bodies& bodies) {
@@ -98,7 +98,7 @@ Turning turning_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3&
   for (int round = 0; round < kEnergyRounds && reach_rad > 0; ++round) {
     const double excess_J = 0.5 * spin_W.dot(now.w_W) - energy_J;
     if (excess_J <= 0) return now;
-    const Vec3 slope = now.w_W.cross(spin_W);  // of the energy, with a turn
+    const Vec3 slope = now.w_W.cross(spin_W);  // of the energy, per rotation
     if (!(slope.squaredNorm() > 0)) break;
     const Vec3 turn = -kEnergyStep * excess_J / slope.squaredNorm() * slope;
     reach_rad -= turn.norm();

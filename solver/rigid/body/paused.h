@@ -1,4 +1,4 @@
-// Bodies that sit a solve out: asleep for its length, and then they go on as they were.
+// Bodies paused for a solve: they do not move in it, and keep their motion.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace sunder::solver {
 
 class Paused {
  public:
-  /// From the next stop() to the release() after it.
+  /// Pauses a body for the solve between the next suspend() and resume().
   void add(BodySlot body) { items_.push_back({body}); }
-  /// Those that are awake fall asleep.
+  /// Stores the motion of paused bodies that are awake, and puts them to sleep.
   void stop(Bodies& bodies) {
     std::erase_if(items_, [&](const Item& item) { return !bodies.awake(item.body); });
     std::ranges::sort(items_, {}, &Item::body);
@@ -25,7 +25,7 @@ class Paused {
       bodies.motion[item.body] = Motion::kAsleep;
     }
   }
-  /// They go on as before.
+  /// Wakes the paused bodies with their stored motion.
   void release(Bodies& bodies) {
     for (const Item& item : items_) {
       bodies.motion[item.body] = Motion::kAwake;

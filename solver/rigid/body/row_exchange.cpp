@@ -22,8 +22,8 @@ void give_row(const BodyRow& row, const Mat3f& root_W, BodySlot body, Bodies& bo
 }
 
 void take_kinematic(const Bodies& bodies, const KinematicRows& to) {
-  // Of an inverse inertia that no other is as small as: hardly any angular impulse turns them, and
-  // all of their spin is seen.
+  // Root of an inverse inertia smaller than that of any other body: angular impulses hardly turn a
+  // kinematic body, but contacts have all of its angular velocity.
   constexpr float kKinematicRoot = 0x1p-40f;
   to.bodies.clear();
   for (const BodySlot body : bodies.slots())

@@ -12,9 +12,9 @@ Vec3 turned(const BodyRow& row, const Mat3f& root_W) {
   return (root_W * angular(row.position)).cast<double>();
 }
 
-/// After turning by `angle_W` in all, and by `alone_W` without impulses. What these add to free
-/// rotation is put on top of it where it is less than what a constant angular velocity would get
-/// wrong of that.
+/// Returns the rotation after turning by `angle_W`, of which `alone_W` without impulses. The
+/// difference of the two is applied on top of free rotation if it is smaller than the error of a
+/// constant angular velocity.
 Quat rotation_now(const Quat& R_WB, const Quat& free, const Vec3& alone_W, const Vec3& angle_W) {
   const Vec3 more_W = angle_W - alone_W;
   const Quat wrong = free * (rotation_by(alone_W) * R_WB).conjugate();
@@ -48,7 +48,7 @@ double Spins::end(const StepContext& step, BodySlot body, const BodyRow& row, co
   const Vec3 angle_W = turned(row, root_W);
   const Wide change = row.velocity - row.start + owed_[row_of(body)];
   const Vec3 added_W = (root_W * angular(change)).cast<double>();
-  if (angle_W.squaredNorm() < double{kStill * kStill}) {
+  if (angle_W.squaredNorm() < double{kStillAngle * kStillAngle}) {
     spin.turning = {rotation_by(angle_W) * R_WB, bodies.angular_velocity[body] + added_W};
     return spin.made_J = 0;
   }

@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kChunk = 512;
 constexpr std::size_t kAhead = 4;  // of hulls, memory is asked for
 constexpr int kRefitsPerBuild = 12;
+constexpr std::uint64_t kPairSeed = 24;  // of the hash that chooses pairs of a dense cluster
 
 /// Bounds of a hull turned by R, about the body's centre.
 FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
@@ -40,7 +41,7 @@ FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bo
     const Vec3f center = bodies.rotation_f[body] * shape.center;
     box = {center.array() - shape.radius_m, center.array() + shape.radius_m};
   }
-  float grow = kMargin * shape.inner_radius_m;
+  float grow = kBoxMargin * shape.inner_radius_m;
   if (bodies.awake(body) || bodies.carries(body)) {
     const double dt_s = step.dt_s;
     const Vec3f shift =
@@ -61,7 +62,7 @@ FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& s
   FloatBox box = swept;
   if (!bodies.mobile(shape.body)) return box;
   const Vec3f shift = (2 * step.dt_s * bodies.velocity[shape.body]).cast<float>();
-  const Vec3f grow = Vec3f::Constant(3 * kMargin * shape.inner_radius_m);
+  const Vec3f grow = Vec3f::Constant(3 * kBoxMargin * shape.inner_radius_m);
   box.min += shift.cwiseMin(0.f) - grow;
   box.max += shift.cwiseMax(0.f) + grow;
   return box;
@@ -223,8 +224,8 @@ void BroadPhase::thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes&
     const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
     if (a.kind == ShapeDesc::Kind::kHalfSpace) return false;
     if (!bodies.dynamic(a.body) || !bodies.dynamic(b.body)) return false;
-    const double deep = double{(1 - kDeep) * (a.inner_radius_m + b.inner_radius_m)};
-    return combine(kCrowd, pair.key()) > share &&
+    const double deep = double{(1 - kDenseOverlap) * (a.inner_radius_m + b.inner_radius_m)};
+    return combine(kPairSeed, pair.key()) > share &&
            (middle(a) - middle(b)).squaredNorm() < deep * deep;
   };
   const auto kept =

@@ -14,12 +14,13 @@ void Crowd::thin_out(std::span<ContactChanges> changes, Contacts& contacts, cons
       ++crowd[contacts.pairs[i].body_a], ++crowd[contacts.pairs[i].body_b];
     }
   }
-  if (crowd.empty() || *std::max_element(crowd.begin(), crowd.end()) <= kCrowd) return;
+  if (crowd.empty() || *std::max_element(crowd.begin(), crowd.end()) <= kMaxDeepContacts) return;
   ++times_;
   const auto left_out = [&](const Pair& pair) {
     if (!bodies.dynamic(pair.body_a) || !bodies.dynamic(pair.body_b)) return false;
     const std::uint32_t many = std::min(crowd[pair.body_a], crowd[pair.body_b]);
-    return many > kCrowd && combine(times_, pair.key()) > ~std::uint64_t{0} / many * kCrowd;
+    return many > kMaxDeepContacts &&
+           combine(times_, pair.key()) > ~std::uint64_t{0} / many * kMaxDeepContacts;
   };
   std::vector<PairSlot>& parted = changes.front().parted;
   for (ContactChanges& chunk : changes) {

@@ -12,7 +12,7 @@ namespace sunder::solver {
 namespace {
 
 /// No impact is slower.
-double slow_m_s(const StepContext& step) { return 2 * kSlowFalls * step.fall_m_s; }
+double slow_m_s(const StepContext& step) { return kLeastImpactSpeed * step.fall_m_s; }
 
 constexpr std::size_t kBodies = 1024, kManifolds = 512;  // in a chunk
 
@@ -64,7 +64,7 @@ std::vector<Met> find_met(const StepContext& step, const Bodies& bodies, const C
 }  // namespace
 
 double least_impact_m_s(const StepContext& step, const Manifold& m) {
-  return std::max(0.5 * double{kFar} * double{m.size_m} / step.dt_s, slow_m_s(step));
+  return std::max(double{kImpactMotion} * double{m.size_m} / step.dt_s, slow_m_s(step));
 }
 
 void Impacts::find(const StepContext& step, const Bodies& bodies, const Contacts& contacts) {

@@ -28,7 +28,7 @@ void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
       break;
     }
   }
-  const float limit = kFar * size_m;
+  const float limit = kPointMatchDistance * size_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (served >> i & 1) continue;
     float nearest = limit * limit;
@@ -46,7 +46,7 @@ void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
 /// Adds old points that still are near, and not where the manifold has one.
 void keep_points(std::span<const ManifoldPoint> old, const PairMotion& motion,
                  const Vec3f& normal_A, float reach_m, Manifold& m) {
-  const float slide_m = kMargin * m.size_m, apart_m = 2 * slide_m;
+  const float slide_m = kKeptPointSlide * m.size_m, apart_m = 2 * slide_m;
   for (const ManifoldPoint& was : old) {
     if (m.count == m.points.size()) return;
     const Vec3f gap = motion.pose.R * was.anchor_B + motion.pose.p - was.anchor_A;

@@ -28,7 +28,8 @@ struct Probe {
   SeparatingAxis axis(const RelativePose& pose, const AxisReach& reach) const {
     if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
       place_in_each_other(a.hull, b.hull, pose, scratch.hulls);
-      return separating_axis(a.hull, b.hull, pose, reach, 0.5f * kLayer * size_m, scratch.hulls);
+      return separating_axis(a.hull, b.hull, pose, reach, 0.5f * kAxisPreference * size_m,
+                             scratch.hulls);
     }
     const Vec3f center_b = pose.R * b.center + pose.p;
     SeparatingAxis axis;
@@ -49,7 +50,7 @@ struct Probe {
   std::optional<SeparatingAxis> passing(const RelativePose& pose, const SeparatingAxis& best,
                                         const Vec3f& way_A) const {
     if (a.kind != Kind::kHull || b.kind != Kind::kHull) return {};
-    const float tolerance_m = kMargin * size_m;
+    const float tolerance_m = kPassingOverlap * size_m;
     if (best.separation_m + best.normal_A.dot(way_A) >= -tolerance_m) return {};
     return passing_axis(a.hull, b.hull, pose, way_A, tolerance_m, scratch.hulls);
   }
@@ -159,7 +160,7 @@ Meeting meet_front(const Shape& a, const Shape& b, const RelativePose& start,
 /// Of the points where something meets a facet's front, those that are on it. What is fast may be
 /// led onto it within the step, by a neighbour that it touches first.
 void keep_on_front(const Shape& facet, float size_m, bool fast, std::vector<PatchPoint>& points) {
-  const float tolerance_m = kSliver * size_m, deepest_m = -depth_m(facet.hull);
+  const float tolerance_m = kFacetTolerance * size_m, deepest_m = -depth_m(facet.hull);
   std::erase_if(points, [&](const PatchPoint& point) {
     return point.separation_m < deepest_m || !over_triangle(facet, point.on_a, tolerance_m, fast);
   });
@@ -177,7 +178,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   float time = 0;
   const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
   // The normal of balls is another wherever they meet.
-  const float far = b.kind == Kind::kSphere ? kReuse : kFar;
+  const float far = b.kind == Kind::kSphere ? kBallCastingMotion : kFar;
   const bool fast = kLooksAhead && meet && reach.way_m > far * m.size_m;
   const std::optional<SeparatingAxis> passing =
       fast ? probe.passing(pose, axis, dt * velocity_A) : std::nullopt;
@@ -189,7 +190,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
     pose.p += std::max(0.f, time) * velocity_A;
     if (time > 0 && b.kind == Kind::kSphere) {  // its normal turns until they touch
       SeparatingAxis touching = axis;
-      const float target_m = kSliver * m.size_m;
+      const float target_m = kBallImpactGap * m.size_m;
       const float more = time_of_impact(probe, pose, velocity_A, target_m, dt - time, touching);
       if (more > 0) axis = touching, time += more, pose.p += more * velocity_A;
     }
@@ -215,7 +216,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   m.round = a.kind == Kind::kSphere && b.kind == Kind::kSphere;
   build_manifold(pair, bodies, motion, axis.normal_A, scratch.points,
                  std::max(0.f, time) * motion.velocity_W,
-                 reach.spin_m + reach.way_m < 0.5f * kFar * m.size_m ? limit : kNoPoint, m);
+                 reach.spin_m + reach.way_m < kKeptPointMotion * m.size_m ? limit : kNoPoint, m);
 }
 
 /// Whether the axis that parted the pair last still does, and by how much.

@@ -42,7 +42,7 @@ class ContactSolver::Stages {
                       solver.root_W_,
                       {rows_, solver.splitting_.parts(), solver.spins_.owed()},
                       soft_step(step),
-                      static_cast<float>(kSlowFalls * step.fall_m_s / step.substeps),
+                      static_cast<float>(kReboundSpeed * step.fall_m_s / step.substeps),
                       solver.order_.deep_contacts(),
                       solver.order_.loaded_contacts(),
                       solver.kinematic_rows_} {}
@@ -359,7 +359,7 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   joint_solver_.collect(bodies, joints, order_.in_contact());
   collect_bodies(bodies);
   moving_ = !kinematic_.empty() || std::ranges::any_of(active_, [&](BodySlot body) {
-    return bodies.velocity[body].norm() * step.dt_s > double{kStill} * bodies.reach_m[body];
+    return bodies.velocity[body].norm() * step.dt_s > double{kArmMotion} * bodies.reach_m[body];
   });
   blocks_->follow_bodies(moving_);
   impact_pass_.begin(order_.impacts(), active_, rows_.size(), kinematic_.size(), *blocks_);

@@ -26,7 +26,7 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
                           std::span<const BodySlot> active, std::span<const Pair> joined,
                           std::span<const BodySlot> carried, const Bodies& bodies,
                           const Contacts& contacts) {
-  const double slow_m_s = 2 * kSlowFalls * step.fall_m_s;
+  const double slow_m_s = kGuardedSpeed * step.fall_m_s;
   watches_ = kGuards && std::ranges::any_of(active, [&](BodySlot body) {
                return bodies.fastest_m_s(body) > slow_m_s;
              });

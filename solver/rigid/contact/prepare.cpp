@@ -46,7 +46,8 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   const Vec3 passes = bodies.velocity[m.body_b] - bodies.velocity[m.body_a];
   const Vec3 turns = bodies.angular_velocity[m.body_b] - bodies.angular_velocity[m.body_a];
   const double way_m = (passes.norm() + turns.norm() * double{m.size_m}) * step.context.dt_s;
-  g.meets[lane] = way_m > double{kStill * m.size_m} ? 1 : 0;  // what lies still needs no new arms
+  g.meets[lane] =
+      way_m > double{kArmMotion * m.size_m} ? 1 : 0;  // what lies still needs no new arms
   set_lane(g.gravity, lane,
            ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }
@@ -136,7 +137,7 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
     const float square = m.size_m * m.size_m;
     arms->wide[lane] = m.round ? 0 : square;
     arms->near[lane] = kNow * kNow * square;
-    arms->least[lane] = kStill * kStill * square;
+    arms->least[lane] = kArmMotion * kArmMotion * square;
   }
 }
 

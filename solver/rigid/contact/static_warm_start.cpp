@@ -73,7 +73,8 @@ double greatest_speed(const Manifold& m, const Bodies& bodies) {
 /// What touches but for a sliver bears as if it did, however short the substep.
 void close_gaps(const ContactStep& step, StaticBlock& c) {
   for (std::uint32_t lane = 0; lane < c.count; ++lane) {
-    const float none_m = kSliver * step.contacts.manifolds[step.manifolds[c.first + lane]].size_m;
+    const float none_m =
+        kClosedGap * step.contacts.manifolds[step.manifolds[c.first + lane]].size_m;
     for (std::uint32_t i = 0; i < c.points; ++i) {
       const float separation_m = c.point[i].separation[lane];
       if (separation_m > 0 && separation_m < none_m) c.point[i].separation[lane] = 0;
@@ -97,7 +98,7 @@ void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float
     deepest = std::max(deepest, depth[i]);
   }
   // An overlap that this load explains is as much at rest as none.
-  const float most = kDeep * m.size_m, least = -std::min(deepest, most);
+  const float most = kMaxRestOffset * m.size_m, least = -std::min(deepest, most);
   for (std::size_t i = 0; i < m.count; ++i) {
     ManifoldPoint& p = m.points[i];
     p.rest_m = std::clamp(p.separation_m + depth[i], least, depth[i] > 0 ? most : 0);
@@ -116,7 +117,7 @@ void store_friction(const StaticBlock& c, std::uint32_t lane, float yield_s, flo
   if (!(det > 0)) return;
   const float far_1 = (m22 * s1 - m12 * s2) / det, far_2 = (m11 * s2 - m12 * s1) / det;
   Vec3f drift = -yield_s * (far_1 * t1 + far_2 * t2);
-  const float far = drift.norm(), most = kDeep * m.size_m;
+  const float far = drift.norm(), most = kMaxRestOffset * m.size_m;
   if (far > most) drift *= most / far;
   m.drift_W += drift;
   m.friction_arm_B += drift;
@@ -157,7 +158,7 @@ void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies
     if (!m.cold) continue;  // gone, or here for the second time
     m.cold = false;
     if (!touches_awake(m, bodies)) continue;
-    const bool rests = std::abs(m.least_separation()) < kMargin * m.size_m;
+    const bool rests = std::abs(m.least_separation()) < kRestingDistance * m.size_m;
     if (!rests || greatest_speed(m, bodies) >= slow_m_s) continue;
     resting.emplace_back(m.sweep_key(), i);
     ++start[resting.back().first + 1];
@@ -322,7 +323,7 @@ void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& 
       float deepest = 0;
       for (std::size_t i = 0; i < m.count; ++i)
         deepest = std::max(deepest, yield_m(c, lane, i, soft.of(c.points).press.yield_s));
-      if (deepest <= kDeep * m.size_m) continue;
+      if (deepest <= kMaxRestOffset * m.size_m) continue;
       any = true;
       for (const BodySlot body : {m.body_a, m.body_b}) loads_[body].supported = false;
     }
