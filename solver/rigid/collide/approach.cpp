@@ -1,4 +1,4 @@
-// Approaches, from manifolds and the velocities before the solve.
+// Finds speculative contacts from manifolds and the velocities before the solve.
 #include "solver/rigid/collide/approach.h"
 
 #include <algorithm>
@@ -17,13 +17,13 @@ double inverse_effective_mass(const Bodies& bodies, BodySlot body, const Vec3f& 
                              (bodies.root_B[body].transpose() * angular_B).squaredNorm());
 }
 
-/// Whether no point of it can close fast enough to count. Points are on the bodies, or no farther
-/// from them than what closes so slowly and falls comes in a step: twice as fast is more than any.
+/// True if no point can close fast enough to count. A point is on its body, or farther by no more
+/// than a slow closing and a fall in a step: twice the speed of the bodies is an upper bound.
 bool rests(const Manifold& m, const Bodies& bodies, const StepContext& step) {
   return 2 * (bodies.fastest_m_s(m.body_a) + bodies.fastest_m_s(m.body_b)) < step.still_m_s;
 }
 
-/// Middle of the points that may close within the step; false if none does.
+/// Finds the mean of the points that may close within the step; returns false if none does.
 bool closing_middle(const Manifold& m, const Bodies& bodies, const StepContext& step, Vec3f& arm_A,
                     Vec3f& arm_B, float& separation_m) {
   int closing = 0;
@@ -57,7 +57,7 @@ bool make_approach(const Pair& pair, const Manifold& m, const Bodies& bodies, co
   approach.a = bodies.id(m.body_a), approach.b = bodies.id(m.body_b);
   approach.body_tag_a = bodies.tag[m.body_a], approach.body_tag_b = bodies.tag[m.body_b];
   approach.shape_tag_a = shapes[pair.shape_a].tag, approach.shape_tag_b = shapes[pair.shape_b].tag;
-  // On the body that stands still, if one does: there the point is where the impact will land.
+  // On the body that stands still, if one does: the impact will be there.
   const bool on_a = !bodies.awake(m.body_a) || bodies.awake(m.body_b);
   approach.point_W = on_a ? Vec3(bodies.position[m.body_a] + arm_A.cast<double>())
                           : Vec3(bodies.position[m.body_b] + arm_B.cast<double>());
@@ -136,7 +136,7 @@ ContactsOfBodies::ContactsOfBodies(const Contacts& contacts, const Bodies& bodie
 
 namespace {
 
-/// Manifolds of any of these bodies, by pair key.
+/// Returns the manifolds of any of these bodies, by pair key.
 std::vector<std::pair<std::uint64_t, ManifoldSlot>> manifolds_of(
     const Contacts& contacts, const Bodies& bodies, const ContactsOfBodies& contacts_of_bodies,
     std::span<const BodyId> of) {

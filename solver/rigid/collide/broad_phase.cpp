@@ -12,11 +12,11 @@ namespace sunder::solver {
 namespace {
 
 constexpr std::size_t kChunk = 512;
-constexpr std::size_t kAhead = 4;  // of hulls, memory is asked for
+constexpr std::size_t kAhead = 4;  // number of hulls to prefetch
 constexpr int kRefitsPerBuild = 12;
 constexpr std::uint64_t kPairSeed = 24;  // of the hash that chooses pairs of a dense cluster
 
-/// Bounds of a hull turned by R, about the body's centre.
+/// Returns the bounds of a hull rotated by R, about the body's centre.
 FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
   Vec3f low, high;
   for (int axis = 0; axis < 3; ++axis) {
@@ -56,7 +56,7 @@ FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bo
   return {at + box.min - Vec3f::Constant(grow), at + box.max + Vec3f::Constant(grow)};
 }
 
-/// Room for a few steps of the same motion.
+/// Returns a fat box, with room for a few steps of the same motion.
 FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& shape,
                   const Bodies& bodies) {
   FloatBox box = swept;
@@ -68,7 +68,7 @@ FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& s
   return box;
 }
 
-/// The pair of two shapes: a is the half-space, or the hull, or the facet, or the lesser slot.
+/// Returns the pair of two shapes, in the order of Pair.
 FoundPair pair_of(ShapeSlot s, ShapeSlot t, const Shapes& shapes) {
   const Shape &first = shapes[s], &second = shapes[t];
   const bool swap = first.kind != second.kind ? first.kind == ShapeDesc::Kind::kSphere ||
@@ -136,7 +136,7 @@ std::vector<ShapeBox> BroadPhase::boxes(const Shapes& shapes, const Bodies& bodi
   std::vector<ShapeBox> all;
   for (const ShapeSlot s : role_.slots()) {
     const bool has_box = role_[s] == Role::kMover || role_[s] == Role::kStatic;
-    if (!has_box || fat_[s].min.x() > fat_[s].max.x()) continue;  // not looked at since it came
+    if (!has_box || fat_[s].min.x() > fat_[s].max.x()) continue;  // not tested since it was added
     all.push_back(
         {bodies.tag[shapes[s].body], {fat_[s].min.cast<double>(), fat_[s].max.cast<double>()}});
   }
@@ -194,7 +194,7 @@ std::vector<PairSlot> BroadPhase::pairs_with(std::span<const ShapeSlot> of, cons
   std::vector<PairSlot> slots;
   for (const ShapeSlot s : of) {
     const auto consider = [&](ShapeSlot other) {
-      if (role_[other] == Role::kAbsent) return;  // gone since the tree was built
+      if (role_[other] == Role::kAbsent) return;  // removed since the tree was built
       const PairSlot slot = contacts.slot(pair_of(s, other, shapes).key());
       if (!slot.none()) slots.push_back(slot);
     };
@@ -212,8 +212,9 @@ std::vector<PairSlot> BroadPhase::pairs_with(std::span<const ShapeSlot> of, cons
   return slots;
 }
 
-/// Of the movers that overlap a shape in a crowd, those whose middles are within it are looked at
-/// by a share only, as equal for both of a pair as their crowds are; the next update looks again.
+/// Leaves out most pairs of movers in a dense cluster whose centres are close: the share that is
+/// kept falls with the number of neighbours, and is alike for both shapes of a pair as far as their
+/// numbers are. The next update tests the shape again.
 void BroadPhase::thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes,
                           const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first) {
   const std::uint64_t share = ~std::uint64_t{0} / neighbours * kCrowd;

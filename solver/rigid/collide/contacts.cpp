@@ -1,4 +1,4 @@
-// Pairs and manifolds come and go; the colours of manifolds.
+// Adds and removes pairs and manifolds, and colours manifolds.
 #include "solver/rigid/collide/contacts.h"
 
 #include <algorithm>
@@ -19,7 +19,8 @@ Slot put(const Item& item, std::vector<Slot>& free_slots, SlotVector<Slot, Item>
   return slot;
 }
 
-/// Room for `more` items. By doubling at least, or many small steps would copy all again and again.
+/// Reserves memory for `more` items; at least doubles it, or many small steps would copy all items
+/// each time.
 template <class Item>
 void make_room(std::size_t more, std::size_t free_slots, std::vector<Item>& items) {
   if (more <= free_slots || items.size() + more - free_slots <= items.capacity()) return;

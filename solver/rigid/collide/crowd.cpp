@@ -7,7 +7,7 @@
 
 namespace sunder::solver {
 void Crowd::thin_out(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies) {
-  ByBody<std::uint32_t> crowd;  // deep contacts
+  ByBody<std::uint32_t> crowd;  // number of deep contacts
   for (const ContactChanges& chunk : changes) {
     if (!chunk.deep.empty()) crowd.resize(bodies.size());
     for (const PairSlot i : chunk.deep) {
@@ -33,7 +33,7 @@ void Crowd::thin_out(std::span<ContactChanges> changes, Contacts& contacts, cons
   for (const PairSlot i : contacts.pairs.slots()) {
     Pair& pair = contacts.pairs[i];
     if (!pair.present() || !pair.touching() || !left_out(pair)) continue;
-    pair.fresh = true;  // to be looked at again
+    pair.fresh = true;  // to be tested again
     parted.push_back(i);
   }
   std::sort(parted.begin(), parted.end());

@@ -3,8 +3,9 @@
 namespace sunder::solver {
 namespace {
 
-constexpr float kSame = 1e-4f;       // of directions: between triangles in one plane
-constexpr std::uint32_t kSides = 3;  // whose faces follow the front; then comes the back
+constexpr float kSame = 1e-4f;  // difference of directions between triangles in one plane
+// number of side faces, which follow the front; the back is last
+constexpr std::uint32_t kSides = 3;
 
 }  // namespace
 
@@ -12,7 +13,7 @@ SeparatingAxis front_axis(const Hull& facet, float separation_m) {
   return {SeparatingAxis::Kind::kFaceA, facet.normal(0), separation_m, 0, 0};
 }
 
-/// The edge that it leans over most decides.
+/// Tests the edge that the direction leans over most.
 bool normal_to_surface(const Shape& facet, const Vec3f& normal_A) {
   const float up = facet.hull.normal(0).dot(normal_A);
   if (up < -kSame) return false;

@@ -11,12 +11,13 @@
 namespace sunder::solver {
 namespace {
 
-/// No impact is slower.
+/// Minimum speed of any impact.
 double slow_m_s(const StepContext& step) { return kLeastImpactSpeed * step.fall_m_s; }
 
-constexpr std::size_t kBodies = 1024, kManifolds = 512;  // in a chunk
+constexpr std::size_t kBodies = 1024, kManifolds = 512;  // number in a chunk
 
-/// No contact point of a body moves faster: it lies within twice the body's reach.
+/// Returns an upper bound on the speed of a body's contact points, which lie within twice its
+/// reach.
 ByBody<double> find_fastest(const Bodies& bodies) {
   ByBody<double> fastest_m_s(bodies.size());
   for_chunks(bodies.size(), kBodies, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -39,10 +40,10 @@ bool meet_fast(const StepContext& step, const Manifold& m, const Bodies& bodies,
   });
 }
 
-/// Of a chunk of manifolds: the bodies of those that touch, and which of those meet in an impact.
+/// Bodies of the awake contacts in a chunk of manifolds, and the contacts with an impact.
 struct Met {
   std::vector<std::array<BodySlot, 2>> touching;
-  std::vector<std::uint32_t> struck;  ///< Of the touching.
+  std::vector<std::uint32_t> struck;  ///< Indices into `touching`.
 };
 
 std::vector<Met> find_met(const StepContext& step, const Bodies& bodies, const Contacts& contacts,
@@ -70,7 +71,7 @@ double least_impact_m_s(const StepContext& step, const Manifold& m) {
 void Impacts::find(const StepContext& step, const Bodies& bodies, const Contacts& contacts) {
   clear();
   const ByBody<double> fastest_m_s = find_fastest(bodies);
-  // Of two that meet in an impact, one is at least half as fast: what lies still has none.
+  // One of two bodies in an impact has at least half of its speed, so bodies at rest have none.
   const auto fast = [&](double speed_m_s) { return 2 * speed_m_s > slow_m_s(step); };
   if (std::none_of(fastest_m_s.begin(), fastest_m_s.end(), fast)) return;
   const std::vector<Met> met = find_met(step, bodies, contacts, fastest_m_s);

@@ -1,4 +1,4 @@
-// Dispatch over shape kinds, reuse, and time of impact.
+// Collision of each pair of shape kinds, reuse of manifolds, and time of impact.
 #include "solver/rigid/collide/narrow_phase.h"
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 namespace sunder::solver {
 namespace {
 
-constexpr float kRounding = 5e-7f;  // of a length in floats
-constexpr float kNoPoint = -1e30f;  // a reach within which nothing is
+constexpr float kRounding = 5e-7f;  // relative error of a length in floats
+constexpr float kNoPoint = -1e30f;  // a reach that no point is within
 constexpr int kImpactRounds = 24;
 
 using Kind = ShapeDesc::Kind;
 
-/// Two shapes at a relative pose that may be moved along.
+/// Two shapes to be tested at several relative poses.
 struct Probe {
   const Shape& a;
   const Shape& b;
@@ -45,8 +45,8 @@ struct Probe {
     return axis;
   }
 
-  /// The axis along which hulls that touch slide past each other, if they do, and if they would
-  /// meet along the best.
+  /// Returns the axis along which hulls in contact slide past each other, if there is one and they
+  /// would collide along the best axis.
   std::optional<SeparatingAxis> passing(const RelativePose& pose, const SeparatingAxis& best,
                                         const Vec3f& way_A) const {
     if (a.kind != Kind::kHull || b.kind != Kind::kHull) return {};
@@ -69,9 +69,9 @@ struct Probe {
   }
 };
 
-/// Time until the shapes come within `target_m`, moving straight; negative: not within dt_s.
-/// Advancing by the gap along a separating axis never oversteps. `axis`: the best at the start, and
-/// at that time in the end.
+/// Returns the time until the shapes, moving straight, come within `target_m`; negative: not within
+/// dt_s. Conservative advancement: a step by the gap along a separating axis never overshoots.
+/// `axis` is the best axis at the start, and at the returned time.
 float time_of_impact(const Probe& probe, const RelativePose& start, const Vec3f& velocity_A,
                      float target_m, float dt_s, SeparatingAxis& axis) {
   RelativePose pose = start;
@@ -88,9 +88,9 @@ float time_of_impact(const Probe& probe, const RelativePose& start, const Vec3f&
 }
 
 struct Reach {
-  float margin_m;  ///< Always.
-  float spin_m;    ///< What turning may add within the step.
-  float way_m;     ///< What moving may add within the step.
+  float margin_m;  ///< Margin at any motion.
+  float spin_m;    ///< Maximum motion by rotation within the step.
+  float way_m;     ///< Maximum motion by translation within the step.
 
   float all_m() const { return margin_m + spin_m + way_m; }
 };
@@ -132,14 +132,14 @@ Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& b
           dt * motion.velocity_W.norm()};
 }
 
-/// How two shapes meet.
+/// Axis and time of a collision.
 struct Meeting {
   SeparatingAxis axis;
-  float time_s = 0;  ///< Of the impact, if they are looked at there; negative: there is none.
+  float time_s = 0;  ///< Time of impact, if the shapes are tested there; negative: none.
 };
 
-/// Where a facet is met, if it is where its surface goes on: by its front, as the plane that it is,
-/// so that edges within the surface are none. What is behind its back is let be.
+/// Returns the collision with the front of a facet as a plane, for use where its surface continues:
+/// edges within the surface then have no effect. Shapes behind the back do not collide.
 Meeting meet_front(const Shape& a, const Shape& b, const RelativePose& start,
                    const Vec3f& velocity_A, float margin_m, float dt_s) {
   const Vec3f center_A = start.R * b.center + start.p;
@@ -157,8 +157,8 @@ Meeting meet_front(const Shape& a, const Shape& b, const RelativePose& start,
   return meeting;
 }
 
-/// Of the points where something meets a facet's front, those that are on it. What is fast may be
-/// led onto it within the step, by a neighbour that it touches first.
+/// Keeps those points against a facet's front that are on the facet. A fast shape may slide onto it
+/// within the step, over a neighbour that it touches first.
 void keep_on_front(const Shape& facet, float size_m, bool fast, std::vector<PatchPoint>& points) {
   const float tolerance_m = kFacetTolerance * size_m, deepest_m = -depth_m(facet.hull);
   std::erase_if(points, [&](const PatchPoint& point) {
@@ -177,7 +177,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   SeparatingAxis axis = probe.axis(pose, axis_reach);
   float time = 0;
   const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
-  // The normal of balls is another wherever they meet.
+  // The normal of balls depends on where they touch.
   const float far = b.kind == Kind::kSphere ? kBallCastingMotion : kFar;
   const bool fast = kLooksAhead && meet && reach.way_m > far * m.size_m;
   const std::optional<SeparatingAxis> passing =
@@ -188,7 +188,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
     axis_reach.way_A.setZero();
     time = time_of_impact(probe, pose, velocity_A, axis_reach.margin_m, dt, axis);
     pose.p += std::max(0.f, time) * velocity_A;
-    if (time > 0 && b.kind == Kind::kSphere) {  // its normal turns until they touch
+    if (time > 0 && b.kind == Kind::kSphere) {  // the normal turns until they touch
       SeparatingAxis touching = axis;
       const float target_m = kBallImpactGap * m.size_m;
       const float more = time_of_impact(probe, pose, velocity_A, target_m, dt - time, touching);
@@ -219,7 +219,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
                  reach.spin_m + reach.way_m < kKeptPointMotion * m.size_m ? limit : kNoPoint, m);
 }
 
-/// Whether the axis that parted the pair last still does, and by how much.
+/// True if the last separating axis of the pair still separates it; sets the clearance.
 bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, const AxisReach& reach,
                   Pair& pair) {
   if (pair.axis_A.isZero(0) || b.kind != Kind::kHull || a.kind != Kind::kHull) return false;
@@ -229,8 +229,8 @@ bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, cons
   return true;
 }
 
-/// Whether the pair is new, hardly moves and touches at an edge only, as most neighbours in a grid
-/// do: no contact until it has moved by a sliver.
+/// True if the pair is new, hardly moves and touches only at an edge, as most neighbours in a grid
+/// do: it gets no contact until it has moved by kSliver.
 bool edges_at_rest(const Shape& a, const Shape& b, const PairMotion& motion, const Reach& reach,
                    float size_m, Pair& pair, NarrowScratch& scratch) {
   const float sliver_m = kSliver * size_m;
@@ -265,7 +265,7 @@ bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, con
 
 void prefetch_pairs(PairSlot at, PairSlot end, const Contacts& contacts, const Shapes& shapes,
                     const Bodies& bodies) {
-  constexpr std::uint32_t kFirst = 8, kThen = 3;  // pairs ahead
+  constexpr std::uint32_t kFirst = 8, kThen = 3;  // number of pairs ahead
   const auto ahead = [&](std::uint32_t by) -> const Pair* {
     if (at.value + by >= end.value) return nullptr;
     const Pair& pair = contacts.pairs[PairSlot(at.value + by)];
@@ -285,7 +285,7 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
                     Manifold& m, NarrowScratch& scratch) {
   const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
   const PairMotion motion = pair_motion(pair, bodies);
-  // Facets may be slivers, yet are as large as the surface that they are part of.
+  // A facet may be a sliver, but counts as large as its surface.
   const float size_m = a.facet ? b.inner_radius_m : std::min(a.inner_radius_m, b.inner_radius_m);
   pair.turned_m = bodies.turned_m[pair.body_a] + bodies.turned_m[pair.body_b];
   pair.offset_W = motion.offset_W;
