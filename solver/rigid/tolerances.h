@@ -75,7 +75,7 @@ SUNDER_TUNED double kMostLeft = 0.01;
 /// Minimum cosine between the vertical and the normal of a contact that supports weight.
 SUNDER_TUNED float kLeastSlope = 0.2f;
 
-// Where shapes touch (decisions 030, 031).
+// Contact distances and overlaps (decisions 030, 031).
 
 /// Distance within which shapes have a contact before they touch, besides their motion in the step.
 SUNDER_TUNED float kMargin = 0.05f;

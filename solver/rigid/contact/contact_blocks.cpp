@@ -1,4 +1,4 @@
-// Blocks of 1, 4, 8 and 16 lanes, and which of them this processor runs.
+// Blocks of 1, 4, 8 and 16 lanes, and the choice among them for the processor.
 #include "solver/rigid/contact/contact_blocks.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class BlocksOf final : public ContactBlocks {
   void remember() override { search_.resize(used_); }
   void add(std::uint32_t first, std::uint32_t count, bool split) override {
     for (std::uint32_t i = 0; i < count; i += kWidth) {
-      // Blocks of the last step are written over, not cleared.
+      // Blocks of the last step are overwritten, not cleared.
       if (used_ == blocks_.size()) blocks_.emplace_back();
       ConstraintBlock<kWidth>& block = blocks_[used_++];
       block.first = first + i;
@@ -98,7 +98,7 @@ class BlocksOf final : public ContactBlocks {
     return any;
   }
   void expect_impacts(std::size_t manifolds) override {
-    // Written over, not cleared.
+    // Overwritten, not cleared.
     if (impacts_.size() < used_) impacts_.resize(used_);
     if (pairs_.size() < manifolds) pairs_.resize(manifolds), contacts_.resize(manifolds);
   }
@@ -160,7 +160,7 @@ class BlocksOf final : public ContactBlocks {
   }
 
  private:
-  // What lies scattered is asked for a block ahead; the blocks themselves stream.
+  // Prefetches scattered memory one block ahead; the blocks themselves are contiguous.
   static void fetch_manifolds(const ConstraintBlock<kWidth>& c, const ContactStep& step) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       const Manifold* m = &step.contacts.manifolds[step.manifolds[c.first + lane]];
@@ -179,12 +179,12 @@ class BlocksOf final : public ContactBlocks {
   std::vector<ArmLanes<kWidth>> arms_;
   std::vector<SearchLanes<kWidth>> search_;
   std::vector<ImpactLanes<kWidth>> impacts_;
-  std::vector<ImpactPair> pairs_;  ///< By manifold of those to solve, as the next.
+  std::vector<ImpactPair> pairs_;  ///< By manifold to solve; so are contacts_.
   std::vector<ImpactContact> contacts_;
   std::uint32_t used_ = 0;
 };
 
-/// The most lanes that this processor has instructions for.
+/// Returns the maximum number of lanes that the processor has instructions for.
 int supported_lanes() {
 #if defined(__x86_64__)
   __builtin_cpu_init();

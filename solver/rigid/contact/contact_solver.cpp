@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
-constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
+constexpr int kStrikeRounds = 16;  // per substep: number of balls in a row that propagate an impact
 
 }  // namespace
 
-/// The stages of one solve, and what each does: to bodies, to blocks of manifolds, to groups of
+/// The stages of one solve and their work on bodies, on blocks of manifolds and on groups of
 /// joints.
 class ContactSolver::Stages {
  public:
@@ -63,8 +63,8 @@ class ContactSolver::Stages {
   };
 
   void plan();
-  /// What follows the last sweep sees it joined: the move and the kick do that themselves, so that
-  /// mass splitting waits once a sweep.
+  /// Plans the sweeps of a substep. After all sweeps but the last, split bodies are joined; after
+  /// the last one the move and the kick do that, which saves one synchronization.
   template <WorkOnGroup joint_work>
   void sweeps(Work work, Work last_work) {
     for (int i = 1; i <= solver_.options_.sweeps; ++i) {
@@ -81,7 +81,7 @@ class ContactSolver::Stages {
     }
   }
 
-  /// Before sweeps, which let nothing meet with any speed.
+  /// Restitution comes before the sweeps, which remove all closing speed.
   void strikes() {
     if (!kStrikes || !solver_.order_.bouncy() || !solver_.moving_) return;
     for (int round = 0; round < kStrikeRounds; ++round) {
@@ -133,13 +133,14 @@ class ContactSolver::Stages {
     r.velocity = r.base = r.velocity + gravity_;
     if (guarded_) solver_.energy_guard_.weigh_base(body, bodies_.inverse_mass[body], r);
   }
-  /// All impulses of a substep, warm start included, act on `base`: what they did to the velocity
-  /// is the warm start of the next substep.
+  /// Adds gravity to `base` before all impulses of a substep, warm start included: the change of
+  /// velocity by the impulses is the warm start of the next substep.
   void kick(BodySlot body) {
     BodyRow& r = row(body);
     const Wide impulses = r.velocity - r.base;
     r.base = r.velocity + gravity_;
-    // Joints know theirs, and the roundings of a difference would add up.
+    // The joint solver warm starts bodies that only joints hold: rounding of a difference would
+    // accumulate.
     r.velocity = solver_.joint_solver_.swings_free(body) ? r.base : r.base + impulses;
     if (guarded_) solver_.energy_guard_.weigh_base(body, bodies_.inverse_mass[body], r);
   }
@@ -183,7 +184,7 @@ class ContactSolver::Stages {
     sweep_relaxed(begin, end);
     solver_.blocks_->sum_impulses(begin, end);
   }
-  /// Another round, if the last one struck something: what it struck may now meet a neighbour.
+  /// Starts another round if the last one had a rebound: a struck body may now meet a neighbour.
   void first_strikes(std::uint32_t, std::uint32_t) { strikes_on_ = true, struck_ = 0; }
   void begin_strikes(std::uint32_t, std::uint32_t) { strikes_on_ = struck_.exchange(0) != 0; }
   void strike(std::uint32_t begin, std::uint32_t end) {
@@ -219,7 +220,7 @@ class ContactSolver::Stages {
     solver_.blocks_->measure(begin, end, solver_.energy_.data());
   }
   void first_beta(std::uint32_t begin, std::uint32_t end) { nncg_ = {}, next_beta(begin, end); }
-  /// By the energy of the changes.
+  /// Finds beta from the energy of a sweep's changes.
   void next_beta(std::uint32_t, std::uint32_t) {
     double energy = 0;
     for (const float of_manifold : solver_.energy_) energy += double{of_manifold};
@@ -229,7 +230,7 @@ class ContactSolver::Stages {
     solver_.blocks_->go_on(begin, end, contact_step_, beta_);
   }
 
-  // The guard of energy.
+  // The energy guard.
   void weigh(BodySlot body) {
     solver_.energy_guard_.weigh(body, bodies_.inverse_mass[body], row(body));
   }
@@ -260,13 +261,13 @@ class ContactSolver::Stages {
   Joints& joints_;
   BodyRow* rows_;
   bool accelerated_, guarded_;
-  Wide gravity_;    ///< What it does to a row's velocity in a substep.
-  Wide half_fall_;  ///< By how much the way of a substep at its last velocity is longer than a
-                    ///< parabola.
+  Wide gravity_;  ///< Change of a row's velocity by gravity in a substep.
+  /// Excess of a substep's displacement at its final velocity over that of a parabola.
+  Wide half_fall_;
   ContactStep contact_step_;
   std::vector<Stage> stages_;
   bool strikes_on_ = false;
-  std::atomic<int> struck_ = 0;  ///< In this round of strikes.
+  std::atomic<int> struck_ = 0;  ///< 1: a contact rebounded in this round.
   Nncg nncg_;
   float beta_ = 0;
 };
@@ -276,7 +277,7 @@ void ContactSolver::Stages::plan() {
   stages_.push_back({{0, flying, kBodyGrain}, &Stages::fly_all});
   if (solver_.active_.empty()) return;
   const bool joints = !solver_.joint_solver_.empty(), impacts = !solver_.impact_pass_.empty();
-  const bool joined = joints || guarded_;  // before the kick: what comes between needs it
+  const bool joined = joints || guarded_;  // before the kick, as stages between need it
   all_bodies<&Stages::begin>();
   all_blocks(&Stages::prepare);
   if (impacts) once(&Stages::prepare_impacts);
@@ -321,7 +322,7 @@ void ContactSolver::Stages::plan() {
 }
 
 void ContactSolver::Stages::begin(BodySlot body) {
-  // What joints alone hold turns as it does midway.
+  // A body that only joints hold uses the angular velocity at the middle of the step.
   solver_.spins_.begin(step_, body, solver_.joint_solver_.swings_free(body), bodies_);
   take(body);
 }
@@ -337,7 +338,7 @@ void ContactSolver::Stages::finish(BodySlot body) {
   const bool pays = guarded_ ? solver_.energy_guard_.grants(body) : !solver_.spins_.makes(body);
   if (!pays) solver_.spins_.keep_energy(body, r, root_W, bodies_);
   const Turning& turning = solver_.spins_.turning(body);
-  // Only the change goes back, so that the doubles keep what no contact touched.
+  // Only the change is added, so that the doubles keep what no contact changed.
   bodies_.velocity[body] += linear(r.velocity - r.start).cast<double>();
   bodies_.angular_velocity[body] = turning.w_W;
   bodies_.turned_m[body] +=
@@ -386,7 +387,7 @@ void ContactSolver::make_blocks() {
     blocks_->add(order_.begin(color, false), order_.count(color, false), split);
     const std::uint32_t count = blocks_->size() - first;
     if (count == 0) continue;
-    // Colours of a grain each are one thread's, one after the other.
+    // Consecutive colours of less than a grain each run in one thread.
     const bool narrow = count <= grain && !split;
     if (narrow && was_narrow) {
       colors_.back().grain = colors_.back().count += count;

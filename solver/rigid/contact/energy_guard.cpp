@@ -10,7 +10,7 @@
 namespace sunder::solver {
 namespace {
 
-constexpr double kEnergyRounding = 1e-6;  // of the energy that moved to and fro
+constexpr double kEnergyRounding = 1e-6;  // of the energy exchanged
 constexpr double kShareRounding = 1 - 1e-6;
 
 double lanes_sum(const Wide& a, const Wide& b, double linear) {
@@ -55,7 +55,7 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
   share_.assign(bodies.size() + 1, 1);
 }
 
-/// Kinematic bodies do work on what they touch, and on what hangs on them.
+/// Excludes groups that kinematic bodies do work on, by contacts or joints.
 void EnergyGuard::leave_alone_what_is_carried(std::span<const ManifoldSlot> manifolds,
                                               std::span<const BodySlot> by_joints,
                                               std::span<const BodySlot> active,
@@ -73,7 +73,8 @@ void EnergyGuard::leave_alone_what_is_carried(std::span<const ManifoldSlot> mani
     if (carried[group_[body]]) group_[body] = {};
 }
 
-/// Joints alone keep energy as well as their substeps do, and would only lose by this.
+/// Excludes groups that touch nothing and hang in joints: joints keep their energy as well as their
+/// substeps do, and a guard would only take some.
 void EnergyGuard::leave_alone_what_swings_free(std::span<const ManifoldSlot> manifolds,
                                                std::span<const BodySlot> active,
                                                std::span<const Pair> joined,

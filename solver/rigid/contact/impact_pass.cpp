@@ -6,7 +6,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr float kOverRelaxed = 1.75f;  // best for a row of 22 (Young 1954): 2 / (1 + sin(π / 23))
-constexpr int kMostWork = 150000;      // sweeps of a manifold in a substep
+constexpr int kMostWork = 150000;      // maximum of sweeps times manifolds in a substep
 
 }  // namespace
 
@@ -44,7 +44,7 @@ void ImpactPass::run(const ContactStep& step, ContactBlocks& blocks) {
   if (meet) {
     for_blocks([&](auto first, auto end) { blocks.begin_impact(first, end); });
     sweep(step, blocks);
-    take_back(step.rows.rows);  // what many sweeps round off would add up
+    take_back(step.rows.rows);  // removes the rounding errors of many sweeps
     for_blocks([&](auto first, auto end) { blocks.end_impact(first, end, step); });
   }
   put_back(step.rows.rows);
@@ -65,7 +65,7 @@ void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
   const int most = std::min(kMostSweeps, kMostWork / manifolds_);
   for (int i = 1; i < most && once(over_relaxed); ++i) sweep.since = sweep.now;
   sweep.since = std::min<std::uint8_t>(sweep.now, 1);  // all that an impact reached
-  once(step), once(step);  // friction goes by the load of the sweep before
+  once(step), once(step);  // friction uses the normal impulses of the previous sweep
 }
 
 void ImpactPass::set_aside(BodyRow* rows) {

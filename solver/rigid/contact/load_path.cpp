@@ -8,9 +8,9 @@
 namespace sunder::solver {
 namespace {
 
-/// A body and a manifold that it stands on.
+/// A body and a manifold that supports it.
 struct Support {
-  double height_m;  ///< Of the body.
+  double height_m;  ///< Height of the body.
   BodySlot body, below;
   ManifoldSlot manifold;
 };
@@ -42,17 +42,18 @@ struct Share {
   float vertical = 0;
 };
 
-/// Impulses along the vertical at the shares that bear `weight` with this `moment` (about the
-/// two axes across): the least in squares, those that would pull left out.
+/// Finds the vertical impulses at `shares` that have the sum `weight` and a `moment` about the two
+/// horizontal axes, with least squares; negative ones are set to 0.
 void carry(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float weight,
            const Vec3f& moment, std::vector<Share>& shares) {
-  float longest = 0;  // arms are measured by it
+  float longest = 0;  // unit of the arms
   for (const Share& s : shares) longest = std::max(longest, s.arm.norm());
   const float inverse = longest > 0 ? 1 / longest : 0;
   auto row = [&](const Share& s) {
     return Vec3f(1, inverse * s.arm.dot(across_1), inverse * s.arm.dot(across_2));
   };
-  // A push along `up` at x·across_1 + y·across_2 turns by x·(across_1 × up) + y·(across_2 × up).
+  // An impulse along `up` at x·across_1 + y·across_2 has the moment x·(across_1 × up) + y·(across_2
+  // × up).
   const Vec3f wanted(weight, inverse * moment.dot(across_1.cross(up)),
                      inverse * moment.dot(across_2.cross(up)));
   Mat3f normal = Mat3f::Zero();

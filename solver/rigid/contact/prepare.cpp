@@ -1,5 +1,5 @@
-// Gathers manifolds into lanes and hands them back: what is done one by one. The arithmetic between
-// is in derive_kernels.h.
+// Gathers manifolds into lanes and stores the results in manifolds: the scalar part. The arithmetic
+// on lanes is in derive_kernels.h.
 #include "solver/rigid/contact/prepare.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   const bool goes_a = c.row_a[lane] != 0, goes_b = c.row_b[lane] != 0;
   c.inverse_mass_a[lane] = bodies.inverse_mass[m.body_a];
   c.inverse_mass_b[lane] = bodies.inverse_mass[m.body_b];
-  // A sleeper has its mass until derive() takes it out: see sleep.h.
+  // A sleeping body has its mass until derive() removes it: see sleep.h.
   const bool sleeps_a = !a && bodies.dynamic(m.body_a), sleeps_b = !b && bodies.dynamic(m.body_b);
   g.sleepers = g.sleepers || sleeps_a || sleeps_b;
   g.awake_a[lane] = goes_a ? 1 : 0, g.awake_b[lane] = goes_b ? 1 : 0;
@@ -46,8 +46,7 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   const Vec3 passes = bodies.velocity[m.body_b] - bodies.velocity[m.body_a];
   const Vec3 turns = bodies.angular_velocity[m.body_b] - bodies.angular_velocity[m.body_a];
   const double way_m = (passes.norm() + turns.norm() * double{m.size_m}) * step.context.dt_s;
-  g.meets[lane] =
-      way_m > double{kArmMotion * m.size_m} ? 1 : 0;  // what lies still needs no new arms
+  g.meets[lane] = way_m > double{kArmMotion * m.size_m} ? 1 : 0;  // bodies at rest need no new arms
   set_lane(g.gravity, lane,
            ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }
@@ -56,8 +55,8 @@ float push_m_s(const ContactStep& step, const Manifold& m) {
   return step.soft.push * std::sqrt(m.size_m);
 }
 
-/// The overlap that is pushed apart at the share of speed that a contact has: all that are deep on
-/// a body together part as fast as two would, however many lie in one place.
+/// Returns the maximum overlap that a contact corrects. The deep contacts of a body in a dense
+/// cluster share the correction speed of two, however many shapes overlap there.
 float most_overlap_m(const ContactStep& step, const Manifold& m) {
   if (step.deep_contacts.empty() || !m.deep) return 1e30f;
   const auto of = [&](BodySlot body) {
@@ -151,7 +150,7 @@ void prepare_impact(const ContactStep& step, const ConstraintBlock<lanes>& c,
   }
 }
 
-/// How soft a contact should be for the load it bears, approached from how soft it was.
+/// Returns the compliance for the load of a contact, approached from the compliance before.
 template <std::uint32_t lanes>
 float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
                      const Manifold& m) {
@@ -169,9 +168,9 @@ float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, s
                     std::min(1.f, m.compliance_scale / kComplianceStep));
 }
 
-/// Share that the last substep has in the mean force of a contact; all of it if it is the first.
-/// The larger body sets the time that the mean remembers: a contact that it lost as it began to
-/// fall must still count when it would fall asleep.
+/// Returns the weight of the last substep in the mean force of a contact; 1 for the first. The
+/// larger body sets the time of the mean: a contact that the body lost as it began to fall must
+/// still count when it would fall asleep.
 float share_in_mean(const ContactStep& step, const Manifold& m) {
   if (m.mean_force_W.isZero(0)) return 1;
   const auto reach_m = [&](BodySlot body) {

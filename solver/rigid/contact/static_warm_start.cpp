@@ -1,5 +1,5 @@
-// Read first: StaticWarmStart::apply(). The loads are found by conjugate gradients over the sweeps
-// of the solver itself: see nncg.h.
+// Read first: StaticWarmStart::apply(). The impulses are found by conjugate gradients over the
+// sweeps of the solver: see nncg.h.
 #include "solver/rigid/contact/static_warm_start.h"
 
 #include <algorithm>
@@ -18,11 +18,12 @@ namespace {
 
 constexpr std::uint32_t kGrain = 8;
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
-constexpr double kWork = 2e5;         // points swept at most, unless there are too many for it
-constexpr double kNearlyDone = 1e-7;  // of the loads' squares: what falls by then will fall
-constexpr int kFirstLook = 32;        // whenever as many rounds again are over: are more in vain?
-constexpr double kDone = 1e-12;       // of the loads' squares, a step's
-constexpr float kNoBounce = 1e30f;    // m/s: nothing is as fast
+constexpr double kWork = 2e5;  // points times rounds at most, unless kLeastRounds are more
+// of the squared impulses: bodies without support by then have none
+constexpr double kNearlyDone = 1e-7;
+constexpr int kFirstLook = 32;   // rounds before the first check of convergence; doubled after each
+constexpr double kDone = 1e-12;  // of the squared impulses, for the change of a round
+constexpr float kNoBounce = 1e30f;  // m/s; no contact rebounds
 
 BlockLoads loads_of(const StaticBlock& c) {
   BlockLoads loads;
@@ -38,7 +39,7 @@ void set_loads(const BlockLoads& loads, StaticBlock& c) {
   c.twist_impulse = loads.twist;
 }
 
-/// a + s·b.
+/// Returns a + s·b.
 BlockLoads sum(const BlockLoads& a, float s, const BlockLoads& b) {
   const Wide4 w = splat<Wide4>(s);
   BlockLoads loads;
@@ -48,7 +49,7 @@ BlockLoads sum(const BlockLoads& a, float s, const BlockLoads& b) {
   return loads;
 }
 
-/// Twist counts at the arm of the first point.
+/// Returns the square of the impulses; that of twist is divided by the arm of the first point.
 double square_of(const StaticBlock& c, const BlockLoads& a) {
   const Wide4 zero = {}, arm = c.point[0].arm;
   const Wide4 twist = arm > zero ? a.twist / (arm > zero ? arm : splat<Wide4>(1)) : zero;
@@ -59,9 +60,9 @@ double square_of(const StaticBlock& c, const BlockLoads& a) {
   return all;
 }
 
-/// Of what is faster: the two surfaces against each other at the middle of the contact, or one of
-/// them against the world. What moves together, as the pieces of a slab that topples do, is not at
-/// rest either, whatever it stands on.
+/// Returns the largest of three speeds at the middle of the contact: of the surfaces against each
+/// other, and of each against the world. Bodies that move together, as pieces of a toppling slab,
+/// are not at rest, whatever supports them.
 double greatest_speed(const Manifold& m, const Bodies& bodies) {
   auto velocity = [&](BodySlot body, const Vec3f& arm) {
     return Vec3(bodies.velocity[body] + bodies.angular_velocity[body].cross(arm.cast<double>()));
@@ -70,7 +71,7 @@ double greatest_speed(const Manifold& m, const Bodies& bodies) {
   return std::max({(b - a).norm(), a.norm(), b.norm()});
 }
 
-/// What touches but for a sliver bears as if it did, however short the substep.
+/// Closes gaps below kClosedGap, so that contacts have the same impulses for any substep.
 void close_gaps(const ContactStep& step, StaticBlock& c) {
   for (std::uint32_t lane = 0; lane < c.count; ++lane) {
     const float none_m =
@@ -82,13 +83,13 @@ void close_gaps(const ContactStep& step, StaticBlock& c) {
   }
 }
 
-/// How deep a point gives way under its load.
+/// Returns the compression of a point by its impulse.
 float yield_m(const StaticBlock& c, std::uint32_t lane, std::size_t point, float yield_s) {
   const float mass = c.point[point].mass[lane];
   return mass > 0 ? yield_s * c.point[point].impulse[lane] / mass : 0;
 }
 
-/// Impulses of the points, and the separations at which they bear them.
+/// Stores the impulses of the points, and the separations at which they have them.
 void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float kept_scale,
                   float factor, Manifold& m) {
   float depth[4] = {}, deepest = 0;
@@ -97,7 +98,7 @@ void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float
     depth[i] = factor * yield_m(c, lane, i, yield_s);
     deepest = std::max(deepest, depth[i]);
   }
-  // An overlap that this load explains is as much at rest as none.
+  // An overlap no larger than the compression by the load is at rest too.
   const float most = kMaxRestOffset * m.size_m, least = -std::min(deepest, most);
   for (std::size_t i = 0; i < m.count; ++i) {
     ManifoldPoint& p = m.points[i];
@@ -105,7 +106,7 @@ void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float
   }
 }
 
-/// Impulses of friction, and the drift of its anchors that bears them.
+/// Stores the impulses of friction, and the drift of its anchors that they need.
 void store_friction(const StaticBlock& c, std::uint32_t lane, float yield_s, float kept_scale,
                     float factor, Manifold& m) {
   const float s1 = factor * c.slide_impulse_1[lane], s2 = factor * c.slide_impulse_2[lane];
@@ -146,7 +147,7 @@ bool StaticWarmStart::collect(const StepContext& step, const Bodies& bodies, Con
   return !manifolds_.empty();
 }
 
-/// Lists what is to get its load, by colour and number of points.
+/// Lists the manifolds that get a warm start, by colour and number of points.
 void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies,
                                    Contacts& contacts) {
   std::uint32_t start[kSweepKeys + 1] = {};
@@ -155,7 +156,7 @@ void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies
   const double slow_m_s = kSlowFalls * step.fall_m_s;
   for (const ManifoldSlot i : std::exchange(contacts.cold, {})) {
     Manifold& m = contacts.manifolds[i];
-    if (!m.cold) continue;  // gone, or here for the second time
+    if (!m.cold) continue;  // removed, or listed twice
     m.cold = false;
     if (!touches_awake(m, bodies)) continue;
     const bool rests = std::abs(m.least_separation()) < kRestingDistance * m.size_m;
@@ -174,7 +175,7 @@ void StaticWarmStart::make_blocks(const Contacts& contacts) {
   colors_.clear();
   for (std::uint32_t i = 0; i < manifolds_.size();) {
     const Manifold& m = contacts.manifolds[manifolds_[i]];
-    // What found no colour may share bodies: one at a time.
+    // Manifolds without a colour may share bodies: one a block.
     const std::uint32_t width = m.color < kMaxColors ? kStaticLanes : 1;
     if (i == 0 || contacts.manifolds[manifolds_[i - 1]].color != m.color)
       colors_.push_back({static_cast<std::uint32_t>(blocks_.size()), 0, kGrain});
@@ -230,7 +231,7 @@ void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
   }
 }
 
-/// A first guess, from which few rounds lead to the loads.
+/// Finds a first estimate, from which few rounds converge.
 void StaticWarmStart::estimate(const StepContext& step, const Bodies& bodies, Contacts& contacts) {
   loads_.assign(bodies.size(), {});
   const Vec3f& kick = step.kick_W;
@@ -254,7 +255,7 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
   square_.resize(blocks_.size());
   Nncg nncg;
   float beta = 0;
-  const auto run = [&](const auto& work) {  // on every block
+  const auto run = [&](const auto& work) {  // runs on every block
     run_stages(colors_, [&](const StageItems&, std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; ++i) work(blocks_[i], i);
     });
@@ -283,7 +284,7 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
     for (const auto& [of_change, of_loads] : square_) square += of_change, loads += of_loads;
     if (square <= kDone * std::max(square, loads) || round + 1 == rounds) return;
     if (round == look) {
-      // Rounding or sliding contacts may keep the loads from ever coming to rest.
+      // Rounding or sliding contacts may prevent convergence.
       const double seen = square / loads;
       const std::size_t supported = find_supported(kick_m_s, step.bodies);
       const bool stuck = seen > 0.5 * last_seen;
@@ -297,8 +298,9 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
   }
 }
 
-/// A body that its loads would leave with more energy than gravity gave it is not supported: the
-/// rounds were too few, or nothing can support it. Answers how many are.
+/// Marks bodies as unsupported that would have more energy with these impulses than gravity gave
+/// them: there were too few rounds, or nothing can support them. Returns the number of supported
+/// bodies.
 std::size_t StaticWarmStart::find_supported(double kick_m_s, const Bodies& bodies) {
   std::size_t supported = 0;
   for (const BodySlot body : concerned_bodies_) {
@@ -312,8 +314,9 @@ std::size_t StaticWarmStart::find_supported(double kick_m_s, const Bodies& bodie
   return supported;
 }
 
-/// What would have to give way further than points may rest is not supported, nor what stands on
-/// it: it will fall, and points at rest are springs under load, which would give it their energy.
+/// Marks bodies as unsupported whose contacts would need a rest separation beyond the maximum, and
+/// the bodies on them: they will fall, and contacts at rest are loaded springs, which would give
+/// them energy.
 void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& soft,
                                          const Bodies& bodies, const Contacts& contacts) {
   bool any = false;

@@ -45,12 +45,13 @@ void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Co
   for (const auto& [i, key] : found_) manifolds_[next[key]++] = i;
 }
 
-/// Gives what is near an impact and found no colour one of as many more: what is split takes an
-/// impact up slowly. How many colours there are, then.
+/// Gives the uncoloured manifolds near an impact more colours, since split manifolds take up an
+/// impact slowly. Returns the number of colours then.
 std::uint32_t SweepOrder::color_rest(const Bodies& bodies, const Contacts& contacts) {
   more_colors_.clear();
   std::uint32_t colors = kMaxColors;
-  if (impacts_.empty() || contacts.colors < kMaxColors) return colors;  // split by choice
+  // split by choice of the option
+  if (impacts_.empty() || contacts.colors < kMaxColors) return colors;
   ByBody<std::uint64_t> taken(bodies.size());
   more_colors_.assign(contacts.manifolds.size(), kNoColor);
   for (const ManifoldSlot i : contacts.manifolds.slots()) {

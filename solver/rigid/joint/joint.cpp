@@ -6,7 +6,7 @@
 namespace sunder::solver {
 namespace {
 
-// In place of a pair of bodies: whatever stands.
+// Stands for a pair of bodies: any static body.
 constexpr std::uint64_t kStanding = ~std::uint64_t{0};
 
 std::uint64_t body_pair(BodySlot a, BodySlot b) {

@@ -11,9 +11,11 @@ namespace sunder::solver {
 namespace {
 
 constexpr int kAimRounds = 3;
-constexpr double kSoftness = 1e-6;  // of a row's response: two hinges of a door say the same twice
+// relative to a row's response: the two hinges of a door have redundant rows
+constexpr double kSoftness = 1e-6;
 
-/// Response of row i of one joint to an impulse along row j of another, through what they share.
+/// Returns the response of row i of one joint to an impulse along row j of another, by shared
+/// bodies.
 double response(const JointWork& m, const JointRow& i, const JointWork& n, const JointRow& j) {
   const double pushes = double{i.push.dot(j.push)};
   double sum = 0;
@@ -41,7 +43,7 @@ void for_plastic(std::span<JointWork> works, const Visit& visit) {
     if (work.kind == JointKind::kPlastic) visit(work);
 }
 
-/// Lays out the envelope: a joint's rows begin with those of the first joint it shares a body with.
+/// Sets the envelope: a joint's rows begin at those of the first joint that it shares a body with.
 void lay_out(JointGroup& group, std::span<const JointWork> works) {
   Envelope& e = group.matrix;
   e.first.clear();
@@ -68,8 +70,8 @@ void lay_out(JointGroup& group, std::span<const JointWork> works) {
   group.change.resize(e.rows());
 }
 
-/// Of the rows of one joint to those of another, or of itself: then half of them say it all, unless
-/// they are turned.
+/// Returns the response of the rows of a joint to those of another, or of itself: then only the
+/// lower half is set, unless the rows are turned.
 Mat6 responses(const JointWork& m, const JointWork& n) {
   Mat6 block = Mat6::Zero();
   const bool half = &m == &n && m.kind != JointKind::kPlastic;
@@ -80,12 +82,12 @@ Mat6 responses(const JointWork& m, const JointWork& n) {
   return block;
 }
 
-/// What a joint's rows give way by themselves.
+/// Adds the softness of a joint's rows to the diagonal.
 void soften(const JointWork& work, std::span<double> softness, Mat6& block) {
   for (int i = 0; i < work.rows; ++i) {
     const double own = work.row[static_cast<std::size_t>(i)].softness;
     double& diagonal = block(i, i);
-    // What a broken joint, or what is between two immovable ends, is asked does not matter.
+    // Rows of a broken joint, or between two immovable ends, have no effect.
     const bool moves = diagonal > 0 && !work.broken;
     double& soft = softness[static_cast<std::size_t>(i)];
     soft = own > 0 ? own : moves ? kSoftness * diagonal : 1;
@@ -113,21 +115,21 @@ void fill(JointGroup& group, std::span<const JointWork> works) {
   group.bounded ? group.pinned.forget() : e.factor();
 }
 
-/// What the correction of an error asks for, as a speed: of what there is, and of what the turn of
-/// this substep would add.
+/// Returns the correction speed of row i: of its error, and of the error that rotation adds in this
+/// substep.
 double bias(const JointWork& work, int i, const StepContext& step, bool biased) {
   const double error = work.row[static_cast<std::size_t>(i)].error;
   const double apart = work.kind == JointDesc::Kind::kRope ? std::min(0.0, error) : 0;
-  if (apart < 0) return apart / step.h_s;  // a slack rope may run out
+  if (apart < 0) return apart / step.h_s;  // a slack rope may move up to its length
   if (!biased || i >= work.held_rows) return 0;
   const double ahead = 0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].bend_s2;
-  if (i > 0 && work.plastic.softness > 0) return ahead;  // what it flows is no error
+  if (i > 0 && work.plastic.softness > 0) return ahead;  // the flow is no error
   const double push_m_s = kMaxJointPush * step.froude.speed_m_s(work.reach_m);
   const double most = i < work.place_rows ? push_m_s : push_m_s / work.reach_m;
   return std::clamp(kJointCorrection / step.h_s * error, -most, most) + ahead;
 }
 
-/// Of this substep.
+/// Returns the impulse of this substep.
 JointImpulse impulse_of(const JointWork& work) {
   JointImpulse sum;
   for (std::size_t i = 0; i < static_cast<std::size_t>(work.rows); ++i) {
@@ -137,7 +139,7 @@ JointImpulse impulse_of(const JointWork& work) {
   return sum;
 }
 
-/// Solves for the change with bounds, along rows as plastic joints turn them.
+/// Solves for the change with bounds, along the turned rows of plastic joints.
 void find_bounded_change(JointGroup& group, std::span<JointWork> works) {
   const auto each = [&](const auto& visit) {
     for (std::size_t m = 0; m < works.size(); ++m) {
@@ -162,7 +164,7 @@ void find_bounded_change(JointGroup& group, std::span<JointWork> works) {
   });
 }
 
-/// What all rows have to add so that they hold, as far as their bounds let them.
+/// Finds the changes of impulses that satisfy all rows, as far as bounds allow.
 void find_change(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  bool biased, const BodyRow* rows) {
   std::size_t at = 0;
@@ -177,7 +179,7 @@ void find_change(JointGroup& group, std::span<JointWork> works, const StepContex
   group.bounded ? find_bounded_change(group, works) : group.matrix.solve(group.change);
 }
 
-/// Whether some plastic joint bears more than it can, since its direction was another.
+/// True if a plastic joint exceeds its strength, since the direction of its impulse has changed.
 bool is_over(std::span<JointWork> works, const StepContext& step, const BodyRow* rows) {
   bool over = false;
   for_plastic(works, [&](JointWork& work) {
@@ -194,10 +196,10 @@ void take_out(JointWork& work) {
   for (JointRow& row : work.row) row = JointRow{};
 }
 
-/// For the bodies as they lie and move.
+/// Updates the rows for the current poses and velocities.
 void renew_rows(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                 const BodyRow* rows) {
-  bool other = false;  // numbers of rows than were laid out
+  bool other = false;  // true if a number of rows has changed
   for (JointWork& work : works) {
     if (work.broken) continue;
     const int before = work.rows;

@@ -10,18 +10,18 @@
 namespace sunder::solver {
 namespace {
 
-// A group's band: what one thread factors in every substep.
+// Maximum size of a group's band, which one thread factors in each substep.
 constexpr std::uint32_t kMostRows = 1500;
 constexpr std::uint32_t kMostEntries = 20000;
 constexpr std::uint32_t kNoRow = 0xffffffff;
-constexpr std::uint8_t kMostColors = 64;  // beyond: one thread for all
+constexpr std::uint8_t kMostColors = 64;  // groups without a colour run in one thread
 
-/// Those that damp included.
+/// Returns the maximum number of rows, including those that damp.
 int most_rows(JointDesc::Kind kind) {
   return kind == JointDesc::Kind::kDistance || kind == JointDesc::Kind::kRope ? 1 : kMostJointRows;
 }
 
-/// The bodies of a joint that move.
+/// Visits the awake bodies of a joint.
 template <class Visit>
 void for_moving(const Joint& joint, const Bodies& bodies, const Visit& visit) {
   if (!joint.body_a.none() && bodies.awake(joint.body_a)) visit(joint.body_a);
@@ -59,7 +59,7 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
   color_groups(bodies, joints);
 }
 
-/// Marks what swings free, and then all that joints hold as in contact.
+/// Marks free-hanging bodies, then all bodies in joints as in contact.
 void JointSolver::mark_free(const Bodies& bodies, SpanByBody<std::uint8_t> in_contact) {
   DisjointSets islands(bodies.size());
   for (const auto& [a, b] : joined_) islands.join(a.value, b.value);
@@ -73,8 +73,8 @@ void JointSolver::mark_free(const Bodies& bodies, SpanByBody<std::uint8_t> in_co
   }
 }
 
-/// Neighbour after neighbour, from one at an end, and backwards (reverse Cuthill-McKee), which
-/// makes a narrow band of any chain whatever order its joints were made in.
+/// Orders connected joints from an end on, neighbours first, and reversed (reverse Cuthill-McKee):
+/// any chain gets a narrow band, whatever the order of its joints.
 void JointSolver::order_joints(const Bodies& bodies, const Joints& joints) {
   ByBody<std::vector<std::uint32_t>> of_body(bodies.size());
   for (const std::uint32_t i : active_)
@@ -97,20 +97,20 @@ void JointSolver::order_joints(const Bodies& bodies, const Joints& joints) {
       });
     }
     is_first_.resize(active_.size(), 0);
-    is_first_.back() = 1;  // backwards
+    is_first_.back() = 1;  // reversed
   }
   std::ranges::reverse(active_);
   std::ranges::reverse(is_first_);
 }
 
-/// A band ends where nothing goes on, or where it would be too large.
+/// Splits the ordered joints into groups, at gaps and where a band would be too large.
 void JointSolver::group_joints(const Bodies& bodies, const Joints& joints) {
-  ByBody<std::uint32_t> row_of_body(bodies.size(), kNoRow);  // first row that moves it
+  ByBody<std::uint32_t> row_of_body(bodies.size(), kNoRow);  // first row that moves a body
   std::uint32_t rows = 0, entries = 0, base = 0;
   for (std::uint32_t at = 0; at < active_.size(); ++at) {
     const Joint& joint = joints[active_[at]];
     const auto n = static_cast<std::uint32_t>(most_rows(joint.desc.kind));
-    std::uint32_t width = 0;  // of the envelope before its own rows
+    std::uint32_t width = 0;  // width of the envelope before the joint's own rows
     for_moving(joint, bodies, [&](BodySlot body) {
       const std::uint32_t first = row_of_body[body];
       if (first != kNoRow && first >= base) width = std::max(width, base + rows - first);

@@ -9,9 +9,10 @@ namespace sunder::solver {
 namespace {
 
 constexpr int kPinRounds = 32;
-constexpr double kAtBound = 1e-9;  // of it: rounding
+constexpr double kAtBound = 1e-9;  // relative, for rounding
 
-/// In eight sums, which go side by side, and are the same on any processor.
+/// Dot product in eight partial sums, which run in parallel and give the same bits on any
+/// processor.
 double dot(std::span<const double> a, std::span<const double> b) {
   std::array<double, 8> sums{};
   const std::size_t whole = a.size() / 8 * 8;
@@ -52,12 +53,12 @@ std::vector<double> Envelope::times(std::span<const double> x) const {
   return product;
 }
 
-/// Where it starts from: the impulses as they are, or none if these make energy.
+/// Sets the initial impulses: the current ones, or zero if these make energy.
 void PinnedRows::start(const Envelope& response, std::span<const double> asked) {
   const std::size_t n = bounds.size();
   impulse_.resize(n), way_.resize(n);
   for (std::size_t i = 0; i < n; ++i) impulse_[i] = bounds[i].now;
-  asked_ = response.times(impulse_);  // of impulses that start from none
+  asked_ = response.times(impulse_);  // for impulses that start at zero
   for (std::size_t i = 0; i < n; ++i) {
     asked_[i] += asked[i];
     impulse_[i] = bounds[i].clamp(impulse_[i]);
@@ -81,8 +82,7 @@ void PinnedRows::find_excess(const Envelope& response) {
   for (std::size_t i = 0; i < bounds.size(); ++i) excess_[i] -= asked_[i];
 }
 
-/// Of the rows that are free, if they are others than last time: from the first of these on, as
-/// rows hang on those before them alone.
+/// Factors the free rows from the first one on that changed, as a row depends only on those before.
 void PinnedRows::factor(const Envelope& response) {
   std::uint32_t from = 0;
   if (!std::exchange(stale_, false)) {
@@ -102,7 +102,8 @@ void PinnedRows::factor(const Envelope& response) {
   factored_.factor(from);
 }
 
-/// Goes the way of the free rows up to the first bound, and pins what meets it; whether none does.
+/// Steps along the direction of the free rows up to the first bound, and pins the rows that reach
+/// it. Returns true if none does.
 bool PinnedRows::go() {
   const auto share_to_bound = [&](std::size_t i) {
     const RowBounds& row = bounds[i];
@@ -123,7 +124,7 @@ bool PinnedRows::go() {
   return share == 1;
 }
 
-/// Whether any was pinned that would go back.
+/// Frees the pinned rows that would move off their bound; returns true if there are any.
 bool PinnedRows::let_go() {
   bool any = false;
   for (std::size_t i = 0; i < bounds.size(); ++i) {

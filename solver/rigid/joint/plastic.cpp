@@ -9,27 +9,27 @@
 namespace sunder::solver {
 namespace {
 
-constexpr int kAlong = 1;            // turned row; 0 is axial
-constexpr int kBending = 4;          // section row: where it bears little, it goes along this
-constexpr double kSurface = 0.02;    // of what the section bears: nearer is at the surface
-constexpr double kDirection = 0.25;  // of it, at least, to have a direction
+constexpr int kAlong = 1;            // turned row of the transverse impulse; 0 is axial
+constexpr int kBending = 4;          // section row, direction of a small transverse impulse
+constexpr double kSurface = 0.02;    // distance from the surface of the ball that counts as on it
+constexpr double kDirection = 0.25;  // minimum transverse impulse that has a direction
 
-/// By Householder's reflection, which is its own inverse.
+/// Householder's reflection, which is its own inverse.
 Vec6 mirrored(const PlasticWork& plastic, const Vec6& x) {
   return x - plastic.mirror.dot(x) * plastic.mirror;
 }
 
 Vec6 impulse(const JointWork& work) { return Vec6(work.impulse.data()); }
 
-/// What is left across, of what the section bears, beside an axial part.
+/// Returns the radius of the ball of transverse impulses for an axial impulse.
 double radius(double axial) { return std::max(kSurface, 1 - axial * axial); }
 
-/// Speeds or errors along the turned rows.
+/// Returns speeds or errors along the turned rows.
 Vec6 turned(const PlasticWork& plastic, const Vec6& along_section) {
   return mirrored(plastic, plastic.strength.cwiseProduct(along_section));
 }
 
-/// Impulses along them.
+/// Returns the impulses along the turned rows.
 Vec6 turned_impulse(const JointWork& work) {
   return mirrored(work.plastic, impulse(work).cwiseQuotient(work.plastic.strength));
 }
@@ -40,7 +40,7 @@ Vec6 turned_speed(const JointWork& work, const BodyRow* rows) {
   return turned(work.plastic, speed);
 }
 
-/// Whether the section gives way along its axis, or else across it.
+/// True if the section flows along its axis, or across it for other rows.
 bool flows(const JointWork& work, int row) {
   if (row < kAlong) return work.bounds[0].pin != 0;
   const auto across = std::span(work.bounds).subspan(kAlong);
@@ -108,8 +108,8 @@ void note_axial(JointWork& work, double h_s) {
 
 void follow_flow(JointWork& work, const BodyRow* rows) {
   PlasticWork& plastic = work.plastic;
-  // Where it is now is what it has flowed; what that took, how it moved there: in a contact it is
-  // pushed out besides.
+  // The current error of a flowing row is its flow. The work is that of its speed, since a contact
+  // may push the bodies further.
   Vec6 flow = Vec6::Zero(), taken_J = Vec6::Zero();
   for (int i = 0; i < kMostJointRows; ++i) {
     if (!flows(work, i)) continue;

@@ -1,5 +1,5 @@
-// From what prepare.cpp gathered to Jacobians and masses, a manifold a lane. Read first: derive().
-// Included by sweep_1.cpp and so on alone, under the same rule as sweep_kernels.h.
+// Computes Jacobians and effective masses from the data of prepare.cpp, a manifold per lane. Read
+// first: derive(). Included only by sweep_1.cpp and so on, under the rule of sweep_kernels.h.
 #pragma once
 
 #include "solver/rigid/contact/kernels/sweep_kernels.h"
@@ -12,7 +12,7 @@ SUNDER_INLINE V reciprocal(V x) {
   return x > zero ? one / (x > zero ? x : one) : zero;
 }
 
-/// How much one push moves each of the two, and both.
+/// Response of each body and of both to a unit impulse.
 template <class V>
 struct Response {
   V a, b;
@@ -20,7 +20,7 @@ struct Response {
   SUNDER_INLINE V all() const { return a + b; }
 };
 
-/// Makes bodies as light as the parts that split manifolds take of them.
+/// Scales bodies to the parts that split manifolds move.
 template <std::uint32_t lanes>
 SUNDER_INLINE void split_bodies(GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
@@ -34,7 +34,7 @@ SUNDER_INLINE void split_bodies(GatheredBlock<lanes>& g, ConstraintBlock<lanes>&
   c.parts.root_a = one / root_a, c.parts.root_b = one / root_b;
 }
 
-/// Response of bodies over that of their parts.
+/// Returns the response of bodies over that of their parts.
 template <std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> split_scale(const ConstraintBlock<lanes>& c,
                                         const Response<WideOf<lanes>>& parts) {
@@ -53,7 +53,7 @@ SUNDER_INLINE void set_tangents(ConstraintBlock<lanes>& c) {
   c.tangent_2 = cross(c.normal, c.tangent_1);
 }
 
-/// Lets both sides act at one point: see ArmLanes.
+/// Moves the arms of both sides to one point: see ArmLanes.
 template <std::uint32_t lanes>
 SUNDER_INLINE void meet(GatheredBlock<lanes>& g, const ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
@@ -69,7 +69,7 @@ SUNDER_INLINE void meet(GatheredBlock<lanes>& g, const ConstraintBlock<lanes>& c
   for (std::uint32_t i = 0; i < c.points; ++i) meet_at(g.arm_a[i], g.arm_b[i]);
 }
 
-/// Effective masses of sliding.
+/// Computes the effective masses of friction.
 template <std::uint32_t lanes>
 SUNDER_INLINE void weigh_slide(ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
@@ -81,7 +81,7 @@ SUNDER_INLINE void weigh_slide(ConstraintBlock<lanes>& c) {
   c.slide_11 = k22 * scale, c.slide_12 = -k12 * scale, c.slide_22 = k11 * scale;
 }
 
-/// How much softer sliding parts are than sliding bodies.
+/// Computes the compliance of friction on parts over that on bodies.
 template <std::uint32_t lanes>
 SUNDER_INLINE void scale_slide_of_parts(ConstraintBlock<lanes>& c) {
   const auto of = [](const WideOf<lanes>& inverse_mass, const Wide3Of<lanes>& angular_1,
@@ -138,7 +138,7 @@ SUNDER_INLINE void derive_points(const GatheredBlock<lanes>& g, ConstraintBlock<
           split_scale(c, {c.inverse_mass_a + angular.a, c.inverse_mass_b + angular.b});
     const Wide3Of<lanes> off = g.arm_b[i] - g.friction_arm_b;
     const Wide3Of<lanes> arm = off - c.normal * dot(off, c.normal);
-    p.arm = sqrt(dot(arm, arm)) * g.has[1];  // one point alone twists nothing
+    p.arm = sqrt(dot(arm, arm)) * g.has[1];  // one point alone has no twist
   }
 }
 
@@ -151,7 +151,7 @@ SUNDER_INLINE void derive_springs(const GatheredBlock<lanes>& g, ConstraintBlock
   for (std::uint32_t i = 0; i < c.points; ++i) c.parts.press_split_scale[i] *= g.compliance_scale;
 }
 
-/// Sleepers stay where they are: no response to any impulse.
+/// Removes the response of sleeping bodies.
 template <std::uint32_t lanes>
 SUNDER_INLINE void fix_sleepers(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
   c.inverse_mass_a *= g.awake_a, c.inverse_mass_b *= g.awake_b;
@@ -177,7 +177,7 @@ void derive(GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
   if (g.sleepers) fix_sleepers(g, c);
 }
 
-/// Both Jacobians of one direction.
+/// Jacobians of both bodies along one direction.
 template <class V>
 struct Reach {
   Triple<V>&a, &b;
@@ -188,9 +188,10 @@ struct Reach {
   }
 };
 
-/// Lets arms bridge this gap, where that is positive. All arms of a side shift alike, so all
-/// Jacobians along one direction change alike. Separations and drifts stay what they are; masses
-/// change by what moves, so that what meets a sleeper stays as soft as it was: see sleep.h.
+/// Moves the arms to bridge the gap in lanes with `where` > 0. All arms of a side move alike, so
+/// all Jacobians along one direction change alike. Separations and drifts keep their values; masses
+/// change by the change of the moving bodies' response, so that contacts with sleeping bodies keep
+/// their softness: see sleep.h.
 template <bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE void bridge(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
                           const Wide3Of<lanes>& gap, const Pairs<lanes, kSplit>& x,
@@ -239,9 +240,9 @@ SUNDER_INLINE void bridge(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
   arms.owes = true;
 }
 
-/// When the first point of what is apart and bears nothing meets, if that is within the substep; 0:
-/// not, or arms aim at that meeting already: impacts are let close their gaps by the end of a
-/// substep, and what is left then of a gap is rounding.
+/// Returns the time until the first point touches, for contacts that are apart and have no impulse;
+/// 0 if that is after the substep, or if the arms point there already: impacts close their gaps by
+/// the end of a substep, and the rest of a gap is rounding.
 template <bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> meets_after(const ConstraintBlock<lanes>& c,
                                         const ArmLanes<lanes>& arms, const Pairs<lanes, kSplit>& x,
@@ -302,7 +303,7 @@ SUNDER_INLINE void settle_as(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
 
 template <std::uint32_t lanes>
 void settle(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& bodies) {
-  // Every split block leaves its changes, or older ones would be summed again.
+  // Every split block stores its changes, or older ones would be summed again.
   if (c.split)
     settle_as<true>(c, arms, bodies);
   else if (arms.owes)

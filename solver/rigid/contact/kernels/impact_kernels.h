@@ -1,7 +1,6 @@
-// Impacts that are passed on (docs/decisions/036). Few of the contacts near one have a body that
-// moved, and they lie scattered over their blocks: sweeps gather them, sixteen of any block side by
-// side. Read first: pass_on(). Included by sweep_1.cpp and so on alone, under the same rule as
-// sweep_kernels.h.
+// Propagation of impacts (docs/decisions/036). Few contacts near an impact have a body that moved,
+// and these are scattered over blocks: sweeps gather them into lanes, whatever their block. Read
+// first: pass_on(). Included only by sweep_1.cpp and so on, under the rule of sweep_kernels.h.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +10,11 @@
 
 namespace sunder::solver {
 
-/// Of the speed of the slowest impact: a change that is passed on.
+/// Change of speed that is propagated, as a fraction of the speed of the slowest impact.
 inline constexpr float kNoticed = 0.1f;
 
-/// How much faster than the slowest impact the point closes; negative or 0: it is none. What is yet
-/// to rebound is left to strikes, as in press().
+/// Returns the closing speed of a point beyond that of the slowest impact; at most 0: no impact.
+/// Points that are yet to rebound are left to restitution, as in press().
 template <std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> closes_by(const ConstraintBlock<lanes>& c,
                                       const ImpactLanes<lanes>& impact, std::uint32_t i,
@@ -43,7 +42,8 @@ bool meet(const ConstraintBlock<lanes>& c, ImpactLanes<lanes>& impact, const Sol
   return any(fastest > zero);
 }
 
-/// What presses, as in press(); how fast the fastest point closed.
+/// Solves the normal impulses, as press() does; returns how far the fastest closing speed exceeds
+/// that of the slowest impact.
 template <std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> press_on(ConstraintBlock<lanes>& c, Pairs<lanes, false>& v,
                                      const ImpactLanes<lanes>& impact, float omega) {
@@ -66,7 +66,7 @@ SUNDER_INLINE WideOf<lanes> press_on(ConstraintBlock<lanes>& c, Pairs<lanes, fal
   return fastest;
 }
 
-/// Whether impulses changed so much since that its bodies noticed.
+/// Returns 1 for lanes whose impulses changed enough to be propagated.
 template <std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> noticed(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact,
                                     const WideOf<lanes> (&was)[9]) {
@@ -81,11 +81,11 @@ SUNDER_INLINE WideOf<lanes> noticed(ConstraintBlock<lanes>& c, const ImpactLanes
   return changed;
 }
 
-/// Where in ImpactContact: its impulses; its points; what it has of rolling.
+/// Rows of ImpactContact: impulses, points, rolling.
 inline constexpr std::uint32_t kImpulseRow = 5, kPointRow = 6, kRollRow = 10;
 
-/// Calls visit(row, eight of the block) for what a sweep reads, in the order of ImpactContact;
-/// those of rolling only if asked for.
+/// Calls visit(row, eight lanes of the block) for the data of a sweep, in the order of
+/// ImpactContact; that of rolling only if `rolls`.
 template <std::uint32_t lanes, class Visit>
 SUNDER_INLINE void for_frames(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& impact, bool rolls,
                               const Visit& visit) {
@@ -104,13 +104,13 @@ SUNDER_INLINE void for_frames(ConstraintBlock<lanes>& c, ImpactLanes<lanes>& imp
   visit(kRollRow, r_1a.x, r_1a.y, r_1a.z, r_1b.x, r_1b.y, r_1b.z, r.mass_11, r.mass_12);
   visit(kRollRow + 1, r_2a.x, r_2a.y, r_2a.z, r_2b.x, r_2b.y, r_2b.z, r.mass_22, r.arm);
 }
-/// The same for point i.
+/// Calls visit(row, eight lanes of the block) for the data of point i.
 template <std::uint32_t lanes, class Visit>
 SUNDER_INLINE void for_point(PointLanes<lanes>& p, std::uint32_t i, const Visit& visit) {
   auto &a = p.angular_a, &b = p.angular_b;
   visit(kPointRow + i, a.x, a.y, a.z, b.x, b.y, b.z, p.mass, p.arm);
 }
-/// The same for the impulses that most contacts have, and those of rolling.
+/// Calls visit(row, eight lanes of the block) for the impulses; those of rolling only if `rolls`.
 template <std::uint32_t lanes, class Visit>
 SUNDER_INLINE void for_impulse_rows(ConstraintBlock<lanes>& c, bool rolls, const Visit& visit) {
   WideOf<lanes> none = {};
@@ -120,12 +120,12 @@ SUNDER_INLINE void for_impulse_rows(ConstraintBlock<lanes>& c, bool rolls, const
     visit(kRollRow + 2, c.roll.impulse_1, c.roll.impulse_2, none, none, none, none, none, none);
 }
 
-/// Where lanes have their rows.
+/// Memory of the lanes' rows.
 template <std::uint32_t lanes>
 struct ContactRows {
   float* of[lanes];
 
-  /// Reads eight of every lane.
+  /// Reads eight floats of each lane.
   template <class... V>
   SUNDER_INLINE void get(std::uint32_t row, V&... to) const {
     WideOf<lanes> v[8];
@@ -178,8 +178,9 @@ void end_impact(ConstraintBlock<lanes>& c, const ImpactLanes<lanes>& impact,
       c, [&](std::uint32_t slot, WideOf<lanes>& impulse) { impulse = impact.aside[slot]; });
 }
 
-/// One pass as sweep_relaxed() over contacts of one colour. Whether some point closed as fast as
-/// impacts do. Of its own for the kernels of `most` lanes, whose instructions it is made of.
+/// One pass like sweep_relaxed() over contacts of one colour. Returns true if a point closed as
+/// fast as an impact. Not shared by the kernels of different `most` lanes, whose instructions it
+/// uses.
 template <std::uint32_t lanes, std::uint32_t most>
 [[gnu::noinline]] bool pass_on_these(const ImpactPair* pair, ImpactContact* const* contact,
                                      const SolverRows& bodies, const SoftStep& soft,
@@ -236,7 +237,7 @@ bool pass_on(const ImpactPair* pairs, ImpactContact* contacts, std::uint32_t cou
   if (found == 0) return any;
   ImpactContact none;
   for (std::uint32_t i = found; i < lanes; ++i) pair[i] = {}, contact[i] = &none;
-  // What is left over takes no more lanes than it has to.
+  // Remaining contacts use as few lanes as possible.
   if (lanes > 4 && found <= 4)
     return any | pass_on_these<4, lanes>(pair, contact, bodies, soft, sweep);
   if (lanes > 8 && found <= 8)
@@ -244,7 +245,7 @@ bool pass_on(const ImpactPair* pairs, ImpactContact* contacts, std::uint32_t cou
   return any | pass_on_these<lanes, lanes>(pair, contact, bodies, soft, sweep);
 }
 
-/// Compiles all kernels for so many lanes.
+/// Compiles all kernels for a number of lanes.
 #define SUNDER_SWEEP_KERNELS(lanes)                                                            \
   template void derive(GatheredBlock<lanes>&, ConstraintBlock<lanes>&);                        \
   template void follow(ConstraintBlock<lanes>&, ArmLanes<lanes>&, const SolverRows&, float);   \

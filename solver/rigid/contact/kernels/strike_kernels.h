@@ -1,12 +1,12 @@
-// Before the sweeps of a substep: strikes, impacts that rebound, one contact after the other. Read
-// first: strike(). Included by sweep_1.cpp and so on alone, under the same rule as sweep_kernels.h.
+// Restitution, before the sweeps of a substep: impacts that rebound, one contact after another.
+// Read first: strike(). Included only by sweep_1.cpp and so on, under the rule of sweep_kernels.h.
 #pragma once
 
 #include "solver/rigid/contact/kernels/derive_kernels.h"
 
 namespace sunder::solver {
 
-/// The rows of those lanes that take part, 1; of others none.
+/// Rows of the lanes for which `active` is 1; 0 for other lanes.
 template <std::uint32_t lanes>
 struct ActiveRows {
   std::int32_t a[lanes], b[lanes];
@@ -22,13 +22,14 @@ struct ActiveRows {
   }
 };
 
-/// How the points of a contact meet, as of the start of a substep, before which gravity has kicked.
+/// Closing of a contact's points at the start of a substep, after gravity was added.
 template <std::uint32_t lanes>
 struct Meeting {
   using V = WideOf<lanes>;
-  V closes[4];  ///< Speeds before the kick; 0: the point does not meet in this substep or the next.
-  V meets_s;    ///< When the first of them meets.
-  V struck = {};  ///< 1: within the substep, and it rebounds.
+  /// Closing speeds before gravity; 0: the point does not touch in this substep or the next.
+  V closes[4];
+  V meets_s;      ///< Time when the first of them touches.
+  V struck = {};  ///< 1: touches within the substep and rebounds.
 
   SUNDER_INLINE Meeting(const ConstraintBlock<lanes>& c, const Pairs<lanes, false>& x,
                         const Pairs<lanes, false>& v, float h_s)
@@ -48,7 +49,7 @@ struct Meeting {
     }
   }
 
-  /// Speeds with arms that have come to meet.
+  /// Recomputes the closing speeds after the arms moved to the point of contact.
   SUNDER_INLINE void close(const ConstraintBlock<lanes>& c, const Pairs<lanes, false>& v,
                            float h_s) {
     const V zero = {};
@@ -59,7 +60,8 @@ struct Meeting {
     }
   }
 
-  /// Newton's law when it meets. The parabola that the rebound belongs to is followed backwards.
+  /// Returns the separating speed by Newton's law of impact, at the start of the parabola that the
+  /// rebound is part of.
   SUNDER_INLINE V leaves(const ConstraintBlock<lanes>& c, std::uint32_t i, float h_s) const {
     const V fall = c.rebound.fall_m_s2;
     const V hits = closes[i] + fall * meets_s;
@@ -67,7 +69,7 @@ struct Meeting {
   }
 };
 
-/// Both bodies of a struck contact, and the impulses so far.
+/// Both bodies of a contact that rebounds, and the impulses so far.
 template <std::uint32_t lanes>
 struct Strike {
   using V = WideOf<lanes>;
@@ -111,10 +113,11 @@ struct Strike {
     slide_1 = next_1, slide_2 = next_2;
   }
 
-  /// Of the impulses, so that they make no energy: Newton's law with friction may (Kane 1984).
+  /// Returns the scale of the impulses with which they add no energy: Newton's law with friction
+  /// may add some (Kane 1984).
   SUNDER_INLINE V share(const ConstraintBlock<lanes>& c) const {
     const V zero = {};
-    V first = zero, both = zero;  // twice the work at the speeds before, and at their mean
+    V first = zero, both = zero;  // twice the work at the speeds before, and at the mean speeds
     const auto add = [&](const V& pushed, const Wide3Of<lanes>& direction,
                          const Wide3Of<lanes>& on_a, const Wide3Of<lanes>& on_b) {
       const V before = was.along(direction, on_a, on_b), after = now.along(direction, on_a, on_b);
@@ -160,7 +163,8 @@ bool strike(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& 
   strike.now = strike.was;
   strike.apply(c, strike.now, one);
   strike.apply(c, v, one);
-  strike.apply(c, x, -meeting.meets_s);  // the way to where they met was gone at the speed before
+  // undoes the displacement up to the contact by the change of speed
+  strike.apply(c, x, -meeting.meets_s);
   std::int32_t active[lanes];
   for (std::uint32_t lane = 0; lane < lanes; ++lane) active[lane] = meeting.struck[lane] > 0;
   const ActiveRows<lanes> to(c, active);

@@ -1,6 +1,7 @@
-// Projected Gauss-Seidel on soft contacts, central friction and twist, a manifold a lane. Read
-// first: sweep(). Included by sweep_1.cpp and so on alone: all here is a template of the lanes or
-// inlined by force, or code for one instruction set would stand in for that of another.
+// Projected Gauss-Seidel on soft contacts, with friction and twist at the mean of the points, a
+// manifold per lane. Read first: sweep(). Included only by sweep_1.cpp and so on: everything here
+// is a template of the number of lanes or inlined by force, or code for one instruction set would
+// replace that of another.
 #pragma once
 
 #include "solver/rigid/contact/kernels/sweep.h"
@@ -12,7 +13,7 @@ SUNDER_INLINE Triple<V> to_root(const Triple<V> (&column)[3], const Triple<V>& a
   return {dot(column[0], angular), dot(column[1], angular), dot(column[2], angular)};
 }
 
-/// Both bodies of every lane; of a split block, the parts of them that are the lane's own.
+/// Velocities of both bodies in each lane; of a split block, of the lane's own parts.
 template <std::uint32_t lanes, bool kSplit>
 struct Pairs {
   using V = WideOf<lanes>;
@@ -51,7 +52,7 @@ struct Pairs {
   }
 };
 
-/// A row's room, for lanes that have nothing to store: a branch for each would be a guess.
+/// Memory for lanes that store nothing, which avoids a branch per lane.
 struct alignas(32) NoRow {
   float lane[8];
 };
@@ -66,7 +67,7 @@ SUNDER_INLINE void store_side(const Motion6<WideOf<lanes>>& v, const std::int32_
   store_rows(v, row);
 }
 
-/// What the parts of a body did, less what the body was, is their average's change.
+/// Stores the change of a part as its contribution to the average over the body's parts.
 template <std::uint32_t lanes>
 SUNDER_INLINE void store_part(const Motion6<WideOf<lanes>>& v, const Motion6<WideOf<lanes>>& was,
                               WideOf<lanes> share, WideOf<lanes> root, const std::int32_t* index,
@@ -80,7 +81,7 @@ SUNDER_INLINE void store_part(const Motion6<WideOf<lanes>>& v, const Motion6<Wid
   store_rows(change, row);
 }
 
-/// Hands new velocities back: to the bodies, or as changes to what will be summed.
+/// Stores new velocities in the bodies, or their changes in the parts to be summed.
 template <std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void store(const ConstraintBlock<lanes>& c, const Pairs<lanes, kSplit>& v,
                          const SolverRows& bodies) {
@@ -102,9 +103,8 @@ SUNDER_INLINE WideOf<lanes> total_impulse(const ConstraintBlock<lanes>& c) {
   return sum;
 }
 
-/// Mass and impulse scale of a spring. Parts of bodies are softer than bodies: `split_scale` keeps
-/// the spring between them what it was, so that splitting changes the way to the solution and not
-/// the solution.
+/// Mass and impulse scales of a spring. Parts are more compliant than bodies: `split_scale` keeps
+/// the spring between them, so that splitting changes the convergence and not the solution.
 template <class V>
 struct Spring {
   V mass_scale, impulse_scale;
@@ -115,7 +115,7 @@ struct Spring {
   }
 };
 
-/// A softness a lane, where each is one of two.
+/// The softness of each lane, that of an edge or of a face.
 template <class V>
 struct SoftLanes {
   V rate;
@@ -132,7 +132,8 @@ struct SoftLanes {
   }
 };
 
-/// Coulomb friction at the middle of the patch, both directions at once, limited to a circle.
+/// Solves Coulomb friction at the mean of the points, in both directions at once, limited to a
+/// circle.
 template <bool kBiased, std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void slide(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
                          const Pairs<lanes, kSplit>& x, const SoftStep& soft) {
@@ -162,8 +163,8 @@ SUNDER_INLINE void slide(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
   c.slide_impulse_1 = new_1, c.slide_impulse_2 = new_2;
 }
 
-/// Friction against turning about the normal; its limit is that of the loaded points about their
-/// middle.
+/// Solves friction against rotation about the normal; the limit is the moment of the loaded points
+/// about their mean.
 template <std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void twist(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   using V = WideOf<lanes>;
@@ -176,7 +177,7 @@ SUNDER_INLINE void twist(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   c.twist_impulse = next;
 }
 
-/// Turns both about the two tangents.
+/// Applies angular impulses about the two tangents.
 template <std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void roll_by(const ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
                            WideOf<lanes> impulse_1, WideOf<lanes> impulse_2) {
@@ -185,7 +186,8 @@ SUNDER_INLINE void roll_by(const ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>
   v.b.angular = v.b.angular + r.angular_1_b * impulse_1 + r.angular_2_b * impulse_2;
 }
 
-/// Resistance to rolling: a torque about the tangents of at most its arm times the load.
+/// Solves rolling resistance: a torque about the tangents of at most its lever arm times the normal
+/// impulse.
 template <std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void roll(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   using V = WideOf<lanes>;
@@ -223,13 +225,13 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
       const V mass_scale = apart ? one : spring.mass_scale;
       const V impulse_scale = apart ? zero : spring.impulse_scale;
       change = -p.mass * mass_scale * u - impulse_scale * p.impulse;
-      // What bears a load is a spring; what overlaps without one parts no faster than this.
+      // A loaded point is a spring; an overlap without load is corrected at most at this speed.
       const V push = p.mass * mass_scale * (c.push_m_s - free);
       change = apart ? change : min(change, push);
     } else {
       u += apart ? s * soft.inverse_h : zero;
       change = -p.mass * u;
-      // What is yet to rebound is left to the strike of the next substep.
+      // A point that is yet to rebound is left to the restitution of the next substep.
       if (c.bouncy) {
         const auto rebounds = apart & (c.rebound.restitution > zero);
         change = rebounds ? (p.impulse > zero ? change : zero) : change;
@@ -241,10 +243,10 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
   }
 }
 
-/// Of the limit of friction, where it would come and go by rounding.
+/// Excess over the limit of friction that is kept, since rounding would make it come and go.
 constexpr float kLetsGo = 0.01f;
 
-/// Takes back what friction has beyond the limit that normal impulses leave it with.
+/// Removes friction beyond the limit by the final normal impulses.
 template <std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void let_go(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   using V = WideOf<lanes>;
@@ -281,7 +283,7 @@ void sweep_relaxed(ConstraintBlock<lanes>& c, const SolverRows& bodies, const So
   c.split ? sweep<false, true>(c, bodies, soft) : sweep<false, false>(c, bodies, soft);
 }
 
-/// Calls visit(slot, impulse) for every impulse of a block, those of rolling last.
+/// Calls visit(slot, impulse) for each impulse of a block, those of rolling last.
 template <std::uint32_t lanes, class Visit>
 SUNDER_INLINE void for_all_impulses(ConstraintBlock<lanes>& c, const Visit& visit) {
   for (std::uint32_t i = 0; i < c.points; ++i) visit(i, c.point[i].impulse);
@@ -292,7 +294,7 @@ SUNDER_INLINE void for_all_impulses(ConstraintBlock<lanes>& c, const Visit& visi
   visit(8, c.roll.impulse_2);
 }
 
-/// Of the impulses that the bodies of a lane keep.
+/// Returns the scale of the impulses on a lane's bodies.
 template <std::uint32_t lanes>
 SUNDER_INLINE WideOf<lanes> share_of(const ConstraintBlock<lanes>& c, const float* share_of_row) {
   WideOf<lanes> share = {};
@@ -311,7 +313,7 @@ void note_spin(const ConstraintBlock<lanes>& c, const ArmLanes<lanes>& arms,
   const Pairs<lanes, false> base(c, bodies, &BodyRow::base);
   const Wide3Of<lanes> spin = cross(base.b.linear - base.a.linear, arms.moved_by) * given_back;
   const Wide3Of<lanes> by_a = to_root(arms.root_a, spin), by_b = to_root(arms.root_b, spin);
-  // Shared so that it takes the least energy.
+  // The split between the bodies needs the least energy.
   const V of_a = dot(by_a, by_a), of_b = dot(by_b, by_b), both = of_a + of_b;
   const V all = both > V{} ? both : splat<V>(1);
   const auto add = [&](const std::int32_t* row, const Wide3Of<lanes>& by, const V& share) {
@@ -343,7 +345,7 @@ void warm_start(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
   c.split ? warm_start_as<true>(c, bodies) : warm_start_as<false>(c, bodies);
 }
 
-/// Calls visit(slot, impulse, mass) for every impulse of a block.
+/// Calls visit(slot, impulse, mass) for each impulse of a block but those of rolling.
 template <class Block, class Visit>
 SUNDER_INLINE void for_impulses(Block& c, const Visit& visit) {
   for (std::uint32_t i = 0; i < c.points; ++i) visit(i, c.point[i].impulse, c.point[i].mass);

@@ -1,5 +1,5 @@
-// What the impulses of a step come to, and their work. Read first: find_work(). Included by
-// sweep_1.cpp and so on alone, under the same rule as sweep_kernels.h.
+// Sums and work of the impulses of a step. Read first: find_work(). Included only by sweep_1.cpp
+// and so on, under the rule of sweep_kernels.h.
 #pragma once
 
 #include "solver/rigid/contact/kernels/sweep_kernels.h"
@@ -13,8 +13,8 @@ void sum_impulses(ConstraintBlock<lanes>& c) {
   });
 }
 
-/// Calls visit(slot, direction, Jacobian on a, Jacobian on b) for every impulse of a block, with a
-/// direction of zero for those that only turn.
+/// Calls visit(slot, direction, Jacobian on a, Jacobian on b) for each impulse of a block; the
+/// direction is zero for angular ones.
 template <std::uint32_t lanes, class Visit>
 SUNDER_INLINE void for_all_jacobians(const ConstraintBlock<lanes>& c, const Visit& visit) {
   const Wide3Of<lanes> none = {};
