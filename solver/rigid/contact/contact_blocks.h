@@ -40,34 +40,37 @@ class ContactBlocks {
   virtual void sum_impulses(std::uint32_t begin, std::uint32_t end) = 0;
   /// Must be called after sum_impulses(): see sweep.h.
   virtual void scale_impulses(std::uint32_t begin, std::uint32_t end,
-                              const float* share_of_row) = 0;
-  virtual void note_spin(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
-                         const float* share_of_row) = 0;
+                              const float* scale_of_row) = 0;
+  virtual void record_spin_change(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                                  const float* scale_of_row) = 0;
   /// Allocates lever arms that follow the bodies (see sweep.h), or none. Must be called after all
   /// blocks are added.
-  virtual void follow_bodies(bool wanted) = 0;
-  virtual void follow(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
-  virtual void settle(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
+  virtual void allocate_arms(bool wanted) = 0;
+  virtual void update_arms(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
+  virtual void apply_arm_change(std::uint32_t begin, std::uint32_t end,
+                                const ContactStep& step) = 0;
   /// Allocates the state of conjugate gradients. Must be called after all blocks are added.
-  virtual void remember() = 0;
+  virtual void allocate_search() = 0;
   // Conjugate gradients, for blocks that are not split (see sweep.h). `energy` is by manifold.
-  virtual void mark(std::uint32_t begin, std::uint32_t end) = 0;
-  virtual void measure(std::uint32_t begin, std::uint32_t end, float* energy) const = 0;
-  virtual void go_on(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
-                     float beta) = 0;
+  virtual void save_impulses(std::uint32_t begin, std::uint32_t end) = 0;
+  virtual void find_change_energy(std::uint32_t begin, std::uint32_t end, float* energy) const = 0;
+  virtual void step_along_direction(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                                    float beta) = 0;
   /// Returns false if no contact rebounded.
-  virtual bool strike(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
+  virtual bool apply_restitution(std::uint32_t begin, std::uint32_t end,
+                                 const ContactStep& step) = 0;
   /// Allocates the state of impacts for a number of manifolds. Must be called after all blocks are
   /// added.
-  virtual void expect_impacts(std::size_t manifolds) = 0;
+  virtual void allocate_impacts(std::size_t manifolds) = 0;
   // Operations on blocks near an impact, which are not split (see sweep.h).
   virtual void prepare_impact(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
-  virtual bool meet(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
-  virtual void begin_impact(std::uint32_t begin, std::uint32_t end) = 0;
+  virtual bool find_gaps(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
+  virtual void extract_contacts(std::uint32_t begin, std::uint32_t end) = 0;
   /// Sweeps `count` manifolds of one colour from index `first` of the list to solve.
-  virtual bool pass_on(std::uint32_t first, std::uint32_t count, const ContactStep& step,
-                       const ImpactSweep& sweep) = 0;
-  virtual void end_impact(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
+  virtual bool propagate(std::uint32_t first, std::uint32_t count, const ContactStep& step,
+                         const ImpactSweep& sweep) = 0;
+  virtual void apply_propagation(std::uint32_t begin, std::uint32_t end,
+                                 const ContactStep& step) = 0;
   virtual void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) = 0;
 
   /// Impulse on bodies, over the step, from those that cannot move.

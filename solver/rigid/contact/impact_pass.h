@@ -44,11 +44,11 @@ class ImpactPass {
   }
   void sweep(const ContactStep& step, ContactBlocks& blocks);
   /// Subtracts the substep's impulses from the velocities.
-  void set_aside(BodyRow* rows);
+  void subtract_impulses(BodyRow* rows);
   /// Restores the velocities without the substep's impulses.
-  void take_back(BodyRow* rows) const;
+  void restore_velocities(BodyRow* rows) const;
   /// Adds the substep's impulses to the velocities.
-  void put_back(BodyRow* rows) const;
+  void add_impulses(BodyRow* rows) const;
 
   std::vector<Color> colors_;
   std::vector<BodySlot> bodies_;     ///< Bodies that impacts may move.

@@ -1,4 +1,4 @@
-// Read first: follow_loads().
+// Read first: distribute_loads().
 #include "solver/rigid/contact/load_path.h"
 
 #include <algorithm>
@@ -44,8 +44,8 @@ struct Share {
 
 /// Finds the vertical impulses at `shares` that have the sum `weight` and a `moment` about the two
 /// horizontal axes, with least squares; negative ones are set to 0.
-void carry(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float weight,
-           const Vec3f& moment, std::vector<Share>& shares) {
+void find_vertical_impulses(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2,
+                            float weight, const Vec3f& moment, std::vector<Share>& shares) {
   float longest = 0;  // unit of the arms
   for (const Share& s : shares) longest = std::max(longest, s.arm.norm());
   const float inverse = longest > 0 ? 1 / longest : 0;
@@ -68,8 +68,9 @@ void carry(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float 
 
 }  // namespace
 
-void follow_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds, float kept_scale,
-                  const Bodies& bodies, ByBody<BodyLoad>& loads, Contacts& contacts) {
+void distribute_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
+                      float kept_scale, const Bodies& bodies, ByBody<BodyImpulse>& loads,
+                      Contacts& contacts) {
   if (gravity_W.isZero(0)) return;
   const Vec3 up_W = -gravity_W.normalized();
   const Vec3f up = up_W.cast<float>();
@@ -96,7 +97,7 @@ void follow_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds
     }
     const float weight = -loads[body].impulse_W.dot(up);
     if (shares.empty() || weight <= 0) continue;
-    carry(up, across_1, across_2, weight, -loads[body].angular_impulse_W, shares);
+    find_vertical_impulses(up, across_1, across_2, weight, -loads[body].angular_impulse_W, shares);
     for (const Share& s : shares) {
       const float slope = std::abs(s.manifold->normal_W.dot(up));
       s.manifold->points[s.point].impulse_Ns = kept_scale * s.vertical / slope;
@@ -106,8 +107,9 @@ void follow_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds
   }
 }
 
-void release_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
-                   const Bodies& bodies, const Contacts& contacts, ByBody<BodyLoad>& loads) {
+void mark_unsupported_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
+                            const Bodies& bodies, const Contacts& contacts,
+                            ByBody<BodyImpulse>& loads) {
   if (gravity_W.isZero(0)) return;
   const std::vector<Support> supports =
       find_supports(-gravity_W.normalized(), manifolds, bodies, contacts);

@@ -13,7 +13,7 @@
 namespace sunder::solver {
 
 /// Impulse that a body passes to the bodies below it.
-struct BodyLoad {
+struct BodyImpulse {
   Vec3f impulse_W = Vec3f::Zero();
   Vec3f angular_impulse_W = Vec3f::Zero();  ///< About the centre of mass.
   bool supported = false;  ///< True if supported by an immovable body, directly or through others.
@@ -21,11 +21,13 @@ struct BodyLoad {
 
 /// Sets the impulses of the points of `manifolds` (times `kept_scale`) that pass `loads` down to
 /// immovable bodies. A body without support passes no load.
-void follow_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds, float kept_scale,
-                  const Bodies& bodies, ByBody<BodyLoad>& loads, Contacts& contacts);
+void distribute_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
+                      float kept_scale, const Bodies& bodies, ByBody<BodyImpulse>& loads,
+                      Contacts& contacts);
 
 /// Marks bodies on an unsupported body as unsupported.
-void release_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
-                   const Bodies& bodies, const Contacts& contacts, ByBody<BodyLoad>& loads);
+void mark_unsupported_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
+                            const Bodies& bodies, const Contacts& contacts,
+                            ByBody<BodyImpulse>& loads);
 
 }  // namespace sunder::solver

@@ -18,43 +18,44 @@ namespace {
 
 constexpr std::uint32_t kGrain = 8;
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
-constexpr double kWork = 2e5;  // points times rounds at most, unless kLeastRounds are more
+constexpr double kMaxWork = 2e5;  // points times rounds at most, unless kLeastRounds are more
 // of the squared impulses: bodies without support by then have none
-constexpr double kNearlyDone = 1e-7;
-constexpr int kFirstLook = 32;   // rounds before the first check of convergence; doubled after each
-constexpr double kDone = 1e-12;  // of the squared impulses, for the change of a round
-constexpr float kNoBounce = 1e30f;  // m/s; no contact rebounds
+constexpr double kNearlyConverged = 1e-7;
+constexpr int kFirstCheck = 32;  // rounds before the first check of convergence; doubled after each
+constexpr double kConverged = 1e-12;  // of the squared impulses, for the change of a round
+constexpr float kNoRebound = 1e30f;   // m/s; no contact rebounds
 
-BlockLoads loads_of(const StaticBlock& c) {
-  BlockLoads loads;
-  for (std::size_t i = 0; i < 4; ++i) loads.press[i] = c.point[i].impulse;
-  loads.slide_1 = c.slide_impulse_1, loads.slide_2 = c.slide_impulse_2;
-  loads.twist = c.twist_impulse;
-  return loads;
+BlockImpulses impulses_of(const StaticBlock& c) {
+  BlockImpulses impulses;
+  for (std::size_t i = 0; i < 4; ++i) impulses.normal[i] = c.point[i].impulse;
+  impulses.friction_1 = c.friction_impulse_1, impulses.friction_2 = c.friction_impulse_2;
+  impulses.twist = c.twist_impulse;
+  return impulses;
 }
 
-void set_loads(const BlockLoads& loads, StaticBlock& c) {
-  for (std::size_t i = 0; i < 4; ++i) c.point[i].impulse = loads.press[i];
-  c.slide_impulse_1 = loads.slide_1, c.slide_impulse_2 = loads.slide_2;
-  c.twist_impulse = loads.twist;
+void set_impulses(const BlockImpulses& impulses, StaticBlock& c) {
+  for (std::size_t i = 0; i < 4; ++i) c.point[i].impulse = impulses.normal[i];
+  c.friction_impulse_1 = impulses.friction_1, c.friction_impulse_2 = impulses.friction_2;
+  c.twist_impulse = impulses.twist;
 }
 
 /// Returns a + s·b.
-BlockLoads sum(const BlockLoads& a, float s, const BlockLoads& b) {
+BlockImpulses sum(const BlockImpulses& a, float s, const BlockImpulses& b) {
   const Wide4 w = splat<Wide4>(s);
-  BlockLoads loads;
-  for (int i = 0; i < 4; ++i) loads.press[i] = a.press[i] + w * b.press[i];
-  loads.slide_1 = a.slide_1 + w * b.slide_1, loads.slide_2 = a.slide_2 + w * b.slide_2;
-  loads.twist = a.twist + w * b.twist;
-  return loads;
+  BlockImpulses impulses;
+  for (int i = 0; i < 4; ++i) impulses.normal[i] = a.normal[i] + w * b.normal[i];
+  impulses.friction_1 = a.friction_1 + w * b.friction_1,
+  impulses.friction_2 = a.friction_2 + w * b.friction_2;
+  impulses.twist = a.twist + w * b.twist;
+  return impulses;
 }
 
 /// Returns the square of the impulses; that of twist is divided by the arm of the first point.
-double square_of(const StaticBlock& c, const BlockLoads& a) {
+double square_of(const StaticBlock& c, const BlockImpulses& a) {
   const Wide4 zero = {}, arm = c.point[0].arm;
   const Wide4 twist = arm > zero ? a.twist / (arm > zero ? arm : splat<Wide4>(1)) : zero;
-  Wide4 square = a.slide_1 * a.slide_1 + a.slide_2 * a.slide_2 + twist * twist;
-  for (int i = 0; i < 4; ++i) square += a.press[i] * a.press[i];
+  Wide4 square = a.friction_1 * a.friction_1 + a.friction_2 * a.friction_2 + twist * twist;
+  for (int i = 0; i < 4; ++i) square += a.normal[i] * a.normal[i];
   double all = 0;
   for (std::uint32_t lane = 0; lane < kStaticLanes; ++lane) all += double{square[lane]};
   return all;
@@ -84,18 +85,19 @@ void close_gaps(const ContactStep& step, StaticBlock& c) {
 }
 
 /// Returns the compression of a point by its impulse.
-float yield_m(const StaticBlock& c, std::uint32_t lane, std::size_t point, float yield_s) {
+float compression_m(const StaticBlock& c, std::uint32_t lane, std::size_t point,
+                    float compliance_s) {
   const float mass = c.point[point].mass[lane];
-  return mass > 0 ? yield_s * c.point[point].impulse[lane] / mass : 0;
+  return mass > 0 ? compliance_s * c.point[point].impulse[lane] / mass : 0;
 }
 
 /// Stores the impulses of the points, and the separations at which they have them.
-void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float kept_scale,
+void store_points(const StaticBlock& c, std::uint32_t lane, float compliance_s, float kept_scale,
                   float factor, Manifold& m) {
   float depth[4] = {}, deepest = 0;
   for (std::size_t i = 0; i < m.count; ++i) {
     m.points[i].impulse_Ns = kept_scale * factor * c.point[i].impulse[lane];
-    depth[i] = factor * yield_m(c, lane, i, yield_s);
+    depth[i] = factor * compression_m(c, lane, i, compliance_s);
     deepest = std::max(deepest, depth[i]);
   }
   // An overlap no larger than the compression by the load is at rest too.
@@ -107,17 +109,18 @@ void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float
 }
 
 /// Stores the impulses of friction, and the drift of its anchors that they need.
-void store_friction(const StaticBlock& c, std::uint32_t lane, float yield_s, float kept_scale,
+void store_friction(const StaticBlock& c, std::uint32_t lane, float compliance_s, float kept_scale,
                     float factor, Manifold& m) {
-  const float s1 = factor * c.slide_impulse_1[lane], s2 = factor * c.slide_impulse_2[lane];
+  const float s1 = factor * c.friction_impulse_1[lane], s2 = factor * c.friction_impulse_2[lane];
   const Vec3f t1 = lane_of(c.tangent_1, lane), t2 = lane_of(c.tangent_2, lane);
   m.friction_impulse_W = kept_scale * (s1 * t1 + s2 * t2);
   m.twist_impulse = kept_scale * factor * c.twist_impulse[lane];
-  const float m11 = c.slide_11[lane], m12 = c.slide_12[lane], m22 = c.slide_22[lane];
+  const float m11 = c.friction_mass_11[lane], m12 = c.friction_mass_12[lane],
+              m22 = c.friction_mass_22[lane];
   const float det = m11 * m22 - m12 * m12;
   if (!(det > 0)) return;
   const float far_1 = (m22 * s1 - m12 * s2) / det, far_2 = (m11 * s2 - m12 * s1) / det;
-  Vec3f drift = -yield_s * (far_1 * t1 + far_2 * t2);
+  Vec3f drift = -compliance_s * (far_1 * t1 + far_2 * t2);
   const float far = drift.norm(), most = kMaxRestOffset * m.size_m;
   if (far > most) drift *= most / far;
   m.drift_W += drift;
@@ -130,14 +133,14 @@ void StaticWarmStart::apply(const StepContext& context, double factor, const Bod
                             Contacts& contacts) {
   if (!collect(context, bodies, contacts) || !(factor > 0)) return;
   begin(context, bodies, contacts);
-  estimate(context, bodies, contacts);
+  estimate_impulses(context, bodies, contacts);
   const auto first_split = static_cast<std::uint32_t>(manifolds_.size());
   const ContactStep step{context, bodies,  contacts,       manifolds_,         first_split,
-                         {},      root_W_, {rows_.data()}, soft_step(context), kNoBounce};
+                         {},      root_W_, {rows_.data()}, soft_step(context), kNoRebound};
   const double kick_m_s = context.h_s * context.gravity_W.norm();
-  find_loads(step, kick_m_s);
+  find_impulses(step, kick_m_s);
   find_supported(kick_m_s, bodies);
-  release_overloaded(context.gravity_W, step.soft, bodies, contacts);
+  mark_overloaded(context.gravity_W, step.soft, bodies, contacts);
   store(step.soft, context.kept_scale, static_cast<float>(factor), bodies, contacts);
 }
 
@@ -197,34 +200,34 @@ void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
   rows_.resize(bodies.size() + 1);
   rows_[0] = BodyRow{};
   root_W_.resize(bodies.size());
-  concerned_.assign(bodies.size(), 0);
-  concerned_bodies_.clear();
+  involved_.assign(bodies.size(), 0);
+  involved_bodies_.clear();
   for (const ManifoldSlot i : manifolds_) {
     for (const BodySlot body : {contacts.manifolds[i].body_a, contacts.manifolds[i].body_b}) {
-      if (concerned_[body] || !bodies.awake(body)) continue;
-      concerned_[body] = 1;
-      concerned_bodies_.push_back(body);
+      if (involved_[body] || !bodies.awake(body)) continue;
+      involved_[body] = 1;
+      involved_bodies_.push_back(body);
       rows_[row_of(body)] = BodyRow{};
       rows_[row_of(body)].velocity = Wide{kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
       root_W_[body] = bodies.rotation_f[body] * bodies.root_B[body];
     }
   }
   auto push = [&](BodySlot body, const Vec3f& impulse, const Vec3f& angular) {
-    if (!concerned_[body]) return;
+    if (!involved_[body]) return;
     const Vec3f v = bodies.inverse_mass[body] * impulse, w = root_W_[body].transpose() * angular;
     rows_[row_of(body)].velocity += Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
   };
   for (const Manifold& m : contacts.manifolds) {
-    if (m.count == 0 || !(concerned_[m.body_a] || concerned_[m.body_b])) continue;
-    auto press = [&](const Vec3f& impulse, const Vec3f& arm_A, const Vec3f& arm_B) {
+    if (m.count == 0 || !(involved_[m.body_a] || involved_[m.body_b])) continue;
+    auto apply = [&](const Vec3f& impulse, const Vec3f& arm_A, const Vec3f& arm_B) {
       push(m.body_a, -impulse, -arm_A.cross(impulse));
       push(m.body_b, impulse, arm_B.cross(impulse));
     };
     for (std::size_t i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
-      press(scale * p.impulse_Ns * m.normal_W, p.arm_A, p.arm_B);
+      apply(scale * p.impulse_Ns * m.normal_W, p.arm_A, p.arm_B);
     }
-    press(scale * m.friction_impulse_W, m.friction_arm_A, m.friction_arm_B);
+    apply(scale * m.friction_impulse_W, m.friction_arm_A, m.friction_arm_B);
     const Vec3f angular = scale * m.twist_impulse * m.normal_W;
     push(m.body_a, Vec3f::Zero(), -angular);
     push(m.body_b, Vec3f::Zero(), angular);
@@ -232,24 +235,25 @@ void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
 }
 
 /// Finds a first estimate, from which few rounds converge.
-void StaticWarmStart::estimate(const StepContext& step, const Bodies& bodies, Contacts& contacts) {
+void StaticWarmStart::estimate_impulses(const StepContext& step, const Bodies& bodies,
+                                        Contacts& contacts) {
   loads_.assign(bodies.size(), {});
   const Vec3f& kick = step.kick_W;
   for (const BodySlot body : bodies.slots()) {
-    if (!concerned_[body]) continue;
+    if (!involved_[body]) continue;
     const Wide& v = rows_[row_of(body)].velocity;
     const Vec3f velocity = linear(v), spin = angular(v);
     loads_[body].impulse_W = velocity / bodies.inverse_mass[body];
     loads_[body].angular_impulse_W = root_W_[body].transpose().inverse() * spin;
     loads_[body].supported = velocity.dot(kick) < 0.5f * kick.squaredNorm();
   }
-  follow_loads(step.gravity_W, manifolds_, step.kept_scale, bodies, loads_, contacts);
+  distribute_loads(step.gravity_W, manifolds_, step.kept_scale, bodies, loads_, contacts);
 }
 
-void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
+void StaticWarmStart::find_impulses(const ContactStep& step, double kick_m_s) {
   double points = 0;
   for (const StaticBlock& c : blocks_) points += c.points * static_cast<double>(c.count);
-  const int rounds = std::clamp(static_cast<int>(kWork / points), kLeastRounds, kMostRounds);
+  const int rounds = std::clamp(static_cast<int>(kMaxWork / points), kLeastRounds, kMostRounds);
   change_.assign(blocks_.size(), {});
   direction_.assign(blocks_.size(), {});
   square_.resize(blocks_.size());
@@ -261,40 +265,40 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
     });
   };
   const auto sweep = [&](StaticBlock& c, std::uint32_t i) {
-    const BlockLoads before = loads_of(c);
+    const BlockImpulses before = impulses_of(c);
     sweep_relaxed(c, step.rows, step.soft);
-    change_[i] = sum(loads_of(c), -1, before);
+    change_[i] = sum(impulses_of(c), -1, before);
     square_[i] = {square_of(c, change_[i]), square_of(c, before)};
   };
-  const auto go_on = [&](StaticBlock& c, std::uint32_t i) {
-    const BlockLoads before = loads_of(c);
-    set_loads(sum({}, beta, direction_[i]), c);
+  const auto step_along_direction = [&](StaticBlock& c, std::uint32_t i) {
+    const BlockImpulses before = impulses_of(c);
+    set_impulses(sum({}, beta, direction_[i]), c);
     warm_start(c, step.rows);
-    set_loads(sum(before, beta, direction_[i]), c);
+    set_impulses(sum(before, beta, direction_[i]), c);
     direction_[i] = sum(change_[i], beta, direction_[i]);
   };
   run([&](StaticBlock& c, std::uint32_t) { prepare_block(step, c), close_gaps(step, c); });
   run([&](StaticBlock& c, std::uint32_t) { warm_start(c, step.rows); });
   double last_seen = 0;
   std::size_t last_supported = 0;
-  int look = kFirstLook;
+  int next_check = kFirstCheck;
   for (int round = 0; round < rounds; ++round) {
     run(sweep);
     double square = 0, loads = 0;
     for (const auto& [of_change, of_loads] : square_) square += of_change, loads += of_loads;
-    if (square <= kDone * std::max(square, loads) || round + 1 == rounds) return;
-    if (round == look) {
+    if (square <= kConverged * std::max(square, loads) || round + 1 == rounds) return;
+    if (round == next_check) {
       // Rounding or sliding contacts may prevent convergence.
       const double seen = square / loads;
       const std::size_t supported = find_supported(kick_m_s, step.bodies);
       const bool stuck = seen > 0.5 * last_seen;
-      const bool all = supported == concerned_bodies_.size();
-      if (seen < kNearlyDone && supported <= last_supported && (stuck || !all)) return;
+      const bool all = supported == involved_bodies_.size();
+      if (seen < kNearlyConverged && supported <= last_supported && (stuck || !all)) return;
       last_seen = seen, last_supported = supported;
-      look *= 2;
+      next_check *= 2;
     }
     beta = static_cast<float>(nncg.beta(square));
-    run(go_on);
+    run(step_along_direction);
   }
 }
 
@@ -303,7 +307,7 @@ void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
 /// bodies.
 std::size_t StaticWarmStart::find_supported(double kick_m_s, const Bodies& bodies) {
   std::size_t supported = 0;
-  for (const BodySlot body : concerned_bodies_) {
+  for (const BodySlot body : involved_bodies_) {
     const Wide& v = rows_[row_of(body)].velocity;
     const Vec3f velocity = linear(v), spin = angular(v);  // of unit inertia
     const double energy =
@@ -317,21 +321,22 @@ std::size_t StaticWarmStart::find_supported(double kick_m_s, const Bodies& bodie
 /// Marks bodies as unsupported whose contacts would need a rest separation beyond the maximum, and
 /// the bodies on them: they will fall, and contacts at rest are loaded springs, which would give
 /// them energy.
-void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& soft,
-                                         const Bodies& bodies, const Contacts& contacts) {
+void StaticWarmStart::mark_overloaded(const Vec3& gravity_W, const SoftStep& soft,
+                                      const Bodies& bodies, const Contacts& contacts) {
   bool any = false;
   for (const StaticBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       const Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
       float deepest = 0;
       for (std::size_t i = 0; i < m.count; ++i)
-        deepest = std::max(deepest, yield_m(c, lane, i, soft.of(c.points).press.yield_s));
+        deepest =
+            std::max(deepest, compression_m(c, lane, i, soft.of(c.points).normal.compliance_s));
       if (deepest <= kMaxRestOffset * m.size_m) continue;
       any = true;
       for (const BodySlot body : {m.body_a, m.body_b}) loads_[body].supported = false;
     }
   }
-  if (any) release_above(gravity_W, manifolds_, bodies, contacts, loads_);
+  if (any) mark_unsupported_above(gravity_W, manifolds_, bodies, contacts, loads_);
 }
 
 void StaticWarmStart::store(const SoftStep& soft, float kept_scale, float factor,
@@ -339,10 +344,10 @@ void StaticWarmStart::store(const SoftStep& soft, float kept_scale, float factor
   for (const StaticBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
-      auto supported = [&](BodySlot body) { return !concerned_[body] || loads_[body].supported; };
+      auto supported = [&](BodySlot body) { return !involved_[body] || loads_[body].supported; };
       const float part = supported(m.body_a) && supported(m.body_b) ? factor : 0;
-      store_points(c, lane, soft.of(c.points).press.yield_s, kept_scale, part, m);
-      store_friction(c, lane, soft.of(c.points).slide.yield_s, kept_scale, part, m);
+      store_points(c, lane, soft.of(c.points).normal.compliance_s, kept_scale, part, m);
+      store_friction(c, lane, soft.of(c.points).friction.compliance_s, kept_scale, part, m);
       m.friction_anchor_B = bodies.rotation_f[m.body_b].transpose() * m.friction_arm_B;
     }
   }

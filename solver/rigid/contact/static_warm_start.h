@@ -25,9 +25,9 @@ using Wide4 = WideOf<kStaticLanes>;
 using StaticBlock = ConstraintBlock<kStaticLanes>;
 
 /// Impulses of a block's contacts, or a change of them.
-struct BlockLoads {
-  Wide4 press[4] = {};
-  Wide4 slide_1 = {}, slide_2 = {}, twist = {};
+struct BlockImpulses {
+  Wide4 normal[4] = {};
+  Wide4 friction_1 = {}, friction_2 = {}, twist = {};
 };
 
 class StaticWarmStart {
@@ -41,25 +41,25 @@ class StaticWarmStart {
   void find_resting(const StepContext& step, const Bodies& bodies, Contacts& contacts);
   void make_blocks(const Contacts& contacts);
   void begin(const StepContext& step, const Bodies& bodies, const Contacts& contacts);
-  void estimate(const StepContext& step, const Bodies& bodies, Contacts& contacts);
-  void find_loads(const ContactStep& step, double kick_m_s);
+  void estimate_impulses(const StepContext& step, const Bodies& bodies, Contacts& contacts);
+  void find_impulses(const ContactStep& step, double kick_m_s);
   std::size_t find_supported(double kick_m_s, const Bodies& bodies);
-  void release_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
-                          const Contacts& contacts);
+  void mark_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
+                       const Contacts& contacts);
   void store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
              Contacts& contacts) const;
 
   std::vector<ManifoldSlot> manifolds_;  ///< By colour and number of points.
   std::vector<StaticBlock> blocks_;
   std::vector<StageItems> colors_;  ///< Blocks of each colour; those without a colour last.
-  std::vector<BlockLoads> change_, direction_;
+  std::vector<BlockImpulses> change_, direction_;
   /// Squares of each block's change and of its impulses.
   std::vector<std::pair<double, double>> square_;
   std::vector<BodyRow> rows_;  ///< By row_of().
-  ByBody<std::uint8_t> concerned_;
-  std::vector<BodySlot> concerned_bodies_;
+  ByBody<std::uint8_t> involved_;
+  std::vector<BodySlot> involved_bodies_;
   ByBody<Mat3f> root_W_;
-  ByBody<BodyLoad> loads_;
+  ByBody<BodyImpulse> loads_;
 };
 
 }  // namespace sunder::solver

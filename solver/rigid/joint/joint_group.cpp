@@ -270,9 +270,9 @@ void settle_group(JointGroup& group, std::span<JointWork> works, const StepConte
 }
 
 void scale_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                 const float* share_of_row, BodyRow* rows) {
+                 const float* scale_of_row, BodyRow* rows) {
   const auto share_of = [&](const JointWork& work) {
-    return share_of_row[work.row_b > 0 ? work.row_b : work.row_a];
+    return scale_of_row[work.row_b > 0 ? work.row_b : work.row_a];
   };
   if (std::ranges::all_of(works, [&](const JointWork& work) { return share_of(work) == 1; }))
     return;

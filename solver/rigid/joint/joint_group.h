@@ -47,6 +47,6 @@ void settle_group(JointGroup& group, std::span<JointWork> works, const StepConte
 /// Scales the impulses of the substep by the scale of their bodies, by row, and then solves the
 /// joints again, which takes energy as any solve of joints does.
 void scale_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                 const float* share_of_row, BodyRow* rows);
+                 const float* scale_of_row, BodyRow* rows);
 
 }  // namespace sunder::solver

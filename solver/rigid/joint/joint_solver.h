@@ -44,9 +44,9 @@ class JointSolver {
   }
   /// Scales the substep's impulses by the scale of their bodies, by row, and solves the joints
   /// again.
-  void scale_impulses(std::uint32_t i, const StepContext& step, const float* share_of_row,
+  void scale_impulses(std::uint32_t i, const StepContext& step, const float* scale_of_row,
                       BodyRow* rows) {
-    scale_group(groups_[i], works(groups_[i]), step, share_of_row, rows);
+    scale_group(groups_[i], works(groups_[i]), step, scale_of_row, rows);
   }
   /// True if a body is held by joints, and no body connected to it touches anything.
   bool swings_free(BodySlot body) const { return !groups_.empty() && swings_free_[body]; }

@@ -44,8 +44,8 @@ struct SplitLanes {
   WideOf<lanes> share_a, share_b;  ///< Share of a part in its body: 1 / n.
   WideOf<lanes> root_a, root_b;    ///< Square root of the share.
   /// Compliance of the parts over that of the bodies: along the normal by point, and of friction.
-  std::array<WideOf<lanes>, 4> press_split_scale;
-  WideOf<lanes> slide_split_scale;
+  std::array<WideOf<lanes>, 4> normal_split_scale;
+  WideOf<lanes> friction_split_scale;
 };
 
 /// Data of rolling resistance: angular Jacobians about the two tangents.
@@ -84,13 +84,15 @@ struct alignas(64) ConstraintBlock {
   Wide3Of<lanes> normal, tangent_1, tangent_2;
   WideOf<lanes> friction;
   WideOf<lanes> face;  ///< 1: three points or more, with the softness of a face; else 0.
-  WideOf<lanes> press_mass, press_give;  ///< Mass and impulse scales of the normal springs.
-  WideOf<lanes> push_m_s;                ///< Maximum speed at which an overlap is corrected.
-  Wide3Of<lanes> slide_1_a, slide_1_b, slide_2_a, slide_2_b, twist_a, twist_b;  ///< Jacobians.
-  WideOf<lanes> slide_11, slide_12, slide_22;  ///< Effective mass, 2×2.
+  /// Mass and impulse scales of the normal springs.
+  WideOf<lanes> normal_mass_scale, normal_impulse_scale;
+  WideOf<lanes> push_m_s;  ///< Maximum speed at which an overlap is corrected.
+  /// Jacobians.
+  Wide3Of<lanes> friction_1_a, friction_1_b, friction_2_a, friction_2_b, twist_a, twist_b;
+  WideOf<lanes> friction_mass_11, friction_mass_12, friction_mass_22;  ///< Effective mass, 2×2.
   WideOf<lanes> twist_mass;
   WideOf<lanes> drift_1, drift_2;
-  WideOf<lanes> slide_impulse_1, slide_impulse_2, twist_impulse;
+  WideOf<lanes> friction_impulse_1, friction_impulse_2, twist_impulse;
   std::array<PointLanes<lanes>, 4> point;
 
   /// Impulses over the step: points, friction, twist, rolling.

@@ -13,13 +13,13 @@ struct Softness {
   float mass_scale = 1;
   float impulse_scale = 0;
   /// Compression by a steady load: this times the impulse of a substep over the effective mass; s.
-  float yield_s = 0;
+  float compliance_s = 0;
 };
 
 /// Softness of contacts with one number of points.
 struct ContactSoftness {
-  Softness press;  ///< Along the normal.
-  Softness slide;  ///< Along the tangents, for static friction.
+  Softness normal;    ///< Along the normal.
+  Softness friction;  ///< Along the tangents, for static friction.
 };
 
 /// Softness of contacts in a substep.

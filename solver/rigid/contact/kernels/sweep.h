@@ -15,7 +15,7 @@ struct SolverRows {
 };
 
 /// Fraction of a substep, or of the size of a contact, that is negligible.
-inline constexpr float kNow = 0.01f;
+inline constexpr float kNegligible = 0.01f;
 
 /// Lever arms of a block's impulses, which follow the bodies within a step. An impulse and its
 /// counterpart act at one point, on the body whose corners touch the other's face; otherwise the
@@ -31,28 +31,28 @@ struct alignas(64) ArmLanes {
   WideOf<lanes> wide = {};   ///< Squared gap that no body spans; 0 for balls, which would spin.
   WideOf<lanes> near = {};   ///< Squared distance along the normal that is negligible.
   Wide3Of<lanes> gap = {};   ///< From a's friction point to b's at the start of the step.
-  Wide3Of<lanes> bridged = {};
-  Wide3Of<lanes> moved_by = {};  ///< Impulse on b with which the bodies last moved.
+  Wide3Of<lanes> closed_gap = {};
+  Wide3Of<lanes> moving_impulse = {};  ///< Impulse on b with which the bodies last moved.
   /// Change of angular momentum by impulses with the new arms, to be applied.
-  Wide3Of<lanes> owed_a = {}, owed_b = {};
-  bool owes = false;
+  Wide3Of<lanes> pending_a = {}, pending_b = {};
+  bool has_pending = false;
 };
 
 /// Input of a block, besides the block's own data.
 template <std::uint32_t lanes>
 struct alignas(64) GatheredBlock {
   Wide3Of<lanes> root_a[3] = {}, root_b[3] = {};  ///< Columns.
-  Wide3Of<lanes> drift = {}, slide_impulse = {}, friction_arm_a = {}, friction_arm_b = {};
+  Wide3Of<lanes> drift = {}, friction_impulse = {}, friction_arm_a = {}, friction_arm_b = {};
   Wide3Of<lanes> roll_impulse = {};
   Wide3Of<lanes> arm_a[4] = {}, arm_b[4] = {};
   Wide3Of<lanes> offset = {};  ///< Centre of b minus centre of a.
   WideOf<lanes> share_a = {};  ///< As in ArmLanes.
-  Wide3Of<lanes> gap = {}, bridged = {};
-  WideOf<lanes> meets = {};       ///< 1: the arms close the gap from the start.
-  Wide3Of<lanes> gravity = {};    ///< Acceleration of b minus that of a.
-  WideOf<lanes> has[4] = {};      ///< 1: the manifold has the point.
-  WideOf<lanes> press_mass = {};  ///< Scales of the normal spring.
-  WideOf<lanes> press_give = {};
+  Wide3Of<lanes> gap = {}, closed_gap = {};
+  WideOf<lanes> closes_gap = {};         ///< 1: the arms close the gap from the start.
+  Wide3Of<lanes> gravity = {};           ///< Acceleration of b minus that of a.
+  WideOf<lanes> has[4] = {};             ///< 1: the manifold has the point.
+  WideOf<lanes> normal_mass_scale = {};  ///< Scales of the normal spring.
+  WideOf<lanes> normal_impulse_scale = {};
   /// Compliance of the normal springs over that without load.
   WideOf<lanes> compliance_scale = {};
   WideOf<lanes> awake_a = {}, awake_b = {};  ///< 1: awake or kinematic.
@@ -68,12 +68,13 @@ void derive(GatheredBlock<lanes>& gathered, ConstraintBlock<lanes>& block);
 /// Impulses of this substep keep the effect that they had with the old arms; the difference is
 /// applied in the next substep.
 template <std::uint32_t lanes>
-void follow(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
-            float h_s);
-/// Applies the difference that follow() left, after a substep began with the impulses of the last
-/// one.
+void update_arms(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
+                 float h_s);
+/// Applies the difference that update_arms() left, after a substep began with the impulses of the
+/// last one.
 template <std::uint32_t lanes>
-void settle(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies);
+void apply_arm_change(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms,
+                      const SolverRows& bodies);
 /// Applies the impulses of the last step.
 template <std::uint32_t lanes>
 void warm_start(ConstraintBlock<lanes>& block, const SolverRows& bodies);
@@ -90,12 +91,12 @@ void sum_impulses(ConstraintBlock<lanes>& block);
 /// sum_impulses().
 template <std::uint32_t lanes>
 void scale_impulses(ConstraintBlock<lanes>& block, ArmLanes<lanes>* arms,
-                    const float* share_of_row);
+                    const float* scale_of_row);
 /// Records the change of the total angular momentum when impulses are scaled with which bodies have
 /// moved. Must be called before scale_impulses(); has no effect on split blocks.
 template <std::uint32_t lanes>
-void note_spin(const ConstraintBlock<lanes>& block, const ArmLanes<lanes>& arms,
-               const SolverRows& bodies, const float* share_of_row, float h_s);
+void record_spin_change(const ConstraintBlock<lanes>& block, const ArmLanes<lanes>& arms,
+                        const SolverRows& bodies, const float* scale_of_row, float h_s);
 /// State of conjugate gradients by impulse: points, friction, twist.
 template <std::uint32_t lanes>
 struct alignas(64) SearchLanes {
@@ -104,29 +105,30 @@ struct alignas(64) SearchLanes {
 };
 /// Stores the impulses before a sweep.
 template <std::uint32_t lanes>
-void mark(const ConstraintBlock<lanes>& block, SearchLanes<lanes>& search);
+void save_impulses(const ConstraintBlock<lanes>& block, SearchLanes<lanes>& search);
 /// Writes the energy of a sweep's changes, by lane.
 template <std::uint32_t lanes>
-void measure(const ConstraintBlock<lanes>& block, const SearchLanes<lanes>& search, float* energy);
+void find_change_energy(const ConstraintBlock<lanes>& block, const SearchLanes<lanes>& search,
+                        float* energy);
 /// Steps along the search direction after a sweep: `beta` times the last step; 0 restarts the
 /// search.
 template <std::uint32_t lanes>
-void go_on(ConstraintBlock<lanes>& block, SearchLanes<lanes>& search, const SolverRows& bodies,
-           float beta);
+void step_along_direction(ConstraintBlock<lanes>& block, SearchLanes<lanes>& search,
+                          const SolverRows& bodies, float beta);
 /// Applies restitution to contacts that touch within a substep of `h_s` and rebound: all points of
 /// a contact at once, one contact after another (Newton's law of impact, with friction). Its
 /// impulses do not warm start later substeps. Returns false if no contact rebounds; split blocks
 /// have no restitution.
 template <std::uint32_t lanes>
-bool strike(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
-            float h_s);
+bool apply_restitution(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms,
+                       const SolverRows& bodies, float h_s);
 /// State of a block near an impact.
 template <std::uint32_t lanes>
 struct alignas(64) ImpactLanes {
   alignas(4 * lanes) WideOf<lanes> least_m_s = {};  ///< Minimum closing speed of an impact.
   /// Closing speed at which a point's gap closes within the substep.
   WideOf<lanes> gap_m_s[4] = {};
-  WideOf<lanes> aside[9] = {};  ///< Impulses stored during the propagation, rolling last.
+  WideOf<lanes> saved[9] = {};  ///< Impulses stored during the propagation, rolling last.
 };
 /// Data of a contact in a sweep of an impact, extracted from its block: rows of eight floats.
 struct alignas(64) ImpactContact {
@@ -147,22 +149,22 @@ struct ImpactSweep {
 /// Finds the gaps of a block that is not split; returns true if a point closes as fast as an
 /// impact.
 template <std::uint32_t lanes>
-bool meet(const ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact, const SolverRows& bodies,
-          float inverse_h);
+bool find_gaps(const ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact,
+               const SolverRows& bodies, float inverse_h);
 /// Stores the impulses and extracts the contacts.
 template <std::uint32_t lanes>
-void begin_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact, ImpactPair* pairs,
-                  ImpactContact* contacts);
+void extract_contacts(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact, ImpactPair* pairs,
+                      ImpactContact* contacts);
 /// One pass like sweep_relaxed() over those of `count` contacts of one colour whose bodies moved.
 /// Returns true if a point closed as fast as an impact when its turn came.
 template <std::uint32_t lanes>
-bool pass_on(const ImpactPair* pairs, ImpactContact* contacts, std::uint32_t count,
-             const SolverRows& bodies, const SoftStep& soft, const ImpactSweep& sweep);
+bool propagate(const ImpactPair* pairs, ImpactContact* contacts, std::uint32_t count,
+               const SolverRows& bodies, const SoftStep& soft, const ImpactSweep& sweep);
 /// Applies the impulses of the propagation, adds them to the sum of the step, and restores the
 /// stored ones.
 template <std::uint32_t lanes>
-void end_impact(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
-                ImpactContact* contacts, const SolverRows& bodies);
+void apply_propagation(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
+                       ImpactContact* contacts, const SolverRows& bodies);
 /// Finds the impulse on b over the step, and the work of each impulse: the impulse times the mean
 /// of the relative velocities, along its direction, at the start and at the end of the step.
 template <std::uint32_t lanes>

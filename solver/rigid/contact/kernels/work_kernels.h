@@ -20,8 +20,8 @@ SUNDER_INLINE void for_all_jacobians(const ConstraintBlock<lanes>& c, const Visi
   const Wide3Of<lanes> none = {};
   for (std::uint32_t i = 0; i < c.points; ++i)
     visit(i, c.normal, c.point[i].angular_a, c.point[i].angular_b);
-  visit(4, c.tangent_1, c.slide_1_a, c.slide_1_b);
-  visit(5, c.tangent_2, c.slide_2_a, c.slide_2_b);
+  visit(4, c.tangent_1, c.friction_1_a, c.friction_1_b);
+  visit(5, c.tangent_2, c.friction_2_a, c.friction_2_b);
   if (c.points > 1) visit(6, none, c.twist_a, c.twist_b);
   if (!c.rolls) return;
   visit(7, none, c.roll.angular_1_a, c.roll.angular_1_b);
@@ -62,14 +62,14 @@ void find_work(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
 }
 
 template <std::uint32_t lanes>
-void scale_impulses(ConstraintBlock<lanes>& c, ArmLanes<lanes>* arms, const float* share_of_row) {
+void scale_impulses(ConstraintBlock<lanes>& c, ArmLanes<lanes>* arms, const float* scale_of_row) {
   using V = WideOf<lanes>;
-  const V share = share_of<lanes>(c, share_of_row);
+  const V share = scale_of<lanes>(c, scale_of_row);
   for_all_impulses(c, [&](std::uint32_t slot, const V& impulse) {
     c.step_impulse[slot] += impulse * (share - splat<V>(1));
   });
   for_all_impulses(c, [&](std::uint32_t, V& impulse) { impulse *= share; });
-  if (arms) arms->owed_a = arms->owed_a * share, arms->owed_b = arms->owed_b * share;
+  if (arms) arms->pending_a = arms->pending_a * share, arms->pending_b = arms->pending_b * share;
 }
 
 }  // namespace sunder::solver
