@@ -15,7 +15,7 @@ MATHEMATICS = {
     "body/motion.cpp": {"kEnergyStep", "kMostTurn", "1.1"},
     "body/row_exchange.cpp": {"kKinematicRoot"},
     "collide/box_tree.cpp": {"1023.f"},  # ten bits a coordinate
-    "collide/facet.cpp": {"kSame"},  # of directions: rounding
+    "collide/facet.cpp": {"kDirectionRounding"},
     "collide/narrow_phase.cpp": {"kRounding", "kNoPoint"},
     "collide/separation.cpp": {"kTried"},  # less than any
     "contact/contact_solver.cpp": {"1.1"},
@@ -23,14 +23,15 @@ MATHEMATICS = {
     "contact/impact_pass.cpp": {"kOverRelaxed"},  # of successive over-relaxation in a row
     "contact/load_path.cpp": {"1e-3f"},
     "contact/prepare.cpp": {"0.999f"},
-    "contact/kernels/impact_kernels.h": {"kNoticed"},  # where a sweep stops: of its threshold
-    "contact/kernels/sweep.h": {"kNow"},  # as good as none
-    "contact/kernels/sweep_kernels.h": {"kLetsGo"},  # of a limit: room for rounding
-    "contact/static_warm_start.cpp": {"kWork", "kNearlyDone", "kDone", "kNoBounce"},
+    "contact/kernels/impact_kernels.h": {"kPropagatedChange"},  # where a sweep stops: of its threshold
+    "contact/kernels/sweep.h": {"kNegligible"},
+    "contact/kernels/sweep_kernels.h": {"kFrictionSlack"},  # of a limit: room for rounding
+    "contact/static_warm_start.cpp": {"kMaxWork", "kNearlyConverged", "kConverged",
+                                     "kNoRebound"},
     "joint/joint_group.cpp": {"kSoftness"},
     "joint/joint_rows.cpp": {"0.7"},
-    "joint/pinned_rows.cpp": {"kAtBound"},
-    "joint/plastic.cpp": {"kDirection", "kSurface"},  # of a surface that is found by iterating
+    "joint/pinned_rows.cpp": {"kBoundRounding"},
+    "joint/plastic.cpp": {"kMinDirectedImpulse", "kSurfaceDistance"},  # of an iteration
     "rigid_physics.cpp": {"1.00001f"},
     "rigid_physics.h": {"9.81"},
 }

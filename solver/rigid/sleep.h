@@ -27,25 +27,25 @@ class Sleep {
   /// Wakes sleeping bodies that an awake body is about to hit.
   void wake_hit(const StepContext& step, const Contacts& contacts, Bodies& bodies) const;
   /// Wakes sleeping bodies in contact with a moving kinematic body, and the bodies above them.
-  void wake_carried(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies);
+  void wake_on_kinematic(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies);
   /// Wakes sleeping bodies whose contact forces the last solve changed; if a body lost support,
   /// also the sleeping bodies above it.
-  void wake_changed(const StepContext& step, const Contacts& contacts, Bodies& bodies);
+  void wake_by_load(const StepContext& step, const Contacts& contacts, Bodies& bodies);
   /// Must be called before these manifolds are removed. Restarts the time of rest of a body, asleep
   /// or awake, once its removed contacts have carried more than kMaxLostSupport of its weight in
   /// all; wakes that body and all sleeping bodies above it.
-  void wake_left(std::span<const ManifoldSlot> manifolds, const Vec3& gravity_W,
-                 const Contacts& contacts, Bodies& bodies);
+  void wake_unsupported(std::span<const ManifoldSlot> manifolds, const Vec3& gravity_W,
+                        const Contacts& contacts, Bodies& bodies);
   /// Must be called before a joint is removed. If the joint bears load, wakes its bodies and all
   /// sleeping bodies above them.
-  void wake_held(const Joint& joint, const Vec3& gravity_W, const Contacts& contacts,
-                 Bodies& bodies);
-  /// Must be called before a body is removed: wake_held() for all of its joints.
-  void wake_held(std::span<const Joint> joints, BodySlot body, const Vec3& gravity_W,
-                 const Contacts& contacts, Bodies& bodies);
+  void wake_joined(const Joint& joint, const Vec3& gravity_W, const Contacts& contacts,
+                   Bodies& bodies);
+  /// Must be called before a body is removed: wake_joined() for all of its joints.
+  void wake_joined(std::span<const Joint> joints, BodySlot body, const Vec3& gravity_W,
+                   const Contacts& contacts, Bodies& bodies);
 
  private:
-  void note_rest(const StepContext& step, Bodies& bodies);
+  void update_rest_time(const StepContext& step, Bodies& bodies);
   void anchor_by_joints(const Bodies& bodies, const Joints& joints, DisjointSets& groups);
   void keep_changed_awake(const StepContext& step, const Contacts& contacts, const Bodies& bodies);
   void keep_joined_awake(const Bodies& bodies, const Joints& joints);

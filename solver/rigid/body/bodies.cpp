@@ -73,10 +73,10 @@ void Bodies::resize(std::uint32_t count) {
   inertia_B.resize(count);
   inverse_mass.resize(count);
   root_B.resize(count);
-  spins_freely.resize(count);
+  is_gyroscopic.resize(count);
   reach_m.resize(count);
   turned_m.resize(count);
-  slow_s.resize(count);
+  resting_s.resize(count);
   lost_N.resize(count);
   rest_position.resize(count);
   rest_rotation.resize(count);
@@ -106,14 +106,14 @@ BodySlot Bodies::add(const BodyDesc& desc) {
   inertia_B[body] = Mat3::Zero();
   inverse_mass[body] = 0;
   root_B[body].setZero();
-  spins_freely[body] = 0;
+  is_gyroscopic[body] = 0;
   if (awake(body)) {
     SUNDER_CHECK(desc.mass_kg > 0 && desc.inertia_B.allFinite());
     const InertiaRoot root = inertia_root(desc.inertia_B);
     inertia_B[body] = root.inertia;
     inverse_mass[body] = static_cast<float>(1 / desc.mass_kg);
     root_B[body] = root.root;
-    spins_freely[body] = root.uneven;
+    is_gyroscopic[body] = root.uneven;
   }
   reach_m[body] = 0;
   turned_m[body] = 0;
@@ -224,11 +224,11 @@ void Bodies::wake(BodySlot body) {
 }
 
 void Bodies::restart_rest(BodySlot body) {
-  slow_s[body] = 0;
+  resting_s[body] = 0;
   lost_N[body] = 0;
 }
 
-void Bodies::end_news() {
+void Bodies::clear_step_flags() {
   std::fill(is_new.begin(), is_new.end(), std::uint8_t{0});
   std::fill(displaced.begin(), displaced.end(), std::uint8_t{0});
 }

@@ -43,10 +43,10 @@ struct Bodies {
   /// every body has unit inertia. 0 unless dynamic.
   ByBody<Mat3f> root_B;
   /// 1: the principal moments differ, so free rotation has a gyroscopic term.
-  ByBody<std::uint8_t> spins_freely;
+  ByBody<std::uint8_t> is_gyroscopic;
   ByBody<double> reach_m;   ///< Radius of a sphere about the centre of mass that has all shapes.
   ByBody<double> turned_m;  ///< Upper bound on the distance that rotations have moved any point.
-  ByBody<float> slow_s;     ///< Time that the body has been slow and near its rest pose.
+  ByBody<float> resting_s;  ///< Time that the body has been slow and near its rest pose.
   ByBody<float> lost_N;     ///< Sum of the forces of contacts lost in that time.
   ByBody<Vec3> rest_position;
   ByBody<Quat> rest_rotation;
@@ -68,12 +68,14 @@ struct Bodies {
   /// True if the pose may change in a step.
   bool mobile(BodySlot body) const { return dynamic(body) || motion[body] == Motion::kKinematic; }
   /// True if the body is kinematic and moves.
-  bool carries(BodySlot body) const {
+  bool is_moving_kinematic(BodySlot body) const {
     return motion[body] == Motion::kKinematic &&
            !(velocity[body].isZero(0) && angular_velocity[body].isZero(0));
   }
   /// True if the body is kinematic and moves, or its pose was set since the last step.
-  bool shifts(BodySlot body) const { return displaced[body] || carries(body); }
+  bool is_shifting_kinematic(BodySlot body) const {
+    return displaced[body] || is_moving_kinematic(body);
+  }
   bool contains(BodyId id) const {
     const BodySlot body(id.slot);
     return id.slot < size() && generation[body] == id.generation && motion[body] != Motion::kAbsent;
@@ -112,7 +114,7 @@ struct Bodies {
   /// Restarts the time of rest.
   void restart_rest(BodySlot body);
   /// Clears the flags `is_new` and `displaced` of all bodies.
-  void end_news();
+  void clear_step_flags();
 
  private:
   void resize(std::uint32_t count);

@@ -38,7 +38,7 @@ void midpoint_step(const Mat3& inertia_B, const Mat3& inverse_B, double h, Quat&
   w_B = w1;
 }
 
-Spin spun_freely(const Bodies& bodies, BodySlot body, double dt_s) {
+Spin rotated_freely(const Bodies& bodies, BodySlot body, double dt_s) {
   Spin spin{bodies.rotation[body],
             bodies.rotation[body].conjugate() * bodies.angular_velocity[body]};
   const double angle = spin.w_B.norm() * dt_s;
@@ -52,19 +52,19 @@ Spin spun_freely(const Bodies& bodies, BodySlot body, double dt_s) {
 
 }  // namespace
 
-bool wobbles(const Bodies& bodies, BodySlot body, double dt_s) {
+bool has_gyroscopic_term(const Bodies& bodies, BodySlot body, double dt_s) {
   const double angle = bodies.angular_velocity[body].norm() * dt_s;
-  return bodies.spins_freely[body] != 0 && angle >= double{kStillAngle} && angle < kMostTurn;
+  return bodies.is_gyroscopic[body] != 0 && angle >= double{kStillAngle} && angle < kMostTurn;
 }
 
-void fly(const StepContext& step, BodySlot body, Bodies& bodies) {
+void move_freely(const StepContext& step, BodySlot body, Bodies& bodies) {
   const double dt_s = step.dt_s;
   const Vec3 way = dt_s * (bodies.velocity[body] + 0.5 * dt_s * step.gravity_W);
   bodies.velocity[body] += dt_s * step.gravity_W;
   const Vec3 angle_W = dt_s * bodies.angular_velocity[body];
   Quat rotation;
-  if (wobbles(bodies, body, dt_s)) {
-    const Spin spin = spun_freely(bodies, body, dt_s);
+  if (has_gyroscopic_term(bodies, body, dt_s)) {
+    const Spin spin = rotated_freely(bodies, body, dt_s);
     rotation = spin.rotation;
     bodies.angular_velocity[body] = spin.rotation * spin.w_B;
   } else {
@@ -74,7 +74,7 @@ void fly(const StepContext& step, BodySlot body, Bodies& bodies) {
   bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
 }
 
-void carry_on(const StepContext& step, BodySlot body, Bodies& bodies) {
+void move_kinematic(const StepContext& step, BodySlot body, Bodies& bodies) {
   const Vec3 angle_W = step.dt_s * bodies.angular_velocity[body];
   bodies.place(body, bodies.position[body] + step.dt_s * bodies.velocity[body],
                rotation_by(angle_W) * bodies.rotation[body]);
@@ -82,19 +82,19 @@ void carry_on(const StepContext& step, BodySlot body, Bodies& bodies) {
   bodies.changed[body] = 1;
 }
 
-Turning free_turning(const Bodies& bodies, BodySlot body, double dt_s) {
-  const Spin spin = spun_freely(bodies, body, dt_s);
+RotationState free_rotation(const Bodies& bodies, BodySlot body, double dt_s) {
+  const Spin spin = rotated_freely(bodies, body, dt_s);
   return {spin.rotation, bodies.rotation[body] * spin.w_B};
 }
 
-Turning turning_with(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W) {
+RotationState rotation_with(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W) {
   return {R_WB, R_WB * (inertia_B.inverse() * (R_WB.conjugate() * spin_W))};
 }
 
-Turning turning_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W,
-                            double energy_J, double reach_rad) {
-  const Turning first = turning_with(inertia_B, R_WB, spin_W);
-  Turning now = first;
+RotationState rotation_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3& spin_W,
+                                   double energy_J, double reach_rad) {
+  const RotationState first = rotation_with(inertia_B, R_WB, spin_W);
+  RotationState now = first;
   for (int round = 0; round < kEnergyRounds && reach_rad > 0; ++round) {
     const double excess_J = 0.5 * spin_W.dot(now.w_W) - energy_J;
     if (excess_J <= 0) return now;
@@ -102,7 +102,7 @@ Turning turning_with_energy(const Mat3& inertia_B, const Quat& R_WB, const Vec3&
     if (!(slope.squaredNorm() > 0)) break;
     const Vec3 turn = -kEnergyStep * excess_J / slope.squaredNorm() * slope;
     reach_rad -= turn.norm();
-    now = turning_with(inertia_B, rotation_by(turn) * now.R_WB, spin_W);
+    now = rotation_with(inertia_B, rotation_by(turn) * now.R_WB, spin_W);
   }
   return first;
 }

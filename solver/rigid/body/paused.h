@@ -14,7 +14,7 @@ class Paused {
   /// Pauses a body for the solve between the next suspend() and resume().
   void add(BodySlot body) { items_.push_back({body}); }
   /// Stores the motion of paused bodies that are awake, and puts them to sleep.
-  void stop(Bodies& bodies) {
+  void suspend(Bodies& bodies) {
     std::erase_if(items_, [&](const Item& item) { return !bodies.awake(item.body); });
     std::ranges::sort(items_, {}, &Item::body);
     const auto same = [](const Item& x, const Item& y) { return x.body == y.body; };
@@ -26,7 +26,7 @@ class Paused {
     }
   }
   /// Wakes the paused bodies with their stored motion.
-  void release(Bodies& bodies) {
+  void resume(Bodies& bodies) {
     for (const Item& item : items_) {
       bodies.motion[item.body] = Motion::kAwake;
       bodies.velocity[item.body] = item.velocity;

@@ -7,9 +7,9 @@
 namespace sunder::solver {
 
 /// Sets the row of a body from its state; `root_W` maps the angular lanes of the row to W.
-void take_row(const Bodies& bodies, BodySlot body, BodyRow& row, Mat3f& root_W);
+void load_row(const Bodies& bodies, BodySlot body, BodyRow& row, Mat3f& root_W);
 /// Adds the change of the row's velocity since the step began to the velocity of the body.
-void give_row(const BodyRow& row, const Mat3f& root_W, BodySlot body, Bodies& bodies);
+void store_velocity_of_row(const BodyRow& row, const Mat3f& root_W, BodySlot body, Bodies& bodies);
 
 /// Rows of kinematic bodies, to be filled.
 struct KinematicRows {
@@ -20,6 +20,6 @@ struct KinematicRows {
   ByBody<Mat3f>& root_W;
 };
 /// Finds the moving kinematic bodies, and fills their rows and row 0.
-void take_kinematic(const Bodies& bodies, const KinematicRows& to);
+void load_kinematic_rows(const Bodies& bodies, const KinematicRows& to);
 
 }  // namespace sunder::solver

@@ -20,7 +20,7 @@ class Spins {
   /// or to the mean over the step if `midway`.
   void begin(const StepContext& step, BodySlot body, bool midway, Bodies& bodies);
   /// Angular momentum (root space) that is added to bodies at the end of the step, by row_of().
-  Wide* owed() { return owed_.data(); }
+  Wide* pending() { return pending_.data(); }
   /// Finds the final rotation of a body, and returns the energy in J that it gains by the rotation:
   /// impulses are computed for the rotation at the start of the step.
   double end(const StepContext& step, BodySlot body, const BodyRow& row, const Mat3f& root_W,
@@ -28,20 +28,20 @@ class Spins {
   /// Changes the final state so that no energy is gained: by a slightly different rotation, or else
   /// by keeping the energy instead of the angular momentum.
   void keep_energy(BodySlot body, const BodyRow& row, const Mat3f& root_W, const Bodies& bodies);
-  const Turning& turning(BodySlot body) const { return spin_[body].turning; }
+  const RotationState& state(BodySlot body) const { return spin_[body].state; }
   /// True if the final rotation gains energy.
-  bool makes(BodySlot body) const { return spin_[body].made_J > 0; }
+  bool gains_energy(BodySlot body) const { return spin_[body].gain_J > 0; }
 
  private:
   struct Spin {
     Vec3 momentum_W;
-    Turning turning;  ///< Free rotation; after end(), the final state.
-    double made_J = 0;
-    bool wobbles = false;
+    RotationState state;  ///< Free rotation; after end(), the final state.
+    double gain_J = 0;
+    bool gyroscopic = false;
   };
 
   ByBody<Spin> spin_;
-  std::vector<Wide> owed_;
+  std::vector<Wide> pending_;
 };
 
 }  // namespace sunder::solver

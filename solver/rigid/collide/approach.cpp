@@ -19,7 +19,7 @@ double inverse_effective_mass(const Bodies& bodies, BodySlot body, const Vec3f& 
 
 /// True if no point can close fast enough to count. A point is on its body, or farther by no more
 /// than a slow closing and a fall in a step: twice the speed of the bodies is an upper bound.
-bool rests(const Manifold& m, const Bodies& bodies, const StepContext& step) {
+bool is_slow(const Manifold& m, const Bodies& bodies, const StepContext& step) {
   return 2 * (bodies.fastest_m_s(m.body_a) + bodies.fastest_m_s(m.body_b)) < step.still_m_s;
 }
 
@@ -77,40 +77,40 @@ double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A
   return m.normal_W.cast<double>().dot(v_a - v_b);
 }
 
-void Approaches::forget_changed(const Bodies& bodies) {
-  forgotten_.resize(bodies.size());
-  for (const BodySlot body : bodies.slots()) forgotten_[body] |= bodies.changed[body];
+void SpeculativeContacts::invalidate_changed(const Bodies& bodies) {
+  stale_.resize(bodies.size());
+  for (const BodySlot body : bodies.slots()) stale_[body] |= bodies.changed[body];
 }
 
-std::vector<Approach> Approaches::find(const Contacts& contacts, const Bodies& bodies,
-                                       const Shapes& shapes, const StepContext& step) {
+std::vector<Approach> SpeculativeContacts::find(const Contacts& contacts, const Bodies& bodies,
+                                                const Shapes& shapes, const StepContext& step) {
   constexpr std::size_t kChunk = 4096;
-  forget_changed(bodies);
+  invalidate_changed(bodies);
   if (std::exchange(dt_s_, step.dt_s) != step.dt_s)
-    std::fill(forgotten_.begin(), forgotten_.end(), std::uint8_t{1});
+    std::fill(stale_.begin(), stale_.end(), std::uint8_t{1});
   std::erase_if(known_, [&](const Keyed& keyed) {
     const BodyId a = keyed.second.a, b = keyed.second.b;
-    return !bodies.contains(a) || !bodies.contains(b) || forgotten_[BodySlot(a.slot)] ||
-           forgotten_[BodySlot(b.slot)];
+    return !bodies.contains(a) || !bodies.contains(b) || stale_[BodySlot(a.slot)] ||
+           stale_[BodySlot(b.slot)];
   });
-  const auto look = [&](std::size_t begin, std::size_t end, std::vector<Keyed>& found) {
+  const auto find_in = [&](std::size_t begin, std::size_t end, std::vector<Keyed>& found) {
     for (std::size_t i = begin; i < end; ++i) {
       const Manifold& m = contacts.manifolds[ManifoldSlot(i)];
-      if (m.count == 0 || !(forgotten_[m.body_a] || forgotten_[m.body_b])) continue;
-      if (!touches_awake(m, bodies) || rests(m, bodies, step)) continue;
+      if (m.count == 0 || !(stale_[m.body_a] || stale_[m.body_b])) continue;
+      if (!touches_awake(m, bodies) || is_slow(m, bodies, step)) continue;
       const Pair& pair = contacts.pairs[m.pair];
       Approach approach;
       if (make_approach(pair, m, bodies, shapes, step, approach))
         found.emplace_back(pair.key(), approach);
     }
   };
-  auto fresh = collect_chunks<Keyed>(contacts.manifolds.size(), kChunk, look);
+  auto fresh = collect_chunks<Keyed>(contacts.manifolds.size(), kChunk, find_in);
   const auto by_key = [](const Keyed& a, const Keyed& b) { return a.first < b.first; };
   std::sort(fresh.begin(), fresh.end(), by_key);
   const auto kept = static_cast<std::ptrdiff_t>(known_.size());
   known_.insert(known_.end(), fresh.begin(), fresh.end());
   std::inplace_merge(known_.begin(), known_.begin() + kept, known_.end(), by_key);
-  std::fill(forgotten_.begin(), forgotten_.end(), std::uint8_t{0});
+  std::fill(stale_.begin(), stale_.end(), std::uint8_t{0});
   std::vector<Approach> approaches;
   approaches.reserve(known_.size());
   for (const Keyed& keyed : known_) approaches.push_back(keyed.second);

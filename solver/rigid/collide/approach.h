@@ -14,22 +14,22 @@ namespace sunder::solver {
 
 /// Finds one speculative contact for each manifold that closes now or within the step; keeps those
 /// of unchanged pairs from call to call.
-class Approaches {
+class SpeculativeContacts {
  public:
   /// Returns the speculative contacts in order of pair keys.
   std::vector<Approach> find(const Contacts& contacts, const Bodies& bodies, const Shapes& shapes,
                              const StepContext& step);
   /// Must be called when a pair begins or ceases to touch.
-  void forget(const Pair& pair) { forgotten_[pair.body_a] = forgotten_[pair.body_b] = 1; }
+  void invalidate(const Pair& pair) { stale_[pair.body_a] = stale_[pair.body_b] = 1; }
   /// Must be called before a collide clears Bodies::changed.
-  void forget_changed(const Bodies& bodies);
+  void invalidate_changed(const Bodies& bodies);
 
  private:
   using Keyed = std::pair<std::uint64_t, Approach>;
 
-  std::vector<Keyed> known_;        ///< Ascending by pair key.
-  double dt_s_ = 0;                 ///< Step of the last find().
-  ByBody<std::uint8_t> forgotten_;  ///< 1: the body's contacts are to be found again.
+  std::vector<Keyed> known_;    ///< Ascending by pair key.
+  double dt_s_ = 0;             ///< Step of the last find().
+  ByBody<std::uint8_t> stale_;  ///< 1: the body's contacts are to be found again.
 };
 
 /// The manifolds of each dynamic body.

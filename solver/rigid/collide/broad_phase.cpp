@@ -42,7 +42,7 @@ FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bo
     box = {center.array() - shape.radius_m, center.array() + shape.radius_m};
   }
   float grow = kBoxMargin * shape.inner_radius_m;
-  if (bodies.awake(body) || bodies.carries(body)) {
+  if (bodies.awake(body) || bodies.is_moving_kinematic(body)) {
     const double dt_s = step.dt_s;
     const Vec3f shift =
         (bodies.velocity[body] * dt_s + step.gravity_W * (dt_s * dt_s)).cast<float>();
@@ -85,7 +85,7 @@ void BroadPhase::add(std::span<const ShapeSlot> added, const Shapes& shapes, con
   swept_.resize(shapes.size());
   fat_.resize(shapes.size());
   moved_.resize(shapes.size());
-  crowded_.resize(shapes.size());
+  has_skipped_.resize(shapes.size());
   half_space_of_.resize(shapes.size(), -1);
   for (const ShapeSlot s : added) {
     fat_[s] = FloatBox();
@@ -122,7 +122,7 @@ void BroadPhase::add_half_space(ShapeSlot s, const Shapes& shapes, const Bodies&
   half_space_of_[s] = static_cast<std::int32_t>(half_spaces_.size());
   half_spaces_.push_back({s, normal_W.cast<float>(), static_cast<float>(-normal_W.dot(point_W))});
   role_[s] = Role::kHalfSpace;
-  look_again_ = true;
+  test_all_ = true;
 }
 
 void BroadPhase::remove_half_space(ShapeSlot s) {
@@ -156,7 +156,7 @@ void BroadPhase::update_boxes(const StepContext& step, const Shapes& shapes, con
       const ShapeSlot s = movers_[i];
       const Shape& shape = shapes.items[s];
       if (i + kAhead < end) prefetch(shapes[movers_[i + kAhead]].hull.vertices(), 4);
-      moved_[s] = look_again_ || crowded_[s];
+      moved_[s] = test_all_ || has_skipped_[s];
       if (!bodies.changed[shape.body]) continue;
       swept_[s] = swept_box(step, shape, bodies);
       if (fat_[s].contains(swept_[s])) continue;
@@ -164,7 +164,7 @@ void BroadPhase::update_boxes(const StepContext& step, const Shapes& shapes, con
       moved_[s] = 1;
     }
   });
-  look_again_ = false;
+  test_all_ = false;
   for (const ShapeSlot s : movers_)
     if (moved_[s]) moved_list_.push_back(s);
   for_chunks(new_statics_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -215,8 +215,9 @@ std::vector<PairSlot> BroadPhase::pairs_with(std::span<const ShapeSlot> of, cons
 /// Leaves out most pairs of movers in a dense cluster whose centres are close: the share that is
 /// kept falls with the number of neighbours, and is alike for both shapes of a pair as far as their
 /// numbers are. The next update tests the shape again.
-void BroadPhase::thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes,
-                          const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first) {
+void BroadPhase::drop_pairs(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes,
+                            const Bodies& bodies, std::vector<FoundPair>& found,
+                            std::size_t first) {
   const std::uint64_t share = ~std::uint64_t{0} / neighbours * kCrowd;
   const auto middle = [&](const Shape& s) {
     return Vec3(bodies.position[s.body] + (bodies.rotation_f[s.body] * s.center).cast<double>());
@@ -231,7 +232,7 @@ void BroadPhase::thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes&
   };
   const auto kept =
       std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), left_out);
-  crowded_[shape] = kept != found.end();
+  has_skipped_[shape] = kept != found.end();
   found.erase(kept, found.end());
 }
 
@@ -261,8 +262,8 @@ void BroadPhase::find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies&
     pair.shape_a = plane.shape, pair.shape_b = shape;
     if (overlaps(pair, fat_)) consider(plane.shape);
   }
-  crowded_[shape] = 0;
-  if (neighbours > kCrowd) thin_out(shape, neighbours, shapes, bodies, found, first);
+  has_skipped_[shape] = 0;
+  if (neighbours > kCrowd) drop_pairs(shape, neighbours, shapes, bodies, found, first);
   order();
 }
 
@@ -299,8 +300,8 @@ bool BroadPhase::overlaps(const Pair& pair, const ByShape<FloatBox>& boxes) cons
   return half.normal_W.dot(center) + half.d <= half.normal_W.cwiseAbs().dot(extent);
 }
 
-bool BroadPhase::near(const Pair& pair) const { return overlaps(pair, swept_); }
+bool BroadPhase::may_touch(const Pair& pair) const { return overlaps(pair, swept_); }
 
-bool BroadPhase::keep(const Pair& pair) const { return overlaps(pair, fat_); }
+bool BroadPhase::is_near(const Pair& pair) const { return overlaps(pair, fat_); }
 
 }  // namespace sunder::solver

@@ -38,13 +38,13 @@ class BroadPhase {
   /// Number of shapes that the last update() tested for neighbours.
   std::size_t moved() const { return moved_list_.size(); }
   /// True if the pair's shapes may touch within the step.
-  bool near(const Pair& pair) const;
+  bool may_touch(const Pair& pair) const;
   /// Returns false if the fat boxes no longer overlap; such a pair must be removed, as pairs_with()
   /// cannot find it.
-  bool keep(const Pair& pair) const;
+  bool is_near(const Pair& pair) const;
   /// True if the fat boxes ceased to overlap in this update.
-  bool strayed(const Pair& pair) const {
-    return (moved_[pair.shape_a] || moved_[pair.shape_b]) && !keep(pair);
+  bool left_fat_box(const Pair& pair) const {
+    return (moved_[pair.shape_a] || moved_[pair.shape_b]) && !is_near(pair);
   }
   /// Returns the fat boxes of all shapes that have one, in order of slots.
   std::vector<ShapeBox> boxes(const Shapes& shapes, const Bodies& bodies) const;
@@ -62,14 +62,14 @@ class BroadPhase {
   void update_trees();
   void find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies& bodies,
                   const Contacts& contacts, std::vector<FoundPair>& found);
-  void thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes, const Bodies& bodies,
-                std::vector<FoundPair>& found, std::size_t first);
+  void drop_pairs(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes,
+                  const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first);
   bool overlaps(const Pair& pair, const ByShape<FloatBox>& boxes) const;
 
   ByShape<Role> role_;
   ByShape<FloatBox> swept_, fat_;
-  ByShape<std::uint8_t> moved_;    ///< 1: left its fat box in this update.
-  ByShape<std::uint8_t> crowded_;  ///< 1: some neighbours were skipped.
+  ByShape<std::uint8_t> moved_;        ///< 1: left its fat box in this update.
+  ByShape<std::uint8_t> has_skipped_;  ///< 1: some neighbours were skipped.
   std::vector<ShapeSlot> movers_, new_statics_, moved_list_;
   std::vector<std::vector<FoundPair>> found_;  ///< By chunk of moved shapes.
   std::vector<HalfSpace> half_spaces_;
@@ -78,7 +78,7 @@ class BroadPhase {
   BoxForest static_forest_;
   bool movers_changed_ = true;
   /// A half-space was added: all movers are tested, since it has no box.
-  bool look_again_ = false;
+  bool test_all_ = false;
   int refits_ = 0;
 };
 

@@ -43,13 +43,13 @@ void Contacts::expect_manifolds(std::size_t more) {
 }
 
 void Contacts::remove(PairSlot slot) {
-  if (pairs[slot].touching()) part(slot);
+  if (pairs[slot].touching()) remove_manifold(slot);
   slot_of.erase(pairs[slot].key());
   pairs[slot] = Pair();
   free_pairs.push_back(slot);
 }
 
-void Contacts::touch(PairSlot pair, const Manifold& manifold, const Bodies& bodies) {
+void Contacts::add_manifold(PairSlot pair, const Manifold& manifold, const Bodies& bodies) {
   const ManifoldSlot slot = put(manifold, free_manifolds, manifolds);
   Manifold& m = manifolds[slot];
   m.pair = pair;
@@ -65,7 +65,7 @@ void Contacts::touch(PairSlot pair, const Manifold& manifold, const Bodies& bodi
   if (b) body_colors[m.body_b] |= std::uint64_t{1} << m.color;
 }
 
-void Contacts::part(PairSlot pair) {
+void Contacts::remove_manifold(PairSlot pair) {
   const ManifoldSlot slot = pairs[pair].manifold;
   Manifold& m = manifolds[slot];
   if (m.color < kMaxColors) {

@@ -31,7 +31,7 @@ struct Pair {
   double turned_m = 0;     ///< Sum of Bodies::turned_m of both at the last test.
   Vec3f offset_W = Vec3f::Zero();  ///< Centre of b minus centre of a at the last test.
   Vec3f axis_A = Vec3f::Zero();    ///< Last separating axis, in A; zero if none.
-  bool fresh = true;               ///< True until the first test, or if a test was requested.
+  bool needs_test = true;          ///< True until the first test, or if a test was requested.
 
   bool present() const { return !shape_a.none(); }
   bool touching() const { return !manifold.none(); }
@@ -92,7 +92,7 @@ struct Manifold {
     return least;
   }
   /// Returns the mean of the points weighted by their impulses, from the centre of mass of a.
-  Vec3f middle_of_load() const {
+  Vec3f center_of_load() const {
     Vec3f sum = Vec3f::Zero();
     for (int i = 0; i < count; ++i) sum += points[i].impulse_Ns * points[i].arm_A;
     const float all = normal_impulse();
@@ -132,9 +132,9 @@ struct Contacts {
   void remove(PairSlot pair);
   /// Adds the manifold of a pair that began to touch. It gets the lowest colour that neither body
   /// has, or `kMaxColors` if none is free.
-  void touch(PairSlot pair, const Manifold& manifold, const Bodies& bodies);
+  void add_manifold(PairSlot pair, const Manifold& manifold, const Bodies& bodies);
   /// Removes the manifold of a pair that ceased to touch.
-  void part(PairSlot pair);
+  void remove_manifold(PairSlot pair);
 };
 
 }  // namespace sunder::solver

@@ -15,22 +15,23 @@ namespace sunder::solver {
 /// Results of the narrow phase for a chunk of pairs.
 struct ContactChanges {
   std::vector<std::pair<PairSlot, Manifold>> touched;
-  std::vector<PairSlot> parted, gone;
-  std::vector<PairSlot> deep;          ///< Pairs with a deep contact.
-  std::uint64_t moved = 0, looks = 0;  ///< Number of pairs with a body that moved; of pairs tested.
+  std::vector<PairSlot> separated, removed;
+  std::vector<PairSlot> deep;  ///< Pairs with a deep contact.
+  /// Number of pairs with a body that moved, and of pairs tested.
+  std::uint64_t moved = 0, tested = 0;
 
   void clear() {
-    touched.clear(), parted.clear(), gone.clear(), deep.clear();
-    moved = looks = 0;
+    touched.clear(), separated.clear(), removed.clear(), deep.clear();
+    moved = tested = 0;
   }
 };
 
-class Crowd {
+class DenseClusters {
  public:
   /// Leaves out contacts between bodies that have more than kMaxDeepContacts deep ones, different
   /// contacts in each step, so that no body has many more than that. Bodies with fewer deep
   /// contacts keep all of theirs. The choice does not depend on the number of threads.
-  void thin_out(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies);
+  void drop_contacts(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies);
 
  private:
   std::uint64_t times_ = 0;

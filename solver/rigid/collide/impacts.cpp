@@ -76,15 +76,15 @@ void Impacts::find(const StepContext& step, const Bodies& bodies, const Contacts
   if (std::none_of(fastest_m_s.begin(), fastest_m_s.end(), fast)) return;
   const std::vector<Met> met = find_met(step, bodies, contacts, fastest_m_s);
   for (const Met& chunk : met) {
-    if (!chunk.struck.empty() && steps_.empty()) steps_.assign(bodies.size(), kUnreached);
+    if (!chunk.struck.empty() && distance_.empty()) distance_.assign(bodies.size(), kUnreached);
     for (const std::uint32_t i : chunk.struck)
-      for (const BodySlot body : chunk.touching[i]) steps_[body] = 0;
+      for (const BodySlot body : chunk.touching[i]) distance_[body] = 0;
   }
-  if (steps_.empty()) return;
-  for (std::uint8_t steps = 0; steps < kReach; ++steps) {
+  if (distance_.empty()) return;
+  for (std::uint8_t distance = 0; distance < kMaxDistance; ++distance) {
     const auto pass_on = [&](BodySlot from, BodySlot to) {
-      if (steps_[from] == steps && steps_[to] > steps + 1 && bodies.awake(to))
-        steps_[to] = static_cast<std::uint8_t>(steps + 1);
+      if (distance_[from] == distance && distance_[to] > distance + 1 && bodies.awake(to))
+        distance_[to] = static_cast<std::uint8_t>(distance + 1);
     };
     for (const Met& chunk : met)
       for (const auto& [a, b] : chunk.touching) pass_on(a, b), pass_on(b, a);

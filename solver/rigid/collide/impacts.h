@@ -16,25 +16,25 @@ double least_impact_m_s(const StepContext& step, const Manifold& m);
 
 class Impacts {
  public:
-  void clear() { steps_.clear(); }
+  void clear() { distance_.clear(); }
   /// Finds the impacts among awake contacts, and the bodies near them.
   void find(const StepContext& step, const Bodies& bodies, const Contacts& contacts);
-  bool empty() const { return steps_.empty(); }
+  bool empty() const { return distance_.empty(); }
   /// True if a manifold of awake bodies propagates an impact.
-  bool near(const Manifold& m) const {
+  bool propagates(const Manifold& m) const {
     return !empty() && (is_near(m.body_a) || is_near(m.body_b));
   }
   /// True if manifolds near an impact can move the body.
-  bool moves(BodySlot body) const { return !empty() && steps_[body] <= kReach; }
+  bool may_move(BodySlot body) const { return !empty() && distance_[body] <= kMaxDistance; }
 
  private:
-  static constexpr std::uint8_t kReach = 4;  ///< Number of contacts from a struck body.
+  static constexpr std::uint8_t kMaxDistance = 4;  ///< Number of contacts from a struck body.
   static constexpr std::uint8_t kUnreached = 255;
 
-  bool is_near(BodySlot body) const { return steps_[body] < kReach; }
+  bool is_near(BodySlot body) const { return distance_[body] < kMaxDistance; }
 
   /// Number of contacts from a struck body; empty: there is no impact.
-  ByBody<std::uint8_t> steps_;
+  ByBody<std::uint8_t> distance_;
 };
 
 }  // namespace sunder::solver

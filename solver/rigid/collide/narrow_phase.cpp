@@ -133,15 +133,15 @@ Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& b
 }
 
 /// Axis and time of a collision.
-struct Meeting {
+struct Collision {
   SeparatingAxis axis;
   float time_s = 0;  ///< Time of impact, if the shapes are tested there; negative: none.
 };
 
 /// Returns the collision with the front of a facet as a plane, for use where its surface continues:
 /// edges within the surface then have no effect. Shapes behind the back do not collide.
-Meeting meet_front(const Shape& a, const Shape& b, const RelativePose& start,
-                   const Vec3f& velocity_A, float margin_m, float dt_s) {
+Collision collide_with_front(const Shape& a, const Shape& b, const RelativePose& start,
+                             const Vec3f& velocity_A, float margin_m, float dt_s) {
   const Vec3f center_A = start.R * b.center + start.p;
   if (!before_back(a.hull, center_A)) return {{}, -1};
   const Vec3f normal = a.hull.normal(0);
@@ -149,12 +149,12 @@ Meeting meet_front(const Shape& a, const Shape& b, const RelativePose& start,
                                  ? separation_along(normal, a.hull, b.hull, start)
                                  : normal.dot(center_A) + a.hull.plane_d(0) - b.radius_m;
   const float closing = -normal.dot(velocity_A);
-  Meeting meeting{front_axis(a.hull, separation_m)};
-  if (separation_m <= margin_m) return meeting;
-  meeting.time_s = closing > 0 ? (separation_m - 0.5f * margin_m) / closing : dt_s;
-  if (!(meeting.time_s < dt_s)) return {{}, -1};
-  meeting.axis.separation_m -= meeting.time_s * closing;
-  return meeting;
+  Collision collision{front_axis(a.hull, separation_m)};
+  if (separation_m <= margin_m) return collision;
+  collision.time_s = closing > 0 ? (separation_m - 0.5f * margin_m) / closing : dt_s;
+  if (!(collision.time_s < dt_s)) return {{}, -1};
+  collision.axis.separation_m -= collision.time_s * closing;
+  return collision;
 }
 
 /// Keeps those points against a facet's front that are on the facet. A fast shape may slide onto it
@@ -178,8 +178,8 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   float time = 0;
   const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
   // The normal of balls depends on where they touch.
-  const float far = b.kind == Kind::kSphere ? kBallCastingMotion : kFar;
-  const bool fast = kLooksAhead && meet && reach.way_m > far * m.size_m;
+  const float casting_motion = b.kind == Kind::kSphere ? kBallCastingMotion : kFar;
+  const bool fast = kLooksAhead && meet && reach.way_m > casting_motion * m.size_m;
   const std::optional<SeparatingAxis> passing =
       fast ? probe.passing(pose, axis, dt * velocity_A) : std::nullopt;
   if (passing) {
@@ -197,8 +197,8 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   }
   const bool by_front = meet && a.facet && time >= 0 && !normal_to_surface(a, axis.normal_A);
   if (by_front) {
-    const Meeting front =
-        meet_front(a, b, motion.pose, velocity_A, reach.margin_m + reach.spin_m, dt);
+    const Collision front =
+        collide_with_front(a, b, motion.pose, velocity_A, reach.margin_m + reach.spin_m, dt);
     axis = front.axis, time = front.time_s;
     pose.p = motion.pose.p + std::max(0.f, time) * velocity_A;
     if (time >= 0 && b.kind == Kind::kHull) place_in_A(b.hull, pose, scratch.hulls);
@@ -220,8 +220,8 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
 }
 
 /// True if the last separating axis of the pair still separates it; sets the clearance.
-bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, const AxisReach& reach,
-                  Pair& pair) {
+bool still_separated(const Shape& a, const Shape& b, const PairMotion& motion,
+                     const AxisReach& reach, Pair& pair) {
   if (pair.axis_A.isZero(0) || b.kind != Kind::kHull || a.kind != Kind::kHull) return false;
   const float separation_m = separation_along(pair.axis_A, a.hull, b.hull, motion.pose);
   if (separation_m <= reach.along(pair.axis_A)) return false;
@@ -247,7 +247,7 @@ bool edges_at_rest(const Shape& a, const Shape& b, const PairMotion& motion, con
 
 bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, const Pair& pair,
                     const Manifold* m) {
-  if (pair.fresh || (m && !(m->reusable && m->sticking)) || (!m && pair.clearance_m < 0))
+  if (pair.needs_test || (m && !(m->reusable && m->sticking)) || (!m && pair.clearance_m < 0))
     return false;
   const BodySlot a = pair.body_a, b = pair.body_b;
   const Vec3f offset_W = (bodies.position[b] - bodies.position[a]).cast<float>();
@@ -298,7 +298,7 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
   const Vec3f way_A = static_cast<float>(step.dt_s) *
                       (bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W);
   const AxisReach axis_reach{reach.margin_m + reach.spin_m, way_A};
-  if (m.count == 0 && still_parted(a, b, motion, axis_reach, pair)) return;
+  if (m.count == 0 && still_separated(a, b, motion, axis_reach, pair)) return;
   if (m.count == 0 && edges_at_rest(a, b, motion, reach, size_m, pair, scratch)) return;
   m.size_m = size_m;
   m.friction = std::sqrt(a.friction * b.friction);

@@ -246,10 +246,10 @@ SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose&
   const FaceAnswer face_b =
       best_face(b, pose.R.transpose() * (a.center() - pose.p), scratch.a_in_B, scratch.at_most);
   const Vec3f normal = -(pose.R * b.normal(face_b.face));
-  const bool parted = face_b.separation_m > reach.along(normal);
-  if (parted || face_b.separation_m > best.separation_m + tolerance_m)
+  const bool separated = face_b.separation_m > reach.along(normal);
+  if (separated || face_b.separation_m > best.separation_m + tolerance_m)
     best = {SeparatingAxis::Kind::kFaceB, normal, face_b.separation_m, 0, face_b.face};
-  if (parted) return best;
+  if (separated) return best;
   const SeparatingAxis edges = best_edges(a, b, pose, reach, face_a.witness, face_b.witness,
                                           best.separation_m + tolerance_m, scratch);
   return edges.separation_m > best.separation_m + tolerance_m ? edges : best;
@@ -258,8 +258,8 @@ SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose&
 bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, float sliver_m,
                         const HullScratch& scratch) {
   Vec3f first = Vec3f::Zero();
-  const auto two_part = [&](const Hull& hull, std::uint32_t vertex_count,
-                            const std::vector<Wide3>& vertices, const Mat3f& to_A) {
+  const auto two_faces_separate = [&](const Hull& hull, std::uint32_t vertex_count,
+                                      const std::vector<Wide3>& vertices, const Mat3f& to_A) {
     for (std::uint32_t c = 0; c < hull.planes().size(); ++c) {
       const Wide least = in_front(hull.planes()[c], vertex_count, vertices);
       for (std::uint32_t set = bits(least > splat(-sliver_m)); set != 0; set &= set - 1) {
@@ -271,8 +271,8 @@ bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, 
     }
     return false;
   };
-  return two_part(a, b.vertex_count(), scratch.b_in_A, Mat3f::Identity()) ||
-         two_part(b, a.vertex_count(), scratch.a_in_B, -pose.R);
+  return two_faces_separate(a, b.vertex_count(), scratch.b_in_A, Mat3f::Identity()) ||
+         two_faces_separate(b, a.vertex_count(), scratch.a_in_B, -pose.R);
 }
 
 std::optional<SeparatingAxis> passing_axis(const Hull& a, const Hull& b, const RelativePose& pose,

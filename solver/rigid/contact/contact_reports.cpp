@@ -38,7 +38,7 @@ std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodi
     const Pair& pair = contacts.pairs[m.pair];
     const Vec3 impulse = m.step_impulse_W.cast<double>();
     if (impulse.isZero(0)) continue;
-    const Vec3 point = bodies.position[m.body_a] + m.middle_of_load().cast<double>();
+    const Vec3 point = bodies.position[m.body_a] + m.center_of_load().cast<double>();
     for (const bool on_b : {false, true}) {
       const BodySlot body = on_b ? m.body_b : m.body_a;
       if (!bodies.reports_load[body]) continue;

@@ -41,7 +41,7 @@ class ContactSolver::Stages {
                       solver.order_.first_split(),
                       solver.splitting_.sides(),
                       solver.root_W_,
-                      {rows_, solver.splitting_.parts(), solver.spins_.owed()},
+                      {rows_, solver.splitting_.parts(), solver.spins_.pending()},
                       soft_step(step),
                       static_cast<float>(kReboundSpeed * step.fall_m_s / step.substeps),
                       solver.order_.deep_contacts(),
@@ -122,12 +122,15 @@ class ContactSolver::Stages {
   }
 
   // Bodies.
-  void fly_all(std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) fly(step_, solver_.flying_[i], bodies_);
+  void move_free_bodies(std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i)
+      move_freely(step_, solver_.free_bodies_[i], bodies_);
   }
   BodyRow& row(BodySlot body) { return rows_[row_of(body)]; }
-  void take(BodySlot body) { take_row(bodies_, body, row(body), solver_.root_W_[body]); }
-  void give(BodySlot body) { give_row(row(body), solver_.root_W_[body], body, bodies_); }
+  void load_body(BodySlot body) { load_row(bodies_, body, row(body), solver_.root_W_[body]); }
+  void store_body(BodySlot body) {
+    store_velocity_of_row(row(body), solver_.root_W_[body], body, bodies_);
+  }
   void begin(BodySlot body);
   void first_kick(BodySlot body) {
     BodyRow& r = row(body);
@@ -142,7 +145,7 @@ class ContactSolver::Stages {
     r.base = r.velocity + gravity_;
     // The joint solver warm starts bodies that only joints hold: rounding of a difference would
     // accumulate.
-    r.velocity = solver_.joint_solver_.swings_free(body) ? r.base : r.base + impulses;
+    r.velocity = solver_.joint_solver_.hangs_free(body) ? r.base : r.base + impulses;
     if (guarded_) solver_.energy_guard_.record_energy_before(body, bodies_.inverse_mass[body], r);
   }
   void join_and_kick(BodySlot body) { join(body), kick(body); }
@@ -156,7 +159,7 @@ class ContactSolver::Stages {
       r.position -= half_fall_;
     r.position += static_cast<float>(step_.h_s) * r.velocity;
   }
-  void carry_on(std::uint32_t, std::uint32_t) {
+  void move_kinematic_bodies(std::uint32_t, std::uint32_t) {
     for (BodyRow* r = solver_.rows_.data(); r < rows_; ++r)
       r->position += static_cast<float>(step_.h_s) * r->velocity;
   }
@@ -206,18 +209,20 @@ class ContactSolver::Stages {
   }
 
   // Groups of joints.
-  JointStep at_hand() const { return {solver_.root_W_, solver_.kinematic_rows_}; }
+  JointStep step_bodies() const { return {solver_.root_W_, solver_.kinematic_rows_}; }
   void begin_joints(std::uint32_t i) {
-    solver_.joint_solver_.begin(i, step_, bodies_, joints_, at_hand(), rows_);
+    solver_.joint_solver_.begin(i, step_, bodies_, joints_, step_bodies(), rows_);
   }
-  void settle_joints(std::uint32_t i) {
-    solver_.joint_solver_.apply_arm_change(i, step_, bodies_, joints_, at_hand(), rows_);
+  void solve_joints_final(std::uint32_t i) {
+    solver_.joint_solver_.solve_final(i, step_, bodies_, joints_, step_bodies(), rows_);
   }
   void warm_start_joints(std::uint32_t i) { solver_.joint_solver_.warm_start(i, step_, rows_); }
-  void push_joints(std::uint32_t i) { solver_.joint_solver_.push(i, step_, rows_); }
+  void solve_joints_biased(std::uint32_t i) { solver_.joint_solver_.solve_biased(i, step_, rows_); }
   void refresh_joints(std::uint32_t i) { solver_.joint_solver_.refresh(i, step_, rows_); }
-  void relax_joints(std::uint32_t i) { solver_.joint_solver_.relax(i, step_, rows_); }
-  void test_joints(std::uint32_t i) { solver_.joint_solver_.test(i, step_, rows_); }
+  void solve_joints_relaxed(std::uint32_t i) {
+    solver_.joint_solver_.solve_relaxed(i, step_, rows_);
+  }
+  void break_joints(std::uint32_t i) { solver_.joint_solver_.break_overloaded(i, step_, rows_); }
 
   // Conjugate gradients.
   void save_impulses(std::uint32_t begin, std::uint32_t end) {
@@ -285,8 +290,8 @@ class ContactSolver::Stages {
 };
 
 void ContactSolver::Stages::plan() {
-  const auto flying = static_cast<std::uint32_t>(solver_.flying_.size());
-  stages_.push_back({{0, flying, kBodyGrain}, &Stages::fly_all});
+  const auto flying = static_cast<std::uint32_t>(solver_.free_bodies_.size());
+  stages_.push_back({{0, flying, kBodyGrain}, &Stages::move_free_bodies});
   if (solver_.active_.empty()) return;
   const bool joints = !solver_.joint_solver_.empty(), impacts = !solver_.impact_pass_.empty();
   const bool joined = joints || guarded_;  // before the kick, as stages between need it
@@ -307,14 +312,14 @@ void ContactSolver::Stages::plan() {
     }
     plan_restitution();
     if (impacts) once(&Stages::propagate_impacts);
-    sweeps<&Stages::push_joints>(&Stages::sweep_biased, &Stages::sweep_biased);
+    sweeps<&Stages::solve_joints_biased>(&Stages::sweep_biased, &Stages::sweep_biased);
     all_bodies<&Stages::join_and_move>();
-    if (!solver_.kinematic_.empty()) once(&Stages::carry_on);
+    if (!solver_.kinematic_.empty()) once(&Stages::move_kinematic_bodies);
     if (solver_.moving_) all_blocks(&Stages::update_arms);
     each_joint_color<&Stages::refresh_joints>();
-    sweeps<&Stages::relax_joints>(&Stages::sweep_relaxed, &Stages::sweep_last);
+    sweeps<&Stages::solve_joints_relaxed>(&Stages::sweep_relaxed, &Stages::sweep_last);
     if (joined || s + 1 == step_.substeps) join_if_split();
-    each_joint_color<&Stages::test_joints>();
+    each_joint_color<&Stages::break_joints>();
     if (!guarded_) continue;
     all_bodies<&Stages::record_impulse_work>();
     once(&Stages::find_impulse_scales);
@@ -328,15 +333,15 @@ void ContactSolver::Stages::plan() {
   if (guarded_) once(&Stages::sum_requests);
   all_bodies<&Stages::finish>();
   if (!joints) return;
-  all_bodies<&Stages::take>();
-  each_joint_color<&Stages::settle_joints>();
-  all_bodies<&Stages::give>();
+  all_bodies<&Stages::load_body>();
+  each_joint_color<&Stages::solve_joints_final>();
+  all_bodies<&Stages::store_body>();
 }
 
 void ContactSolver::Stages::begin(BodySlot body) {
   // A body that only joints hold uses the angular velocity at the middle of the step.
-  solver_.spins_.begin(step_, body, solver_.joint_solver_.swings_free(body), bodies_);
-  take(body);
+  solver_.spins_.begin(step_, body, solver_.joint_solver_.hangs_free(body), bodies_);
+  load_body(body);
 }
 
 void ContactSolver::Stages::turn(BodySlot body) {
@@ -352,15 +357,15 @@ void ContactSolver::Stages::finish(BodySlot body) {
   const Mat3f& root_W = solver_.root_W_[body];
   const bool keeps_angular_momentum = guarded_
                                           ? solver_.energy_guard_.may_keep_angular_momentum(body)
-                                          : !solver_.spins_.makes(body);
+                                          : !solver_.spins_.gains_energy(body);
   if (!keeps_angular_momentum) solver_.spins_.keep_energy(body, r, root_W, bodies_);
-  const Turning& turning = solver_.spins_.turning(body);
+  const RotationState& rotation = solver_.spins_.state(body);
   // Only the change is added, so that the doubles keep what no contact changed.
   bodies_.velocity[body] += linear(r.velocity - r.start).cast<double>();
-  bodies_.angular_velocity[body] = turning.w_W;
+  bodies_.angular_velocity[body] = rotation.w_W;
   bodies_.turned_m[body] +=
       1.1 * double{(root_W * angular(r.position)).norm()} * bodies_.reach_m[body];
-  bodies_.place(body, bodies_.position[body] + linear(r.position).cast<double>(), turning.R_WB);
+  bodies_.place(body, bodies_.position[body] + linear(r.position).cast<double>(), rotation.R_WB);
 }
 
 ContactSolver::ContactSolver(const ContactSolverOptions& options)
@@ -382,7 +387,7 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   blocks_->allocate_arms(moving_);
   impact_pass_.begin(order_.impacts(), active_, rows_.size(), kinematic_.size(), *blocks_);
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(),
-                        joint_solver_.carried(), bodies, contacts);
+                        joint_solver_.driven(), bodies, contacts);
   Stages(*this, step, bodies, contacts, joints).run();
   const Vec3 from_joints_Ns = joint_solver_.finish(bodies, joints);
   return {blocks_->outside_impulse_Ns() + from_joints_Ns, blocks_->work(),
@@ -416,12 +421,12 @@ void ContactSolver::make_blocks() {
 }
 
 void ContactSolver::collect_bodies(const Bodies& bodies) {
-  take_kinematic(bodies, {kinematic_, kinematic_rows_, rows_, root_W_});
+  load_kinematic_rows(bodies, {kinematic_, kinematic_rows_, rows_, root_W_});
   spins_.resize(static_cast<std::uint32_t>(bodies.size()));
   active_.clear();
-  flying_.clear();
+  free_bodies_.clear();
   for (const BodySlot body : bodies.slots())
-    if (bodies.awake(body)) (order_.in_contact()[body] ? active_ : flying_).push_back(body);
+    if (bodies.awake(body)) (order_.in_contact()[body] ? active_ : free_bodies_).push_back(body);
 }
 
 }  // namespace sunder::solver

@@ -60,11 +60,11 @@ class ContactSolver {
   EnergyGuard energy_guard_;
   ImpactPass impact_pass_;
   std::unique_ptr<ContactBlocks> blocks_;
-  std::vector<StageItems> colors_;   ///< Blocks of each colour; split blocks are last.
-  std::vector<BodySlot> active_;     ///< Awake bodies in contact or in a joint.
-  std::vector<BodySlot> flying_;     ///< Awake bodies without contacts.
-  std::vector<BodySlot> kinematic_;  ///< Moving kinematic bodies.
-  std::vector<BodyRow> rows_;        ///< Rows by row_of(), after those of kinematic bodies.
+  std::vector<StageItems> colors_;     ///< Blocks of each colour; split blocks are last.
+  std::vector<BodySlot> active_;       ///< Awake bodies in contact or in a joint.
+  std::vector<BodySlot> free_bodies_;  ///< Awake bodies without contacts.
+  std::vector<BodySlot> kinematic_;    ///< Moving kinematic bodies.
+  std::vector<BodyRow> rows_;          ///< Rows by row_of(), after those of kinematic bodies.
   ByBody<std::int32_t> kinematic_rows_;
   ByBody<Mat3f> root_W_;
   Spins spins_;

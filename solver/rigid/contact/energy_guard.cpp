@@ -24,7 +24,7 @@ double lanes_sum(const Wide& a, const Wide& b, double linear) {
 
 void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot> manifolds,
                           std::span<const BodySlot> active, std::span<const Pair> joined,
-                          std::span<const BodySlot> carried, const Bodies& bodies,
+                          std::span<const BodySlot> driven, const Bodies& bodies,
                           const Contacts& contacts) {
   const double slow_m_s = kGuardedSpeed * step.fall_m_s;
   is_active_ = kGuards && std::ranges::any_of(active, [&](BodySlot body) {
@@ -44,7 +44,7 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
   for (const auto& [a, b] : joined) join(a, b);
   group_.resize(bodies.size());
   for (const BodySlot body : bodies.slots()) group_[body] = BodySlot(groups.root(body.value));
-  exclude_driven(manifolds, carried, active, bodies, contacts);
+  exclude_driven(manifolds, driven, active, bodies, contacts);
   for (const BodySlot body : active)
     if (!in_free_fall_[body] && !group_[body].none()) in_free_fall_[group_[body]] = 0;
   for (const BodySlot body : active)
@@ -60,17 +60,17 @@ void EnergyGuard::exclude_driven(std::span<const ManifoldSlot> manifolds,
                                  std::span<const BodySlot> by_joints,
                                  std::span<const BodySlot> active, const Bodies& bodies,
                                  const Contacts& contacts) {
-  ByBody<std::uint8_t> carried(bodies.size());
+  ByBody<std::uint8_t> driven(bodies.size());
   bool any = false;
-  for (const BodySlot body : by_joints) carried[group_[body]] = any = true;
+  for (const BodySlot body : by_joints) driven[group_[body]] = any = true;
   for (const ManifoldSlot i : manifolds) {
     const Manifold& m = contacts.manifolds[i];
-    if (bodies.carries(m.body_a)) carried[group_[m.body_b]] = any = true;
-    if (bodies.carries(m.body_b)) carried[group_[m.body_a]] = any = true;
+    if (bodies.is_moving_kinematic(m.body_a)) driven[group_[m.body_b]] = any = true;
+    if (bodies.is_moving_kinematic(m.body_b)) driven[group_[m.body_a]] = any = true;
   }
   if (!any) return;
   for (const BodySlot body : active)
-    if (carried[group_[body]]) group_[body] = {};
+    if (driven[group_[body]]) group_[body] = {};
 }
 
 /// Excludes groups that touch nothing and hang in joints: joints keep their energy as well as their

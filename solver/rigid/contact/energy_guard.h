@@ -21,10 +21,10 @@ class EnergyGuard {
 
   /// Groups the awake bodies of these manifolds and jointed pairs. Excludes bodies that hang in
   /// joints and touch nothing, and groups that kinematic bodies do work on, by contacts or, for
-  /// bodies in `carried`, by joints. Excludes all if no body is fast.
+  /// bodies in `driven`, by joints. Excludes all if no body is fast.
   void collect(const StepContext& step, std::span<const ManifoldSlot> manifolds,
                std::span<const BodySlot> active, std::span<const Pair> joined,
-               std::span<const BodySlot> carried, const Bodies& bodies, const Contacts& contacts);
+               std::span<const BodySlot> driven, const Bodies& bodies, const Contacts& contacts);
   /// True if the guard is active in this step.
   bool is_active() const { return is_active_; }
 

@@ -27,7 +27,7 @@ void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active,
   if (empty()) return;
   blocks.allocate_impacts(colors_.back().manifold + colors_.back().manifolds);
   for (const BodySlot body : active)
-    if (impacts.moves(body)) bodies_.push_back(body);
+    if (impacts.may_move(body)) bodies_.push_back(body);
   velocity_.resize(bodies_.size());
   moved_.resize(rows);
   kinematic_ = kinematic;

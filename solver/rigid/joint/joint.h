@@ -47,7 +47,7 @@ struct Joint {
 
   bool holds() const { return present && !lost; }
   /// True if the joint had an impulse in the last step in which it was solved.
-  bool bears() const { return !total.linear_W.isZero(0) || !total.angular_W.isZero(0); }
+  bool has_load() const { return !total.linear_W.isZero(0) || !total.angular_W.isZero(0); }
 };
 
 class Joints {
@@ -59,13 +59,13 @@ class Joints {
   void cut(JointId id, Bodies& bodies);
   /// Must be called before a body is removed: its ends are lost, and the bodies at the other ends
   /// wake.
-  void lose(BodySlot body, Bodies& bodies);
+  void detach(BodySlot body, Bodies& bodies);
   /// Returns a body and all awake bodies joined to it, directly or through others.
   std::vector<BodySlot> joined_to(BodySlot body, const Bodies& bodies) const;
   /// Wakes each sleeping body that is joined to a moving one, directly or through others.
   void wake(Bodies& bodies) const;
   /// True if two shapes ignore each other because their bodies are joined.
-  bool apart(const Pair& pair, const Shapes& shapes, const Bodies& bodies) const;
+  bool ignores(const Pair& pair, const Shapes& shapes, const Bodies& bodies) const;
   /// Removes a joint that broke, and adds it to take_broken().
   void break_off(std::uint32_t joint, Bodies& bodies);
   std::vector<JointId> take_broken();
@@ -74,7 +74,7 @@ class Joints {
   /// See Physics::joint_flows().
   std::vector<JointFlow> flows() const;
   /// Clears the flow of all joints.
-  void forget_flows();
+  void clear_flows();
 
   bool empty() const { return items_.size() == free_slots_.size(); }
   std::uint32_t size() const { return static_cast<std::uint32_t>(items_.size()); }
@@ -86,19 +86,21 @@ class Joints {
 
  private:
   void wake_ends(const Joint& joint, Bodies& bodies) const;
-  void note_pairs(const Bodies& bodies);
+  void update_ignored_pairs(const Bodies& bodies);
 
   std::vector<Joint> items_;
   std::vector<std::uint32_t> free_slots_;
   /// A shape that is ignored within a pair of bodies.
-  struct Quiet {
+  struct IgnoredShape {
     std::uint64_t pair;
     BodySlot body;
     std::uint32_t tag;
-    auto operator<=>(const Quiet&) const = default;
+    auto operator<=>(const IgnoredShape&) const = default;
   };
-  std::vector<std::uint64_t> apart_;  ///< Keys of body pairs that ignore each other, ascending.
-  std::vector<Quiet> quiet_;          ///< Shapes that the other body of a pair ignores, ascending.
+  /// Keys of body pairs that ignore each other, ascending.
+  std::vector<std::uint64_t> ignored_pairs_;
+  /// Shapes that the other body of a pair ignores, ascending.
+  std::vector<IgnoredShape> ignored_shapes_;
   std::vector<JointId> broken_;
 };
 

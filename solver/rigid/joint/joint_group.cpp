@@ -10,7 +10,7 @@
 namespace sunder::solver {
 namespace {
 
-constexpr int kAimRounds = 3;
+constexpr int kAlignRounds = 3;
 // relative to a row's response: the two hinges of a door have redundant rows
 constexpr double kSoftness = 1e-6;
 
@@ -112,7 +112,7 @@ void fill(JointGroup& group, std::span<const JointWork> works) {
       }
     }
   }
-  group.bounded ? group.pinned.forget() : e.factor();
+  group.bounded ? group.pinned.invalidate() : e.factor();
 }
 
 /// Returns the correction speed of row i: of its error, and of the error that rotation adds in this
@@ -122,7 +122,7 @@ double bias(const JointWork& work, int i, const StepContext& step, bool biased) 
   const double apart = work.kind == JointDesc::Kind::kRope ? std::min(0.0, error) : 0;
   if (apart < 0) return apart / step.h_s;  // a slack rope may move up to its length
   if (!biased || i >= work.held_rows) return 0;
-  const double ahead = 0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].bend_s2;
+  const double ahead = 0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].error_acceleration;
   if (i > 0 && work.plastic.softness > 0) return ahead;  // the flow is no error
   const double push_m_s = kMaxJointPush * step.froude.speed_m_s(work.reach_m);
   const double most = i < work.place_rows ? push_m_s : push_m_s / work.reach_m;
@@ -149,9 +149,9 @@ void find_bounded_change(JointGroup& group, std::span<JointWork> works) {
   };
   std::vector<RowBounds>& bounds = group.pinned.bounds;
   bounds.clear();
-  each([&](JointWork& work, std::span<double> asked) {
-    if (work.kind == JointKind::kPlastic) turn_asked(work, asked);
-    for (std::size_t i = 0; i < asked.size(); ++i) {
+  each([&](JointWork& work, std::span<double> target) {
+    if (work.kind == JointKind::kPlastic) turn_target(work, target);
+    for (std::size_t i = 0; i < target.size(); ++i) {
       if (work.kind != JointKind::kPlastic) work.bounds[i].now = work.impulse[i];
       bounds.push_back(work.bounds[i]);
     }
@@ -180,19 +180,19 @@ void find_change(JointGroup& group, std::span<JointWork> works, const StepContex
 }
 
 /// True if a plastic joint exceeds its strength, since the direction of its impulse has changed.
-bool is_over(std::span<JointWork> works, const StepContext& step, const BodyRow* rows) {
+bool exceeds_strength(std::span<JointWork> works, const StepContext& step, const BodyRow* rows) {
   bool over = false;
   for_plastic(works, [&](JointWork& work) {
-    note_flow(work, rows);
-    over = over || is_over(work, step.h_s);
+    record_flow_speed(work, rows);
+    over = over || exceeds_strength(work, step.h_s);
   });
   return over;
 }
 
-void take_out(JointWork& work) {
+void disable(JointWork& work) {
   work.broken = true;
   work.impulse = {};
-  work.owed = {};
+  work.pending = {};
   for (JointRow& row : work.row) row = JointRow{};
 }
 
@@ -214,7 +214,7 @@ void renew_rows(JointGroup& group, std::span<JointWork> works, const StepContext
 void begin_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  const BodyRow* rows) {
   renew_rows(group, works, step, rows);
-  for_plastic(works, [&](JointWork& work) { aim(work, step.h_s); });
+  for_plastic(works, [&](JointWork& work) { align_rows(work, step.h_s); });
   fill(group, works);
 }
 
@@ -228,7 +228,7 @@ void warm_start_group(std::span<JointWork> works, const StepContext& step, BodyR
 void solve_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  bool biased, BodyRow* rows) {
   if (biased) {
-    for (JointWork& work : works) work.apply(std::exchange(work.owed, {}), rows);
+    for (JointWork& work : works) work.apply(std::exchange(work.pending, {}), rows);
   }
   for (int round = 1;; ++round) {
     find_change(group, works, step, biased, rows);
@@ -238,29 +238,29 @@ void solve_group(JointGroup& group, std::span<JointWork> works, const StepContex
       for (int i = 0; i < work.rows; ++i, ++at)
         work.impulse[static_cast<std::size_t>(i)] += group.change[at];
     }
-    if (!biased || !is_over(works, step, rows) || round == kAimRounds) return;
-    for_plastic(works, [&](JointWork& work) { aim(work, step.h_s); });
+    if (!biased || !exceeds_strength(works, step, rows) || round == kAlignRounds) return;
+    for_plastic(works, [&](JointWork& work) { align_rows(work, step.h_s); });
     fill(group, works);
   }
 }
 
 void refresh_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                    const BodyRow* rows) {
-  for (JointWork& work : works) work.owed = work.sum(work.impulse);
+  for (JointWork& work : works) work.pending = work.sum(work.impulse);
   renew_rows(group, works, step, rows);
   for_plastic(works, [&](JointWork& work) {
-    follow_flow(work, rows);
-    aim(work, step.h_s);
+    absorb_flow(work, rows);
+    align_rows(work, step.h_s);
   });
   fill(group, works);
-  for (JointWork& work : works) work.owed = work.sum(work.impulse) - work.owed;
+  for (JointWork& work : works) work.pending = work.sum(work.impulse) - work.pending;
 }
 
-void settle_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                  BodyRow* rows) {
+void solve_group_final(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                       BodyRow* rows) {
   for (JointWork& work : works) work.kept_impulse = std::exchange(work.impulse, {});
   renew_rows(group, works, step, rows);
-  for_plastic(works, hold);
+  for_plastic(works, fix_flow);
   fill(group, works);
   solve_group(group, works, step, false, rows);
   for (JointWork& work : works) {
@@ -280,16 +280,17 @@ void scale_group(JointGroup& group, std::span<JointWork> works, const StepContex
     const float share = share_of(work);
     work.total += -impulse_of(work);
     for (double& impulse : work.impulse) impulse *= double{share};
-    work.owed = {share * work.owed.push, share * work.owed.angular_a, share * work.owed.angular_b};
+    work.pending = {share * work.pending.push, share * work.pending.angular_a,
+                    share * work.pending.angular_b};
   }
   solve_group(group, works, step, false, rows);
   for (JointWork& work : works) work.total += impulse_of(work);
 }
 
-void test_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                BodyRow* rows) {
+void break_overloaded_joints(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                             BodyRow* rows) {
   bool any = false;
-  for_plastic(works, [&](JointWork& work) { note_axial(work, step.h_s); });
+  for_plastic(works, [&](JointWork& work) { record_axial(work, step.h_s); });
   for (JointWork& work : works) {
     if (work.broken) continue;
     const JointImpulse impulse = impulse_of(work);
@@ -304,12 +305,12 @@ void test_group(JointGroup& group, std::span<JointWork> works, const StepContext
       continue;
     }
     work.apply(JointPush{} - work.sum(work.impulse), rows);
-    take_out(work);
+    disable(work);
     any = true;
   }
   if (any) fill(group, works);
-  if (!group.swings_free) return;
-  for (JointWork& work : works) work.owed = work.sum(work.impulse);
+  if (!group.hangs_free) return;
+  for (JointWork& work : works) work.pending = work.sum(work.impulse);
 }
 
 }  // namespace sunder::solver

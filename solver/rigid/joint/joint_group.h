@@ -13,10 +13,10 @@ namespace sunder::solver {
 struct JointGroup {
   std::uint32_t first = 0, count = 0;  ///< Range of joints.
   std::uint8_t color = 0;
-  bool swings_free = false;  ///< No body of the group is connected to a body in contact.
-  bool bounded = false;      ///< An impulse of the group has bounds.
-  Envelope matrix;           ///< Responses; factored unless an impulse has bounds.
-  PinnedRows pinned;         ///< Used if an impulse has bounds.
+  bool hangs_free = false;  ///< No body of the group is connected to a body in contact.
+  bool bounded = false;     ///< An impulse of the group has bounds.
+  Envelope matrix;          ///< Responses; factored unless an impulse has bounds.
+  PinnedRows pinned;        ///< Used if an impulse has bounds.
   std::vector<std::uint32_t> first_row;  ///< First row of each joint.
   /// First joint of the group that each joint shares a body with.
   std::vector<std::uint32_t> first_shared;
@@ -36,13 +36,13 @@ void solve_group(JointGroup& group, std::span<JointWork> works, const StepContex
 void refresh_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                    const BodyRow* rows);
 /// Breaks the joints whose impulses of the substep exceed their strength.
-void test_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                BodyRow* rows);
+void break_overloaded_joints(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                             BodyRow* rows);
 
 /// Makes velocities agree with the joints again after the rotation of each body at the end of the
 /// step. The stored impulses do not change.
-void settle_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                  BodyRow* rows);
+void solve_group_final(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                       BodyRow* rows);
 
 /// Scales the impulses of the substep by the scale of their bodies, by row, and then solves the
 /// joints again, which takes energy as any solve of joints does.

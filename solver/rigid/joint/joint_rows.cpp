@@ -28,19 +28,19 @@ Vec3 spin_of(const Mat3f& root, const BodyRow& row, double h_s) {
 }
 
 void place_row(JointWork& w, const Vec3& arm_a, const Vec3& arm_b, const Vec3& direction,
-               double error, double bend_s2) {
+               double error, double error_acceleration) {
   JointRow& row = w.row[static_cast<std::size_t>(w.rows++)];
   row.push = direction.cast<float>();
   row.turn.setZero();
   row.angular_a = w.root_a.transpose() * arm_a.cross(direction).cast<float>();
   row.angular_b = w.root_b.transpose() * arm_b.cross(direction).cast<float>();
   row.error = error;
-  row.bend_s2 = bend_s2;
+  row.error_acceleration = error_acceleration;
   row.softness = 0;
   ++w.place_rows;
 }
 
-void angular_row(JointWork& w, const Vec3& direction, double error, double bend_s2,
+void angular_row(JointWork& w, const Vec3& direction, double error, double error_acceleration,
                  double softness = 0) {
   JointRow& row = w.row[static_cast<std::size_t>(w.rows++)];
   row.push.setZero();
@@ -48,7 +48,7 @@ void angular_row(JointWork& w, const Vec3& direction, double error, double bend_
   row.angular_a = w.root_a.transpose() * direction.cast<float>();
   row.angular_b = w.root_b.transpose() * direction.cast<float>();
   row.error = error;
-  row.bend_s2 = bend_s2;
+  row.error_acceleration = error_acceleration;
   row.softness = softness;
 }
 
@@ -135,7 +135,7 @@ JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bod
   w.kind = desc.kind;
   const auto take = [&](BodySlot body, std::int32_t& row, float& inverse_mass, Mat3f& root) {
     if (body.none()) return;
-    if (bodies.carries(body)) row = at.kinematic_row[body], root = at.root_W[body];
+    if (bodies.is_moving_kinematic(body)) row = at.kinematic_row[body], root = at.root_W[body];
     if (!bodies.awake(body)) return;
     row = static_cast<std::int32_t>(row_of(body));
     inverse_mass = bodies.inverse_mass[body];

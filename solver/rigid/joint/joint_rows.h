@@ -19,7 +19,8 @@ struct JointRow {
   Vec3f turn = Vec3f::Zero();  ///< Direction of an angular row, on b.
   Vec3f angular_a = Vec3f::Zero(), angular_b = Vec3f::Zero();  ///< Root space.
   double error = 0;                                            ///< m or rad.
-  double bend_s2 = 0;   ///< Second derivative of the error at constant angular velocities.
+  /// Second derivative of the error at constant angular velocities.
+  double error_acceleration = 0;
   double softness = 0;  ///< Above 0: the row is a damper, with this much speed per impulse.
 };
 
@@ -39,10 +40,10 @@ struct PlasticWork {
   Vec6 strength = Vec6::Ones();  ///< Strength of the section by row, N and N·m.
   Vec6 mirror = Vec6::Zero();  ///< Householder vector that turns the rows: of length √2, or zero.
   PlasticState state;
-  double softness = 0;           ///< Softness of the other rows by plastic flow.
-  Quat turn = Quat::Identity();  ///< Plastic rotation in the step, in the axes of the section,
-  Vec3 drawn = Vec3::Zero();     ///< plastic displacement,
-  double work_J = 0;             ///< and their work.
+  double softness = 0;            ///< Softness of the other rows by plastic flow.
+  Quat turn = Quat::Identity();   ///< Plastic rotation in the step, in the axes of the section,
+  Vec3 extension = Vec3::Zero();  ///< plastic displacement,
+  double work_J = 0;              ///< and their work.
   /// Displacement of the anchor on b, in these axes as b lay at the start of the step.
   Vec3 shift_b = Vec3::Zero();
 };
@@ -80,7 +81,7 @@ struct JointWork {
 
   /// Effect of the substep's impulses along the current rows less that along the old ones; applied
   /// in the next substep, which starts with these impulses.
-  JointPush owed;
+  JointPush pending;
 
   /// Returns the speed along row i.
   double speed(int i, const BodyRow* body_rows) const;

@@ -36,7 +36,7 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
   groups_.clear();
   colors_.clear();
   joined_.clear();
-  carried_.clear();
+  driven_.clear();
   is_first_.clear();
   for (std::uint32_t i = 0; i < joints.size(); ++i) {
     if (!joints[i].holds()) continue;
@@ -48,8 +48,10 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
     if (first.none()) continue;
     active_.push_back(i);
     joined_.emplace_back(first, last);
-    const auto carries = [&](BodySlot body) { return !body.none() && bodies.carries(body); };
-    if (carries(joints[i].body_a) || carries(joints[i].body_b)) carried_.push_back(first);
+    const auto carries = [&](BodySlot body) {
+      return !body.none() && bodies.is_moving_kinematic(body);
+    };
+    if (carries(joints[i].body_a) || carries(joints[i].body_b)) driven_.push_back(first);
   }
   works_.resize(active_.size());
   if (active_.empty()) return;
@@ -66,9 +68,9 @@ void JointSolver::mark_free(const Bodies& bodies, SpanByBody<std::uint8_t> in_co
   ByBody<std::uint8_t> touches(bodies.size(), 0);
   for (const auto& [a, b] : joined_)
     if (in_contact[a] || in_contact[b]) touches[BodySlot(islands.root(a.value))] = 1;
-  swings_free_.assign(bodies.size(), 0);
+  hangs_free_.assign(bodies.size(), 0);
   for (const auto& [a, b] : joined_) {
-    swings_free_[a] = swings_free_[b] = !touches[BodySlot(islands.root(a.value))];
+    hangs_free_[a] = hangs_free_[b] = !touches[BodySlot(islands.root(a.value))];
     in_contact[a] = in_contact[b] = 1;
   }
 }
@@ -122,7 +124,7 @@ void JointSolver::group_joints(const Bodies& bodies, const Joints& joints) {
       groups_.emplace_back();
       groups_.back().first = at;
       for_moving(joint, bodies,
-                 [&](BodySlot body) { groups_.back().swings_free = swings_free_[body]; });
+                 [&](BodySlot body) { groups_.back().hangs_free = hangs_free_[body]; });
     }
     for_moving(joint, bodies, [&](BodySlot body) {
       if (row_of_body[body] == kNoRow || row_of_body[body] < base) row_of_body[body] = base + rows;
@@ -155,26 +157,26 @@ void JointSolver::color_groups(const Bodies& bodies, const Joints& joints) {
 }
 
 void JointSolver::begin(std::uint32_t i, const StepContext& step, const Bodies& bodies,
-                        const Joints& joints, const JointStep& at_hand, const BodyRow* rows) {
+                        const Joints& joints, const JointStep& step_bodies, const BodyRow* rows) {
   JointGroup& group = groups_[i];
   for (std::uint32_t at = group.first; at < group.first + group.count; ++at)
-    works_[at] = begin_joint(joints[active_[at]], active_[at], bodies, at_hand);
+    works_[at] = begin_joint(joints[active_[at]], active_[at], bodies, step_bodies);
   begin_group(group, works(group), step, rows);
 }
 
-void JointSolver::settle(std::uint32_t i, const StepContext& step, const Bodies& bodies,
-                         Joints& joints, const JointStep& at_hand, BodyRow* rows) {
+void JointSolver::solve_final(std::uint32_t i, const StepContext& step, const Bodies& bodies,
+                              Joints& joints, const JointStep& step_bodies, BodyRow* rows) {
   for (JointWork& work : works(groups_[i])) {
     if (work.broken) continue;
-    if (work.kind == JointKind::kPlastic) keep_flow(work, joints[work.joint]);
+    if (work.kind == JointKind::kPlastic) store_flow(work, joints[work.joint]);
     const JointWork solved =
-        std::exchange(work, begin_joint(joints[work.joint], work.joint, bodies, at_hand));
+        std::exchange(work, begin_joint(joints[work.joint], work.joint, bodies, step_bodies));
     work.impulse = solved.impulse;
     work.total = solved.total;
     work.bounds = solved.bounds;
     work.plastic = solved.plastic;
   }
-  settle_group(groups_[i], works(groups_[i]), step, rows);
+  solve_group_final(groups_[i], works(groups_[i]), step, rows);
 }
 
 Vec3 JointSolver::finish(Bodies& bodies, Joints& joints) {

@@ -23,24 +23,24 @@ class JointSolver {
   bool empty() const { return groups_.empty(); }
   /// Groups by colour: colours run one after another, the groups of one in parallel.
   const std::vector<StageItems>& colors() const { return colors_; }
-  /// Work on group i; `rows` and `at_hand` are those of the step.
+  /// Work on group i; `rows` and `step_bodies` are those of the step.
   void begin(std::uint32_t i, const StepContext& step, const Bodies& bodies, const Joints& joints,
-             const JointStep& at_hand, const BodyRow* rows);
+             const JointStep& step_bodies, const BodyRow* rows);
   void warm_start(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     warm_start_group(works(groups_[i]), step, rows);
   }
-  void push(std::uint32_t i, const StepContext& step, BodyRow* rows) {
+  void solve_biased(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, true, rows);
   }
   void refresh(std::uint32_t i, const StepContext& step, const BodyRow* rows) {
     refresh_group(groups_[i], works(groups_[i]), step, rows);
   }
-  void relax(std::uint32_t i, const StepContext& step, BodyRow* rows) {
+  void solve_relaxed(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, false, rows);
   }
   /// Must be called at the end of a substep, after all sweeps of contacts.
-  void test(std::uint32_t i, const StepContext& step, BodyRow* rows) {
-    test_group(groups_[i], works(groups_[i]), step, rows);
+  void break_overloaded(std::uint32_t i, const StepContext& step, BodyRow* rows) {
+    break_overloaded_joints(groups_[i], works(groups_[i]), step, rows);
   }
   /// Scales the substep's impulses by the scale of their bodies, by row, and solves the joints
   /// again.
@@ -49,14 +49,14 @@ class JointSolver {
     scale_group(groups_[i], works(groups_[i]), step, scale_of_row, rows);
   }
   /// True if a body is held by joints, and no body connected to it touches anything.
-  bool swings_free(BodySlot body) const { return !groups_.empty() && swings_free_[body]; }
+  bool hangs_free(BodySlot body) const { return !groups_.empty() && hangs_free_[body]; }
   /// Solves for the poses and velocities at the end of the step; stores plastic flow in the joints.
-  void settle(std::uint32_t i, const StepContext& step, const Bodies& bodies, Joints& joints,
-              const JointStep& at_hand, BodyRow* rows);
+  void solve_final(std::uint32_t i, const StepContext& step, const Bodies& bodies, Joints& joints,
+                   const JointStep& step_bodies, BodyRow* rows);
   /// Pairs of moving bodies, one per joint; a joint to the world has the same body twice.
   const std::vector<std::pair<BodySlot, BodySlot>>& joined() const { return joined_; }
   /// Bodies of these joints that are held by a moving kinematic body, which does work on them.
-  const std::vector<BodySlot>& carried() const { return carried_; }
+  const std::vector<BodySlot>& driven() const { return driven_; }
   /// Stores the impulses and removes broken joints. Returns the impulse on bodies from those that
   /// cannot move.
   Vec3 finish(Bodies& bodies, Joints& joints);
@@ -71,12 +71,12 @@ class JointSolver {
   }
 
   std::vector<std::pair<BodySlot, BodySlot>> joined_;
-  std::vector<BodySlot> carried_;
+  std::vector<BodySlot> driven_;
   std::vector<std::uint32_t> active_;   ///< Indices of joints; connected ones are consecutive.
   std::vector<std::uint8_t> is_first_;  ///< 1: first of connected joints; parallel to `active_`.
   std::vector<JointGroup> groups_;      ///< By colour.
   std::vector<StageItems> colors_;
-  ByBody<std::uint8_t> swings_free_;
+  ByBody<std::uint8_t> hangs_free_;
   std::vector<JointWork> works_;  ///< Parallel to `active_`.
 };
 

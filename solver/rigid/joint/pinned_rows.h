@@ -56,22 +56,22 @@ class PinnedRows {
   std::vector<RowBounds> bounds;
 
   /// Must be called when the response has changed: discards the factorization.
-  void forget() { stale_ = true; }
+  void invalidate() { stale_ = true; }
   /// Replaces the target by the change. The bounds must include zero; rows are pinned or free
   /// afterwards.
-  void solve(const Envelope& response, std::span<double> asked);
+  void solve(const Envelope& response, std::span<double> target);
 
  private:
-  void start(const Envelope& response, std::span<const double> asked);
+  void start(const Envelope& response, std::span<const double> target);
   void find_excess(const Envelope& response);
   void factor(const Envelope& response);
-  bool go();
-  bool let_go();
+  bool step_to_bound();
+  bool free_rows();
 
   Envelope factored_;  ///< Factored response of the free rows.
   std::vector<std::uint8_t> factored_free_;
-  std::vector<double> impulse_, way_;
-  std::vector<double> asked_;   ///< Target for impulses that start at zero.
+  std::vector<double> impulse_, direction_;
+  std::vector<double> target_;  ///< Target for impulses that start at zero.
   std::vector<double> excess_;  ///< Excess of the response over the target.
   bool stale_ = true;
 };

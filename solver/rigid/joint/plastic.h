@@ -24,23 +24,23 @@ using Mat6 = Eigen::Matrix<double, kMostJointRows, kMostJointRows>;
 /// joints.
 void turn_rows(const JointWork& of, const JointWork& to, Mat6& response);
 /// Turns the target of the rows, and stores the impulses along them as RowBounds::now.
-void turn_asked(JointWork& work, std::span<double> asked);
+void turn_target(JointWork& work, std::span<double> target);
 /// Turns the change of impulses back into the section's rows.
 void turn_back(const JointWork& work, std::span<double> change);
 
 /// Aligns the rows with the impulse of this substep, and sets their bounds.
-void aim(JointWork& work, double h_s);
+void align_rows(JointWork& work, double h_s);
 /// True if the impulse exceeds the strength, since its direction has changed.
-bool is_over(const JointWork& work, double h_s);
+bool exceeds_strength(const JointWork& work, double h_s);
 /// Stores the speed of flow after a solve.
-void note_flow(JointWork& work, const BodyRow* rows);
+void record_flow_speed(JointWork& work, const BodyRow* rows);
 /// Stores the axial impulse after a solve without correction of errors.
-void note_axial(JointWork& work, double h_s);
+void record_axial(JointWork& work, double h_s);
 /// Turns errors of flowing rows into work and a new rest shape, after the bodies moved.
-void follow_flow(JointWork& work, const BodyRow* rows);
+void absorb_flow(JointWork& work, const BodyRow* rows);
 /// Excludes flowing rows from the next solve, and removes the bounds of all others.
-void hold(JointWork& work);
+void fix_flow(JointWork& work);
 /// Stores the plastic flow of the step in the joint.
-void keep_flow(const JointWork& work, Joint& joint);
+void store_flow(const JointWork& work, Joint& joint);
 
 }  // namespace sunder::solver

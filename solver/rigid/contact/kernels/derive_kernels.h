@@ -198,8 +198,8 @@ struct Reach {
 /// their softness: see sleep.h.
 template <bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE void move_arms(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
-                          const Wide3Of<lanes>& gap, const Pairs<lanes, kSplit>& x,
-                          const WideOf<lanes>& where) {
+                             const Wide3Of<lanes>& gap, const Pairs<lanes, kSplit>& x,
+                             const WideOf<lanes>& where) {
   using V = WideOf<lanes>;
   using V3 = Wide3Of<lanes>;
   const V zero = {}, one = splat<V>(1);
