@@ -59,7 +59,7 @@ bool has_gyroscopic_term(const Bodies& bodies, BodySlot body, double dt_s) {
 
 void move_freely(const StepContext& step, BodySlot body, Bodies& bodies) {
   const double dt_s = step.dt_s;
-  const Vec3 way = dt_s * (bodies.velocity[body] + 0.5 * dt_s * step.gravity_W);
+  const Vec3 displacement = dt_s * (bodies.velocity[body] + 0.5 * dt_s * step.gravity_W);
   bodies.velocity[body] += dt_s * step.gravity_W;
   const Vec3 angle_W = dt_s * bodies.angular_velocity[body];
   Quat rotation;
@@ -70,7 +70,7 @@ void move_freely(const StepContext& step, BodySlot body, Bodies& bodies) {
   } else {
     rotation = rotation_by(angle_W) * bodies.rotation[body];
   }
-  bodies.place(body, bodies.position[body] + way, rotation);
+  bodies.place(body, bodies.position[body] + displacement, rotation);
   bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
 }
 

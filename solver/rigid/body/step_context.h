@@ -20,7 +20,7 @@ struct StepContext {
         substeps(parts),
         h_s(dt / parts),
         inverse_h(static_cast<float>(1 / h_s)),
-        kick_W((h_s * gravity).cast<float>()),
+        gravity_dv_W((h_s * gravity).cast<float>()),
         fall_m_s(gravity.norm() * dt),
         fall_m(static_cast<float>(fall_m_s * dt)),
         still_m_s(froude.still_m_s(dt)) {
@@ -40,7 +40,7 @@ struct StepContext {
   int substeps;
   double h_s;               ///< Length of a substep.
   float inverse_h;          ///< 1/s.
-  Vec3f kick_W;             ///< Change of velocity by gravity in a substep.
+  Vec3f gravity_dv_W;       ///< Change of velocity by gravity in a substep.
   double fall_m_s;          ///< Change of speed by gravity in the step.
   float fall_m;             ///< Distance that gravity moves a body at rest in one step, g·dt².
   double still_m_s;         ///< Closing speed below which a contact is at rest.

@@ -238,15 +238,15 @@ void BroadPhase::drop_pairs(ShapeSlot shape, std::size_t neighbours, const Shape
 
 void BroadPhase::find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies& bodies,
                             const Contacts& contacts, std::vector<FoundPair>& found) {
-  const Shape& mine = shapes[shape];
-  const bool mover = bodies.dynamic(mine.body);
+  const Shape& own = shapes[shape];
+  const bool mover = bodies.dynamic(own.body);
   const std::size_t first = found.size();
   std::size_t neighbours = 0;
   auto consider = [&](ShapeSlot other) {
-    const Shape& theirs = shapes[other];
+    const Shape& neighbour = shapes[other];
     ++neighbours;
-    if (theirs.body == mine.body || (moved_[other] && other < shape)) return;
-    if (!mover && !bodies.dynamic(theirs.body)) return;
+    if (neighbour.body == own.body || (moved_[other] && other < shape)) return;
+    if (!mover && !bodies.dynamic(neighbour.body)) return;
     const FoundPair pair = pair_of(shape, other, shapes);
     if (contacts.slot(pair.key()).none()) found.push_back(pair);
   };

@@ -55,12 +55,12 @@ struct Manifold {
   BodySlot body_a, body_b;
   std::uint8_t count = 0;  ///< Number of points; 0: a free slot.
   std::uint8_t color = kNoColor;
-  bool normal_on_b = false;  ///< The normal is fixed to B instead of A.
-  bool reusable = false;     ///< Points may be kept while the pair barely moves.
-  bool round = false;        ///< Both shapes are spheres.
-  bool deep = false;         ///< The overlap is so deep that the normal is unreliable.
-  bool sticking = false;     ///< No friction anchor has slipped since the last build.
-  bool cold = false;         ///< Belongs to a new body: gets a static warm start in the next solve.
+  bool normal_on_b = false;   ///< The normal is fixed to B instead of A.
+  bool reusable = false;      ///< Points may be kept while the pair barely moves.
+  bool is_ball_pair = false;  ///< Both shapes are spheres.
+  bool deep = false;          ///< The overlap is so deep that the normal is unreliable.
+  bool sticking = false;      ///< No friction anchor has slipped since the last build.
+  bool cold = false;  ///< Belongs to a new body: gets a static warm start in the next solve.
   float friction = 0;
   float restitution = 0;
   /// Compliance over that without load; below 1 if the contact is stiffened.

@@ -29,7 +29,7 @@ ByBody<double> find_fastest(const Bodies& bodies) {
   return fastest_m_s;
 }
 
-bool meet_fast(const StepContext& step, const Manifold& m, const Bodies& bodies,
+bool is_impact(const StepContext& step, const Manifold& m, const Bodies& bodies,
                const ByBody<double>& fastest_m_s) {
   if (!bodies.dynamic(m.body_a) || !bodies.dynamic(m.body_b)) return false;
   const double least_m_s = least_impact_m_s(step, m);
@@ -41,25 +41,26 @@ bool meet_fast(const StepContext& step, const Manifold& m, const Bodies& bodies,
 }
 
 /// Bodies of the awake contacts in a chunk of manifolds, and the contacts with an impact.
-struct Met {
+struct ChunkContacts {
   std::vector<std::array<BodySlot, 2>> touching;
   std::vector<std::uint32_t> struck;  ///< Indices into `touching`.
 };
 
-std::vector<Met> find_met(const StepContext& step, const Bodies& bodies, const Contacts& contacts,
-                          const ByBody<double>& fastest_m_s) {
+std::vector<ChunkContacts> find_contacts(const StepContext& step, const Bodies& bodies,
+                                         const Contacts& contacts,
+                                         const ByBody<double>& fastest_m_s) {
   const std::size_t all = contacts.manifolds.size();
-  std::vector<Met> met((all + kManifolds - 1) / kManifolds);
+  std::vector<ChunkContacts> found((all + kManifolds - 1) / kManifolds);
   for_chunks(all, kManifolds, [&](std::size_t begin, std::size_t end, std::size_t c) {
     for (ManifoldSlot i(begin); i.value < end; ++i.value) {
       const Manifold& m = contacts.manifolds[i];
       if (!touches_awake(m, bodies)) continue;
-      if (meet_fast(step, m, bodies, fastest_m_s))
-        met[c].struck.push_back(static_cast<std::uint32_t>(met[c].touching.size()));
-      met[c].touching.push_back({m.body_a, m.body_b});
+      if (is_impact(step, m, bodies, fastest_m_s))
+        found[c].struck.push_back(static_cast<std::uint32_t>(found[c].touching.size()));
+      found[c].touching.push_back({m.body_a, m.body_b});
     }
   });
-  return met;
+  return found;
 }
 
 }  // namespace
@@ -74,8 +75,8 @@ void Impacts::find(const StepContext& step, const Bodies& bodies, const Contacts
   // One of two bodies in an impact has at least half of its speed, so bodies at rest have none.
   const auto fast = [&](double speed_m_s) { return 2 * speed_m_s > slow_m_s(step); };
   if (std::none_of(fastest_m_s.begin(), fastest_m_s.end(), fast)) return;
-  const std::vector<Met> met = find_met(step, bodies, contacts, fastest_m_s);
-  for (const Met& chunk : met) {
+  const std::vector<ChunkContacts> found = find_contacts(step, bodies, contacts, fastest_m_s);
+  for (const ChunkContacts& chunk : found) {
     if (!chunk.struck.empty() && distance_.empty()) distance_.assign(bodies.size(), kUnreached);
     for (const std::uint32_t i : chunk.struck)
       for (const BodySlot body : chunk.touching[i]) distance_[body] = 0;
@@ -86,7 +87,7 @@ void Impacts::find(const StepContext& step, const Bodies& bodies, const Contacts
       if (distance_[from] == distance && distance_[to] > distance + 1 && bodies.awake(to))
         distance_[to] = static_cast<std::uint8_t>(distance + 1);
     };
-    for (const Met& chunk : met)
+    for (const ChunkContacts& chunk : found)
       for (const auto& [a, b] : chunk.touching) pass_on(a, b), pass_on(b, a);
   }
 }

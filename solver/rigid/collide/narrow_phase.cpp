@@ -48,11 +48,11 @@ struct Probe {
   /// Returns the axis along which hulls in contact slide past each other, if there is one and they
   /// would collide along the best axis.
   std::optional<SeparatingAxis> passing(const RelativePose& pose, const SeparatingAxis& best,
-                                        const Vec3f& way_A) const {
+                                        const Vec3f& displacement_A) const {
     if (a.kind != Kind::kHull || b.kind != Kind::kHull) return {};
     const float tolerance_m = kPassingOverlap * size_m;
-    if (best.separation_m + best.normal_A.dot(way_A) >= -tolerance_m) return {};
-    return passing_axis(a.hull, b.hull, pose, way_A, tolerance_m, scratch.hulls);
+    if (best.separation_m + best.normal_A.dot(displacement_A) >= -tolerance_m) return {};
+    return passing_axis(a.hull, b.hull, pose, displacement_A, tolerance_m, scratch.hulls);
   }
 
   void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m,
@@ -88,11 +88,11 @@ float time_of_impact(const Probe& probe, const RelativePose& start, const Vec3f&
 }
 
 struct Reach {
-  float margin_m;  ///< Margin at any motion.
-  float spin_m;    ///< Maximum motion by rotation within the step.
-  float way_m;     ///< Maximum motion by translation within the step.
+  float margin_m;        ///< Margin at any motion.
+  float spin_m;          ///< Maximum motion by rotation within the step.
+  float displacement_m;  ///< Maximum motion by translation within the step.
 
-  float all_m() const { return margin_m + spin_m + way_m; }
+  float all_m() const { return margin_m + spin_m + displacement_m; }
 };
 
 void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
@@ -176,16 +176,16 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   RelativePose pose = motion.pose;
   SeparatingAxis axis = probe.axis(pose, axis_reach);
   float time = 0;
-  const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
+  const bool may_touch = axis.separation_m <= axis_reach.along(axis.normal_A);
   // The normal of balls depends on where they touch.
   const float casting_motion = b.kind == Kind::kSphere ? kBallCastingMotion : kFar;
-  const bool fast = kLooksAhead && meet && reach.way_m > casting_motion * m.size_m;
+  const bool fast = kLooksAhead && may_touch && reach.displacement_m > casting_motion * m.size_m;
   const std::optional<SeparatingAxis> passing =
       fast ? probe.passing(pose, axis, dt * velocity_A) : std::nullopt;
   if (passing) {
     axis = *passing;
   } else if (fast) {
-    axis_reach.way_A.setZero();
+    axis_reach.displacement_A.setZero();
     time = time_of_impact(probe, pose, velocity_A, axis_reach.margin_m, dt, axis);
     pose.p += std::max(0.f, time) * velocity_A;
     if (time > 0 && b.kind == Kind::kSphere) {  // the normal turns until they touch
@@ -195,7 +195,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
       if (more > 0) axis = touching, time += more, pose.p += more * velocity_A;
     }
   }
-  const bool by_front = meet && a.facet && time >= 0 && !normal_to_surface(a, axis.normal_A);
+  const bool by_front = may_touch && a.facet && time >= 0 && !normal_to_surface(a, axis.normal_A);
   if (by_front) {
     const Collision front =
         collide_with_front(a, b, motion.pose, velocity_A, reach.margin_m + reach.spin_m, dt);
@@ -213,10 +213,10 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   pair.axis_A = pair.clearance_m > 0 ? axis.normal_A : Vec3f(Vec3f::Zero());
   m.normal_on_b = axis.kind == SeparatingAxis::Kind::kFaceB;
   m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && time == 0;
-  m.round = a.kind == Kind::kSphere && b.kind == Kind::kSphere;
-  build_manifold(pair, bodies, motion, axis.normal_A, scratch.points,
-                 std::max(0.f, time) * motion.velocity_W,
-                 reach.spin_m + reach.way_m < kKeptPointMotion * m.size_m ? limit : kNoPoint, m);
+  m.is_ball_pair = a.kind == Kind::kSphere && b.kind == Kind::kSphere;
+  build_manifold(
+      pair, bodies, motion, axis.normal_A, scratch.points, std::max(0.f, time) * motion.velocity_W,
+      reach.spin_m + reach.displacement_m < kKeptPointMotion * m.size_m ? limit : kNoPoint, m);
 }
 
 /// True if the last separating axis of the pair still separates it; sets the clearance.
@@ -234,7 +234,8 @@ bool still_separated(const Shape& a, const Shape& b, const PairMotion& motion,
 bool edges_at_rest(const Shape& a, const Shape& b, const PairMotion& motion, const Reach& reach,
                    float size_m, Pair& pair, NarrowScratch& scratch) {
   const float sliver_m = kSliver * size_m;
-  if (a.kind != Kind::kHull || b.kind != Kind::kHull || reach.spin_m + reach.way_m > sliver_m)
+  if (a.kind != Kind::kHull || b.kind != Kind::kHull ||
+      reach.spin_m + reach.displacement_m > sliver_m)
     return false;
   place_in_each_other(a.hull, b.hull, motion.pose, scratch.hulls);
   if (!touch_without_area(a.hull, b.hull, motion.pose, sliver_m, scratch.hulls)) return false;
@@ -254,10 +255,11 @@ bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, con
   const auto turned_m = static_cast<float>(bodies.turned_m[a] + bodies.turned_m[b] - pair.turned_m);
   const float moved_m = (offset_W - pair.offset_W).norm() + turned_m;
   if (m) return moved_m < kStill * m->size_m;
-  const Vec3f way_W = reach[b].way_W - reach[a].way_W;
-  const float closing_m = pair.axis_A.isZero(0)
-                              ? way_W.norm()
-                              : std::max(0.f, -way_W.dot(bodies.rotation_f[a] * pair.axis_A));
+  const Vec3f displacement_W = reach[b].displacement_W - reach[a].displacement_W;
+  const float closing_m =
+      pair.axis_A.isZero(0)
+          ? displacement_W.norm()
+          : std::max(0.f, -displacement_W.dot(bodies.rotation_f[a] * pair.axis_A));
   const float blur_m = kRounding * offset_W.norm();
   return pair.clearance_m - moved_m - blur_m >
          pair.margin_m + closing_m + reach[a].spin_m + reach[b].spin_m;
@@ -295,9 +297,9 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
   }
   const Reach reach = reach_of(a, b, pair, bodies, motion, step, size_m);
   pair.margin_m = reach.margin_m;
-  const Vec3f way_A = static_cast<float>(step.dt_s) *
-                      (bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W);
-  const AxisReach axis_reach{reach.margin_m + reach.spin_m, way_A};
+  const Vec3f displacement_A = static_cast<float>(step.dt_s) *
+                               (bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W);
+  const AxisReach axis_reach{reach.margin_m + reach.spin_m, displacement_A};
   if (m.count == 0 && still_separated(a, b, motion, axis_reach, pair)) return;
   if (m.count == 0 && edges_at_rest(a, b, motion, reach, size_m, pair, scratch)) return;
   m.size_m = size_m;

@@ -19,7 +19,7 @@ struct NarrowScratch {
 
 /// Motion of a body within the step.
 struct StepReach {
-  Vec3f way_W;
+  Vec3f displacement_W;
   float spin_m;  ///< Upper bound on the motion of its points about its centre.
 };
 

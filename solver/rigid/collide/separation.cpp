@@ -120,7 +120,7 @@ struct Opposite {
 void facing_edges(const Hull& hull, const Opposite& other, float least_m, float cores_m,
                   HullScratch& scratch, std::vector<std::uint16_t>& facing) {
   const auto planes = hull.planes();
-  const float far_m = least_m + cores_m > 0 ? least_m + cores_m : -1e30f;
+  const float least_toward_m = least_m + cores_m > 0 ? least_m + cores_m : -1e30f;
   scratch.ahead.resize(planes.size()), scratch.toward.resize(planes.size());
   for (std::size_t c = 0; c < planes.size(); ++c) {
     scratch.ahead[c] = ahead_of(planes[c], splat3(other.witness));
@@ -137,7 +137,7 @@ void facing_edges(const Hull& hull, const Opposite& other, float least_m, float 
     const float ahead_m = more(scratch.ahead, edge);
     facing[count] = static_cast<std::uint16_t>(e);
     count += (std::max(ahead_m, ahead_m * edge.bulge) > least_m) &
-             (more(scratch.toward, edge) * edge.bulge > far_m);
+             (more(scratch.toward, edge) * edge.bulge > least_toward_m);
   }
   facing.resize(count);
 }
@@ -276,14 +276,14 @@ bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, 
 }
 
 std::optional<SeparatingAxis> passing_axis(const Hull& a, const Hull& b, const RelativePose& pose,
-                                           const Vec3f& way_A, float tolerance_m,
+                                           const Vec3f& displacement_A, float tolerance_m,
                                            const HullScratch& scratch) {
   std::optional<SeparatingAxis> best;
   float best_end_m = -tolerance_m;
-  const auto look = [&](const Hull& hull, std::uint32_t vertex_count,
-                        const std::vector<Wide3>& vertices, const Vec3f& way,
-                        SeparatingAxis::Kind kind) {
-    const Wide3 along = splat3(way);
+  const auto test_faces = [&](const Hull& hull, std::uint32_t vertex_count,
+                              const std::vector<Wide3>& vertices, const Vec3f& displacement,
+                              SeparatingAxis::Kind kind) {
+    const Wide3 along = splat3(displacement);
     for (std::uint32_t c = 0; c < hull.planes().size(); ++c) {
       const Hull::PlaneChunk& planes = hull.planes()[c];
       const Wide least = in_front(planes, vertex_count, vertices);
@@ -298,9 +298,9 @@ std::optional<SeparatingAxis> passing_axis(const Hull& a, const Hull& b, const R
       }
     }
   };
-  look(a, b.vertex_count(), scratch.b_in_A, way_A, SeparatingAxis::Kind::kFaceA);
-  look(b, a.vertex_count(), scratch.a_in_B, pose.R.transpose() * -way_A,
-       SeparatingAxis::Kind::kFaceB);
+  test_faces(a, b.vertex_count(), scratch.b_in_A, displacement_A, SeparatingAxis::Kind::kFaceA);
+  test_faces(b, a.vertex_count(), scratch.a_in_B, pose.R.transpose() * -displacement_A,
+             SeparatingAxis::Kind::kFaceB);
   if (!best) return {};
   if (best->kind == SeparatingAxis::Kind::kFaceA) best->index_b = 0;
   if (best->kind == SeparatingAxis::Kind::kFaceB)

@@ -38,9 +38,11 @@ struct SeparatingAxis {
 /// Separation up to which shapes have a contact: a margin, and their motion along an axis.
 struct AxisReach {
   float margin_m = 0;
-  Vec3f way_A = Vec3f::Zero();  ///< Displacement of b from a within the step, in A.
+  Vec3f displacement_A = Vec3f::Zero();  ///< Displacement of b from a within the step, in A.
 
-  float along(const Vec3f& axis_A) const { return margin_m + std::max(0.f, -axis_A.dot(way_A)); }
+  float along(const Vec3f& axis_A) const {
+    return margin_m + std::max(0.f, -axis_A.dot(displacement_A));
+  }
 };
 
 /// Sets `b_in_A` of the scratch, which is enough for make_patch().
@@ -63,7 +65,7 @@ bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, 
 /// each other in contact do not collide. Of several faces, returns that with the largest final
 /// separation; none has no separation. The scratch must be filled.
 std::optional<SeparatingAxis> passing_axis(const Hull& a, const Hull& b, const RelativePose& pose,
-                                           const Vec3f& way_A, float tolerance_m,
+                                           const Vec3f& displacement_A, float tolerance_m,
                                            const HullScratch& scratch);
 /// Returns the distance of the supporting planes along an axis given in A.
 float separation_along(const Vec3f& axis_A, const Hull& a, const Hull& b, const RelativePose& pose);

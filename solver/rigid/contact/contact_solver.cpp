@@ -32,7 +32,8 @@ class ContactSolver::Stages {
         rows_(solver.rows_.data() + solver.kinematic_.size()),
         accelerated_(!solver.energy_.empty()),
         guarded_(solver.energy_guard_.is_active()),
-        gravity_{step.kick_W.x(), step.kick_W.y(), step.kick_W.z(), 0, 0, 0, 0, 0},
+        gravity_{
+            step.gravity_dv_W.x(), step.gravity_dv_W.y(), step.gravity_dv_W.z(), 0, 0, 0, 0, 0},
         half_fall_(static_cast<float>(0.5 * step.h_s) * gravity_),
         contact_step_{step,
                       bodies,
@@ -132,14 +133,14 @@ class ContactSolver::Stages {
     store_velocity_of_row(row(body), solver_.root_W_[body], body, bodies_);
   }
   void begin(BodySlot body);
-  void first_kick(BodySlot body) {
+  void add_first_gravity(BodySlot body) {
     BodyRow& r = row(body);
     r.velocity = r.base = r.velocity + gravity_;
     if (guarded_) solver_.energy_guard_.record_energy_before(body, bodies_.inverse_mass[body], r);
   }
   /// Adds gravity to `base` before all impulses of a substep, warm start included: the change of
   /// velocity by the impulses is the warm start of the next substep.
-  void kick(BodySlot body) {
+  void add_gravity(BodySlot body) {
     BodyRow& r = row(body);
     const Wide impulses = r.velocity - r.base;
     r.base = r.velocity + gravity_;
@@ -148,7 +149,7 @@ class ContactSolver::Stages {
     r.velocity = solver_.joint_solver_.hangs_free(body) ? r.base : r.base + impulses;
     if (guarded_) solver_.energy_guard_.record_energy_before(body, bodies_.inverse_mass[body], r);
   }
-  void join_and_kick(BodySlot body) { join(body), kick(body); }
+  void join_and_add_gravity(BodySlot body) { join(body), add_gravity(body); }
   void join(BodySlot body) { solver_.splitting_.join(body, row(body)); }
   void join_and_move(BodySlot body) {
     join(body);
@@ -301,13 +302,13 @@ void ContactSolver::Stages::plan() {
   each_joint_color<&Stages::begin_joints>();
   for (int s = 0; s < step_.substeps; ++s) {
     if (s == 0) {
-      all_bodies<&Stages::first_kick>();
+      all_bodies<&Stages::add_first_gravity>();
       each_joint_color<&Stages::warm_start_joints>();
       each_color(&Stages::warm_start);
       join_if_split();
       if (solver_.moving_) all_blocks(&Stages::update_arms);
     } else {
-      joined ? all_bodies<&Stages::kick>() : all_bodies<&Stages::join_and_kick>();
+      joined ? all_bodies<&Stages::add_gravity>() : all_bodies<&Stages::join_and_add_gravity>();
       if (solver_.moving_) each_color(&Stages::apply_arm_change), join_if_split();
     }
     plan_restitution();

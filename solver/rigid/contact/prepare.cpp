@@ -28,26 +28,27 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   const bool a = bodies.awake(m.body_a), b = bodies.awake(m.body_b);
   c.row_a[lane] = step.row(m.body_a);
   c.row_b[lane] = step.row(m.body_b);
-  const bool goes_a = c.row_a[lane] != 0, goes_b = c.row_b[lane] != 0;
+  const bool moves_a = c.row_a[lane] != 0, moves_b = c.row_b[lane] != 0;
   c.inverse_mass_a[lane] = bodies.inverse_mass[m.body_a];
   c.inverse_mass_b[lane] = bodies.inverse_mass[m.body_b];
   // A sleeping body has its mass until derive() removes it: see sleep.h.
   const bool sleeps_a = !a && bodies.dynamic(m.body_a), sleeps_b = !b && bodies.dynamic(m.body_b);
   g.sleepers = g.sleepers || sleeps_a || sleeps_b;
-  g.awake_a[lane] = goes_a ? 1 : 0, g.awake_b[lane] = goes_b ? 1 : 0;
-  if (goes_a || sleeps_a)
-    set_columns(g.root_a, lane, goes_a ? step.root_W[m.body_a] : root_now(bodies, m.body_a));
-  if (goes_b || sleeps_b)
-    set_columns(g.root_b, lane, goes_b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
+  g.awake_a[lane] = moves_a ? 1 : 0, g.awake_b[lane] = moves_b ? 1 : 0;
+  if (moves_a || sleeps_a)
+    set_columns(g.root_a, lane, moves_a ? step.root_W[m.body_a] : root_now(bodies, m.body_a));
+  if (moves_b || sleeps_b)
+    set_columns(g.root_b, lane, moves_b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
   c.outside_sign[lane] = (a ? 0.f : 1.f) - (b ? 0.f : 1.f);
   set_lane(g.offset, lane,
            Vec3f((bodies.position[m.body_b] - bodies.position[m.body_a]).cast<float>()));
   g.share_a[lane] = m.normal_on_b ? 0 : 1;
-  const Vec3 passes = bodies.velocity[m.body_b] - bodies.velocity[m.body_a];
-  const Vec3 turns = bodies.angular_velocity[m.body_b] - bodies.angular_velocity[m.body_a];
-  const double way_m = (passes.norm() + turns.norm() * double{m.size_m}) * step.context.dt_s;
+  const Vec3 linear = bodies.velocity[m.body_b] - bodies.velocity[m.body_a];
+  const Vec3 angular = bodies.angular_velocity[m.body_b] - bodies.angular_velocity[m.body_a];
+  const double displacement_m =
+      (linear.norm() + angular.norm() * double{m.size_m}) * step.context.dt_s;
   g.closes_gap[lane] =
-      way_m > double{kArmMotion * m.size_m} ? 1 : 0;  // bodies at rest need no new arms
+      displacement_m > double{kArmMotion * m.size_m} ? 1 : 0;  // bodies at rest need no new arms
   set_lane(g.gravity, lane,
            ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }
@@ -136,7 +137,7 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
   for (std::uint32_t lane = 0; lane < count; ++lane) {
     const Manifold& m = step.contacts.manifolds[step.manifolds[first + lane]];
     const float square = m.size_m * m.size_m;
-    arms->wide[lane] = m.round ? 0 : square;
+    arms->wide[lane] = m.is_ball_pair ? 0 : square;
     arms->near[lane] = kNegligible * kNegligible * square;
     arms->least[lane] = kArmMotion * kArmMotion * square;
   }

@@ -119,10 +119,10 @@ void store_friction(const StaticBlock& c, std::uint32_t lane, float compliance_s
               m22 = c.friction_mass_22[lane];
   const float det = m11 * m22 - m12 * m12;
   if (!(det > 0)) return;
-  const float far_1 = (m22 * s1 - m12 * s2) / det, far_2 = (m11 * s2 - m12 * s1) / det;
-  Vec3f drift = -compliance_s * (far_1 * t1 + far_2 * t2);
-  const float far = drift.norm(), most = kMaxRestOffset * m.size_m;
-  if (far > most) drift *= most / far;
+  const float drift_1 = (m22 * s1 - m12 * s2) / det, drift_2 = (m11 * s2 - m12 * s1) / det;
+  Vec3f drift = -compliance_s * (drift_1 * t1 + drift_2 * t2);
+  const float length = drift.norm(), most = kMaxRestOffset * m.size_m;
+  if (length > most) drift *= most / length;
   m.drift_W += drift;
   m.friction_arm_B += drift;
 }
@@ -137,9 +137,9 @@ void StaticWarmStart::apply(const StepContext& context, double factor, const Bod
   const auto first_split = static_cast<std::uint32_t>(manifolds_.size());
   const ContactStep step{context, bodies,  contacts,       manifolds_,         first_split,
                          {},      root_W_, {rows_.data()}, soft_step(context), kNoRebound};
-  const double kick_m_s = context.h_s * context.gravity_W.norm();
-  find_impulses(step, kick_m_s);
-  find_supported(kick_m_s, bodies);
+  const double gravity_dv_m_s = context.h_s * context.gravity_W.norm();
+  find_impulses(step, gravity_dv_m_s);
+  find_supported(gravity_dv_m_s, bodies);
   mark_overloaded(context.gravity_W, step.soft, bodies, contacts);
   store(step.soft, context.kept_scale, static_cast<float>(factor), bodies, contacts);
 }
@@ -195,7 +195,7 @@ void StaticWarmStart::make_blocks(const Contacts& contacts) {
 
 void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
                             const Contacts& contacts) {
-  const Vec3f& kick = step.kick_W;
+  const Vec3f& gravity_dv = step.gravity_dv_W;
   const float scale = step.impulse_scale;
   rows_.resize(bodies.size() + 1);
   rows_[0] = BodyRow{};
@@ -208,7 +208,8 @@ void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
       involved_[body] = 1;
       involved_bodies_.push_back(body);
       rows_[row_of(body)] = BodyRow{};
-      rows_[row_of(body)].velocity = Wide{kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
+      rows_[row_of(body)].velocity =
+          Wide{gravity_dv.x(), gravity_dv.y(), gravity_dv.z(), 0, 0, 0, 0, 0};
       root_W_[body] = bodies.rotation_f[body] * bodies.root_B[body];
     }
   }
@@ -238,19 +239,19 @@ void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
 void StaticWarmStart::estimate_impulses(const StepContext& step, const Bodies& bodies,
                                         Contacts& contacts) {
   loads_.assign(bodies.size(), {});
-  const Vec3f& kick = step.kick_W;
+  const Vec3f& gravity_dv = step.gravity_dv_W;
   for (const BodySlot body : bodies.slots()) {
     if (!involved_[body]) continue;
     const Wide& v = rows_[row_of(body)].velocity;
     const Vec3f velocity = linear(v), spin = angular(v);
     loads_[body].impulse_W = velocity / bodies.inverse_mass[body];
     loads_[body].angular_impulse_W = root_W_[body].transpose().inverse() * spin;
-    loads_[body].supported = velocity.dot(kick) < 0.5f * kick.squaredNorm();
+    loads_[body].supported = velocity.dot(gravity_dv) < 0.5f * gravity_dv.squaredNorm();
   }
   distribute_loads(step.gravity_W, manifolds_, step.kept_scale, bodies, loads_, contacts);
 }
 
-void StaticWarmStart::find_impulses(const ContactStep& step, double kick_m_s) {
+void StaticWarmStart::find_impulses(const ContactStep& step, double gravity_dv_m_s) {
   double points = 0;
   for (const StaticBlock& c : blocks_) points += c.points * static_cast<double>(c.count);
   const int rounds = std::clamp(static_cast<int>(kMaxWork / points), kLeastRounds, kMostRounds);
@@ -290,7 +291,7 @@ void StaticWarmStart::find_impulses(const ContactStep& step, double kick_m_s) {
     if (round == next_check) {
       // Rounding or sliding contacts may prevent convergence.
       const double seen = square / loads;
-      const std::size_t supported = find_supported(kick_m_s, step.bodies);
+      const std::size_t supported = find_supported(gravity_dv_m_s, step.bodies);
       const bool stuck = seen > 0.5 * last_seen;
       const bool all = supported == involved_bodies_.size();
       if (seen < kNearlyConverged && supported <= last_supported && (stuck || !all)) return;
@@ -305,14 +306,14 @@ void StaticWarmStart::find_impulses(const ContactStep& step, double kick_m_s) {
 /// Marks bodies as unsupported that would have more energy with these impulses than gravity gave
 /// them: there were too few rounds, or nothing can support them. Returns the number of supported
 /// bodies.
-std::size_t StaticWarmStart::find_supported(double kick_m_s, const Bodies& bodies) {
+std::size_t StaticWarmStart::find_supported(double gravity_dv_m_s, const Bodies& bodies) {
   std::size_t supported = 0;
   for (const BodySlot body : involved_bodies_) {
     const Wide& v = rows_[row_of(body)].velocity;
     const Vec3f velocity = linear(v), spin = angular(v);  // of unit inertia
     const double energy =
         double{velocity.squaredNorm()} + double{bodies.inverse_mass[body] * spin.squaredNorm()};
-    loads_[body].supported = energy <= kMostLeft * kick_m_s * kick_m_s;
+    loads_[body].supported = energy <= kMostLeft * gravity_dv_m_s * gravity_dv_m_s;
     supported += loads_[body].supported;
   }
   return supported;

@@ -42,11 +42,11 @@ class StaticWarmStart {
   void make_blocks(const Contacts& contacts);
   void begin(const StepContext& step, const Bodies& bodies, const Contacts& contacts);
   void estimate_impulses(const StepContext& step, const Bodies& bodies, Contacts& contacts);
-  void find_impulses(const ContactStep& step, double kick_m_s);
-  std::size_t find_supported(double kick_m_s, const Bodies& bodies);
+  void find_impulses(const ContactStep& step, double gravity_dv_m_s);
+  std::size_t find_supported(double gravity_dv_m_s, const Bodies& bodies);
   void mark_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
                        const Contacts& contacts);
-  void store(const SoftStep& soft, float stored_scale, float factor, const Bodies& bodies,
+  void store(const SoftStep& soft, float kept_scale, float factor, const Bodies& bodies,
              Contacts& contacts) const;
 
   std::vector<ManifoldSlot> manifolds_;  ///< By colour and number of points.

@@ -49,9 +49,9 @@ void Joints::update_ignored_pairs(const Bodies& bodies) {
     const std::uint64_t pair = body_pair(joint.body_a, joint.body_b);
     if (joint.desc.kind == JointKind::kPlastic) {
       const auto add = [&](BodySlot body, BodySlot other, const std::vector<std::uint32_t>& tags) {
-        const bool stands = bodies.motion[other] == Motion::kStatic;
+        const bool is_static = bodies.motion[other] == Motion::kStatic;
         for (const std::uint32_t tag : tags)
-          ignored_shapes_.push_back({stands ? kAnyStatic : pair, body, tag});
+          ignored_shapes_.push_back({is_static ? kAnyStatic : pair, body, tag});
       };
       add(joint.body_a, joint.body_b, joint.desc.quiet_a);
       add(joint.body_b, joint.body_a, joint.desc.quiet_b);

@@ -17,16 +17,16 @@ constexpr double kSoftness = 1e-6;
 /// Returns the response of row i of one joint to an impulse along row j of another, by shared
 /// bodies.
 double response(const JointWork& m, const JointRow& i, const JointWork& n, const JointRow& j) {
-  const double pushes = double{i.push.dot(j.push)};
+  const double linear = double{i.push.dot(j.push)};
   double sum = 0;
   if (m.row_a > 0 && m.row_a == n.row_a)
-    sum += double{m.inverse_mass_a} * pushes + double{i.angular_a.dot(j.angular_a)};
+    sum += double{m.inverse_mass_a} * linear + double{i.angular_a.dot(j.angular_a)};
   if (m.row_b > 0 && m.row_b == n.row_b)
-    sum += double{m.inverse_mass_b} * pushes + double{i.angular_b.dot(j.angular_b)};
+    sum += double{m.inverse_mass_b} * linear + double{i.angular_b.dot(j.angular_b)};
   if (m.row_a > 0 && m.row_a == n.row_b)
-    sum -= double{m.inverse_mass_a} * pushes + double{i.angular_a.dot(j.angular_b)};
+    sum -= double{m.inverse_mass_a} * linear + double{i.angular_a.dot(j.angular_b)};
   if (m.row_b > 0 && m.row_b == n.row_a)
-    sum -= double{m.inverse_mass_b} * pushes + double{i.angular_b.dot(j.angular_a)};
+    sum -= double{m.inverse_mass_b} * linear + double{i.angular_b.dot(j.angular_a)};
   return sum;
 }
 

@@ -58,7 +58,7 @@ void angular_row(JointWork& w, const Vec3& direction, double error, double error
 double tension_stiffness(const JointWork& w, double h_s, double pull_Ns, const Vec3& arm_a,
                          const Vec3& arm_b, double& arm_m) {
   double most = 0;
-  const auto look = [&](Vec3f JointRow::*angular, const Vec3& arm) {
+  const auto consider = [&](Vec3f JointRow::*angular, const Vec3& arm) {
     const double length_m = arm.norm();
     double turns = 0;
     for (std::size_t i = 0; i < 3; ++i) turns += double{(w.row[i].*angular).squaredNorm()};
@@ -66,7 +66,7 @@ double tension_stiffness(const JointWork& w, double h_s, double pull_Ns, const V
     most = turns * h_s * pull_Ns / length_m;
     arm_m = length_m;
   };
-  look(&JointRow::angular_a, arm_a), look(&JointRow::angular_b, arm_b);
+  consider(&JointRow::angular_a, arm_a), consider(&JointRow::angular_b, arm_b);
   return most;
 }
 
@@ -168,8 +168,9 @@ void refresh_rows(JointWork& w, double h_s, const BodyRow* rows) {
   const Quat rotation_a = rotation_of(w.root_a, rows[w.row_a]),
              rotation_b = rotation_of(w.root_b, rows[w.row_b]);
   const Vec3 arm_a = rotation_a * w.arm_a, arm_b = rotation_b * w.arm_b;
-  const Vec3 way = (linear(rows[w.row_b].position) - linear(rows[w.row_a].position)).cast<double>();
-  const Vec3 gap = w.gap + way + (arm_b - w.arm_b) - (arm_a - w.arm_a);
+  const Vec3 displacement =
+      (linear(rows[w.row_b].position) - linear(rows[w.row_a].position)).cast<double>();
+  const Vec3 gap = w.gap + displacement + (arm_b - w.arm_b) - (arm_a - w.arm_a);
   const Vec3 spin_a = spin_of(w.root_a, rows[w.row_a], h_s),
              spin_b = spin_of(w.root_b, rows[w.row_b], h_s);
   const Vec3 bend = spin_b.cross(spin_b.cross(arm_b)) - spin_a.cross(spin_a.cross(arm_a));

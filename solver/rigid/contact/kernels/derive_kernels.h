@@ -149,8 +149,9 @@ SUNDER_INLINE void derive_points(const GatheredBlock<lanes>& g, ConstraintBlock<
 template <std::uint32_t lanes>
 SUNDER_INLINE void derive_springs(const GatheredBlock<lanes>& g, ConstraintBlock<lanes>& c) {
   using V = WideOf<lanes>;
-  const V mass = g.normal_mass_scale, give = g.compliance_scale * g.normal_impulse_scale;
-  c.normal_mass_scale = mass / (mass + give), c.normal_impulse_scale = give / (mass + give);
+  const V mass = g.normal_mass_scale, softness = g.compliance_scale * g.normal_impulse_scale;
+  c.normal_mass_scale = mass / (mass + softness),
+  c.normal_impulse_scale = softness / (mass + softness);
   if (!c.split) return;
   for (std::uint32_t i = 0; i < c.points; ++i) c.parts.normal_split_scale[i] *= g.compliance_scale;
 }
@@ -218,13 +219,13 @@ SUNDER_INLINE void move_arms(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms,
     arms.pending_b = arms.pending_b + by_b * impulse;
     return dot(by_b, x.b.angular) - dot(by_a, x.a.angular);
   };
-  const V pressed = shift(c.normal, total_impulse(c));
+  const V shifted = shift(c.normal, total_impulse(c));
   for (std::uint32_t i = 0; i < c.points; ++i) {
     PointLanes<lanes>& p = c.point[i];
     Reach<V> reach{p.angular_a, p.angular_b};
     const V was = reach.with(reach);
     reach.add(by_a, by_b);
-    p.separation = p.separation - pressed;
+    p.separation = p.separation - shifted;
     p.mass = p.mass / (one + p.mass * (reach.with(reach) - was));
   }
   Reach<V> friction_1{c.friction_1_a, c.friction_1_b}, friction_2{c.friction_2_a, c.friction_2_b};
@@ -279,9 +280,9 @@ SUNDER_INLINE void update_arms_as(ConstraintBlock<lanes>& c, ArmLanes<lanes>& ar
   const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
   arms.moving_impulse = c.normal * total_impulse(c) + c.tangent_1 * c.friction_impulse_1 +
                         c.tangent_2 * c.friction_impulse_2;
-  const Wide3Of<lanes> way = x.b.linear - x.a.linear;
-  Wide3Of<lanes> gap = arms.gap + way;
-  V wanted = dot(way, way) > arms.least ? c.point[0].mass : zero;
+  const Wide3Of<lanes> displacement = x.b.linear - x.a.linear;
+  Wide3Of<lanes> gap = arms.gap + displacement;
+  V wanted = dot(displacement, displacement) > arms.least ? c.point[0].mass : zero;
   const V wide = dot(gap, gap) > arms.wide ? one : zero;
   if (any(wide > zero)) {
     const Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);

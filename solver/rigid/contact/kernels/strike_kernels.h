@@ -158,9 +158,9 @@ bool apply_restitution(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const S
   Restitution<lanes> restitution(c, bodies);
   Closing<lanes> closing(c, x, restitution.was, h_s);
   if (!any(closing.rebounding > zero)) return false;
-  const Wide3Of<lanes> way =
+  const Wide3Of<lanes> displacement =
       (restitution.was.b.linear - restitution.was.a.linear) * closing.touch_s;
-  move_arms(c, arms, arms.gap + (x.b.linear - x.a.linear) + way, x, closing.rebounding);
+  move_arms(c, arms, arms.gap + (x.b.linear - x.a.linear) + displacement, x, closing.rebounding);
   closing.update_speeds(c, restitution.was, h_s);
   for (int round = 0; round < kRounds; ++round)
     restitution.solve_normal(c, closing, h_s), restitution.solve_friction(c);

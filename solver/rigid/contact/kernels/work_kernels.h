@@ -33,9 +33,9 @@ SUNDER_INLINE void find_work_as(ConstraintBlock<lanes>& c, const SolverRows& bod
   using V = WideOf<lanes>;
   const V half = splat<V>(0.5f), zero = {};
   const auto& p = c.step_impulse;
-  const V pressed = p[0] + p[1] + p[2] + p[3];
-  c.total = c.normal * pressed + c.tangent_1 * p[4] + c.tangent_2 * p[5];
-  c.work.allowed_Ns = c.friction * pressed;
+  const V normal = p[0] + p[1] + p[2] + p[3];
+  c.total = c.normal * normal + c.tangent_1 * p[4] + c.tangent_2 * p[5];
+  c.work.allowed_Ns = c.friction * normal;
   c.work.excess_Ns = max(zero, sqrt(p[4] * p[4] + p[5] * p[5]) - c.work.allowed_Ns);
   Pairs<lanes, kSplit> mean(c, bodies, &BodyRow::start);
   const Pairs<lanes, kSplit> end(c, bodies, &BodyRow::velocity);
