@@ -64,7 +64,7 @@ void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
   over_relaxed.soft.omega = kOverRelaxed;
   const int most = std::min(kMostSweeps, kMostWork / manifolds_);
   for (int i = 1; i < most && once(over_relaxed); ++i) sweep.since = sweep.now;
-  sweep.since = std::min<std::uint8_t>(sweep.now, 1);  // all that an impact reached
+  sweep.since = std::min<std::uint8_t>(sweep.now, 1);  // all bodies that an impact reached
   once(step), once(step);  // friction uses the normal impulses of the previous sweep
 }
 

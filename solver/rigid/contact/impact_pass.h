@@ -34,7 +34,7 @@ class ImpactPass {
 
  private:
   struct Color {
-    std::uint32_t first, end;  ///< Blocks.
+    std::uint32_t first, end;  ///< Range of blocks.
     /// First manifold in the list to solve, and number of manifolds.
     std::uint32_t manifold, manifolds;
   };
@@ -53,7 +53,7 @@ class ImpactPass {
   std::vector<Color> colors_;
   std::vector<BodySlot> bodies_;     ///< Bodies that impacts may move.
   std::vector<Wide> velocity_;       ///< Velocities of these bodies with all impulses.
-  std::vector<std::uint8_t> moved_;  ///< See ImpactSweep.
+  std::vector<std::uint8_t> moved_;  ///< ImpactSweep::moved, with rows below 0 first.
   std::size_t kinematic_ = 0;        ///< Number of rows below 0.
   int manifolds_ = 0;
 };

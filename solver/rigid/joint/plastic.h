@@ -9,7 +9,6 @@
 //
 // Each pinned row works against its own speed, and each soft row is a damper: flow takes energy,
 // however far its direction lags.
-// however far the direction lags behind.
 #pragma once
 
 #include <span>
