@@ -13,8 +13,8 @@ struct ContactWork {
   double normal_J = 0;    ///< Work of normal impulses on both bodies.
   double friction_J = 0;  ///< Work of friction on both bodies.
   double drive_J = 0;     ///< Work of kinematic bodies on others.
-  double allowed_Ns = 0;  ///< Friction impulse that Coulomb's law allows,
-  double excess_Ns = 0;   ///< and friction impulse beyond that.
+  double allowed_Ns = 0;  ///< Friction impulse that Coulomb's law allows.
+  double excess_Ns = 0;   ///< Friction impulse beyond the allowed one.
 };
 
 /// Manifolds in blocks of lanes(). The number of lanes changes no result: the manifolds of a block

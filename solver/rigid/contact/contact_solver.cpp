@@ -66,7 +66,7 @@ class ContactSolver::Stages {
 
   void plan();
   /// Plans the sweeps of a substep. After all sweeps but the last, split bodies are joined; after
-  /// the last one the move and the kick do that, which saves one synchronization.
+  /// the last one join_and_move() and join_and_add_gravity() do that, which saves a stage.
   template <WorkOnGroup joint_work>
   void sweeps(Work work, Work last_work) {
     for (int i = 1; i <= solver_.options_.sweeps; ++i) {

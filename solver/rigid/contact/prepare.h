@@ -19,8 +19,8 @@ struct ContactStep {
   const Bodies& bodies;
   Contacts& contacts;
   std::span<const ManifoldSlot> manifolds;  ///< Manifolds to solve, in the order of blocks.
-  std::uint32_t first_split;                ///< Index of the first split manifold,
-  std::span<const SplitSides> split;        ///< and the sides of each.
+  std::uint32_t first_split;                ///< Index of the first split manifold.
+  std::span<const SplitSides> split;        ///< Sides of the split manifolds.
   SpanByBody<const Mat3f> root_W;           ///< Roots of awake and kinematic bodies.
   SolverRows rows;
   SoftStep soft;

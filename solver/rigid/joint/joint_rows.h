@@ -41,9 +41,9 @@ struct PlasticWork {
   Vec6 mirror = Vec6::Zero();  ///< Householder vector that turns the rows: of length √2, or zero.
   PlasticState state;
   double softness = 0;            ///< Softness of the other rows by plastic flow.
-  Quat turn = Quat::Identity();   ///< Plastic rotation in the step, in the axes of the section,
-  Vec3 extension = Vec3::Zero();  ///< plastic displacement,
-  double work_J = 0;              ///< and their work.
+  Quat turn = Quat::Identity();   ///< Plastic rotation in the step, in the axes of the section.
+  Vec3 extension = Vec3::Zero();  ///< Plastic displacement in the step, in these axes.
+  double work_J = 0;              ///< Plastic work in the step.
   /// Displacement of the anchor on b, in these axes as b lay at the start of the step.
   Vec3 shift_b = Vec3::Zero();
 };

@@ -63,8 +63,8 @@ struct WorkLanes {
   WideOf<lanes> normal_J = {};    ///< Work of normal impulses on both bodies.
   WideOf<lanes> friction_J = {};  ///< Work of friction on both bodies.
   WideOf<lanes> drive_J = {};     ///< Work of a kinematic body on the other.
-  WideOf<lanes> allowed_Ns = {};  ///< Friction impulse that Coulomb's law allows,
-  WideOf<lanes> excess_Ns = {};   ///< and friction impulse beyond that.
+  WideOf<lanes> allowed_Ns = {};  ///< Friction impulse that Coulomb's law allows.
+  WideOf<lanes> excess_Ns = {};   ///< Friction impulse beyond the allowed one.
 };
 
 /// Manifolds of one colour. Data of a sweep comes first. The alignment is explicit, or it would
