@@ -291,11 +291,11 @@ class ContactSolver::Stages {
 };
 
 void ContactSolver::Stages::plan() {
-  const auto flying = static_cast<std::uint32_t>(solver_.free_bodies_.size());
-  stages_.push_back({{0, flying, kBodyGrain}, &Stages::move_free_bodies});
+  const auto free = static_cast<std::uint32_t>(solver_.free_bodies_.size());
+  stages_.push_back({{0, free, kBodyGrain}, &Stages::move_free_bodies});
   if (solver_.active_.empty()) return;
   const bool joints = !solver_.joint_solver_.empty(), impacts = !solver_.impact_pass_.empty();
-  const bool joined = joints || guarded_;  // before the kick, as stages between need it
+  const bool joined = joints || guarded_;  // before gravity is added, as stages between need it
   all_bodies<&Stages::begin>();
   all_blocks(&Stages::prepare);
   if (impacts) once(&Stages::prepare_impacts);
