@@ -37,7 +37,8 @@ MATHEMATICS = {
 }
 
 NAMED = re.compile(r"\bconstexpr\s+(?:float|double)\s+(.*?);", re.DOTALL)
-TUNED = re.compile(r"^(/// [^\n]*\n)?SUNDER_TUNED\s+(?!bool)(?:const\s+)?[\w:]+&?\s+([^;]*);([^\n]*)", re.MULTILINE)
+TUNED = re.compile(r"^(/// [^\n]*\n)?SUNDER_TUNED\s+(?!bool)(?:const\s+)?[\w:]+&?\s+([^;]*);"
+                   r"([^\n]*)", re.MULTILINE)
 NAME = re.compile(r"\b(k[A-Z]\w*)\b\s*(?:\[\d*\]\s*)?=")
 LITERAL = re.compile(r"(?<![\w.])(\d+\.\d*(?:e[-+]?\d+)?f?|\d+e[-+]?\d+f?)(?![\w.])")
 
