@@ -21,7 +21,7 @@ namespace {
 // A convex is a pane if its least width is below this share of the cube root of its volume.
 constexpr double kPane = 0.3;
 
-/// The rotation that takes y to `axis`, after a rotation about y.
+/// Returns the rotation that takes y to `axis`, after a rotation about y.
 Quat rotation_onto(const Vec3& axis, double about_y_rad) {
   const Vec3 y = axis.normalized();
   Vec3 x = y.cross(std::abs(y.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ()).normalized();
@@ -32,7 +32,7 @@ Quat rotation_onto(const Vec3& axis, double about_y_rad) {
   return Quat(rotation).normalized();
 }
 
-/// The direction across a pane; otherwise that of the impact.
+/// Returns the direction across a pane, and that of the impact for other convexes.
 Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
   double least = std::numeric_limits<double>::infinity();
   Vec3 thin = direction_R;
@@ -50,8 +50,9 @@ Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
   return thin.dot(direction_R) < 0 ? Vec3(-thin) : thin;
 }
 
-/// How a pattern lies: Voronoi cells any way round, masonry as it was built, wood along the
-/// longest side of the convex, webs across a pane or the impact.
+/// Returns the orientation of a pattern: random for Voronoi cells, that of the rest frame for
+/// bricks, along the longest side of the convex for wood, across the pane or along the impact for
+/// webs.
 Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direction_R,
                  Random& random) {
   const double about_y_rad = random.uniform(0, 2 * std::numbers::pi);
@@ -73,10 +74,10 @@ Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direc
   }
 }
 
-// A convex of which less than this share is in a plug stays.
+// A convex of which less than this share lies in a plug is not separated.
 constexpr double kInPlug = 0.05;
 
-/// Share of a convex, given in the pattern's frame, that lies in the prism of a plug.
+/// Returns the share of a convex, given in the pattern's frame, that lies in the prism of a plug.
 double share_in(const Plug& plug, ConvexPolyhedron part_P) {
   const double volume_m3 = mass_properties(part_P).volume_m3;
   ConvexPolyhedron cut;
@@ -94,7 +95,7 @@ double share_in(const Plug& plug, ConvexPolyhedron part_P) {
   return mass_properties(part_P).volume_m3 / volume_m3;
 }
 
-/// Parts the convexes that reach into a plug from all others, and from each other.
+/// Separates the convexes that reach into a plug from all others, and from each other.
 BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
   const Pose X_PR = command.X_RP.inverse();
   const Plug& plug = *command.plug;
@@ -121,7 +122,7 @@ BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
   return part(compound, slots, cut, {});
 }
 
-/// Replaces the pattern by a plug, if the striker drives one out.
+/// Replaces the pattern by a plug if the striker drives one out of the solid.
 void add_plug(const Convex& convex, const Material& material, const Hit& hit,
               BreakCommand& command) {
   Pose X_RP;
@@ -193,7 +194,7 @@ class PatternBreaker final : public Breaker {
   mutable PatternLibrary library_;
 };
 
-/// How far the farthest corner of a box is.
+/// Returns the distance from `from` to the farthest corner of a box.
 double reach(const Box& box, const Vec3& from) {
   return (box.max - from).cwiseAbs().cwiseMax((box.min - from).cwiseAbs()).norm();
 }

@@ -10,20 +10,21 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kThinnest = 1 / 4.17;  // thickness over width: see perforation_energy_J()
-constexpr double kCrackSpeed = 0.45;    // of cracks, over that of shear waves (glass: 1500 m/s)
-constexpr double kSpall = 1.5;          // width of the ring around the plug, over that of the plug
-constexpr double kSpalls = 9;           // energies that drive a plug out, from which there is one
-constexpr int kMostRings = 8;           // of a web around the plug
-// A striker whose plug is more than this share of a solid breaks that as a whole.
+constexpr double kThinnest = 1 / 4.17;  // Least thickness over width; see perforation_energy_J().
+constexpr double kCrackSpeed = 0.45;  // Speed of cracks over that of shear waves (glass: 1500 m/s).
+constexpr double kSpall = 1.5;        // Outer width of the spall ring over the width of the plug.
+constexpr double kSpalls = 9;  // Energy over that of the plug, from which the far face spalls.
+constexpr int kMostRings = 8;  // Limit of the rings of a web around the plug.
+// A striker whose plug would have more than this share of the solid's volume breaks all of it.
 constexpr double kWidest = 0.3;
-constexpr double kClearance = 1.12;   // of a hole, over what goes through
-constexpr double kMostTaken = 0.999;  // of the energy, so that some is left to share out
+constexpr double kClearance = 1.12;   // Width of the hole over that of the striker.
+constexpr double kMostTaken = 0.999;  // Share of the impact energy that perforation may take; some
+                                      // must be left to distribute.
 // A crater deeper than this share of its width needs a solid that goes on around it.
 constexpr double kShallow = 0.25;
-constexpr double kSlice = 0.7;  // thickness of a slice of the plug, over its width
+constexpr double kSlice = 0.7;  // Thickness of a slice of the plug, over its width.
 
-/// Area (positive if counter-clockwise in x and z) and centroid of a polygon.
+/// Returns the area (positive if counter-clockwise in x and z) and the centroid of a polygon.
 std::pair<double, Vec2> measure(const std::vector<Vec2>& polygon) {
   double twice_m2 = 0;
   Vec2 moment = Vec2::Zero();
@@ -43,7 +44,8 @@ double perimeter_m(const std::vector<Vec2>& polygon) {
   return sum_m;
 }
 
-/// A rotation whose second column is `y`, and whose first is as near as may be to `near_x`.
+/// Returns a rotation whose second column is `y` and whose first is as close as possible to
+/// `near_x`.
 Mat3 axes_along(const Vec3& y, const Vec3& near_x) {
   const Vec3 x = (near_x - near_x.dot(y) * y).normalized();
   Mat3 axes;
@@ -51,7 +53,7 @@ Mat3 axes_along(const Vec3& y, const Vec3& near_x) {
   return axes;
 }
 
-/// Length of the cracks of a web of that many rings, seen along the axis.
+/// Returns the length of the cracks of a web of `rings` rings, seen along the axis.
 double crack_length_m(const Plug& plug, double radius_m, int rings) {
   double length_m = static_cast<double>(plug.section_m.size()) * (plug.reach_m - radius_m);
   for (int ring = 0; ring <= rings; ++ring)
@@ -60,8 +62,8 @@ double crack_length_m(const Plug& plug, double radius_m, int rings) {
   return length_m;
 }
 
-/// Adds the rings that the energy left can pay for: of a web, as far as cracks run while the
-/// striker passes; of other patterns, one in which the far face spalls.
+/// Adds as many rings as the remaining energy pays for: to a web, as far as cracks run while the
+/// striker passes; to other patterns one ring, if the far face spalls.
 void add_rings(const Material& material, const Hit& hit, double radius_m, Plug& plug) {
   const double left_J = kCrackShare * (hit.energy_J - plug.energy_J);
   const double affordable_m = left_J / (material.toughness_J_m2 * plug.depth_m);
@@ -77,13 +79,14 @@ void add_rings(const Material& material, const Hit& hit, double radius_m, Plug& 
     ++plug.rings;
 }
 
-/// Shortens a plug that the energy does not carry through to a crater of that energy, and narrows
-/// its section as that of a round nose; `width_m` and `area_m2` go with it. Returns false if the
-/// solid is too narrow there, and breaks as a whole.
+/// Shortens a plug that the striker cannot drive out to a crater of the impact's energy, and
+/// narrows its section to that of a round nose; updates `width_m` and `area_m2`. Returns false if
+/// the solid is too narrow there and breaks as a whole.
 bool become_crater(const Hit& hit, double& width_m, double& area_m2, Plug& plug) {
   const double share = kMostTaken * hit.energy_J / plug.energy_J;
   plug.energy_J *= share;
-  plug.depth_m *= std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // E goes by e^(8/3)
+  plug.depth_m *=
+      std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // The energy grows as depth^(8/3).
   if (!hit.confined && plug.depth_m > kShallow * width_m) return false;
   const double part = std::min(1.0, 2 * plug.depth_m / width_m);
   const double scale = std::sqrt(part * (2 - part));
@@ -132,7 +135,7 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
     for (Vec2& corner : plug.section_m) corner *= kClearance;
   plug.sides_m2 = perimeter_m(plug.section_m) * plug.depth_m;
   const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);
-  if (!plug.through) {  // one piece: several would be wedged in the crater
+  if (!plug.through) {  // A crater is one piece; several would jam in it.
     if (smaller_m3 < material.smallest_broken_m3()) plug.section_m.clear();
     return plug;
   }
