@@ -90,7 +90,7 @@ double share_in(const Plug& plug, ConvexPolyhedron part_P) {
   };
   const std::vector<Vec2>& section = plug.section_m;
   for (std::size_t i = 0; i < section.size(); ++i)
-    if (!keep(upright_plane(section[i], section[(i + 1) % section.size()]))) return 0;
+    if (!keep(plane_parallel_to_y(section[i], section[(i + 1) % section.size()]))) return 0;
   if (!plug.through && !keep(Plane::through(Vec3(0, plug.depth_m, 0), Vec3::UnitY()))) return 0;
   return mass_properties(part_P).volume_m3 / volume_m3;
 }
