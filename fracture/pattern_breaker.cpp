@@ -204,7 +204,7 @@ double reach(const Box& box, const Vec3& from) {
 ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library) {
   ReadyBreak ready;
   ready.sphere = {command.X_RP.position, command.radius_m, command.spared, command.smallest_m3};
-  const bool whole = ready.sphere.is_endless();
+  const bool whole = ready.sphere.is_infinite();
   const double unit = whole ? reach(bounds_R, ready.sphere.center_R) : ready.sphere.radius_m;
   ready.pattern =
       command.plug

@@ -64,7 +64,7 @@ class Reassembly {
   /// Returns the material that cracks on the side of `node` in a contact with `other`.
   MaterialIndex cracked(std::uint32_t node, std::uint32_t other) const {
     const MaterialIndex own = convex(node)->material;
-    return sphere_.spares(own) ? convex(other)->material : own;
+    return sphere_.is_unbreakable(own) ? convex(other)->material : own;
   }
 
   void find_contacts_of_fragments();
