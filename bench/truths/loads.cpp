@@ -67,14 +67,17 @@ std::size_t new_bodies(Scene scene) {
 /// The least load that breaks, over the truth; 1.49 if none does up to 1.5.
 double limit(const std::function<bool(double)>& breaks) { return threshold(0.5, 1.5, 6, breaks); }
 
-enum class Hung { kResting, kRope, kFixed };
+enum class Hung { kResting, kRope, kFixed, kRootInJoint };
 
-/// The stress at the root is 6 F a/(b h²).
+/// The stress at the root is 6 F a/(b h²). A joint at the root holds the first layer of convexes,
+/// so the root is where that ends.
 bool cantilever_breaks(const Preset& preset, Hung how, double part) {
+  const bool in_joint = how == Hung::kRootInJoint;
   const double side_m = 0.2, arm_m = kLength_m - 0.5 * side_m;
-  const double force_N = part * kStrength_Pa * std::pow(kWidth_m, 3) / (6 * arm_m);
+  const double root_m = in_joint ? kLength_m / kAlong : 0;
+  const double force_N = part * kStrength_Pa * std::pow(kWidth_m, 3) / (6 * (arm_m - root_m));
   Scene scene = empty_scene(preset, 1, force_N / kG / std::pow(side_m, 3));
-  scene.solids = {beam(true)};
+  scene.solids = {beam(!in_joint)};
   const Vec3 half = Vec3::Constant(0.5 * side_m);
   Vec3 center(arm_m, -0.3, 0.5 * kWidth_m);
   if (how == Hung::kResting) center.y() = kWidth_m + 0.5 * side_m;
@@ -87,6 +90,13 @@ bool cantilever_breaks(const Preset& preset, Hung how, double part) {
   joint.at_W = Vec3(arm_m, 0.05, 0.5 * kWidth_m);
   joint.to_W = center;
   if (how != Hung::kResting) scene.joints = {joint};
+  if (in_joint) {
+    Joint root;
+    root.kind = JointKind::kFixed;
+    root.a = 0;
+    root.at_W = Vec3(0, 0.5 * kWidth_m, 0.5 * kWidth_m);
+    scene.joints.push_back(root);
+  }
   return new_bodies(std::move(scene)) > 0;
 }
 Measure cantilever(Hung how) {
@@ -217,6 +227,8 @@ Truths load_truths() {
             {0.083, 0.083, 0.083, 0.059}),
       truth(34, "cantilever under a load in a fixed joint: limit", "", beams, 0.1,
             cantilever(Hung::kFixed), {0.083, 0.083, 0.083, 0.059}),
+      truth(34, "cantilever whose root is in a fixed joint: limit", "", beams, 0.1,
+            cantilever(Hung::kRootInJoint), {0.083, 0.083, 0.083, 0.083}),
       truth(34, "bar between two ropes: limit", "", "σ = F/A", 0.1, hanging_bar(JointKind::kRope),
             {0.059, 0.083, 0.083, 0.059}),
       truth(34, "bar between two fixed joints: limit", "", "σ = F/A", 0.1,

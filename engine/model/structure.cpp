@@ -4,12 +4,16 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/model/breaker.h"
 
 namespace sunder {
 namespace {
+
+// Gap between two convexes on a ray, as a fraction of the length so far, below which they are one.
+constexpr double kGap = 1e-3;
 
 template <class T>
 std::size_t bytes(const std::vector<T>& vector) {
@@ -205,6 +209,26 @@ ConvexSlot nearest(const Structure& structure, const Vec3& point_R) {
   for (double radius_m = 0; found.none(); radius_m = std::max(1e-3, 4 * radius_m)) look(radius_m);
   if (least > 0) look(least);
   return found;
+}
+
+double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
+                       double most_m) {
+  std::vector<std::pair<double, double>> spans;  // of the ray within convexes
+  for (const ConvexSlot slot : structure.within(point_R, most_m)) {
+    double enters = -most_m, leaves = most_m;
+    for (const ConvexPolyhedron::Face& face : structure.convex(slot)->polyhedron.faces) {
+      const double away = face.plane.normal.dot(direction_R), depth = face.plane.distance(point_R);
+      if (away > 0) leaves = std::min(leaves, -depth / away);
+      if (away < 0) enters = std::max(enters, -depth / away);
+      if (away == 0 && depth > 0) leaves = enters;
+    }
+    if (leaves > enters && leaves > 0) spans.emplace_back(enters, leaves);
+  }
+  std::ranges::sort(spans);
+  double end = 0;
+  for (const auto& [enters, leaves] : spans)
+    if (end == 0 || enters <= end * (1 + kGap)) end = std::max(end, leaves);
+  return end;
 }
 
 }  // namespace sunder

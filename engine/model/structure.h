@@ -119,4 +119,9 @@ double distance_outside(const Structure& structure, const Vec3& point_R);
 /// first of them.
 ConvexSlot nearest(const Structure& structure, const Vec3& point_R);
 
+/// Length of a ray inside a structure, from where it enters near `point_R` to the first gap; at
+/// most about `most_m`.
+double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
+                       double most_m);
+
 }  // namespace sunder

@@ -65,30 +65,8 @@ void subtract_convex(ConvexPolyhedron solid, const ConvexPolyhedron& other, doub
   }
 }
 
-/// Returns convex parts of `solid` that lie outside all `others`.
-std::vector<ConvexPolyhedron> subtract(const ConvexPolyhedron& solid,
-                                       const std::vector<const ConvexPolyhedron*>& others,
-                                       double tolerance_m) {
-  std::vector<ConvexPolyhedron> left{solid}, next;
-  for (const ConvexPolyhedron* other : others) {
-    next.clear();
-    for (ConvexPolyhedron& part : left) {
-      if (overlap(part, *other, tolerance_m).empty()) {
-        next.push_back(std::move(part));
-      } else {
-        subtract_convex(std::move(part), *other, tolerance_m, next);
-      }
-    }
-    std::swap(left, next);
-    if (left.size() > kMostPartsOfOne) {
-      throw InputError("a part overlaps too many others at once; join them into fewer parts");
-    }
-  }
-  return left;
-}
-
-/// Returns true if more than kDeepestGhost polyhedra intersect: `common` is the intersection of
-/// `count`; `others` from `first` on are added to it.
+/// Whether more than kDeepestGhost solids meet: `common` of `count`, and some of `others` from
+/// `first` on.
 bool is_too_deep(const ConvexPolyhedron& common, std::size_t count,
                  const std::vector<const ConvexPolyhedron*>& others, std::size_t first,
                  double tolerance_m) {
@@ -124,6 +102,27 @@ ConvexPolyhedron overlap(const ConvexPolyhedron& a, const ConvexPolyhedron& b, d
     if (side == PlaneSide::kCut) std::swap(common, next);
   }
   return is_thin(common, tolerance_m) ? ConvexPolyhedron{} : common;
+}
+
+std::vector<ConvexPolyhedron> subtract(const ConvexPolyhedron& solid,
+                                       const std::vector<const ConvexPolyhedron*>& others,
+                                       double tolerance_m) {
+  std::vector<ConvexPolyhedron> left{solid}, next;
+  for (const ConvexPolyhedron* other : others) {
+    next.clear();
+    for (ConvexPolyhedron& part : left) {
+      if (overlap(part, *other, tolerance_m).empty()) {
+        next.push_back(std::move(part));
+      } else {
+        subtract_convex(std::move(part), *other, tolerance_m, next);
+      }
+    }
+    std::swap(left, next);
+    if (left.size() > kMostPartsOfOne) {
+      throw InputError("a part overlaps too many others at once; join them into fewer parts");
+    }
+  }
+  return left;
 }
 
 PartPairs find_pairs(std::span<const Part> parts, double tolerance_m) {

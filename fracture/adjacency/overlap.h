@@ -17,6 +17,13 @@ inline constexpr std::size_t kDeepestGhost = 4;
 /// thicker than `tolerance_m`.
 ConvexPolyhedron overlap(const ConvexPolyhedron& a, const ConvexPolyhedron& b, double tolerance_m);
 
+/// Returns convex parts of `solid` that lie outside all `others`. A part that is cut by a face of
+/// another has the opposite plane id there, so that the two touch. Parts thinner than `tolerance_m`
+/// are dropped. Throws InputError if there are too many parts.
+std::vector<ConvexPolyhedron> subtract(const ConvexPolyhedron& solid,
+                                       const std::vector<const ConvexPolyhedron*>& others,
+                                       double tolerance_m);
+
 /// Pairs of parts (a < b), ascending.
 using PartPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 /// Returns the pairs of parts whose boxes come within `tolerance_m` of each other.

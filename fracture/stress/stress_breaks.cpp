@@ -5,13 +5,16 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "fracture/adjacency/islands.h"
+#include "fracture/stress/open_overlap.h"
 #include "fracture/stress/parting.h"
+#include "fracture/stress/strength.h"
 #include "fracture/stress/stress_memory.h"
 #include "fracture/stress/yielding.h"
 
@@ -32,26 +35,15 @@ constexpr std::uint64_t kAnswerWork = 2, kAnswerSprings = 50;
 // Stress at a bond's own corners is at most so many times that of its section: those well below
 // the limit need no closer look.
 constexpr double kWorthALook = 0.6;
+// Estimated stress of an overlap, as a fraction of what it bears, above which it is turned into
+// bonds, whose stress is known. Half, as the estimate is within a factor of two.
+constexpr double kOpens = 0.5;
 // A bond with less than this share of the width squared of the smaller convex bears nothing: it is
 // what rounding left of two cuts, and of what hung by it alone no solve would find the stress.
 constexpr double kFrail = 1e-4;
 
-struct Limits {
-  double tensile_Pa, shear_Pa, compressive_Pa;
-};
-
-double weaker(double x, double y) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  return std::min(x > 0 ? x : kNever, y > 0 ? y : kNever);
-}
-
-Limits limits_of(const Material& a, const Material& b) {
-  return {weaker(a.tensile_Pa, b.tensile_Pa), weaker(a.shear_Pa, b.shear_Pa),
-          weaker(a.compressive_Pa, b.compressive_Pa)};
-}
-
 /// Stress in parts of the limit.
-double part_of(const BondStress& stress, const Limits& limits) {
+double part_of(const BondStress& stress, const Strength& limits) {
   return std::max({stress.tension_Pa / limits.tensile_Pa, stress.shear_Pa / limits.shear_Pa,
                    stress.compression_Pa / limits.compressive_Pa});
 }
@@ -67,7 +59,8 @@ constexpr std::uint32_t kNoBond = 0xffffffff;
 class StressBreaks {
  public:
   StressBreaks(const Structure& structure, const LoadCase& load)
-      : compound_(structure.compound()),
+      : structure_(structure),
+        compound_(structure.compound()),
         slots_(structure.slots()),
         load_(load),
         loads_(by_convex(load.loads)),
@@ -92,6 +85,10 @@ class StressBreaks {
     for (int round = 0; round < kRounds; ++round) {
       is_known = solve(answer) && strike(answer);
       if (!is_known) break;
+      if (const Ghost* overlap = overloaded_overlap()) {
+        if (round == 0) opened_ = *overlap;
+        break;  // the bonds that were cut go first
+      }
       Yielding yielding = judge(answer);
       if (round == 0) note_blow(answer);
       // What cracks does so first: what yields bears what it did meanwhile.
@@ -115,7 +112,8 @@ class StressBreaks {
     if (!impulses_.empty()) note_work(is_known, answer);
     if (!frail_.empty() && (!cut_.empty() || parted()))
       cut_.insert(cut_.end(), frail_.begin(), frail_.end());
-    answer.edit = part(compound_, slots_, cut_, std::move(hinges_));
+    answer.edit = opened_ ? open_overlap(structure_, slots_[opened_->of[0]], slots_[opened_->of[1]])
+                          : part(compound_, slots_, cut_, std::move(hinges_));
     memory_->slots = slots_;
     memory_->bonds = compound_.bonds;
     memory_->convexes = compound_.convexes;
@@ -271,6 +269,25 @@ class StressBreaks {
   /// What is worse than this gives way: of a blow the worst goes first.
   double least(double worst) const { return impulses_.empty() ? 1 : std::max(1.0, kAlike * worst); }
 
+  /// Returns the most overloaded overlap of two convexes under a steady load; null if there is
+  /// none.
+  const Ghost* overloaded_overlap() const {
+    if (compound_.ghosts.empty() || !impulses_.empty()) return nullptr;
+    const Ghost* worst = nullptr;
+    double most = kOpens;
+    for (const Ghost& ghost : compound_.ghosts) {
+      if (ghost.of.size() != 2) continue;
+      const Wrench wrench =
+          memory_->system->overlap_wrench(ghost, load_.materials, memory_->displacements);
+      double part = overlap_utilisation(compound_, ghost, wrench, load_.materials);
+      if (ghost.sign == 0) part *= kOpens;  // no bonds will be found there: it lets go at its limit
+      if (part <= most) continue;
+      most = part;
+      worst = &ghost;
+    }
+    return worst;
+  }
+
   /// The worst of bonds that do not yield.
   double cracking(const Yielding& yielding) const {
     double worst = 0;
@@ -327,7 +344,7 @@ class StressBreaks {
     const Material &a = material_of(bond.a), &b = material_of(bond.b);
     const BondStress at_most = memory_->system->bound(number, displacements());
     if (const double flows_Pa = yield_Pa(a, b); flows_Pa > 0) return mises_Pa(at_most) / flows_Pa;
-    const Limits limits = limits_of(a, b);
+    const Strength limits = weaker_of(a, b);
     const double most = part_of(at_most, limits);
     if (!(most > kWorthALook)) return most;
     return part_of(memory_->system->stress(compound_, number, displacements()), limits);
@@ -364,6 +381,7 @@ class StressBreaks {
     memory_->swing.way.clear();
   }
 
+  const Structure& structure_;
   Compound compound_;              ///< Less the bonds that are frail or cut.
   std::vector<ConvexSlot> slots_;  ///< Per convex.
   const LoadCase& load_;
@@ -377,6 +395,7 @@ class StressBreaks {
   std::uint64_t most_work_ = 0;
   std::vector<std::uint8_t> hinged_;  ///< Per convex: beside a hinge.
   std::vector<Bond> cut_, frail_;
+  std::optional<Ghost> opened_;
   std::vector<PlasticHinge> hinges_;
 };
 

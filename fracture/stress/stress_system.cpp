@@ -139,21 +139,37 @@ void StressSystem::make_bonds(const Compound& compound, std::span<const Material
              by_plane);
 }
 
-/// Convexes that overlap are held together as if by a cube of what they have in common; such a
-/// spring is no bond, and never breaks by load.
+/// The spring of an overlap, of its convexes `of[0]` and `of[i]`.
+Spring StressSystem::spring_of(const Ghost& ghost, std::size_t i,
+                               std::span<const Material> materials) const {
+  const Convex& common = *ghost.convex;
+  const double edge = std::cbrt(std::max(common.solid.volume_m3, 1e-300));
+  const double stretch = materials[common.material.value].youngs_Pa * edge;
+  return {node_of_convex_[ghost.of[0]], node_of_convex_[ghost.of[i]], common.solid.centroid,
+          stretch, stretch * edge * edge / 6 * Mat3::Identity()};
+}
+
 void StressSystem::add_overlaps(const Compound& compound, std::span<const Material> materials,
                                 std::vector<Spring>& springs) const {
   for (const Ghost& ghost : compound.ghosts) {
-    const Convex& common = *ghost.convex;
-    const double edge = std::cbrt(std::max(common.solid.volume_m3, 1e-300));
-    const double stretch = materials[common.material.value].youngs_Pa * edge;
     for (std::size_t i = 1; i < ghost.of.size(); ++i) {
-      const std::uint32_t a = node_of_convex_[ghost.of[0]], b = node_of_convex_[ghost.of[i]];
-      if (a == Spring::kWorld && b == Spring::kWorld) continue;
-      springs.push_back(
-          {a, b, common.solid.centroid, stretch, stretch * edge * edge / 6 * Mat3::Identity()});
+      Spring spring = spring_of(ghost, i, materials);
+      if (spring.a != Spring::kWorld || spring.b != Spring::kWorld)
+        springs.push_back(std::move(spring));
     }
   }
+}
+
+Wrench StressSystem::overlap_wrench(const Ghost& ghost, std::span<const Material> materials,
+                                    std::span<const Displacement> displacements) const {
+  const Spring spring = spring_of(ghost, 1, materials);
+  const auto shift = [&](std::uint32_t convex) -> Vec3 {
+    const Displacement& d = displacements[convex];
+    return d.shift_R + d.rotation_R.cross(spring.place - masses_.centroid(convex));
+  };
+  return {spring.stretch_N_m * (shift(ghost.of[1]) - shift(ghost.of[0])),
+          spring.rotation_Nm *
+              (displacements[ghost.of[1]].rotation_R - displacements[ghost.of[0]].rotation_R)};
 }
 
 /// Convexes keep their nodes; new ones take those that are free. False if there are too few.

@@ -77,6 +77,10 @@ class StressSystem {
   /// What convex b of a bond does to convex a, about the bond's centroid. Of all bonds together it
   /// balances the loads, however far the stress in one of them is from that of a beam.
   Wrench wrench(std::uint32_t bond, std::span<const Displacement> displacements) const;
+  /// Wrench that the second convex of an overlap exerts on the first, about the centroid of the
+  /// overlap, which holds them like a cube of its volume.
+  Wrench overlap_wrench(const Ghost& ghost, std::span<const Material> materials,
+                        std::span<const Displacement> displacements) const;
   /// No less than any stress over the bond's own area.
   BondStress bound(std::uint32_t bond, std::span<const Displacement> displacements) const;
   /// The worst at the corners of a bond of `compound`, for which this was made. Tension and
@@ -116,6 +120,7 @@ class StressSystem {
   void mark_changes(const Edited& edited, SpringEdit& edit) const;
   bool has_spring(std::uint32_t bond) const;
   Spring spring_of(std::uint32_t bond) const;
+  Spring spring_of(const Ghost& ghost, std::size_t i, std::span<const Material> materials) const;
   void add_overlaps(const Compound& compound, std::span<const Material> materials,
                     std::vector<Spring>& springs) const;
   Field field(std::uint32_t bond, std::span<const Displacement> displacements) const;

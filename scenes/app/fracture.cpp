@@ -206,13 +206,6 @@ Figures figures_of(const scenes::MeshSolid& solid, const Broken& broken) {
   return figures;
 }
 
-std::string failed_summary(const Broken& broken) {
-  if (broken.plan.failed == 0) return "";
-  return "failed   " +
-         left_whole_warning(broken.plan.failed, broken.plan.failed_m3, broken.before.volume_m3) +
-         "; more --nodes may help\n";
-}
-
 std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
   const fracture::Audit& after = broken.after;
   char text[600];
@@ -225,7 +218,7 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
       broken.plan.welded, broken.before.volume_m3, after.volume_m3 + broken.plan.debris_volume_m3,
       volume_error(broken), after.overlap_m3, solid.prepare_ms + broken.prepare_ms, broken.total_ms,
       broken.plan.clip_ms, broken.plan.islands_ms);
-  return input_summary(solid) + text + failed_summary(broken) + doubled_summary(broken.doubled);
+  return input_summary(solid) + text + doubled_summary(broken.doubled);
 }
 
 /// A solid, what breaks it, and what came of that.
@@ -298,9 +291,12 @@ int fracture_mesh(const FractureOptions& options) {
   check_output(options.output);
   std::optional<WorkProgress> progress(std::in_place, options.mesh, options.quiet);
   Attempt attempt = break_well(options, *progress);
-  const auto& [solid, paints, example, broken] = attempt;
+  auto& [solid, paints, example, broken] = attempt;
   progress.reset();
-  print_warnings(solid);
+  if (const BreakPlan& plan = broken.plan; plan.failed > 0)
+    solid.warnings.push_back(
+        left_whole_warning(plan.failed, plan.failed_m3, broken.before.volume_m3) +
+        "; more --nodes may help");
   options.say(summary(solid, broken));
   if (!options.output.empty()) {
     const std::size_t walled =
@@ -308,10 +304,12 @@ int fracture_mesh(const FractureOptions& options) {
                      options.walls == "keep" ? Walls::kKeep : Walls::kRemove);
     options.say("wrote " + options.output + "\n");
     if (walled > 0) {
-      options.say("walls    kept in " + std::to_string(walled) +
-                  " pieces: without them a surface would not close; other --nodes may help\n");
+      solid.warnings.push_back("inner walls are kept in " + std::to_string(walled) +
+                               " pieces, whose surfaces would not close without them; other "
+                               "--nodes may help");
     }
   }
+  print_warnings(solid);
   options.write_json(format_figures(figures_of(solid, broken)));
   return 0;
 }

@@ -13,4 +13,11 @@ namespace sunder {
 LoadCase bearing(const World& world, const Actor& actor, const Quat& rotation_WB,
                  std::vector<Load>& loads);
 
+/// Appends the loads of a joint that acts on a structure at `at_R` with a force and a torque about
+/// that point (or with impulses). A joint without torque acts on the convex nearest to the point. A
+/// joint with torque acts on the convexes within half the thickness of the solid there, as on one
+/// rigid block: each convex gets the share that accelerates it as a part of the block.
+void add_joint_load(const Structure& structure, const Vec3& at_R, const Vec3& force_R,
+                    const Vec3& torque_R, std::vector<Load>& loads);
+
 }  // namespace sunder

@@ -9,6 +9,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/model/work_log.h"
+#include "engine/world/actors/bearing.h"
 #include "engine/world/break/cluster_probe.h"
 #include "engine/world/break/clusters.h"
 
@@ -56,10 +57,12 @@ void add_impacts(const World& world, Trial& trial) {
     const Quat R_of_W = states[actor.body].X_WB.rotation.conjugate();
     for (const ProbePush& push : load.pushes) {
       const Vec3 at_R = R_of_W * push.arm_W + actor.weight.com_R;
-      const bool by_place = push.shape == ProbePush::kNearest;
-      planned.impulses.push_back(
-          {by_place ? nearest(actor.structure, at_R) : ConvexSlot(push.shape),
-           R_of_W * push.impulse_W, at_R, R_of_W * push.angular_W});
+      const Vec3 impulse_R = R_of_W * push.impulse_W, angular_R = R_of_W * push.angular_W;
+      if (push.shape == ProbePush::kNearest) {
+        add_joint_load(actor.structure, at_R, impulse_R, angular_R, planned.impulses);
+      } else {
+        planned.impulses.push_back({ConvexSlot(push.shape), impulse_R, at_R, angular_R});
+      }
     }
     planned.impact.key = actor.key;
     planned.impact.convex = slot;

@@ -16,8 +16,6 @@ namespace {
 constexpr int kRoundCorners = 8;  // of the section of a sphere
 constexpr std::size_t kMostCorners = 8;
 constexpr double kAround = 1.5;  // of a section, what is looked at around it
-// Parts of a solid that are no farther apart than this share of its thickness are one.
-constexpr double kGap = 1e-3;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -113,26 +111,6 @@ std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Ve
   std::vector<Vec3> section_W;
   for (const Vec2& corner : hull) section_W.push_back(point_W + corner.x() * u + corner.y() * v);
   return section_W;
-}
-
-double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
-                       double most_m) {
-  std::vector<std::pair<double, double>> spans;  // of the ray within convexes
-  for (const ConvexSlot slot : structure.within(point_R, most_m)) {
-    double enters = -most_m, leaves = most_m;
-    for (const ConvexPolyhedron::Face& face : structure.convex(slot)->polyhedron.faces) {
-      const double away = face.plane.normal.dot(direction_R), depth = face.plane.distance(point_R);
-      if (away > 0) leaves = std::min(leaves, -depth / away);
-      if (away < 0) enters = std::max(enters, -depth / away);
-      if (away == 0 && depth > 0) leaves = enters;
-    }
-    if (leaves > enters && leaves > 0) spans.emplace_back(enters, leaves);
-  }
-  std::ranges::sort(spans);
-  double end = 0;
-  for (const auto& [enters, leaves] : spans)
-    if (end == 0 || enters <= end * (1 + kGap)) end = std::max(end, leaves);
-  return end;
 }
 
 double thickness_behind(const Structure& structure, const std::vector<Vec3>& section_R,

@@ -16,11 +16,6 @@ namespace sunder {
 std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Vec3& point_W,
                                 const Vec3& direction_W, double reach_m);
 
-/// Length of a ray inside a structure, from where it enters near `point_R` to the first gap; at
-/// most about `most_m`.
-double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
-                       double most_m);
-
 /// Thickness of a structure behind a section: the median, of those that meet it, of the rays from
 /// `point_R` and from halfway to each corner. One ray may pass between convexes that touch.
 double thickness_behind(const Structure& structure, const std::vector<Vec3>& section_R,

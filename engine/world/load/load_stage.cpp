@@ -117,25 +117,28 @@ std::vector<PressOn> presses(const World& world) {
   const auto point_R = [&](const Actor& actor, const Vec3& point_W) -> Vec3 {
     return states[actor.body].X_WB.inverse() * point_W + actor.weight.com_R;
   };
-  const auto add = [&](const Actor& actor, ConvexSlot slot, const Vec3& impulse_W, const Vec3& at_R,
-                       const Vec3& angular_impulse_W) {
-    const Quat rotation_BW = states[actor.body].X_WB.rotation.conjugate();
-    const Vec3 force_R = rotation_BW * impulse_W / dt;
-    const Vec3 arm = at_R - actor.structure.convex(slot)->solid.centroid;
+  const auto add = [&](const Actor& actor, const Load& load) {
+    const Vec3 arm = load.point_R - actor.structure.convex(load.convex)->solid.centroid;
     all.push_back({world.actors.place_of(actor),
-                   {slot, force_R, arm.cross(force_R) + rotation_BW * angular_impulse_W / dt}});
+                   {load.convex, load.force_N, arm.cross(load.force_N) + load.torque_Nm}});
   };
   for (const ContactLoad& contact : world.physics->contact_loads()) {
     const Actor* actor = world.actors.find(contact.body_tag);
     const ConvexSlot slot(contact.shape_tag);
     if (!actor || !actor->structure.has(slot)) continue;
-    add(*actor, slot, contact.impulse_W, point_R(*actor, contact.point_W), Vec3::Zero());
+    const Quat rotation_BW = states[actor->body].X_WB.rotation.conjugate();
+    add(*actor, {slot, rotation_BW * contact.impulse_W / dt, point_R(*actor, contact.point_W)});
   }
+  std::vector<Load> pulls;
   for (const JointLoad& joint : world.physics->joint_loads()) {
     const Actor* actor = world.actors.find(joint.body_tag);
     if (!actor || actor->structure.empty()) continue;
-    const Vec3 at_R = point_R(*actor, joint.point_W);
-    add(*actor, nearest(actor->structure, at_R), joint.impulse_W, at_R, joint.angular_impulse_W);
+    const Quat rotation_BW = states[actor->body].X_WB.rotation.conjugate();
+    pulls.clear();
+    add_joint_load(actor->structure, point_R(*actor, joint.point_W),
+                   rotation_BW * joint.impulse_W / dt, rotation_BW * joint.angular_impulse_W / dt,
+                   pulls);
+    for (const Load& pull : pulls) add(*actor, pull);
   }
   std::stable_sort(all.begin(), all.end(), [](const PressOn& x, const PressOn& y) {
     return std::tie(x.place, x.press.convex) < std::tie(y.place, y.press.convex);
@@ -251,7 +254,8 @@ void apply(World& world, Judged& judged) {
   event.pieces = pieces_after(actor.structure, edit);
   const bool only_bends = !edit.hinges.empty() && edit.cut.empty();
   event.child_keys = carry_out(world, judged.key, edit);
-  if (!only_bends) world.ledger.breaks.push_back(std::move(event));
+  const bool opens_overlap = edit.loose.pieces.empty();
+  if (!only_bends && !opens_overlap) world.ledger.breaks.push_back(std::move(event));
 }
 
 }  // namespace

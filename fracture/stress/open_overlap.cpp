@@ -1,0 +1,156 @@
+#include "fracture/stress/open_overlap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "fracture/adjacency/adjacency.h"
+#include "fracture/adjacency/overlap.h"
+#include "fracture/stress/strength.h"
+
+namespace sunder::fracture {
+namespace {
+
+/// Fraction of the width of a convex (cube root of the volume) below which an overlap, or a part
+/// that is left of the convex, is rounding.
+constexpr double kThinnest = 1e-9;
+/// Fraction of the surface of an embedded part below which its faces cancel: the part goes through
+/// the other convex, and is held by shear alone.
+constexpr double kGoesThrough = 0.1;
+
+bool has_face(const Convex& convex, PlaneId id) {
+  return std::ranges::any_of(convex.polyhedron.faces, [&](const auto& f) { return f.id == id; });
+}
+
+/// Surface of an overlap that lies on one of its two convexes.
+struct EmbeddedSurface {
+  double area_m2 = 0;
+  Vec3 vector_area_m2 = Vec3::Zero();  ///< Sum of area times outward normal.
+};
+
+EmbeddedSurface surface_on(const Convex& overlap, const Convex& side) {
+  EmbeddedSurface all;
+  for (std::uint32_t f = 0; f < overlap.polyhedron.faces.size(); ++f) {
+    if (!has_face(side, overlap.polyhedron.faces[f].id)) continue;
+    const double area_m2 = face_area(overlap.polyhedron, f);
+    all.area_m2 += area_m2;
+    all.vector_area_m2 += area_m2 * overlap.polyhedron.faces[f].plane.normal;
+  }
+  return all;
+}
+
+/// Convexes that overlap a convex, and whether the overlap weighs; ascending.
+std::vector<std::pair<ConvexSlot, bool>> partners(const Structure& structure, ConvexSlot slot) {
+  std::vector<std::pair<ConvexSlot, bool>> found;
+  for (const std::uint32_t number : structure.ghosts_of(slot)) {
+    const Ghost& ghost = structure.ghost(number);
+    if (ghost.of.size() != 2) continue;
+    const std::uint32_t other = ghost.of[0] == slot.value ? ghost.of[1] : ghost.of[0];
+    found.emplace_back(other, ghost.sign != 0);
+  }
+  std::ranges::sort(found);
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+/// The first of the convexes after `slot` that overlap it and have another material. An overlap
+/// has the density of its first convex, so only its last may lose it; none() if there is none.
+ConvexSlot denser_successor(const Structure& structure, ConvexSlot slot) {
+  for (const auto& [other, weighs] : partners(structure, slot)) {
+    if (weighs && other > slot &&
+        structure.convex(other)->material != structure.convex(slot)->material)
+      return other;
+  }
+  return {};
+}
+
+/// The convex that is cut to open an overlap.
+ConvexSlot choose_cut(const Structure& structure, ConvexSlot a, ConvexSlot b) {
+  const auto volume = [&](ConvexSlot slot) { return structure.convex(slot)->solid.volume_m3; };
+  if (volume(a) < volume(b) && denser_successor(structure, a).none()) return a;
+  ConvexSlot last = b;
+  for (ConvexSlot next = last; !next.none(); next = denser_successor(structure, last)) last = next;
+  return last;
+}
+
+}  // namespace
+
+double overlap_utilisation(const Compound& compound, const Ghost& ghost, const Wrench& wrench,
+                           std::span<const Material> materials) {
+  const Convex &a = *compound.convexes[ghost.of[0]], &b = *compound.convexes[ghost.of[1]];
+  const EmbeddedSurface on_a = surface_on(*ghost.convex, a), on_b = surface_on(*ghost.convex, b);
+  const double surface_m2 = std::min(on_a.area_m2, on_b.area_m2);
+  if (!(surface_m2 > 0)) return 0;
+  const Strength strength = weaker_of(materials[a.material.value], materials[b.material.value]);
+  double section_m2 = on_a.vector_area_m2.norm();
+  Vec3 normal = Vec3::Zero();
+  if (section_m2 > kGoesThrough * surface_m2) {
+    normal = on_a.vector_area_m2 / section_m2;
+  } else {
+    section_m2 = surface_m2;
+  }
+  const double tension_N = normal.dot(wrench.force_N);
+  const double shear_N = (wrench.force_N - tension_N * normal).norm();
+  // A square section of this area has the section modulus A^(3/2) / 6.
+  const double bending_Pa = 6 * wrench.moment_Nm.norm() / std::pow(section_m2, 1.5);
+  return std::max({(tension_N / section_m2 + bending_Pa) / strength.tensile_Pa,
+                   (bending_Pa - tension_N / section_m2) / strength.compressive_Pa,
+                   shear_N / surface_m2 / strength.shear_Pa});
+}
+
+BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b) {
+  const ConvexSlot cut = choose_cut(structure, a, b);
+  const Convex& old = *structure.convex(cut);
+  const double thinnest_m = kThinnest * std::cbrt(old.solid.volume_m3);
+  const ConvexSlot opened = cut == a ? b : a;
+
+  std::vector<ConvexSlot> around, held;  // `held`: their overlaps with surface convexes stay
+  std::vector<const ConvexPolyhedron*> others;
+  for (const auto& [other, weighs] : partners(structure, cut)) {
+    around.push_back(other);
+    if (weighs) others.push_back(&structure.convex(other)->polyhedron);
+    if (!weighs && other != opened) held.push_back(other);
+  }
+  for (const Link& link : structure.links(cut)) around.push_back(link.other);
+  std::ranges::sort(around);
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+
+  BreakEdit edit;
+  edit.changed = true;
+  edit.removed = {cut};
+  if (others.empty()) {
+    edit.added = {structure.convex(cut)};
+  } else {
+    for (ConvexPolyhedron& part : subtract(old.polyhedron, others, thinnest_m))
+      edit.added.push_back(make_convex(std::move(part), old.material, nullptr, old.X_RT));
+  }
+  std::vector<ConvexPtr> convexes;
+  for (const ConvexSlot slot : around) convexes.push_back(structure.convex(slot));
+  const auto first_part = static_cast<std::uint32_t>(convexes.size());
+  const auto slot_of = [&](std::uint32_t index) {
+    return index < first_part ? around[index].value : structure.slot_count() + index - first_part;
+  };
+  for (const ConvexPtr& part : edit.added) {
+    edit.added_anchors.push_back(inherited_anchors(structure.anchored(cut), old.box, part->box));
+    convexes.push_back(part);
+  }
+  for (Bond bond : find_contacts(convexes)) {
+    if (bond.b < first_part) continue;
+    bond.a = slot_of(bond.a);
+    bond.b = slot_of(bond.b);
+    edit.bonds.push_back(bond);
+  }
+  for (std::uint32_t i = first_part; i < convexes.size(); ++i) {
+    for (const ConvexSlot slot : held) {
+      ConvexPolyhedron common =
+          overlap(convexes[i]->polyhedron, structure.convex(slot)->polyhedron, thinnest_m);
+      if (common.empty()) continue;
+      edit.ghosts.push_back(
+          {make_convex(std::move(common), old.material), {slot.value, slot_of(i)}, 0});
+    }
+  }
+  return edit;
+}
+
+}  // namespace sunder::fracture
