@@ -65,8 +65,8 @@ void subtract_convex(ConvexPolyhedron solid, const ConvexPolyhedron& other, doub
   }
 }
 
-/// Whether more than kDeepestGhost solids meet: `common` of `count`, and some of `others` from
-/// `first` on.
+/// Returns true if more than kDeepestGhost polyhedra intersect: `common` is the intersection of
+/// `count`; `others` from `first` on are added to it.
 bool is_too_deep(const ConvexPolyhedron& common, std::size_t count,
                  const std::vector<const ConvexPolyhedron*>& others, std::size_t first,
                  double tolerance_m) {

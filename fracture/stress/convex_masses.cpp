@@ -26,7 +26,8 @@ ConvexMasses::ConvexMasses(const Compound& compound, std::span<const Material> m
     masses_kg_.push_back(density * convex.solid.volume_m3);
     inertias_.push_back(density * convex.solid.inertia());
   }
-  for (const Ghost& ghost : compound.ghosts) {  // what is counted twice, shared
+  // Shares volume that is counted twice among the convexes.
+  for (const Ghost& ghost : compound.ghosts) {
     const Convex& common = *ghost.convex;
     const double mass = materials[common.material.value].density_kg_m3 * common.solid.volume_m3;
     for (const std::uint32_t c : ghost.of) {
@@ -93,7 +94,7 @@ void ConvexMasses::balance(std::span<const ConvexLoad> loads, const Vec3& gravit
       force += forces_N[c];
       torque += torques_Nm[c] + arm.cross(forces_N[c]);
     }
-    // Of Euler's equations, since the torque holds that of the spin.
+    // Angular acceleration by Euler's equations; the torque includes the gyroscopic term.
     const Vec3 acceleration = force / loose.mass_kg, turn = loose.inverse_inertia * torque;
     for (const std::uint32_t c : loose.convexes) {
       forces_N[c] -= masses_kg_[c] * (acceleration + turn.cross(centroids_[c] - loose.com_R));

@@ -12,11 +12,11 @@
 namespace sunder::fracture {
 namespace {
 
-/// Fraction of the width of a convex (cube root of the volume) below which an overlap, or a part
-/// that is left of the convex, is rounding.
+/// Thickness of an overlap or part, over the width of the convex (cube root of its volume), below
+/// which it is a rounding error.
 constexpr double kThinnest = 1e-9;
-/// Fraction of the surface of an embedded part below which its faces cancel: the part goes through
-/// the other convex, and is held by shear alone.
+/// Share of an embedded part's surface below which its faces cancel: the part goes through the
+/// other convex and is held by shear alone.
 constexpr double kGoesThrough = 0.1;
 
 bool has_face(const Convex& convex, PlaneId id) {
@@ -40,7 +40,8 @@ EmbeddedSurface surface_on(const Convex& overlap, const Convex& side) {
   return all;
 }
 
-/// Convexes that overlap a convex, and whether the overlap weighs; ascending.
+/// Returns the convexes that overlap a convex, ascending, and whether the overlap counts in sums of
+/// volume.
 std::vector<std::pair<ConvexSlot, bool>> partners(const Structure& structure, ConvexSlot slot) {
   std::vector<std::pair<ConvexSlot, bool>> found;
   for (const std::uint32_t number : structure.ghosts_of(slot)) {
@@ -54,8 +55,8 @@ std::vector<std::pair<ConvexSlot, bool>> partners(const Structure& structure, Co
   return found;
 }
 
-/// The first of the convexes after `slot` that overlap it and have another material. An overlap
-/// has the density of its first convex, so only its last may lose it; none() if there is none.
+/// Returns the first convex after `slot` that overlaps it and has another material; none() if there
+/// is none. An overlap has the density of its first convex, so only its last may be cut.
 ConvexSlot denser_successor(const Structure& structure, ConvexSlot slot) {
   for (const auto& [other, weighs] : partners(structure, slot)) {
     if (weighs && other > slot &&
@@ -65,7 +66,7 @@ ConvexSlot denser_successor(const Structure& structure, ConvexSlot slot) {
   return {};
 }
 
-/// The convex that is cut to open an overlap.
+/// Returns the convex that is cut to open an overlap.
 ConvexSlot choose_cut(const Structure& structure, ConvexSlot a, ConvexSlot b) {
   const auto volume = [&](ConvexSlot slot) { return structure.convex(slot)->solid.volume_m3; };
   if (volume(a) < volume(b) && denser_successor(structure, a).none()) return a;
@@ -105,7 +106,7 @@ BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b) {
   const double thinnest_m = kThinnest * std::cbrt(old.solid.volume_m3);
   const ConvexSlot opened = cut == a ? b : a;
 
-  std::vector<ConvexSlot> around, held;  // `held`: their overlaps with surface convexes stay
+  std::vector<ConvexSlot> around, held;  // The overlaps of `held` with surface convexes are kept.
   std::vector<const ConvexPolyhedron*> others;
   for (const auto& [other, weighs] : partners(structure, cut)) {
     around.push_back(other);

@@ -8,7 +8,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// The island that stays: the largest of those that are anchored, or of all.
+/// Returns the island that stays: the largest with an anchor, or the largest of all.
 std::uint32_t staying(const Compound& compound, const std::vector<std::uint32_t>& island,
                       std::uint32_t islands) {
   std::vector<std::pair<bool, std::uint32_t>> rank(islands);
@@ -19,7 +19,7 @@ std::uint32_t staying(const Compound& compound, const std::vector<std::uint32_t>
   return static_cast<std::uint32_t>(std::max_element(rank.begin(), rank.end()) - rank.begin());
 }
 
-/// Its sides change places: what slides in it does so along the side that stays.
+/// Swaps the sides of a hinge, so that sliding follows the side that stays.
 void turn(PlasticHinge& hinge) {
   for (Bond& bond : hinge.bonds) std::swap(bond.a, bond.b), std::swap(bond.face_a, bond.face_b);
   Mat3& axes_R = hinge.section.strength.axes_R;
@@ -40,7 +40,7 @@ BreakEdit part(const Compound& compound, const std::vector<ConvexSlot>& slots,
   const std::uint32_t islands = 1 + *std::max_element(island.begin(), island.end());
   if (islands == 1) return edit;
   const std::uint32_t stays = staying(compound, island, islands);
-  const auto piece_of = [&](std::uint32_t c) {  // as exposed faces name it
+  const auto piece_of = [&](std::uint32_t c) {  // Index as in ExposedFace::piece.
     return island[c] == stays ? 0 : island[c] + (island[c] < stays ? 1 : 0);
   };
   edit.changed = true;

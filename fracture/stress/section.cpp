@@ -13,31 +13,32 @@ namespace sunder::fracture {
 namespace {
 
 constexpr std::size_t kMostCrossings = 4096;
-// Bonds are in one plane if their areas add up as vectors to this share of what they are.
+// Bonds are in one plane if their vector areas add up to this share of the sum of their areas.
 constexpr double kInOnePlane = 0.999;
-constexpr double kPrism = 0.999;  // likewise of the directions of a prism's side edges
-constexpr double kWithin60 = 0.5, kWithin30 = 0.866, kWithinNothing = 1 - 1e-9;  // cosines
-constexpr double kLeastArea = 1e-6;  // of all areas: what folds back has none
+constexpr double kPrism = 0.999;  // The same share for the directions of a prism's side edges.
+constexpr double kWithin60 = 0.5, kWithin30 = 0.866, kWithinNothing = 1 - 1e-9;  // Cosines.
+// Least projected area over the sum of areas: the area of bonds that fold back is zero.
+constexpr double kLeastArea = 1e-6;
 constexpr int kHalvings = 80;
 
-/// A part of a section as it lies along one direction in it: evenly about its middle.
+/// A part of a section as a uniform load along one direction of the section.
 struct Strip {
   double force_N, at_m, half_m;
 
-  /// The part of it that is below.
+  /// Returns the share of the strip below a position.
   double below(double m) const {
     if (!(half_m > 0)) return at_m < m ? 1 : 0;
     return std::clamp((m - at_m + half_m) / (2 * half_m), 0.0, 1.0);
   }
-  /// The mean distance of its points.
+  /// Returns the mean distance of the strip's points from a position.
   double distance(double m) const {
     const double middle = std::abs(at_m - m);
     return middle >= half_m ? middle : (middle * middle + half_m * half_m) / (2 * half_m);
   }
 };
 
-/// What strips bear that pull on one side of a neutral axis and press on the other, which is where
-/// both are as strong.
+/// Returns the plastic moment of strips: those on one side of the neutral axis pull, those on the
+/// other push, and the axis is where both forces are equal.
 double bending_Nm(std::span<const Strip> strips) {
   double low = 1e300, high = -1e300, force = 0;
   for (const Strip& strip : strips) {
@@ -56,7 +57,7 @@ double bending_Nm(std::span<const Strip> strips) {
   return moment;
 }
 
-/// The direction in which a convex runs as a prism from one of its faces; none if it is no prism.
+/// Returns the axis of a convex that is a prism over one of its faces; none if it is no prism.
 std::optional<Vec3> prism_axis(const ConvexPolyhedron& convex, std::uint32_t face) {
   const auto end = convex.face_corners(face);
   const auto in_face = [&](std::uint32_t v) { return std::ranges::find(end, v) != end.end(); };
@@ -92,7 +93,7 @@ double Sections::yield_Pa(std::uint32_t bond) const {
   return sunder::yield_Pa(of(compound_.bonds[bond].a), of(compound_.bonds[bond].b));
 }
 
-/// Before the first search: most structures never have one.
+/// Called before the first search, as most structures never have one.
 void Sections::index_bonds() {
   first_.assign(compound_.convexes.size() + 1, 0);
   for (const Bond& bond : compound_.bonds) ++first_[bond.a], ++first_[bond.b];
@@ -126,14 +127,14 @@ std::uint32_t Sections::across(std::uint32_t bond, std::uint32_t convex) const {
   return compound_.bonds[bond].a ^ compound_.bonds[bond].b ^ convex;
 }
 
-/// What presses goes on doing so when nothing holds it any longer.
+/// Returns true if a bond is under compression: it transmits force even without strength.
 bool Sections::is_pressed(std::uint32_t bond) const {
   return system_.geometry()[bond].normal_R.dot(system_.wrench(bond, displacements_).force_N) < 0;
 }
 
-/// From the bond on to those that cross the plane too and are of the same convexes, or of convexes
-/// on the same side that are bonded to these or overlap them. Other members that the plane cuts are
-/// not reached.
+/// Returns the bonds that cross the plane, found from bond to bond: those of a visited convex, and
+/// those of convexes on the same side that are bonded to it or overlap it. Other members that the
+/// plane crosses are not reached.
 std::vector<Crossing> Sections::flood(std::uint32_t bond, const Vec3& normal_R) {
   const Vec3& point_R = system_.geometry()[bond].centroid_R;
   const auto ahead = [&](std::uint32_t c) { return normal_R.dot(centroid(c) - point_R) > 0; };
@@ -173,8 +174,8 @@ std::vector<Crossing> Sections::flood(std::uint32_t bond, const Vec3& normal_R) 
   return crossings;
 }
 
-/// Their areas as vectors, summed: for all that ends in a closed line in a plane, that plane's
-/// normal and the area in it. Also the sum of the areas as such.
+/// Returns the sum of the vector areas of bonds: for a closed outline in a plane, the area in the
+/// plane times its normal. Sets `area_m2` to the sum of the areas.
 Vec3 Sections::facing(std::span<const Crossing> crossings, double& area_m2) const {
   Vec3 sum = Vec3::Zero();
   area_m2 = 0;
@@ -186,8 +187,8 @@ Vec3 Sections::facing(std::span<const Crossing> crossings, double& area_m2) cons
   return sum;
 }
 
-/// The principal axes of the centroids of what hangs together within four, three and two cells of
-/// a bond.
+/// Returns the principal axes of the centroids of connected convexes within four, three and two
+/// cells of a bond.
 std::vector<Vec3> Sections::axes_around(std::uint32_t bond) {
   const Bond& own = compound_.bonds[bond];
   const Vec3& point_R = system_.geometry()[bond].centroid_R;
@@ -225,8 +226,8 @@ std::vector<Vec3> Sections::axes_around(std::uint32_t bond) {
   return axes;
 }
 
-/// What crossings bear whose areas, seen along `normal_R`, are these, bent about `bending_R` and
-/// across it.
+/// Returns the plastic strength of crossings whose areas, projected along `normal_R`, are
+/// `areas_m2`, in bending about `bending_R` and across it.
 SectionStrength Sections::strength(std::span<const Crossing> crossings,
                                    std::span<const double> areas_m2, const Vec3& normal_R,
                                    const Vec3& bending_R) const {
@@ -246,7 +247,7 @@ SectionStrength Sections::strength(std::span<const Crossing> crossings,
     strength.moment_Nm[axis] = bending_Nm(strips);
   }
   strength.shear_N = strength.axial_N * std::numbers::inv_sqrt3;  // von Mises
-  // A rectangle's by the heap of sand (Nadai 1923), told by what it bears bent either way.
+  // Torsion of a rectangle by the sand heap analogy (Nadai 1923), from its moments in bending.
   const double weak = std::min(strength.moment_Nm[1], strength.moment_Nm[2]);
   const double strong = std::max(strength.moment_Nm[1], strength.moment_Nm[2]);
   strength.moment_Nm[0] = std::numbers::inv_sqrt3 * weak * (2 - 2.0 / 3 * weak / strong);

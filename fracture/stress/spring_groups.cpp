@@ -10,7 +10,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// Neighbours of every node and how strongly they hold it, as begin offsets and flat lists.
+/// Neighbours of every node and the stiffness to each, as begin offsets and flat lists.
 struct Couplings {
   std::vector<std::uint32_t> first, other;
   std::vector<double> strength;
@@ -38,13 +38,14 @@ struct Couplings {
   }
 };
 
-/// Groups of neighbouring nodes, each numbered by when it began.
+/// Groups of neighbouring nodes, numbered in the order of their first nodes.
 class GrowingGroups {
  public:
   GrowingGroups(const Couplings& couplings, std::size_t nodes)
       : couplings_(couplings), group_(nodes, kFree), pull_(nodes, 0) {}
 
-  /// Every group grows by what its members hold strongest, to `size` nodes if it can.
+  /// Grows each group by the most strongly connected node, up to `size` nodes; returns the number
+  /// of groups.
   template <class IsThere>
   std::uint32_t grow(std::size_t size, const IsThere& is_there) {
     std::uint32_t groups = 0;
@@ -69,7 +70,7 @@ class GrowingGroups {
 
  private:
   static constexpr std::uint32_t kFree = 0xffffffff;
-  // A node is held weakly by what holds it less than this share of what holds it most.
+  // A spring below this share of a node's strongest spring is weak.
   static constexpr double kWeak = 0.25;
 
   void add(std::uint32_t node, std::uint32_t group) {
@@ -92,7 +93,7 @@ class GrowingGroups {
     return best;
   }
 
-  /// A node left alone goes to the group that holds it strongest.
+  /// Moves a single node to the group with the stiffest spring to it; returns false if it has none.
   bool join_neighbour(std::uint32_t node) {
     double most = 0;
     const std::uint32_t alone = group_[node];
@@ -107,11 +108,11 @@ class GrowingGroups {
 
   const Couplings& couplings_;
   std::vector<std::uint32_t> group_;
-  std::vector<std::uint32_t> rim_;  ///< Free nodes beside the group that grows.
-  std::vector<double> pull_;        ///< Of that group on each of them.
+  std::vector<std::uint32_t> rim_;  ///< Ungrouped nodes beside the growing group.
+  std::vector<double> pull_;  ///< Per node: number of its strong springs to the growing group.
 };
 
-/// Springs between the same two nodes become one.
+/// Merges springs between the same two nodes into one.
 std::vector<Spring> merge(std::vector<Spring> springs) {
   std::sort(springs.begin(), springs.end(),
             [](const Spring& x, const Spring& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
@@ -162,7 +163,7 @@ SpringLevel<float> SpringGroups::coarsen(const SpringLevel<float>& fine,
   return coarse;
 }
 
-/// The spring as its groups see it; none if it is within one.
+/// Returns the spring between groups; none if both ends are in one group.
 std::optional<Spring> SpringGroups::between_groups(Spring spring) const {
   spring.a = spring.a == Spring::kWorld ? Spring::kWorld : group_[spring.a];
   spring.b = spring.b == Spring::kWorld ? Spring::kWorld : group_[spring.b];
@@ -171,7 +172,7 @@ std::optional<Spring> SpringGroups::between_groups(Spring spring) const {
   return spring;
 }
 
-/// Takes note of where the groups are.
+/// Computes the vectors from groups to their nodes.
 void SpringGroups::place_arms(const SpringLevel<float>& fine, const SpringLevel<float>& coarse) {
   arms_.resize(group_.size());
   for (std::size_t i = 0; i < group_.size(); ++i) {
@@ -180,7 +181,7 @@ void SpringGroups::place_arms(const SpringLevel<float>& fine, const SpringLevel<
   }
 }
 
-/// What an edit of the fine level does to the coarse one.
+/// Returns the edit of the coarse level that follows from an edit of the fine level.
 SpringEdit SpringGroups::edit_of_groups(const SpringLevel<float>& fine, const SpringEdit& edit) {
   SpringEdit of_groups;
   of_groups.changes.assign(count_, SpringEdit::Change::kNone);
@@ -202,7 +203,7 @@ SpringEdit SpringGroups::edit_of_groups(const SpringLevel<float>& fine, const Sp
   return of_groups;
 }
 
-/// What is new goes to the group that holds it strongest.
+/// Assigns new nodes to the group with the stiffest spring to them.
 void SpringGroups::join_groups(const SpringEdit& edit) {
   std::vector<std::uint8_t> homeless(group_.size(), 0);
   std::size_t left = 0;
@@ -211,7 +212,7 @@ void SpringGroups::join_groups(const SpringEdit& edit) {
     left += homeless[i];
   }
   while (left > 0) {
-    std::map<std::uint32_t, std::pair<double, std::uint32_t>> best;  // strength and group
+    std::map<std::uint32_t, std::pair<double, std::uint32_t>> best;  // Stiffness and group.
     for (const Spring& spring : edit.springs) {
       if (spring.a == Spring::kWorld || spring.b == Spring::kWorld) continue;
       if (homeless[spring.a] == homeless[spring.b]) continue;
@@ -220,7 +221,8 @@ void SpringGroups::join_groups(const SpringEdit& edit) {
       auto& strongest = best[node];
       if (spring.stretch_N_m > strongest.first) strongest = {spring.stretch_N_m, group_[other]};
     }
-    if (best.empty()) return;  // they stay where what they stand for instead was
+    // Nodes without a neighbour keep the groups of their previous bodies.
+    if (best.empty()) return;
     for (const auto& [node, strongest] : best) {
       group_[node] = strongest.second;
       homeless[node] = 0;

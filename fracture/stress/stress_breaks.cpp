@@ -21,28 +21,29 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kTolerance = 1e-3, kBlowTolerance = 1e-2;  // of the solve
-// Of an overloaded region the worst bond goes, and those of its plane whose stress is this near:
-// by symmetry many are alike, and which is a shade worse is rounding.
+constexpr double kTolerance = 1e-3, kBlowTolerance = 1e-2;  // Tolerances of the solve.
+// In an overloaded region the worst bond is cut, and bonds of its plane with at least this share of
+// its utilisation: many are equal by symmetry, and differences are rounding errors.
 constexpr double kAlike = 0.97;
-constexpr int kRounds = 64;            // of cutting and solving again in one answer
-constexpr int kMostIterations = 2000;  // a solve that needs more is given up, and cuts nothing
-// However much making the system took: or breaks in every frame would keep it from being solved.
+constexpr int kRounds = 64;            // Limit of rounds of solving and cutting in one answer.
+constexpr int kMostIterations = 2000;  // A solve that needs more is abandoned and cuts nothing.
+// Least iterations of a solve, whatever the cost of making the system; otherwise a structure that
+// breaks in every frame would never be solved.
 constexpr std::uint64_t kLeastIterations = 2;
-// Iterations that an answer costs besides: the compound and what is known of it are copied, each
-// bond and the islands looked at; and so many springs more, however small it is.
+// Overhead of an answer in iterations, for copying the compound and its state and visiting bonds
+// and islands, and in springs, for small compounds.
 constexpr std::uint64_t kAnswerWork = 2, kAnswerSprings = 50;
-// Stress at a bond's own corners is at most so many times that of its section: those well below
-// the limit need no closer look.
+// Least utilisation by bound() for which the exact stress is computed: the stress at a bond's
+// corners exceeds that of its section by a limited factor.
 constexpr double kWorthALook = 0.6;
-// Estimated stress of an overlap, as a fraction of what it bears, above which it is turned into
-// bonds, whose stress is known. Half, as the estimate is within a factor of two.
+// Estimated utilisation above which an overlap is replaced by bonds, whose stress is accurate. One
+// half, as the estimate is within a factor of two.
 constexpr double kOpens = 0.5;
-// A bond with less than this share of the width squared of the smaller convex bears nothing: it is
-// what rounding left of two cuts, and of what hung by it alone no solve would find the stress.
+// A bond of less than this share of the squared width of the smaller convex bears nothing: it is
+// left by rounding of two cuts, and the stress of a part held only by it has no numerical solution.
 constexpr double kFrail = 1e-4;
 
-/// Stress in parts of the limit.
+/// Returns stress over strength.
 double part_of(const BondStress& stress, const Strength& limits) {
   return std::max({stress.tension_Pa / limits.tensile_Pa, stress.shear_Pa / limits.shear_Pa,
                    stress.compression_Pa / limits.compressive_Pa});
@@ -87,11 +88,11 @@ class StressBreaks {
       if (!is_known) break;
       if (const Ghost* overlap = overloaded_overlap()) {
         if (round == 0) opened_ = *overlap;
-        break;  // the bonds that were cut go first
+        break;  // Bonds that were cut are applied first.
       }
       Yielding yielding = judge(answer);
       if (round == 0) note_blow(answer);
-      // What cracks does so first: what yields bears what it did meanwhile.
+      // Cracks come first: until then, bonds that yield bear their load.
       std::vector<std::uint32_t> cut = overloaded(yielding, least(answer.worst));
       Flow flow;
       if (cut.empty()) flow = yielding.flow(least(answer.worst));
@@ -106,8 +107,8 @@ class StressBreaks {
       std::ranges::merge(cut, flow.bonds, std::back_inserter(gone));
       remove(gone);
       answer.work += memory_->system->edit_work();
-      if (!hinges_.empty()) break;  // what moves feels its hinges only in the next step
-      if (!impulses_.empty() && parted()) break;  // what is struck is another body now
+      if (!hinges_.empty()) break;                // Hinges act on bodies only in the next step.
+      if (!impulses_.empty() && parted()) break;  // The struck body is another one now.
     }
     if (!impulses_.empty()) note_work(is_known, answer);
     if (!frail_.empty() && (!cut_.empty() || parted()))
@@ -157,7 +158,7 @@ class StressBreaks {
     return all;
   }
 
-  /// False if there is no work left, or it is given up.
+  /// Continues a solve; returns false if there is no work left, or the solve was abandoned.
   bool improve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, const Vec3& spin_R,
                double tolerance, std::vector<Displacement>& displacements, Nodal<double>& way,
                int& iterations, StressAnswer& answer) {
@@ -172,7 +173,7 @@ class StressBreaks {
     return result.converged;
   }
 
-  /// False if the stress of the steady load is not known by now.
+  /// Solves for the steady load; returns false if its stress is not known yet.
   bool solve(StressAnswer& answer) {
     const bool known = improve(loads_, load_.gravity_R, load_.spin_R, kTolerance,
                                memory_->displacements, memory_->way, memory_->iterations, answer);
@@ -180,15 +181,16 @@ class StressBreaks {
     return known;
   }
 
-  /// Adds what the blow does, at its worst, to what the load does; false if that is not known.
+  /// Adds the greatest deflection under the impact load to that under the steady load; returns
+  /// false if that is not known.
   ///
-  /// The structure swings out the way that the impulses, as forces, would bend it: by u, in which
-  /// these do the work 2U. Swinging so at a rate q it has the energy ½Mq², M = Σ m u², and what
-  /// strikes it ½mq²; that m is what the impulses, 2U in this direction, and the work that they
-  /// do, W = (2U)² / 2m, tell. Cox (1849): they swing on together, and bend it by λu at most, when
-  /// all of that energy is in the bending: λ² = 2U / (m + M). The rest, a share M / (m + M) of W,
-  /// stays where the blow lands, and so does what is bent there. Where nothing strikes,
-  /// as of a blast, m is 0.
+  /// The structure deflects in the shape u that the impulses, taken as static forces, would cause;
+  /// their work on u is 2U. Moving at a rate q of this shape, the structure has the kinetic energy
+  /// ½Mq², with M = Σ m u², and the striker ½mq², where m follows from the work of the impulses, W
+  /// = (2U)² / 2m. Cox (1849): both move on together and deflect the structure by at most λu, when
+  /// all of that energy is strain energy: λ² = 2U / (m + M). The rest of W, a share M / (m + M),
+  /// stays near the impact, and so does the strain energy there. Without a striker, as in a blast,
+  /// m is 0.
   bool strike(StressAnswer& answer) {
     if (impulses_.empty()) return true;
     std::vector<Displacement>& swing = memory_->swing.displacements;
@@ -211,7 +213,7 @@ class StressBreaks {
     return true;
   }
 
-  /// Starts from how the last impact bent the compound if that struck the same convexes.
+  /// Starts from the deflection of the last impact if that struck the same convexes.
   void recall_swing() {
     KnownSwing& swing = memory_->swing;
     std::vector<ConvexSlot> struck;
@@ -266,7 +268,7 @@ class StressBreaks {
     return yielding;
   }
 
-  /// What is worse than this gives way: of a blow the worst goes first.
+  /// Returns the utilisation above which bonds give way: under an impact load the worst go first.
   double least(double worst) const { return impulses_.empty() ? 1 : std::max(1.0, kAlike * worst); }
 
   /// Returns the most overloaded overlap of two convexes under a steady load; null if there is
@@ -280,7 +282,8 @@ class StressBreaks {
       const Wrench wrench =
           memory_->system->overlap_wrench(ghost, load_.materials, memory_->displacements);
       double part = overlap_utilisation(compound_, ghost, wrench, load_.materials);
-      if (ghost.sign == 0) part *= kOpens;  // no bonds will be found there: it lets go at its limit
+      // A surface convex gets no bonds there, so the overlap opens at its limit.
+      if (ghost.sign == 0) part *= kOpens;
       if (part <= most) continue;
       most = part;
       worst = &ghost;
@@ -288,7 +291,7 @@ class StressBreaks {
     return worst;
   }
 
-  /// The worst of bonds that do not yield.
+  /// Returns the greatest utilisation of bonds that do not yield.
   double cracking(const Yielding& yielding) const {
     double worst = 0;
     for (std::uint32_t i = 0; i < compound_.bonds.size(); ++i)
@@ -296,7 +299,7 @@ class StressBreaks {
     return worst;
   }
 
-  /// Of bonds that do not yield the worst of each overloaded region, ascending.
+  /// Returns the worst bonds of each overloaded region, without those that yield; ascending.
   std::vector<std::uint32_t> overloaded(const Yielding& yielding, double least) const {
     const std::vector<double>& parts = yielding.parts();
     std::vector<Bond> too_weak;
@@ -322,7 +325,7 @@ class StressBreaks {
     return numbers;
   }
 
-  /// Whether it hangs together no longer.
+  /// Returns true if the compound is no longer connected.
   bool parted() const { return std::ranges::max(find_islands(compound_)) > 0; }
 
   std::uint64_t plane_of(std::uint32_t i) const {
@@ -350,7 +353,7 @@ class StressBreaks {
     return part_of(memory_->system->stress(compound_, number, displacements()), limits);
   }
 
-  /// What cracks takes of the energy of a blow.
+  /// Records cracked bonds and subtracts their crack energy from that of the impact.
   void spend(const std::vector<std::uint32_t>& cut) {
     for (const std::uint32_t i : cut) {
       cut_.push_back(compound_.bonds[i]);
@@ -382,18 +385,18 @@ class StressBreaks {
   }
 
   const Structure& structure_;
-  Compound compound_;              ///< Less the bonds that are frail or cut.
+  Compound compound_;              ///< Without negligible and cut bonds.
   std::vector<ConvexSlot> slots_;  ///< Per convex.
   const LoadCase& load_;
   std::vector<ConvexLoad> loads_;
-  std::vector<ConvexLoad> impulses_;  ///< Of the blow, N·s in place of N.
-  double blow_J_;                     ///< Less what the cuts have taken.
-  std::vector<Displacement> bent_;    ///< By all at once.
-  double local_ = 1;                  ///< Share of the blow's energy.
-  std::uint32_t worst_ = kNoBond;     ///< Bond.
+  std::vector<ConvexLoad> impulses_;  ///< Impulses of the impact, with N·s in place of N.
+  double blow_J_;                     ///< Impact energy without that of the cuts.
+  std::vector<Displacement> bent_;    ///< Steady load and impact together.
+  double local_ = 1;                  ///< Share of the impact energy that stays near the impact.
+  std::uint32_t worst_ = kNoBond;     ///< Index of the worst bond.
   std::shared_ptr<KnownStress> memory_;
   std::uint64_t most_work_ = 0;
-  std::vector<std::uint8_t> hinged_;  ///< Per convex: beside a hinge.
+  std::vector<std::uint8_t> hinged_;  ///< Per convex: nonzero beside a hinge.
   std::vector<Bond> cut_, frail_;
   std::optional<Ghost> opened_;
   std::vector<PlasticHinge> hinges_;

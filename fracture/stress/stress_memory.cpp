@@ -9,15 +9,15 @@
 namespace sunder::fracture {
 namespace {
 
-// A system is edited if so much of it stays; else it is made anew.
+// Least share of convexes that must be known for a system to be edited instead of made anew.
 constexpr double kStays = 0.5;
 
 auto place_of(const Bond& bond) { return std::tie(bond.a, bond.b, bond.face_a, bond.face_b); }
 
 constexpr std::uint32_t kNew = StressOrigin::kNew;
 
-/// Where the convexes and bonds of a compound, with these slots, were in what the memory is of; few
-/// are known if that was no earlier state of the same structure.
+/// Returns the indices of a compound's convexes and bonds in an older state; few are known if that
+/// is not a state of the same structure.
 StressOrigin origin_in(const KnownStress& old, const Compound& compound,
                        const std::vector<ConvexSlot>& slots) {
   StressOrigin origin;
@@ -41,14 +41,14 @@ StressOrigin origin_in(const KnownStress& old, const Compound& compound,
   return origin;
 }
 
-/// Makes what is known of a compound out of what was known of an earlier one.
+/// Makes the state of a compound from that of an earlier one.
 class Recollection {
  public:
   Recollection(const Compound& compound, const std::vector<ConvexSlot>& slots,
                std::span<const Material> materials)
       : compound_(compound), slots_(slots), materials_(materials) {}
 
-  /// From `old`, if there is any; adds to `work` what that took.
+  /// Makes the state from `old`, which may be null; adds the cost to `work`.
   std::shared_ptr<KnownStress> run(const KnownStress* old, std::uint64_t& work) {
     known_->displacements.resize(compound_.convexes.size());
     if (old && edit_system(*old)) {
@@ -61,7 +61,7 @@ class Recollection {
   }
 
  private:
-  /// False if too little of the system is still there.
+  /// Returns false if too little of the old system is left.
   bool edit_system(const KnownStress& old) {
     const StressOrigin origin = origin_in(old, compound_, slots_);
     const auto known = std::ranges::count_if(origin.convexes, [](auto was) { return was != kNew; });
@@ -100,8 +100,8 @@ class Recollection {
         compound_, std::move(geometry), materials_, StressSystem::spare_nodes(compound_));
   }
 
-  /// Per convex, kNew if it is not there. What came off is small beside what that is of: its own
-  /// convexes are sorted, not the old ones.
+  /// Returns the index of each convex in `old`, or kNew. Sorts the convexes of the compound, as
+  /// these are few if it came off a large structure.
   std::vector<std::uint32_t> numbers_in(const KnownStress& old) const {
     std::vector<std::pair<const Convex*, std::uint32_t>> sought;
     for (std::uint32_t c = 0; c < compound_.convexes.size(); ++c)

@@ -9,13 +9,15 @@
 namespace sunder::fracture {
 namespace {
 
-// A bond is no stiffer than one between convexes this share of its width apart.
+// Least distance of two convexes, over the bond's width, in the stiffness of the bond.
 constexpr double kLeastDistance = 0.05;
-constexpr double kUnbalanced = 1e-11;  // of all forces: rounding
-// Bonds of one plane within so many cells make one section.
+// Rounding error of balanced forces, over the sum of all forces.
+constexpr double kUnbalanced = 1e-11;
+// Bonds of one plane within this number of cells form one section.
 constexpr double kWindowCells = 2;
 
-/// Edge of the largest cell about each convex, what holds them not counted.
+/// Returns, per convex, the edge of the largest cell among it and its neighbours, without anchored
+/// ones.
 std::vector<double> cell_sizes(const Compound& compound) {
   std::vector<double> own, largest;
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
@@ -95,7 +97,7 @@ StressSystem::ElasticBond StressSystem::make_bond(const Compound& compound, std:
   ElasticBond elastic;
   elastic.plane = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].id.value >> 1;
   if (!(g.area_m2 > 0)) return elastic;
-  // What each convex gives, from its centroid to the bond.
+  // Compliance of each convex from its centroid to the bond.
   double gives_m_Pa = 0;
   for (const std::uint32_t c : {bond.a, bond.b}) {
     if (compound.anchored[c]) continue;
@@ -131,7 +133,7 @@ void StressSystem::make_bonds(const Compound& compound, std::span<const Material
     return std::tie(bonds_[x].plane, x) < std::tie(bonds_[y].plane, y);
   };
   std::sort(fresh.begin(), fresh.end(), by_plane);
-  std::vector<std::uint32_t> kept;  // in order still, as numbers keep theirs
+  std::vector<std::uint32_t> kept;  // Already in order, as the order of bonds does not change.
   if (edited) kept = edited->old.by_plane_;
   for (std::uint32_t& bond : kept) bond = new_of_old[bond];
   std::erase(kept, StressOrigin::kNew);
@@ -139,7 +141,7 @@ void StressSystem::make_bonds(const Compound& compound, std::span<const Material
              by_plane);
 }
 
-/// The spring of an overlap, of its convexes `of[0]` and `of[i]`.
+/// Returns the spring of an overlap between its convexes `of[0]` and `of[i]`.
 Spring StressSystem::spring_of(const Ghost& ghost, std::size_t i,
                                std::span<const Material> materials) const {
   const Convex& common = *ghost.convex;
@@ -172,7 +174,8 @@ Wrench StressSystem::overlap_wrench(const Ghost& ghost, std::span<const Material
               (displacements[ghost.of[1]].rotation_R - displacements[ghost.of[0]].rotation_R)};
 }
 
-/// Convexes keep their nodes; new ones take those that are free. False if there are too few.
+/// Keeps the nodes of old convexes and gives new ones free nodes; returns false if there are too
+/// few.
 bool StressSystem::number_nodes(const Edited& edited, SpringEdit& edit) {
   const std::vector<std::uint8_t>& fixed = masses_.fixed();
   nodes_ = edited.old.nodes_;
@@ -199,7 +202,7 @@ bool StressSystem::number_nodes(const Edited& edited, SpringEdit& edit) {
   return true;
 }
 
-/// Marks the nodes at the ends of bonds that came or went, or lead to another node than before.
+/// Marks the nodes of bonds that were added, were removed or now connect other nodes.
 void StressSystem::mark_changes(const Edited& edited, SpringEdit& edit) const {
   const auto mark = [&](std::uint32_t convex) {
     const std::uint32_t node = node_of_convex_[convex];
@@ -241,7 +244,7 @@ SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& g
   masses_.balance(loads, gravity_R, spin_R, forces_N, torques_Nm);
   const SpringLevel<double>& level = multigrid_->springs();
   Nodal<double> f = level.zero(), x = level.zero();
-  // Nodes stand where their springs have their centre, which is not the centroid.
+  // A node is at the centre of its springs, which is not the centroid of its convex.
   for (std::size_t c = 0; c < masses_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];
     if (node == Spring::kWorld) continue;
@@ -250,7 +253,7 @@ SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& g
     const Displacement& d = displacements[c];
     x[node] = {simd4<double>(d.shift_R - d.rotation_R.cross(arm)), simd4<double>(d.rotation_R)};
   }
-  // What falls freely has forces that cancel but for rounding.
+  // The forces on islands in free fall cancel up to rounding.
   const double nothing_N = kUnbalanced * masses_.applied_N(loads, gravity_R, spin_R);
   Nodal<double> none;
   const SolveResult result =
@@ -314,8 +317,8 @@ BondStress StressSystem::bound(std::uint32_t bond,
           f.shear_Pa.norm() + std::abs(f.twist_Pa_m) * reach};
 }
 
-/// The bond's field with the tension that fits the section's best: of all that is linear in the
-/// place the one of least ∫ (fit − tension)² dA over the bonds beside this one.
+/// Returns the bond's field with the linear tension that minimizes ∫ (fit − tension)² dA over the
+/// bond and its neighbours.
 StressSystem::Field StressSystem::section_field(std::uint32_t bond,
                                                 std::span<const Displacement> displacements) const {
   Field own = field(bond, displacements);
@@ -324,7 +327,7 @@ StressSystem::Field StressSystem::section_field(std::uint32_t bond,
   const auto [begin, end] =
       std::equal_range(by_plane_.begin(), by_plane_.end(), bond,
                        [&](auto x, auto y) { return bonds_[x].plane < bonds_[y].plane; });
-  // About the bond's centroid, in an orthonormal basis of the plane.
+  // Coordinates about the bond's centroid, in an orthonormal basis of the plane.
   const Vec3 u =
       g.normal_R.cross(std::abs(g.normal_R.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ()).normalized();
   const Vec3 v = g.normal_R.cross(u);

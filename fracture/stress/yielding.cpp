@@ -14,15 +14,17 @@
 namespace sunder::fracture {
 namespace {
 
-// A fibre flows before its section does, or nearly so: bent two ways at once, or sheared besides,
-// a section bears a little more than is said of it.
+// Fibre utilisation above which a section is examined: fibres yield before the section does, except
+// that a section under biaxial bending or shear bears slightly more than computed.
 constexpr double kFibre = 0.9;
-// Sections that are this far from their limit may have to flow with those that are over it.
+// Sections above this utilisation may have to flow with overloaded ones.
 constexpr double kSpare = 0.5;
-constexpr double kNearly = 0.97;      // as bad as the worst
-constexpr double kSameWay = 0.99;     // cosine of normals
-constexpr double kSameSection = 0.5;  // a bond is judged by its section if it faces within 60°
-constexpr double kGauge = 5.65;       // times √A: over which elongation is measured (ISO 6892-1)
+// Share of the greatest utilisation above which sections are alike.
+constexpr double kNearly = 0.97;
+constexpr double kSameWay = 0.99;  // Cosine of normals.
+// A bond within 60° of a section's normal needs no section of its own (cosine).
+constexpr double kSameSection = 0.5;
+constexpr double kGauge = 5.65;  // Gauge length over √A, for elongation (ISO 6892-1).
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
@@ -40,8 +42,8 @@ Yielding::Yielding(const Compound& compound, const StressSystem& system,
   look(kFibre);
 }
 
-/// Finds the sections of bonds whose fibres are worse than that, the worst first; those that lie in
-/// one already are not asked again.
+/// Finds the sections of bonds whose fibre utilisation exceeds `least`, worst first; bonds in a
+/// section found before are skipped.
 void Yielding::look(double least) {
   std::vector<std::uint32_t> bonds;
   for (std::uint32_t i = 0; i < fibres_.size(); ++i)
@@ -81,7 +83,7 @@ std::uint32_t Yielding::ahead(const Crossing& crossing) const {
   return crossing.forward ? bond.b : bond.a;
 }
 
-/// Groups of sections that share convexes, from one to the next; all in the given order.
+/// Returns groups of sections that are connected by common convexes; all in the given order.
 std::vector<std::vector<std::uint32_t>> Yielding::connected(
     std::span<const std::uint32_t> sections) const {
   DisjointSets sets(sections.size());
@@ -101,9 +103,9 @@ std::vector<std::vector<std::uint32_t>> Yielding::connected(
   return all;
 }
 
-/// Of each overloaded region the worst section. Where axial force decides many of one member are
-/// alike: if it is pulled the middle one of these, and if it is pressed the first and the last as
-/// well, as a column that buckles needs three.
+/// Returns the worst section of each overloaded region. Where axial force governs, many sections of
+/// a member are alike: the middle one of these is returned, and under compression the first and the
+/// last as well, as a column that buckles needs three hinges.
 std::vector<std::uint32_t> Yielding::decisive(double least) const {
   std::vector<std::uint32_t> over, result;
   for (std::uint32_t s = 0; s < found_.size(); ++s)
@@ -134,7 +136,7 @@ std::vector<std::uint32_t> Yielding::decisive(double least) const {
   return result;
 }
 
-/// Unless a section that was chosen before has one of its convexes.
+/// Chooses a section unless one chosen before shares a convex with it.
 void Yielding::choose(std::uint32_t section) {
   const std::vector<Crossing>& crossings = found_[section].crossings;
   for (const Crossing& crossing : crossings)
@@ -148,7 +150,8 @@ void Yielding::choose(std::uint32_t section) {
   chosen_.push_back(section);
 }
 
-/// Without the bonds of the first `chosen` sections; `by_world`: what is anchored is one.
+/// Returns the islands without the bonds of the first `chosen` sections; `by_world` joins all
+/// anchored convexes.
 std::vector<std::uint32_t> Yielding::islands(std::size_t chosen, bool by_world) {
   std::vector<Bond> links;
   for (std::size_t i = 0; i < compound_.bonds.size(); ++i)
@@ -201,8 +204,8 @@ void Yielding::put_back(std::span<const Crossing> crossings) {
   for (const Crossing& crossing : crossings) place_[crossing.bond] = kNone;
 }
 
-/// Gives back the bonds that part nothing from anything. A section between several pieces is as
-/// many hinges; bonds that would bear nothing alone are given back too.
+/// Returns the flow of the first `chosen` sections, without bonds that separate nothing or would
+/// bear nothing alone. A section between several pieces becomes several hinges.
 Flow Yielding::part(std::size_t chosen) {
   Flow flow;
   for (bool again = true; again;) {
@@ -253,7 +256,7 @@ PlasticHinge Yielding::hinge(const Section& section) const {
     }
     for (const std::uint32_t c : {bond.a, bond.b}) {
       const Material& material = materials_[compound_.convexes[c]->material.value];
-      if (!material.yields()) continue;  // nothing breaks it
+      if (!material.yields()) continue;  // The material has no strength limit.
       if (!weakest || material.yield_Pa < weakest->yield_Pa) weakest = &material;
     }
     hinge.bonds.push_back(
