@@ -119,7 +119,7 @@ BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
     if (parts) cut.push_back(bond);
     return parts;
   });
-  return part(compound, slots, cut, {});
+  return separate_islands(compound, slots, cut, {});
 }
 
 /// Replaces the pattern by a plug if the striker drives one out of the solid.

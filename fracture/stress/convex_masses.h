@@ -25,7 +25,7 @@ struct Displacement {
 };
 
 /// Work of forces on a displacement, and the modal mass of that displacement.
-struct SwingResponse {
+struct DeflectionResponse {
   /// Σ f·u: twice the strain energy if the forces have caused the displacement.
   double work_J = 0;
   double mass_kg_m2 = 0;  ///< Σ m u², without rigid motion of islands that have no anchor.
@@ -51,8 +51,8 @@ class ConvexMasses {
   void balance(std::span<const ConvexLoad> loads, const Vec3& gravity_R, const Vec3& spin_R,
                std::vector<Vec3>& forces_N, std::vector<Vec3>& torques_Nm) const;
   /// Returns work and modal mass of displacements under loads without weight.
-  SwingResponse response(std::span<const ConvexLoad> loads,
-                         std::span<const Displacement> displacements) const;
+  DeflectionResponse response(std::span<const ConvexLoad> loads,
+                              std::span<const Displacement> displacements) const;
   /// Returns the sum of the magnitudes of all loads, weights and centrifugal forces, to which
   /// rounding errors are relative.
   double applied_N(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
@@ -60,21 +60,21 @@ class ConvexMasses {
 
  private:
   /// Connected convexes without an anchor.
-  struct Loose {
+  struct FreeIsland {
     std::vector<std::uint32_t> convexes;
     double mass_kg = 0;
     Vec3 com_R = Vec3::Zero();
     Mat3 inverse_inertia = Mat3::Zero();
   };
 
-  void fix(const Compound& compound);
-  void add_loose(std::vector<std::uint32_t> convexes);
+  void find_fixed(const Compound& compound);
+  void add_free_island(std::vector<std::uint32_t> convexes);
 
   std::vector<Vec3> centroids_;  ///< Per convex, as are the next three.
   std::vector<double> masses_kg_;
   std::vector<Mat3> inertias_;
   std::vector<std::uint8_t> fixed_;
-  std::vector<Loose> loose_;
+  std::vector<FreeIsland> free_islands_;
 };
 
 }  // namespace sunder::fracture

@@ -10,7 +10,7 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr std::size_t kGroup = 8;  // Nodes per group of the next coarser level.
+constexpr std::size_t kGroupSize = 8;  // Nodes per group of the next coarser level.
 // Factor for coarse corrections, as rigid groups are too stiff.
 constexpr float kOvercorrection = 1.4f;
 // A level is solved directly if that costs at most this many iterations and the level has at most
@@ -51,7 +51,7 @@ void add(Real factor, const Nodal<Real>& y, Nodal<Real>& x) {
 }
 
 /// Computes x = y + beta · x.
-void lengthen(double beta, const Nodal<double>& y, Nodal<double>& x) {
+void scale_and_add(double beta, const Nodal<double>& y, Nodal<double>& x) {
   for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       x[i].linear = y[i].linear + splat<double>(beta) * x[i].linear;
@@ -110,7 +110,7 @@ Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
   to_units(springs);
   levels_.emplace_back(nodes, std::move(springs));
   while (!factorize(false)) {
-    SpringGroups groups(levels_.back(), kGroup);
+    SpringGroups groups(levels_.back(), kGroupSize);
     SUNDER_CHECK(groups.count() < levels_.back().size());
     levels_.push_back(groups.coarsen(levels_.back()));
     groups_.push_back(std::move(groups));
@@ -134,9 +134,9 @@ void Multigrid::to_units(std::vector<Spring>& springs) const {
   }
 }
 
-/// Factorizes the coarsest level; returns false if a coarser level is needed, unless `to_be` keeps
-/// the level as it is.
-bool Multigrid::factorize(bool to_be) {
+/// Factorizes the coarsest level; returns false if a coarser level is needed, unless `keep_level`
+/// keeps the level as it is.
+bool Multigrid::factorize(bool keep_level) {
   // In double precision: the stiffness to the world may be tiny beside that between nodes.
   const SpringLevel<float>& last = levels_.back();
   std::vector<BlockCholesky::Pair> pairs;
@@ -144,10 +144,10 @@ bool Multigrid::factorize(bool to_be) {
     if (spring.a != Spring::kWorld && spring.b != Spring::kWorld)
       pairs.emplace_back(spring.a, spring.b);
   });
-  if (pairs.empty()) to_be = true;  // Each node is on its own.
-  if (!to_be && last.size() > kDirectNodes) return false;
+  if (pairs.empty()) keep_level = true;  // Each node is on its own.
+  if (!keep_level && last.size() > kDirectNodes) return false;
   BlockCholesky matrix(last.size(), pairs);
-  if (!to_be && matrix.products() > kDirectIterations * pairs.size()) return false;
+  if (!keep_level && matrix.products() > kDirectIterations * pairs.size()) return false;
   using Row = Eigen::Matrix<double, 6, 1>;
   std::vector<Row> diagonal(last.size(), Row::Zero());
   last.for_each_spring([&](const Spring& spring) {
@@ -169,11 +169,11 @@ bool Multigrid::factorize(bool to_be) {
     if (!missing.isZero(0)) matrix.add(i, i, missing.asDiagonal());
   }
   // A nearly singular matrix gets the least diagonal shift that makes it positive definite.
-  for (double ground = 1e-13; ground < 1; ground *= 100) {
+  for (double diagonal_shift = 1e-13; diagonal_shift < 1; diagonal_shift *= 100) {
     coarsest_ = matrix;
     if (coarsest_.factorize()) return true;
     for (std::uint32_t i = 0; i < diagonal.size(); ++i)
-      matrix.add(i, i, ground * most * BlockCholesky::Block::Identity());
+      matrix.add(i, i, diagonal_shift * most * BlockCholesky::Block::Identity());
   }
   SUNDER_CHECK(false);
   return false;
@@ -221,10 +221,11 @@ std::vector<Multigrid::Scratch> Multigrid::scratch() const {
   return scratch;
 }
 
-SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double nothing_N,
-                             int most_iterations, Nodal<double>& x, Nodal<double>& way) const {
+SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double rounding_N,
+                             int most_iterations, Nodal<double>& x,
+                             Nodal<double>& last_direction) const {
   std::vector<Scratch> memory = scratch();
-  Nodal<double> r = springs_.zero(), z = r, p = std::exchange(way, {}), product = r;
+  Nodal<double> r = springs_.zero(), z = r, p = std::exchange(last_direction, {}), product = r;
   springs_.residual(f, x, r);
   // The guess has more energy, xᵀKx / 2 − fᵀx, than no displacement has.
   if (!(dot(x, f) + dot(x, r) >= 0)) {
@@ -242,7 +243,7 @@ SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double no
   for (;; ++result.iterations) {
     const double left = std::sqrt(dot(r, r));
     result.residual = force > 0 ? left / force : 0;
-    if (left <= nothing_N) {
+    if (left <= rounding_N) {
       result.converged = true;
       break;
     }
@@ -256,7 +257,7 @@ SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double no
     // A new direction is conjugate to the last one.
     double beta = result.iterations > 0 ? rz_new / rz : 0;
     if (result.iterations == 0 && goes_on) beta = -dot(z, product) / dot(p, product);
-    lengthen(beta, z, p);
+    scale_and_add(beta, z, p);
     rz = rz_new;
     springs_.multiply(p, product);
     const double curvature = dot(p, product);
@@ -265,7 +266,7 @@ SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double no
     add(alpha, p, x);
     add(-alpha, product, r);
   }
-  if (!result.converged && result.iterations == most_iterations) way = std::move(p);
+  if (!result.converged && result.iterations == most_iterations) last_direction = std::move(p);
   return result;
 }
 

@@ -39,10 +39,10 @@ class Multigrid {
   /// counts as one, with the overhead around it.
   std::uint64_t direct_work() const { return coarsest_.products(); }
   /// Improves x until residual and error are at most `tolerance`, the residual is rounding (at most
-  /// `nothing_N`), or `most_iterations` are done. `way` is the last search direction of an
-  /// unfinished solve, from which this one continues; empty if there is none.
-  SolveResult solve(const Nodal<double>& f, double tolerance, double nothing_N, int most_iterations,
-                    Nodal<double>& x, Nodal<double>& way) const;
+  /// `rounding_N`), or `most_iterations` are done. `last_direction` is the last search direction of
+  /// an unfinished solve, from which this one continues; empty if there is none.
+  SolveResult solve(const Nodal<double>& f, double tolerance, double rounding_N,
+                    int most_iterations, Nodal<double>& x, Nodal<double>& last_direction) const;
 
  private:
   /// Memory of one level of a cycle.
@@ -51,7 +51,7 @@ class Multigrid {
   };
 
   void to_units(std::vector<Spring>& springs) const;
-  bool factorize(bool to_be);
+  bool factorize(bool keep_level);
   std::vector<Scratch> scratch() const;
   /// Sets z ≈ K⁻¹ r on one level and those below it, by a symmetric operator.
   void cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,

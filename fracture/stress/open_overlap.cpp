@@ -17,7 +17,7 @@ namespace {
 constexpr double kThinnest = 1e-9;
 /// Share of an embedded part's surface below which its faces cancel: the part goes through the
 /// other convex and is held by shear alone.
-constexpr double kGoesThrough = 0.1;
+constexpr double kPassesThrough = 0.1;
 
 bool has_face(const Convex& convex, PlaneId id) {
   return std::ranges::any_of(convex.polyhedron.faces, [&](const auto& f) { return f.id == id; });
@@ -86,7 +86,7 @@ double overlap_utilisation(const Compound& compound, const Ghost& ghost, const W
   const Strength strength = weaker_of(materials[a.material.value], materials[b.material.value]);
   double section_m2 = on_a.vector_area_m2.norm();
   Vec3 normal = Vec3::Zero();
-  if (section_m2 > kGoesThrough * surface_m2) {
+  if (section_m2 > kPassesThrough * surface_m2) {
     normal = on_a.vector_area_m2 / section_m2;
   } else {
     section_m2 = surface_m2;

@@ -12,7 +12,7 @@ namespace sunder::fracture {
 /// of convexes; the pieces of hinges are set here. All islands but one come off, in the order of
 /// their first convexes: the largest of those with an anchor stays, or the largest of all if none
 /// has one.
-BreakEdit part(const Compound& compound, const std::vector<ConvexSlot>& slots,
-               const std::vector<Bond>& cut, std::vector<PlasticHinge> hinges);
+BreakEdit separate_islands(const Compound& compound, const std::vector<ConvexSlot>& slots,
+                           const std::vector<Bond>& cut, std::vector<PlasticHinge> hinges);
 
 }  // namespace sunder::fracture

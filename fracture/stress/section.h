@@ -50,7 +50,7 @@ class Sections {
   /// Returns the yield stress of a bond; 0 if it does not yield.
   double yield_Pa(std::uint32_t bond) const;
   /// Returns the absolute cosine between a bond's normal and a direction.
-  double faces(std::uint32_t bond, const Vec3& direction_R) const {
+  double normal_cosine(std::uint32_t bond, const Vec3& direction_R) const {
     return std::abs(system_.geometry()[bond].normal_R.dot(direction_R));
   }
   /// Returns the section about a bond that yields; none if it has too many bonds, or a bond that
@@ -63,7 +63,7 @@ class Sections {
   Section at(std::uint32_t bond);
   /// Returns the section of given bonds, seen along `normal_R`; none if the projected area of the
   /// bonds that yield is zero.
-  Section of(std::vector<Crossing> crossings, const Vec3& normal_R) const;
+  Section make_section(std::vector<Crossing> crossings, const Vec3& normal_R) const;
   /// Returns the number of bonds visited so far.
   std::uint64_t work() const { return work_; }
 
@@ -71,10 +71,10 @@ class Sections {
   void index_bonds();
   std::span<const std::uint32_t> bonds_of(std::uint32_t convex) const;
   const Vec3& centroid(std::uint32_t convex) const;
-  std::uint32_t across(std::uint32_t bond, std::uint32_t convex) const;
+  std::uint32_t other_convex(std::uint32_t bond, std::uint32_t convex) const;
   bool is_pressed(std::uint32_t bond) const;
-  std::vector<Crossing> flood(std::uint32_t bond, const Vec3& normal_R);
-  Vec3 facing(std::span<const Crossing> crossings, double& area_m2) const;
+  std::vector<Crossing> find_crossings(std::uint32_t bond, const Vec3& normal_R);
+  Vec3 vector_area(std::span<const Crossing> crossings, double& area_m2) const;
   std::vector<Vec3> axes_around(std::uint32_t bond);
   SectionStrength strength(std::span<const Crossing> crossings, std::span<const double> areas_m2,
                            const Vec3& normal_R, const Vec3& bending_R) const;

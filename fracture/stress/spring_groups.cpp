@@ -42,7 +42,7 @@ struct Couplings {
 class GrowingGroups {
  public:
   GrowingGroups(const Couplings& couplings, std::size_t nodes)
-      : couplings_(couplings), group_(nodes, kFree), pull_(nodes, 0) {}
+      : couplings_(couplings), group_(nodes, kFree), links_to_group_(nodes, 0) {}
 
   /// Grows each group by the most strongly connected node, up to `size` nodes; returns the number
   /// of groups.
@@ -52,15 +52,15 @@ class GrowingGroups {
     for (std::uint32_t seed = 0; seed < group_.size(); ++seed) {
       if (!is_there(seed)) group_[seed] = 0;
       if (group_[seed] != kFree) continue;
-      rim_.clear();
+      boundary_.clear();
       add(seed, groups);
       std::size_t members = 1;
       for (; members < size; ++members) {
-        const auto best = strongest_of_rim();
+        const auto best = most_linked();
         if (best == kFree) break;
         add(best, groups);
       }
-      for (const std::uint32_t node : rim_) pull_[node] = 0;
+      for (const std::uint32_t node : boundary_) links_to_group_[node] = 0;
       if (members > 1 || !join_neighbour(seed)) ++groups;
     }
     return groups;
@@ -80,15 +80,16 @@ class GrowingGroups {
       if (group_[other] != kFree || couplings_.strength[k] < kWeak * couplings_.strongest[other]) {
         continue;
       }
-      if (pull_[other] == 0) rim_.push_back(other);
-      pull_[other] += 1;
+      if (links_to_group_[other] == 0) boundary_.push_back(other);
+      links_to_group_[other] += 1;
     }
   }
 
-  std::uint32_t strongest_of_rim() const {
+  std::uint32_t most_linked() const {
     std::uint32_t best = kFree;
-    for (const std::uint32_t node : rim_) {
-      if (group_[node] == kFree && (best == kFree || pull_[node] > pull_[best])) best = node;
+    for (const std::uint32_t node : boundary_) {
+      if (group_[node] == kFree && (best == kFree || links_to_group_[node] > links_to_group_[best]))
+        best = node;
     }
     return best;
   }
@@ -108,8 +109,9 @@ class GrowingGroups {
 
   const Couplings& couplings_;
   std::vector<std::uint32_t> group_;
-  std::vector<std::uint32_t> rim_;  ///< Ungrouped nodes beside the growing group.
-  std::vector<double> pull_;  ///< Per node: number of its strong springs to the growing group.
+  std::vector<std::uint32_t> boundary_;  ///< Ungrouped nodes beside the growing group.
+  std::vector<double>
+      links_to_group_;  ///< Per node: number of its strong springs to the growing group.
 };
 
 /// Merges springs between the same two nodes into one.
@@ -176,8 +178,8 @@ std::optional<Spring> SpringGroups::between_groups(Spring spring) const {
 void SpringGroups::place_arms(const SpringLevel<float>& fine, const SpringLevel<float>& coarse) {
   arms_.resize(group_.size());
   for (std::size_t i = 0; i < group_.size(); ++i) {
-    const Vec3 way = fine.place(i) - coarse.place(group_[i]);
-    arms_[i] = rounded<float>(way, way.norm());
+    const Vec3 from_group = fine.place(i) - coarse.place(group_[i]);
+    arms_[i] = rounded<float>(from_group, from_group.norm());
   }
 }
 
@@ -191,7 +193,7 @@ SpringEdit SpringGroups::edit_of_groups(const SpringLevel<float>& fine, const Sp
     }
   };
   mark();
-  join_groups(edit);
+  assign_new_nodes(edit);
   mark();
   std::vector<Spring> between;
   fine.for_springs_near([&](std::uint32_t node) { return of_groups.is_at(group_[node]); },
@@ -204,20 +206,20 @@ SpringEdit SpringGroups::edit_of_groups(const SpringLevel<float>& fine, const Sp
 }
 
 /// Assigns new nodes to the group with the stiffest spring to them.
-void SpringGroups::join_groups(const SpringEdit& edit) {
-  std::vector<std::uint8_t> homeless(group_.size(), 0);
+void SpringGroups::assign_new_nodes(const SpringEdit& edit) {
+  std::vector<std::uint8_t> ungrouped(group_.size(), 0);
   std::size_t left = 0;
   for (std::uint32_t i = 0; i < group_.size(); ++i) {
-    homeless[i] = edit.changes[i] == SpringEdit::Change::kNew;
-    left += homeless[i];
+    ungrouped[i] = edit.changes[i] == SpringEdit::Change::kNew;
+    left += ungrouped[i];
   }
   while (left > 0) {
     std::map<std::uint32_t, std::pair<double, std::uint32_t>> best;  // Stiffness and group.
     for (const Spring& spring : edit.springs) {
       if (spring.a == Spring::kWorld || spring.b == Spring::kWorld) continue;
-      if (homeless[spring.a] == homeless[spring.b]) continue;
-      const std::uint32_t node = homeless[spring.a] ? spring.a : spring.b;
-      const std::uint32_t other = homeless[spring.a] ? spring.b : spring.a;
+      if (ungrouped[spring.a] == ungrouped[spring.b]) continue;
+      const std::uint32_t node = ungrouped[spring.a] ? spring.a : spring.b;
+      const std::uint32_t other = ungrouped[spring.a] ? spring.b : spring.a;
       auto& strongest = best[node];
       if (spring.stretch_N_m > strongest.first) strongest = {spring.stretch_N_m, group_[other]};
     }
@@ -225,7 +227,7 @@ void SpringGroups::join_groups(const SpringEdit& edit) {
     if (best.empty()) return;
     for (const auto& [node, strongest] : best) {
       group_[node] = strongest.second;
-      homeless[node] = 0;
+      ungrouped[node] = 0;
       --left;
     }
   }

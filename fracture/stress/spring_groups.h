@@ -34,7 +34,7 @@ class SpringGroups {
   std::optional<Spring> between_groups(Spring spring) const;
   void place_arms(const SpringLevel<float>& fine, const SpringLevel<float>& coarse);
   SpringEdit edit_of_groups(const SpringLevel<float>& fine, const SpringEdit& edit);
-  void join_groups(const SpringEdit& edit);
+  void assign_new_nodes(const SpringEdit& edit);
 
   std::size_t count_ = 0;
   std::vector<std::uint32_t> group_;  ///< Per node of the fine level.

@@ -115,8 +115,8 @@ template <class Real>
 typename SpringLevel<Real>::Link SpringLevel<Real>::link_of(const Spring& spring) const {
   const auto nodes = static_cast<std::uint32_t>(size());
   const auto arm = [&](std::uint32_t node) {
-    const Vec3 way = spring.place - places_[node];
-    return rounded<Real>(way, way.norm());
+    const Vec3 from_node = spring.place - places_[node];
+    return rounded<Real>(from_node, from_node.norm());
   };
   Link link;
   link.a = std::min(spring.a, nodes);

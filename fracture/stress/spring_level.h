@@ -67,11 +67,11 @@ class SpringLevel {
   /// nearby.
   template <class IsIn, class Use>
   void for_springs_near(const IsIn& is_in, const Use& use) const {
-    std::vector<std::uint8_t> looked_at(runs_.size(), 0);
+    std::vector<std::uint8_t> selected(runs_.size(), 0);
     for (std::uint32_t i = 0; i < size(); ++i) {
-      if (is_in(i)) looked_at[i / kRun] = 1;
+      if (is_in(i)) selected[i / kRun] = 1;
     }
-    for_springs_in(looked_at, use);
+    for_springs_in(selected, use);
   }
   /// Returns the centre of a node's springs, the reference point of its displacement and torque.
   const Vec3& place(std::size_t node) const { return places_[node]; }

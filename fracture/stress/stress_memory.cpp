@@ -10,9 +10,9 @@ namespace sunder::fracture {
 namespace {
 
 // Least share of convexes that must be known for a system to be edited instead of made anew.
-constexpr double kStays = 0.5;
+constexpr double kLeastKnownShare = 0.5;
 
-auto place_of(const Bond& bond) { return std::tie(bond.a, bond.b, bond.face_a, bond.face_b); }
+auto key_of(const Bond& bond) { return std::tie(bond.a, bond.b, bond.face_a, bond.face_b); }
 
 constexpr std::uint32_t kNew = StressOrigin::kNew;
 
@@ -34,17 +34,17 @@ StressOrigin origin_in(const KnownStress& old, const Compound& compound,
     bond.b = origin.convexes[bond.b];
     origin.bonds.push_back(kNew);
     if (bond.a == kNew || bond.b == kNew) continue;
-    while (next < old.bonds.size() && place_of(old.bonds[next]) < place_of(bond)) ++next;
-    if (next == old.bonds.size() || place_of(old.bonds[next]) != place_of(bond)) continue;
+    while (next < old.bonds.size() && key_of(old.bonds[next]) < key_of(bond)) ++next;
+    if (next == old.bonds.size() || key_of(old.bonds[next]) != key_of(bond)) continue;
     origin.bonds.back() = next;
   }
   return origin;
 }
 
 /// Makes the state of a compound from that of an earlier one.
-class Recollection {
+class MemoryUpdate {
  public:
-  Recollection(const Compound& compound, const std::vector<ConvexSlot>& slots,
+  MemoryUpdate(const Compound& compound, const std::vector<ConvexSlot>& slots,
                std::span<const Material> materials)
       : compound_(compound), slots_(slots), materials_(materials) {}
 
@@ -65,7 +65,8 @@ class Recollection {
   bool edit_system(const KnownStress& old) {
     const StressOrigin origin = origin_in(old, compound_, slots_);
     const auto known = std::ranges::count_if(origin.convexes, [](auto was) { return was != kNew; });
-    if (static_cast<double>(known) < kStays * static_cast<double>(old.slots.size())) return false;
+    if (static_cast<double>(known) < kLeastKnownShare * static_cast<double>(old.slots.size()))
+      return false;
     for (std::size_t c = 0; c < origin.convexes.size(); ++c) {
       if (origin.convexes[c] != kNew) {
         known_->displacements[c] = old.displacements[origin.convexes[c]];
@@ -126,8 +127,8 @@ class Recollection {
     if (bond.a == kNew || bond.b == kNew || bond.a > bond.b) return nullptr;
     const auto at =
         std::lower_bound(old.bonds.begin(), old.bonds.end(), bond,
-                         [](const Bond& x, const Bond& y) { return place_of(x) < place_of(y); });
-    if (at == old.bonds.end() || place_of(*at) != place_of(bond)) return nullptr;
+                         [](const Bond& x, const Bond& y) { return key_of(x) < key_of(y); });
+    if (at == old.bonds.end() || key_of(*at) != key_of(bond)) return nullptr;
     return &old.system->geometry()[static_cast<std::size_t>(at - old.bonds.begin())];
   }
 
@@ -144,7 +145,7 @@ std::shared_ptr<KnownStress> recall(const StressMemory* memory, const Compound& 
                                     std::span<const Material> materials, std::uint64_t& work) {
   const auto* old = dynamic_cast<const KnownStress*>(memory);
   if (old && old->is_of(compound)) return std::make_shared<KnownStress>(*old);
-  return Recollection(compound, slots, materials).run(old, work);
+  return MemoryUpdate(compound, slots, materials).run(old, work);
 }
 
 }  // namespace sunder::fracture

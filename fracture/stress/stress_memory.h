@@ -12,12 +12,12 @@
 namespace sunder::fracture {
 
 /// Deflection of a compound by an impact, as far as it has been solved.
-struct KnownSwing {
+struct KnownDeflection {
   std::vector<ConvexSlot> struck;  ///< Convexes with impulses, in the order of the impulses.
   double impulse_Ns = 0;           ///< Sum of the magnitudes of the impulses.
   std::vector<Displacement> displacements;
-  Nodal<double> way;       ///< Last search direction of the solve.
-  std::uint64_t work = 0;  ///< Work spent on impacts since the last answer.
+  Nodal<double> last_direction;  ///< Last search direction of the solve.
+  std::uint64_t work = 0;        ///< Work spent on impacts since the last answer.
 };
 
 /// State for the next solve.
@@ -29,8 +29,8 @@ struct KnownStress final : StressMemory {
   std::shared_ptr<const StressSystem> system;
   std::vector<Displacement> displacements;  ///< Under the steady load.
   int iterations = 0;                       ///< Iterations of a solve that has not converged.
-  Nodal<double> way;                        ///< Last search direction of that solve.
-  KnownSwing swing;                         ///< Under the last impact.
+  Nodal<double> last_direction;             ///< Last search direction of that solve.
+  KnownDeflection deflection;               ///< Under the last impact.
 
   bool is_of(const Compound& compound) const {
     // Bonds are never added, so equal numbers imply equal bonds.

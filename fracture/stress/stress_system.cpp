@@ -10,9 +10,9 @@ namespace sunder::fracture {
 namespace {
 
 // Least distance of two convexes, over the bond's width, in the stiffness of the bond.
-constexpr double kLeastDistance = 0.05;
+constexpr double kMinDistance = 0.05;
 // Rounding error of balanced forces, over the sum of all forces.
-constexpr double kUnbalanced = 1e-11;
+constexpr double kForceRounding = 1e-11;
 // Bonds of one plane within this number of cells form one section.
 constexpr double kWindowCells = 2;
 
@@ -98,28 +98,28 @@ StressSystem::ElasticBond StressSystem::make_bond(const Compound& compound, std:
   elastic.plane = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].id.value >> 1;
   if (!(g.area_m2 > 0)) return elastic;
   // Compliance of each convex from its centroid to the bond.
-  double gives_m_Pa = 0;
+  double compliance_m_Pa = 0;
   for (const std::uint32_t c : {bond.a, bond.b}) {
     if (compound.anchored[c]) continue;
     const double distance_m = std::max(std::abs(g.normal_R.dot(g.centroid_R - masses_.centroid(c))),
-                                       kLeastDistance * std::sqrt(g.area_m2));
-    gives_m_Pa += distance_m / materials[compound.convexes[c]->material.value].youngs_Pa;
+                                       kMinDistance * std::sqrt(g.area_m2));
+    compliance_m_Pa += distance_m / materials[compound.convexes[c]->material.value].youngs_Pa;
   }
-  if (gives_m_Pa > 0) elastic.stiffness_Pa_m = 1 / gives_m_Pa;
+  if (compliance_m_Pa > 0) elastic.stiffness_Pa_m = 1 / compliance_m_Pa;
   return elastic;
 }
 
 void StressSystem::make_bonds(const Compound& compound, std::span<const Material> materials,
                               const Edited* edited) {
   const std::vector<double> cell_m = cell_sizes(compound);
-  std::vector<std::uint32_t> fresh,
+  std::vector<std::uint32_t> added,
       new_of_old(edited ? edited->old.bonds_.size() : 0, StressOrigin::kNew);
   for (std::uint32_t i = 0; i < compound.bonds.size(); ++i) {
     const Bond& bond = compound.bonds[i];
     const std::uint32_t was = edited ? edited->origin.bonds[i] : StressOrigin::kNew;
     if (was == StressOrigin::kNew) {
       bonds_.push_back(make_bond(compound, i, materials));
-      fresh.push_back(i);
+      added.push_back(i);
     } else {
       bonds_.push_back(edited->old.bonds_[was]);
       new_of_old[was] = i;
@@ -132,12 +132,12 @@ void StressSystem::make_bonds(const Compound& compound, std::span<const Material
   const auto by_plane = [&](std::uint32_t x, std::uint32_t y) {
     return std::tie(bonds_[x].plane, x) < std::tie(bonds_[y].plane, y);
   };
-  std::sort(fresh.begin(), fresh.end(), by_plane);
+  std::sort(added.begin(), added.end(), by_plane);
   std::vector<std::uint32_t> kept;  // Already in order, as the order of bonds does not change.
   if (edited) kept = edited->old.by_plane_;
   for (std::uint32_t& bond : kept) bond = new_of_old[bond];
   std::erase(kept, StressOrigin::kNew);
-  std::merge(kept.begin(), kept.end(), fresh.begin(), fresh.end(), std::back_inserter(by_plane_),
+  std::merge(kept.begin(), kept.end(), added.begin(), added.end(), std::back_inserter(by_plane_),
              by_plane);
 }
 
@@ -237,7 +237,7 @@ void StressSystem::mark_changes(const Edited& edited, SpringEdit& edit) const {
 SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
                                 double tolerance, int most_iterations,
                                 std::vector<Displacement>& displacements, const Vec3& spin_R,
-                                Nodal<double>* way) const {
+                                Nodal<double>* last_direction) const {
   displacements.resize(masses_.size());
   if (!multigrid_) return {0, 0, 0, true};
   std::vector<Vec3> forces_N, torques_Nm;
@@ -254,10 +254,10 @@ SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& g
     x[node] = {simd4<double>(d.shift_R - d.rotation_R.cross(arm)), simd4<double>(d.rotation_R)};
   }
   // The forces on islands in free fall cancel up to rounding.
-  const double nothing_N = kUnbalanced * masses_.applied_N(loads, gravity_R, spin_R);
+  const double rounding_N = kForceRounding * masses_.applied_N(loads, gravity_R, spin_R);
   Nodal<double> none;
-  const SolveResult result =
-      multigrid_->solve(f, tolerance, nothing_N, most_iterations, x, way ? *way : none);
+  const SolveResult result = multigrid_->solve(f, tolerance, rounding_N, most_iterations, x,
+                                               last_direction ? *last_direction : none);
   for (std::size_t c = 0; c < masses_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];
     displacements[c] = {};

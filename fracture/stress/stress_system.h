@@ -60,16 +60,17 @@ class StressSystem {
   /// springs.
   std::uint64_t set_up_work() const { return 20 * springs_ + direct_work(); }
   std::uint64_t edit_work() const { return 4 * springs_ + direct_work(); }
-  /// Improves the displacements, one per convex, under loads, weight and spin (rad/s). `way` is the
-  /// last search direction of an unfinished solve of this system; it is used to continue that solve
-  /// and updated.
+  /// Improves the displacements, one per convex, under loads, weight and spin (rad/s).
+  /// `last_direction` is the last search direction of an unfinished solve of this system; it is
+  /// used to continue that solve and updated.
   SolveResult solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, double tolerance,
                     int most_iterations, std::vector<Displacement>& displacements,
-                    const Vec3& spin_R = Vec3::Zero(), Nodal<double>* way = nullptr) const;
+                    const Vec3& spin_R = Vec3::Zero(),
+                    Nodal<double>* last_direction = nullptr) const;
 
   /// Returns work and modal mass of displacements that the loads alone have caused.
-  SwingResponse response(std::span<const ConvexLoad> loads,
-                         std::span<const Displacement> displacements) const {
+  DeflectionResponse response(std::span<const ConvexLoad> loads,
+                              std::span<const Displacement> displacements) const {
     return masses_.response(loads, displacements);
   }
 

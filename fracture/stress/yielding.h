@@ -13,7 +13,7 @@
 
 namespace sunder::fracture {
 
-/// Sections that separate a compound and hold its parts together as hinges.
+/// Sections that separate a compound and hold its utilisations together as hinges.
 struct Flow {
   std::vector<PlasticHinge> hinges;  ///< Bonds by convexes; pieces are not set yet.
   std::vector<std::uint32_t> bonds;  ///< Bonds of the compound that became hinges; ascending.
@@ -24,17 +24,17 @@ struct Flow {
 /// Plastic analysis of one compound under one load.
 class Yielding {
  public:
-  /// `parts` is the utilisation of each bond: stress over strength, and for bonds that yield the
-  /// von Mises stress of the worst fibre over the yield stress. `hinged` is nonzero for convexes
-  /// beside a hinge, where no further section is made.
+  /// `utilisations` is the utilisation of each bond: stress over strength, and for bonds that yield
+  /// the von Mises stress of the worst fibre over the yield stress. `hinged` is nonzero for
+  /// convexes beside a hinge, where no further section is made.
   Yielding(const Compound& compound, const StressSystem& system,
            std::span<const Displacement> displacements, std::span<const Material> materials,
-           std::span<const std::uint8_t> hinged, std::vector<double> parts);
+           std::span<const std::uint8_t> hinged, std::vector<double> utilisations);
 
   bool yields(std::uint32_t bond) const { return sections_.yield_Pa(bond) > 0; }
   /// Returns the utilisation of each bond; for bonds whose fibres yield, that of their worst
   /// section.
-  const std::vector<double>& parts() const { return parts_; }
+  const std::vector<double>& utilisations() const { return utilisations_; }
   /// Returns the sections that flow where some utilisation exceeds `least`: the worst of each
   /// overloaded region, and if these release no part, the next worst anywhere, down to half
   /// utilisation. Returns none if even these release no part: the structure stands.
@@ -43,15 +43,15 @@ class Yielding {
   std::uint64_t work() const { return work_ + sections_.work(); }
 
  private:
-  void look(double least);
+  void find_sections(double least);
   bool is_usable(const Section& section) const;
   std::vector<std::vector<std::uint32_t>> connected(std::span<const std::uint32_t> sections) const;
-  std::vector<std::uint32_t> decisive(double least) const;
+  std::vector<std::uint32_t> decisive_sections(double least) const;
   void choose(std::uint32_t section);
   std::vector<std::uint32_t> islands(std::size_t chosen, bool by_world);
-  bool comes_loose(std::size_t chosen);
-  void put_back(std::span<const Crossing> crossings);
-  Flow part(std::size_t chosen);
+  bool separates_a_part(std::size_t chosen);
+  void release(std::span<const Crossing> crossings);
+  Flow make_flow(std::size_t chosen);
   PlasticHinge hinge(const Section& section) const;
   std::uint32_t behind(const Crossing& crossing) const;
   std::uint32_t ahead(const Crossing& crossing) const;
@@ -60,12 +60,12 @@ class Yielding {
   std::span<const Material> materials_;
   std::span<const std::uint8_t> hinged_;
   Sections sections_;
-  std::vector<double> fibres_, parts_;  ///< Per bond.
-  std::vector<std::uint8_t> looked_at_;
+  std::vector<double> fibre_utilisations_, utilisations_;  ///< Per bond.
+  std::vector<std::uint8_t> searched_;
   std::vector<Section> found_;
-  std::vector<std::uint32_t> chosen_;  ///< Indices in `found_`, in order; no two share a convex.
-  std::vector<std::uint8_t> taken_;    ///< Per convex: nonzero if a chosen section has it.
-  std::vector<std::uint32_t> place_;   ///< Per bond: index in `chosen_` of its section, or kNone.
+  std::vector<std::uint32_t> chosen_;   ///< Indices in `found_`, in order; no two share a convex.
+  std::vector<std::uint8_t> is_taken_;  ///< Per convex: nonzero if a chosen section has it.
+  std::vector<std::uint32_t> place_;    ///< Per bond: index in `chosen_` of its section, or kNone.
   std::uint64_t work_ = 0;
 };
 
