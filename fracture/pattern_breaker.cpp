@@ -19,7 +19,7 @@ namespace sunder::fracture {
 namespace {
 
 // A convex is a pane if its least width is below this share of the cube root of its volume.
-constexpr double kPane = 0.3;
+constexpr double kMaxPaneThickness = 0.3;
 
 /// Returns the rotation that takes y to `axis`, after a rotation about y.
 Quat rotation_onto(const Vec3& axis, double about_y_rad) {
@@ -46,7 +46,7 @@ Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
       thin = face.plane.normal;
     }
   }
-  if (least > kPane * std::cbrt(convex.solid.volume_m3)) return direction_R;
+  if (least > kMaxPaneThickness * std::cbrt(convex.solid.volume_m3)) return direction_R;
   return thin.dot(direction_R) < 0 ? Vec3(-thin) : thin;
 }
 
@@ -75,7 +75,7 @@ Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direc
 }
 
 // A convex of which less than this share lies in a plug is not separated.
-constexpr double kInPlug = 0.05;
+constexpr double kMinShareInPlug = 0.05;
 
 /// Returns the share of a convex, given in the pattern's frame, that lies in the prism of a plug.
 double share_in(const Plug& plug, ConvexPolyhedron part_P) {
@@ -96,7 +96,7 @@ double share_in(const Plug& plug, ConvexPolyhedron part_P) {
 }
 
 /// Separates the convexes that reach into a plug from all others, and from each other.
-BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
+BreakEdit separate_plug(const Structure& structure, const BreakCommand& command) {
   const Pose X_PR = command.X_RP.inverse();
   const Plug& plug = *command.plug;
   std::vector<ConvexSlot> loose;
@@ -105,7 +105,8 @@ BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
     if (structure.anchored(slot) != 0 ||
         std::ranges::find(command.spared, convex.material) == command.spared.end())
       continue;
-    if (share_in(plug, transformed(convex.polyhedron, X_PR)) > kInPlug) loose.push_back(slot);
+    if (share_in(plug, transformed(convex.polyhedron, X_PR)) > kMinShareInPlug)
+      loose.push_back(slot);
   }
   if (loose.empty()) return {};
   Compound compound = structure.compound();
@@ -167,7 +168,7 @@ class PatternBreaker final : public Breaker {
   BreakEdit plan(const Structure& structure, const BreakCommand& command) const override {
     if (command.plug && command.plug->section_m.empty()) return {};
     if (command.pattern.kind == PatternSpec::Kind::kNone)
-      return command.plug ? part_around(structure, command) : BreakEdit{};
+      return command.plug ? separate_plug(structure, command) : BreakEdit{};
     const bool whole = command.radius_m == std::numeric_limits<double>::infinity();
     const ReadyBreak ready = make_ready(command, whole ? bounds(structure) : Box(), library_);
     BreakEdit edit = break_structure(structure, *ready.pattern, ready.placement, ready.sphere,

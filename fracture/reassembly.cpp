@@ -106,7 +106,7 @@ void Reassembly::find_contacts_of_fragments() {
   const std::vector<Ghost> ghosts = add_ghosts(convexes, faces);
   for (const Bond& bond : find_contacts(convexes, faces)) {
     if (bond.b >= count) {
-      correct(bond, count, ghosts);
+      add_correction(bond, count, ghosts);
     } else {
       contacts_.push_back(
           {node_of(bond.a), node_of(bond.b), bond.face_a, bond.face_b, bond.area_m2});
@@ -115,8 +115,8 @@ void Reassembly::find_contacts_of_fragments() {
 }
 
 /// Records a contact of a ghost as one between the first convexes of the ghosts that have its face.
-void Reassembly::correct(const Bond& bond, std::uint32_t convexes,
-                         const std::vector<Ghost>& ghosts) {
+void Reassembly::add_correction(const Bond& bond, std::uint32_t convexes,
+                                const std::vector<Ghost>& ghosts) {
   Correction correction{{0, 0, bond.face_a, bond.face_b, bond.area_m2}, 1};
   const auto resolve = [&](std::uint32_t index, std::uint32_t& node, std::uint32_t& face) {
     if (index < convexes) {
@@ -146,21 +146,21 @@ void Reassembly::correct(const Bond& bond, std::uint32_t convexes,
 /// islands of each group, in order of groups.
 std::vector<std::vector<std::uint32_t>> Reassembly::find_pieces() {
   std::vector<std::vector<std::uint32_t>> pieces;
-  separate_rest(pieces);
-  join_groups(pieces);
+  find_islands_of_rest(pieces);
+  find_islands_of_groups(pieces);
   return pieces;
 }
 
-void Reassembly::join_rest(std::uint32_t a, std::uint32_t b) {
+void Reassembly::link_rest(std::uint32_t a, std::uint32_t b) {
   if (group(a) != Fragment::kRest || group(b) != Fragment::kRest) return;
   rest_contacts_[a].push_back(b);
   rest_contacts_[b].push_back(a);
 }
 
-void Reassembly::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) {
-  for (const Contact& contact : contacts_) join_rest(contact.a, contact.b);
+void Reassembly::find_islands_of_rest(std::vector<std::vector<std::uint32_t>>& pieces) {
+  for (const Contact& contact : contacts_) link_rest(contact.a, contact.b);
   for (const Ghost& ghost : ghosts_) {
-    for (const std::uint32_t node : ghost.of) join_rest(ghost.of[0], node);
+    for (const std::uint32_t node : ghost.of) link_rest(ghost.of[0], node);
   }
   std::vector<std::uint32_t> seeds;
   for (const ConvexSlot slot : neighbours_) seeds.push_back(slot.value);
@@ -194,7 +194,7 @@ void Reassembly::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) 
   pieces = std::move(rest.islands);
 }
 
-void Reassembly::join_groups(std::vector<std::vector<std::uint32_t>>& pieces) const {
+void Reassembly::find_islands_of_groups(std::vector<std::vector<std::uint32_t>>& pieces) const {
   std::vector<Bond> bonds;
   for (const Contact& contact : contacts_) {
     if (!is_fragment(contact.a) || !is_fragment(contact.b)) continue;

@@ -72,11 +72,11 @@ class Reassembly {
   void add_neighbours(std::vector<ConvexPtr>& convexes, std::vector<FaceEntry>& faces) const;
   std::vector<Ghost> add_ghosts(std::vector<ConvexPtr>& convexes,
                                 std::vector<FaceEntry>& faces) const;
-  void correct(const Bond& bond, std::uint32_t convexes, const std::vector<Ghost>& ghosts);
-  void join_rest(std::uint32_t a, std::uint32_t b);
+  void add_correction(const Bond& bond, std::uint32_t convexes, const std::vector<Ghost>& ghosts);
+  void link_rest(std::uint32_t a, std::uint32_t b);
   std::vector<std::vector<std::uint32_t>> find_pieces();
-  void separate_rest(std::vector<std::vector<std::uint32_t>>& pieces);
-  void join_groups(std::vector<std::vector<std::uint32_t>>& pieces) const;
+  void find_islands_of_rest(std::vector<std::vector<std::uint32_t>>& pieces);
+  void find_islands_of_groups(std::vector<std::vector<std::uint32_t>>& pieces) const;
   void keep_rest(BreakEdit& edit);
   Compound make_piece(const std::vector<std::uint32_t>& nodes) const;
   void place_ghosts(BreakEdit& edit) const;

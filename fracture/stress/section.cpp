@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kMostCrossings = 4096;
 // Bonds are in one plane if their vector areas add up to this share of the sum of their areas.
 constexpr double kInOnePlane = 0.999;
-constexpr double kPrism = 0.999;  // The same share for the directions of a prism's side edges.
+// A convex is a prism if the unit vectors of its side edges add up to this share of their number.
+constexpr double kPrism = 0.999;
 constexpr double kCos60 = 0.5, kCos30 = 0.866, kCosParallel = 1 - 1e-9;  // Cosines.
 // Least projected area over the sum of areas: the area of bonds that fold back is zero.
 constexpr double kLeastArea = 1e-6;
