@@ -23,7 +23,8 @@ constexpr double kMaxPlugShare = 0.3;
 // A crater with more than this share of the solid's cross-section breaks all of a narrow solid.
 constexpr double kMaxCraterShare = kMaxPlugShare;
 constexpr double kHoleClearance = 1.12;    // Width of the hole over that of the striker.
-constexpr double kMaxEnergyShare = 0.999;  // Share of the impact energy that perforation may take;
+// Share of the impact energy that perforation may take; the rest is distributed.
+constexpr double kMaxEnergyShare = 0.999;
                                            // some must be left to distribute.
 // A crater deeper than this share of its width needs a solid that goes on around it.
 constexpr double kMaxShallowDepth = 0.25;
