@@ -20,8 +20,7 @@ struct ReadyBreak {
 /// Prepares a command for a compound or structure with the bounding box `bounds_R`.
 ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library);
 
-/// Executes a command on a compound that is broken only once; returns its pieces, the remaining
-/// compound first.
+/// Executes a command on a compound broken once; returns its pieces, the remaining compound first.
 BreakPlan break_compound(const Compound& compound, const BreakCommand& command);
 
 /// Returns a breaker that breaks structures by the pattern of the command and caches patterns.

@@ -22,10 +22,10 @@ constexpr int kMostRings = 8;  // Limit of the rings of a web around the plug.
 constexpr double kMaxPlugShare = 0.3;
 // A crater with more than this share of the solid's cross-section breaks all of a narrow solid.
 constexpr double kMaxCraterShare = kMaxPlugShare;
-constexpr double kHoleClearance = 1.12;    // Width of the hole over that of the striker.
+constexpr double kHoleClearance = 1.12;  // Width of the hole over that of the striker.
 // Share of the impact energy that perforation may take; the rest is distributed.
 constexpr double kMaxEnergyShare = 0.999;
-                                           // some must be left to distribute.
+// some must be left to distribute.
 // A crater deeper than this share of its width needs a solid that goes on around it.
 constexpr double kMaxShallowDepth = 0.25;
 constexpr double kSliceThickness = 0.7;  // Thickness of a slice of the plug, over its width.
@@ -50,8 +50,7 @@ double perimeter_m(const std::vector<Vec2>& polygon) {
   return sum_m;
 }
 
-/// Returns a rotation whose second column is `y` and whose first is as close as possible to
-/// `near_x`.
+/// Returns a rotation with second column `y` and the first as close as possible to `near_x`.
 Mat3 axes_along(const Vec3& y, const Vec3& near_x) {
   const Vec3 x = (near_x - near_x.dot(y) * y).normalized();
   Mat3 axes;

@@ -242,8 +242,7 @@ Compound Reassembly::make_piece(const std::vector<std::uint32_t>& nodes) const {
   return piece;
 }
 
-/// Moves the ghosts that were cut to the pieces of their convexes; all convexes of a ghost are in
-/// one piece.
+/// Moves the ghosts that were cut to the piece of their convexes, which is one piece.
 void Reassembly::place_ghosts(BreakEdit& edit) const {
   for (Ghost ghost : ghosts_) {
     const std::uint32_t piece = place(ghost.of[0]).first;

@@ -76,8 +76,8 @@ std::vector<Bond> contacts(std::span<const ConvexPtr> convexes, std::size_t item
   return bonds;
 }
 
-/// Prefetches the convexes after the first: they are scattered in memory, and cache misses are most
-/// of the cost.
+/// Prefetches the convexes after the first: they are scattered, and cache misses are most of the
+/// cost.
 void prefetch_convexes(std::span<const ConvexPtr> convexes) {
   constexpr std::size_t kHead = 6, kBody = 3;
   if (kHead < convexes.size()) __builtin_prefetch(convexes[kHead].get());

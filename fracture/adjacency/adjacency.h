@@ -1,5 +1,4 @@
-// Contacts of convexes (property (c) of paper 3.1): faces in one plane, with opposite normals, that
-// overlap.
+// Contacts of convexes (property (c) of paper 3.1): faces in one plane, opposite normals, overlap.
 //
 // The paper sorts faces by |d|. Planes have ids here, so faces are sorted by plane id and compared
 // within a plane by a sweep: a grid of bricks, with many equal |d|, costs no more than any other

@@ -84,8 +84,7 @@ std::shared_ptr<const PolygonMesh> caps_with_new_ids(const PolygonMesh& visual,
   return mesh;
 }
 
-/// Assigns plane ids to all faces; faces in contact share a plane, and visual meshes get caps
-/// there.
+/// Assigns plane ids to all faces; faces in contact share a plane, and meshes get caps there.
 void assign_plane_ids(std::vector<Part>& parts, const PartPairs& pairs, double tolerance) {
   std::vector<std::uint32_t> first_face;
   std::uint32_t faces = 0;

@@ -16,8 +16,7 @@ using sunder::Part;
 /// before it do not fill is kept. Throws InputError if there are too many overlaps.
 Compound make_compound(std::vector<Part> parts, double tolerance_m = 1e-6);
 
-/// Returns the islands of a compound, in the order of their first convexes; the compound itself if
-/// it has one island.
+/// Returns the islands of a compound, in the order of their first convexes.
 std::vector<Compound> split_islands(const Compound& compound);
 
 }  // namespace sunder::fracture

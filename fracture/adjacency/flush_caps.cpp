@@ -1,5 +1,4 @@
-// Read first: with_flush_caps(). An edge that two joined faces share, in opposite directions, is
-// inside the cap.
+// Read first: with_flush_caps(). Edges that two joined faces share are inside the cap.
 #include "fracture/adjacency/flush_caps.h"
 
 #include <algorithm>

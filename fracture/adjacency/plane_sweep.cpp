@@ -24,8 +24,7 @@ class PlaneSweep {
   PlaneSweep(std::span<const ConvexPtr> convexes, std::vector<ProjectedFace>& faces)
       : convexes_(convexes), faces_(faces) {}
 
-  /// Appends the contacts of the faces numbered in `plane`, which are those of one plane, both
-  /// sides.
+  /// Appends the contacts of the faces numbered in `plane`, which are all in one plane.
   void run(std::span<const std::uint32_t> plane, std::vector<Bond>& bonds) {
     if (plane.size() < 2) return;
     for (const std::uint32_t i : plane) reproject(faces_[i], faces_[plane[0]].dropped);
@@ -62,8 +61,7 @@ class PlaneSweep {
     Vec2 min, max;
   };
 
-  /// Projects a face along another axis: rounding may select different axes for the sides of a
-  /// plane.
+  /// Projects a face along another axis: rounding may give the sides of a plane different axes.
   void reproject(ProjectedFace& face, std::uint8_t dropped) {
     if (face.dropped == dropped) return;
     const ConvexPolyhedron& polyhedron = convexes_[face.convex]->polyhedron;

@@ -15,8 +15,7 @@ double polygon_area(std::span<const Vec2> polygon);
 struct OverlapScratch {
   std::vector<Vec2> current, next;
 };
-/// Returns the area of the intersection of two convex, counter-clockwise polygons (Sutherland and
-/// Hodgman 1974).
+/// Returns the overlap of two convex counter-clockwise polygons (Sutherland and Hodgman 1974).
 double overlap_area(std::span<const Vec2> a, std::span<const Vec2> b, OverlapScratch& scratch);
 
 }  // namespace sunder::fracture

@@ -1,5 +1,4 @@
-// Properties of pieces, measured from their geometry alone, independently of the code that made
-// them.
+// Properties of pieces, measured from their geometry, independently of the code that made them.
 #pragma once
 
 #include <cstddef>

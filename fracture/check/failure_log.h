@@ -19,8 +19,7 @@ class FailureLog {
  public:
   static constexpr std::size_t kMostFiles = 20;
 
-  /// Writes up to `most_files` cases to `folder`, which is created when needed; none if the name is
-  /// empty.
+  /// Writes up to `most_files` cases to `folder`, created when needed; none if the name is empty.
   explicit FailureLog(std::string folder = {}, std::size_t most_files = kMostFiles);
   /// Waits until all files are written.
   ~FailureLog();

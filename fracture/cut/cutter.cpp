@@ -95,8 +95,7 @@ bool Cutter::contains(const AlignedPattern::Cell& cell) const {
   return true;
 }
 
-/// Finds the planes of a region that cut the parent, deepest first; returns false if the parent
-/// lies outside the region.
+/// Finds the planes of a region that cut the parent, deepest first; returns false if it is outside.
 bool Cutter::find_cuts(const std::vector<PlaneId>& region, std::vector<Cut>& cuts) const {
   cuts.clear();
   for (const PlaneId id : region) {
@@ -260,8 +259,8 @@ void Cutter::cut_successively(const std::vector<std::uint32_t>& cells, double fl
   merge_slivers(floor_m3);
 }
 
-/// Cuts a remnant to its part in a cell and appends the rest to `beyond`; returns false if the cell
-/// contains nothing of it.
+/// Cuts a remnant to its part in a cell, the rest goes to `beyond`; returns false if none is
+/// inside.
 bool Cutter::split_remnant(Remnant& remnant, const ConvexPolyhedron& cell,
                            std::vector<Remnant>& beyond) {
   const std::size_t before = beyond.size();

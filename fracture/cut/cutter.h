@@ -29,18 +29,15 @@ class Cutter {
  public:
   Cutter(const AlignedPattern& pattern, const ConvexPtr& solid);
 
-  /// Makes the drafts and merges those smaller than `floor_m3`; returns false if the volumes do not
-  /// add up.
+  /// Makes the drafts and merges slivers below `floor_m3`; returns false if volumes do not add up.
   bool cut(double floor_m3);
   std::vector<Draft>& drafts() { return drafts_; }
-  /// Merges drafts smaller than `floor_m3` into their neighbours; those that fit none become
-  /// debris.
+  /// Merges drafts below `floor_m3` into neighbours; those that fit none become debris.
   void merge_slivers(double floor_m3);
   double debris_m3() const { return debris_; }
   /// Returns the cell of the largest draft.
   std::uint32_t largest_cell() const;
-  /// Returns the least volume of a part of a convex of volume `whole_m3`; smaller parts are
-  /// slivers.
+  /// Returns the least volume of a part of a convex of volume `whole_m3`; less is a sliver.
   double min_part_m3(double whole_m3) const;
   /// Returns the tolerance for the sum of the volumes of parts of a convex of volume `whole_m3`.
   double allowed_error_m3(double whole_m3) const;

@@ -14,8 +14,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// Returns the box of a convex's visual mesh, which its polyhedron may exceed, or of an internal
-/// convex.
+/// Returns the box of a convex's visual mesh, which its polyhedron may exceed, if it has one.
 Box solid_box(const Convex& convex) {
   return convex.is_internal() ? convex.box : bounds(*convex.visual);
 }
@@ -81,8 +80,7 @@ class Welder {
     return ghost.of.back() < slot_count_ ? CellPart::kFarCell : cell(ghost.of.back() - slot_count_);
   }
 
-  /// Welds the fragments of a cell, unless that would connect several uncut convexes, such as two
-  /// lengths of a bar.
+  /// Welds the fragments of a cell, unless that would connect several uncut convexes.
   void weld_cell(std::span<const std::uint32_t> members) {
     std::uint32_t uncut_neighbour = kNone;
     for (const std::uint32_t i : members) add_neighbour(uncut_neighbour_[i], uncut_neighbour);

@@ -14,8 +14,8 @@
 namespace sunder::fracture {
 namespace {
 
-/// Least depth of a cut for a fit, relative to the size of the points; a thinner slice does not
-/// justify a face.
+/// Least depth of a cut for a fit, over the size of the points; thinner slices are not worth a
+/// face.
 constexpr double kMinCutDepth = 1e-3;
 
 /// Returns the internal convex for a part that lies inside the mesh: no old surface shows.

@@ -9,8 +9,7 @@
 
 namespace sunder::fracture {
 
-/// Affine map from the pattern's frame P to the rest frame R: point_R = linear * point_P +
-/// origin_R.
+/// Affine map from the pattern's frame P to rest frame R: point_R = linear * point_P + origin_R.
 struct Placement {
   Mat3 linear = Mat3::Identity();  ///< Its determinant is positive.
   Vec3 origin_R = Vec3::Zero();    ///< Point of impact.

@@ -54,15 +54,14 @@ class Blocks {
   std::map<std::pair<int, double>, std::uint32_t> planes_;
 };
 
-/// Returns the joints of a course of 2 n + 1 blocks, the middle one centred_joints at the origin.
+/// Returns the joints of a course of 2 n + 1 blocks, the middle one centred at the origin.
 std::vector<double> centred_joints(double size, int n) {
   std::vector<double> at;
   for (int i = -n; i <= n + 1; ++i) at.push_back((i - 0.5) * size);
   return at;
 }
 
-/// Returns the joints of a course with the ends of centred_joints(), shifted_joints by half a
-/// block.
+/// Returns the joints of a course with the ends of centred_joints(), moved by half a block.
 std::vector<double> shifted_joints(double size, int n) {
   std::vector<double> at{(-n - 0.5) * size};
   for (int i = -n; i <= n; ++i) at.push_back(i * size);

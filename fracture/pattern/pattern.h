@@ -21,8 +21,7 @@ namespace sunder::fracture {
 
 /// One convex cell of a pattern.
 struct Cell {
-  /// The id of a face is that of the pattern's plane: 2·index + side, where side 1 is the flipped
-  /// plane.
+  /// Face ids are those of the pattern's planes: 2·index + side, side 1 being the flipped plane.
   ConvexPolyhedron polyhedron;
   double volume = 0;
   std::uint32_t color = 0;  ///< Cells of one colour stay together (paper 3.1, step 4).
@@ -86,8 +85,7 @@ Pattern plug_pattern(const Plug& plug, double unit_m, std::uint64_t seed);
 /// `name` is for messages. Throws InputError if the file is anything else.
 Pattern read_pattern(std::istream& obj, const std::string& name);
 
-/// Gives the inner cells `count` colours, by the nearest of `count` random cells, so that pieces
-/// are not convex.
+/// Gives the inner cells `count` colours, that of the nearest of random cells: pieces are concave.
 void join_colors(Pattern& pattern, int count, std::uint64_t seed);
 
 /// Returns the plane parallel to y through two points (x, z); its normal is to the right of the
@@ -97,14 +95,12 @@ Plane plane_parallel_to_y(const Vec2& a, const Vec2& b);
 std::vector<Plane> box_planes();
 /// Returns the box itself; its faces have the ids of planes 0 to 5.
 ConvexPolyhedron pattern_box();
-/// Returns the part of the box within all half-spaces `sides`, which are ids within the pattern;
-/// empty if there is none.
+/// Returns the part of the box within half-spaces, by ids within the pattern; empty if none.
 ConvexPolyhedron cut_cell(const std::vector<Plane>& planes, std::span<const PlaneId> sides);
 /// Appends the planes of `inner` (two per axis: high, low) and the outer cells around it; returns
 /// the index of the first plane.
 std::uint32_t add_outer_cells(Pattern& pattern, const Box& inner);
-/// Completes a pattern that has its planes and polyhedra: sets volumes, one colour per cell, and
-/// the tree.
+/// Completes a pattern with planes and polyhedra: sets volumes, one colour per cell, and the tree.
 void finish(Pattern& pattern);
 
 }  // namespace sunder::fracture

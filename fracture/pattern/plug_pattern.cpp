@@ -35,8 +35,7 @@ std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Rand
   return rings;
 }
 
-/// Returns the positions of the planes across the axis, from the struck face inwards, in units of
-/// P.
+/// Returns the distances of the planes across the axis from the struck face, in units of P.
 std::vector<double> place_slices(const Plug& plug, double unit_m, Random& random) {
   std::vector<double> slices;
   if (!(plug.slice_m > 0)) return slices;

@@ -9,8 +9,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// Returns the points where spokes and rings cross, as (x, z): crossings[ring][spoke], rings from
-/// the inside out.
+/// Returns the crossings of spokes and rings, as (x, z): [ring][spoke], rings from the inside out.
 std::vector<std::vector<Vec2>> place_crossings(int rings, int spokes, double jitter,
                                                std::uint64_t seed) {
   Random random(seed, 2);

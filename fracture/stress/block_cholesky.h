@@ -14,16 +14,14 @@
 
 namespace sunder::fracture {
 
-/// Factorization K = L Lᵀ of a symmetric positive definite matrix K, which is zero until add() is
-/// called.
+/// Factorization K = L Lᵀ of a symmetric positive definite K, zero until add() is called.
 class BlockCholesky {
  public:
   using Block = Eigen::Matrix<double, 6, 6>;
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
   BlockCholesky() = default;
-  /// `pairs`: pairs of different nodes whose block is not zero, in any order; duplicates are
-  /// allowed.
+  /// `pairs`: pairs of different nodes with a nonzero block, in any order; may have duplicates.
   BlockCholesky(std::size_t nodes, std::span<const Pair> pairs);
 
   std::size_t nodes() const { return order_.size(); }

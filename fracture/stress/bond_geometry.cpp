@@ -88,8 +88,8 @@ double area_of(const CapContours& contours, const Vec3& normal) {
   return sum;
 }
 
-/// Returns the smaller cap of a bond's two convexes, seen against a's normal; empty if both
-/// convexes are internal.
+/// Returns the smaller cap of a bond's convexes, seen against a's normal; empty if both are
+/// internal.
 CapContours smaller_cap(const Compound& compound, const Bond& bond) {
   const Vec3& normal = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].plane.normal;
   CapContours a = cap(*compound.convexes[bond.a], bond.face_a);

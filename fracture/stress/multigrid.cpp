@@ -60,8 +60,7 @@ void scale_and_add(double beta, const Nodal<double>& y, Nodal<double>& x) {
   });
 }
 
-/// Computes y = x / unit in single precision; values that are rounding errors become zero (see
-/// SpringLevel).
+/// Computes y = x / unit in single precision; rounding errors become zero (see spring_math.h).
 void to_float(const Nodal<double>& x, double unit, Nodal<float>& y) {
   constexpr double kLeast = 1e-15;
   const auto one = [&](Simd4<double> part) {
@@ -134,8 +133,7 @@ void Multigrid::to_units(std::vector<Spring>& springs) const {
   }
 }
 
-/// Factorizes the coarsest level; returns false if a coarser level is needed, unless `keep_level`
-/// keeps the level as it is.
+/// Factorizes the coarsest level; returns false if a coarser one is needed, unless `keep_level`.
 bool Multigrid::factorize(bool keep_level) {
   // In double precision: the stiffness to the world may be tiny beside that between nodes.
   const SpringLevel<float>& last = levels_.back();

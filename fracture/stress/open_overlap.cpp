@@ -40,8 +40,7 @@ EmbeddedSurface surface_on(const Convex& overlap, const Convex& side) {
   return all;
 }
 
-/// Returns the convexes that overlap a convex, ascending, and whether the overlap counts in sums of
-/// volume.
+/// Returns the convexes that overlap a convex, ascending, and whether the overlap has volume.
 std::vector<std::pair<ConvexSlot, bool>> partners(const Structure& structure, ConvexSlot slot) {
   std::vector<std::pair<ConvexSlot, bool>> found;
   for (const std::uint32_t number : structure.ghosts_of(slot)) {

@@ -188,8 +188,7 @@ Vec3 Sections::vector_area(std::span<const Crossing> crossings, double& area_m2)
   return sum;
 }
 
-/// Returns the principal axes of the centroids of connected convexes within four, three and two
-/// cells of a bond.
+/// Returns the principal axes of connected centroids within four, three and two cells of a bond.
 std::vector<Vec3> Sections::axes_around(std::uint32_t bond) {
   const Bond& own = compound_.bonds[bond];
   const Vec3& point_R = system_.geometry()[bond].centroid_R;

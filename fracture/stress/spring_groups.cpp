@@ -44,8 +44,7 @@ class GrowingGroups {
   GrowingGroups(const Couplings& couplings, std::size_t nodes)
       : couplings_(couplings), group_(nodes, kFree), links_to_group_(nodes, 0) {}
 
-  /// Grows each group by the most strongly connected node, up to `size` nodes; returns the number
-  /// of groups.
+  /// Grows groups by the most strongly connected node, up to `size` nodes; returns their number.
   template <class IsThere>
   std::uint32_t grow(std::size_t size, const IsThere& is_there) {
     std::uint32_t groups = 0;

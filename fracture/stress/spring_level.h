@@ -51,8 +51,7 @@ class SpringLevel {
  public:
   /// Nodes without a spring stay at rest.
   SpringLevel(std::size_t nodes, std::vector<Spring> springs);
-  /// Copies `old` and applies an edit, at a cost that depends on the edit; unchanged parts are
-  /// shared.
+  /// Copies `old` and applies an edit, at a cost that depends on the edit; the rest is shared.
   SpringLevel(const SpringLevel& old, const SpringEdit& edit);
 
   /// Returns the number of nodes.
@@ -63,8 +62,7 @@ class SpringLevel {
   void for_each_spring(const Use& use) const {
     for_springs_in(std::vector<std::uint8_t>(runs_.size(), 1), use);
   }
-  /// Calls `use` once with each spring at nodes for which `is_in` is true, and with some springs
-  /// nearby.
+  /// Calls `use` once with each spring at nodes with `is_in`, and with some springs nearby.
   template <class IsIn, class Use>
   void for_springs_near(const IsIn& is_in, const Use& use) const {
     std::vector<std::uint8_t> selected(runs_.size(), 0);
@@ -86,8 +84,7 @@ class SpringLevel {
   void relax(Real factor, const Nodal<Real>& r, Nodal<Real>& x, bool add) const;
 
  private:
-  /// A spring in the form used by apply(). The fourth lane of rotation.diagonal is its stretch
-  /// stiffness.
+  /// A spring as apply() uses it. The fourth lane of rotation.diagonal is its stretch stiffness.
   struct Link {
     std::uint32_t a = 0, b = 0;  ///< The world has the greatest index.
     Simd4<Real> arm_a, arm_b;

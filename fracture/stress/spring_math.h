@@ -23,8 +23,7 @@ Symmetric<Real> rounded(const Mat3& m) {
   return result;
 }
 
-/// Returns the inertia about the origin of a unit of stiffness or mass at `arm` (parallel-axis
-/// theorem).
+/// Returns the inertia about the origin of a unit mass or stiffness at `arm` (parallel axes).
 inline Mat3 parallel_axis(const Vec3& arm) {
   return arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
 }

@@ -270,14 +270,12 @@ class StressBreaks {
     return yielding;
   }
 
-  /// Returns the utilisation above which bonds give last_direction: under an impact load the worst
-  /// go first.
+  /// Returns the utilisation above which bonds give way: of an impact load the worst go first.
   double cut_threshold(double worst) const {
     return impulses_.empty() ? 1 : std::max(1.0, kSimilarStress * worst);
   }
 
-  /// Returns the most overloaded overlap of two convexes under a steady load; null if there is
-  /// none.
+  /// Returns the most overloaded overlap of two convexes under a steady load; may be null.
   const Ghost* overloaded_overlap() const {
     if (compound_.ghosts.empty() || !impulses_.empty()) return nullptr;
     const Ghost* worst = nullptr;

@@ -16,8 +16,7 @@ constexpr double kForceRounding = 1e-11;
 // Bonds of one plane within this number of cells form one section.
 constexpr double kWindowCells = 2;
 
-/// Returns, per convex, the edge of the largest cell among it and its neighbours, without anchored
-/// ones.
+/// Returns, per convex, the edge of the largest free cell among it and its neighbours.
 std::vector<double> cell_sizes(const Compound& compound) {
   std::vector<double> own, largest;
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
@@ -174,8 +173,7 @@ Wrench StressSystem::overlap_wrench(const Ghost& ghost, std::span<const Material
               (displacements[ghost.of[1]].rotation_R - displacements[ghost.of[0]].rotation_R)};
 }
 
-/// Keeps the nodes of old convexes and gives new ones free nodes; returns false if there are too
-/// few.
+/// Keeps the nodes of old convexes, gives new ones free nodes; returns false if those are too few.
 bool StressSystem::number_nodes(const Edited& edited, SpringEdit& edit) {
   const std::vector<std::uint8_t>& fixed = masses_.fixed();
   nodes_ = edited.old.nodes_;
@@ -317,8 +315,8 @@ BondStress StressSystem::bound(std::uint32_t bond,
           f.shear_Pa.norm() + std::abs(f.twist_Pa_m) * reach};
 }
 
-/// Returns the bond's field with the linear tension that minimizes ∫ (fit − tension)² dA over the
-/// bond and its neighbours.
+/// Returns the bond's field with the linear tension of least ∫ (fit − tension)² dA over its
+/// section.
 StressSystem::Field StressSystem::section_field(std::uint32_t bond,
                                                 std::span<const Displacement> displacements) const {
   Field own = field(bond, displacements);

@@ -56,8 +56,7 @@ class StressSystem {
   const std::vector<BondGeometry>& geometry() const { return geometry_; }
   /// Returns the cost of an iteration, in evaluations of springs.
   std::uint64_t work() const { return springs_; }
-  /// Return the approximate cost of making the system, anew or as an edit, in evaluations of
-  /// springs.
+  /// Return the approximate cost of making the system anew, or as an edit.
   std::uint64_t set_up_work() const { return 20 * springs_ + direct_work(); }
   std::uint64_t edit_work() const { return 4 * springs_ + direct_work(); }
   /// Improves the displacements, one per convex, under loads, weight and spin (rad/s).

@@ -151,8 +151,7 @@ void Yielding::choose(std::uint32_t section) {
   chosen_.push_back(section);
 }
 
-/// Returns the islands without the bonds of the first `chosen` sections; `by_world` joins all
-/// anchored convexes.
+/// Returns the islands without the first `chosen` sections; `by_world` joins anchored convexes.
 std::vector<std::uint32_t> Yielding::islands(std::size_t chosen, bool by_world) {
   std::vector<Bond> links;
   for (std::size_t i = 0; i < compound_.bonds.size(); ++i)

@@ -13,7 +13,7 @@
 
 namespace sunder::fracture {
 
-/// Sections that separate a compound and hold its utilisations together as hinges.
+/// Sections that separate a compound and hold its parts together as hinges.
 struct Flow {
   std::vector<PlasticHinge> hinges;  ///< Bonds by convexes; pieces are not set yet.
   std::vector<std::uint32_t> bonds;  ///< Bonds of the compound that became hinges; ascending.
@@ -32,8 +32,7 @@ class Yielding {
            std::span<const std::uint8_t> hinged, std::vector<double> utilisations);
 
   bool yields(std::uint32_t bond) const { return sections_.yield_Pa(bond) > 0; }
-  /// Returns the utilisation of each bond; for bonds whose fibres yield, that of their worst
-  /// section.
+  /// Returns the utilisation per bond; where its fibres yield, that of its worst section.
   const std::vector<double>& utilisations() const { return utilisations_; }
   /// Returns the sections that flow where some utilisation exceeds `least`: the worst of each
   /// overloaded region, and if these release no part, the next worst anywhere, down to half

@@ -38,8 +38,7 @@ bool add_side(const VacdPiece& piece, const Plane& plane, PlaneId id, double lea
   return true;
 }
 
-/// Returns the parts cut by a plane, or by a plane slightly shifted if that avoids slivers; none if
-/// all shifts leave slivers.
+/// Returns the parts by a plane, slightly shifted if that avoids slivers; none if all shifts fail.
 std::vector<Branch> parts_by(const Branch& branch, const Plane& plane, PlaneId id) {
   const double size = bounds(branch.piece.mesh).extent().maxCoeff();
   const double least_m3 = kLeastShare * branch.solid_m3;

@@ -1,5 +1,4 @@
-// A node of the tree of cuts: a piece with the volume of its hull, and the parts into which it was
-// cut.
+// A node of the tree of cuts: a piece, the volume of its hull, and the parts it was cut into.
 #pragma once
 
 #include <cstdint>

@@ -119,8 +119,7 @@ class Sweeper {
     return cost(direction);
   }
 
-  /// Returns the best of several planes within `reach_m` of a point; others are added for the
-  /// accuracy of the hulls.
+  /// Returns the best of several planes within `reach_m` of a point; others refine the hulls.
   Candidate search_near(const Vec3& direction, const Vec3& point, double reach_m) {
     project_vertices(direction);
     const auto [low, high] = std::minmax_element(places_.begin(), places_.end());
@@ -236,8 +235,7 @@ Candidate Sweeper::cost(const Vec3& direction) {
   return best;
 }
 
-/// Returns one of each opposite pair of the 98 directions with coordinates of at most 2, not
-/// normalized.
+/// Returns one of each pair of the 98 directions with coordinates of at most 2, not normalized.
 std::vector<Vec3> many_directions() {
   std::vector<Vec3> directions;
   for (int x = -2; x <= 2; ++x) {

@@ -28,11 +28,9 @@ struct Cut {
 /// Effort of a search: kLittle tries the first directions, kFull also refines the best cut.
 enum class Effort { kLittle, kFull };
 
-/// Returns the cut with the smallest hulls; nullopt if the mesh is too flat. `outline` is that of
-/// the mesh.
+/// Returns the cut with the smallest hulls; nullopt if the mesh is too flat.
 std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline, Effort effort);
-/// Returns one cut per direction with sides of about equal size, sorted by the volume of their
-/// hulls.
+/// Returns one cut per direction with sides of about equal size; those with least hulls first.
 std::vector<Cut> middle_cuts(const PolygonMesh& mesh, const Outline& outline);
 
 }  // namespace sunder::fracture

@@ -85,8 +85,7 @@ void move_to_means(std::span<const Vec3> samples, std::vector<Vec3>& nodes) {
   }
 }
 
-/// Returns the volume of a shell's hull less that of the shell, approximately; sets `volume` to the
-/// volume of the shell.
+/// Returns the approximate volume of a shell's hull less that of the shell, which is `volume`.
 double concavity(const PolygonMesh& shell, double& volume) {
   constexpr std::size_t kHullVertices = 32;
   constexpr double kRounding = 1e-3;

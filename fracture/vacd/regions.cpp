@@ -55,8 +55,7 @@ std::vector<ConvexPolyhedron> cells_with_ids(std::span<const Vec3> nodes, const 
   return cells;
 }
 
-/// Removes directions of the region's own shared faces: clipping in them again would leave slivers
-/// of these faces.
+/// Removes directions of the region's shared faces: clipping in them again would leave slivers.
 void drop_own_directions(const ConvexPolyhedron& region, std::vector<Vec3>& directions) {
   std::erase_if(directions, [&](const Vec3& direction) {
     return std::any_of(

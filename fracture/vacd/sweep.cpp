@@ -8,8 +8,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// Distances, areas and volumes below this share of the size, its square and cube are rounding
-/// errors.
+/// Distances, areas and volumes below this share of the size's power are rounding errors.
 constexpr double kFlat = 1e-12;
 /// Number of faces evaluated together.
 constexpr std::size_t kBlock = 16;

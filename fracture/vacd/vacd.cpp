@@ -29,8 +29,7 @@ void check_options(const VacdOptions& options) {
   }
 }
 
-/// Returns the pieces of all shells, which share `count` automatic nodes unless there are nodes by
-/// hand.
+/// Returns the pieces of all shells, with `count` automatic nodes unless there are nodes by hand.
 std::vector<VacdPiece> all_pieces(const RepairedMesh& mesh, const VacdOptions& options,
                                   std::uint32_t count, PlaneIdAllocator& ids) {
   std::vector<VacdPiece> pieces;
@@ -57,8 +56,7 @@ std::uint32_t nodes_by_default(const RepairedMesh& mesh, const VacdOptions& opti
                     kMostNodes);
 }
 
-/// Returns pieces cut by nodes, if any, and refined as far as `convexes` allows or `polygons`
-/// requires.
+/// Returns pieces cut by nodes, if any, and refined by `convexes` and `polygons`.
 std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& options,
                                   PlaneIdAllocator& ids) {
   const auto shells = static_cast<std::uint32_t>(mesh.shells.size());

@@ -34,8 +34,7 @@ struct VacdOptions {
   /// as the nodes make. There are never fewer convexes than shells, as a convex owns one connected
   /// mesh.
   std::uint32_t convexes = 0;
-  /// A piece with more polygons is cut again if `convexes` allows it, as the cost of an impact
-  /// grows with them.
+  /// A piece with more polygons is cut again if allowed: the cost of an impact grows with them.
   std::uint32_t polygons = kDefaultPolygons;
   Fit fit{Fit::Kind::kHull, 24};
   MaterialIndex material;
