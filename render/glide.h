@@ -1,26 +1,26 @@
-// How a camera comes to where it should be: soon, and without a jerk.
+// Smooth following of a moving target by a critically damped spring, for cameras.
 #pragma once
 
 #include "engine/base/types.h"
 
 namespace sunder::render {
 
-/// What is drawn to a goal by a critically damped spring: its velocity has no jumps, whatever the
-/// goal does, and behind a goal of constant velocity it does not lag.
+/// A point attached to a goal by a critically damped spring. Its velocity is continuous even if the
+/// goal jumps, and it does not lag behind a goal of constant velocity.
 template <class Vector>
-struct Glide {
-  Vector at;
-  Vector velocity;  ///< A second.
+struct DampedSpring {
+  Vector position;
+  Vector velocity;  ///< Velocity, per second.
 
-  /// To where it is after dt_s, when the goal is at `goal` and has come there at `pace`; `rate` is
-  /// by how much the way to it shrinks in a second, about, as a power of e.
-  void on(const Vector& goal, const Vector& pace, double dt_s, double rate) {
+  /// Advances by dt_s towards a goal that has arrived at `goal` with the velocity `goal_velocity`.
+  /// The distance decays by about exp(-rate) per second.
+  void advance(const Vector& goal, const Vector& goal_velocity, double dt_s, double rate) {
     const double x = rate * dt_s;
-    const double left = 1 / (1 + x * (1 + x * (0.5 + x / 6)));  // exp(-x), the same everywhere
-    const Vector off = at - (goal - dt_s * pace);
-    const Vector drift = velocity - pace + rate * off;
-    at = goal + left * (off + dt_s * drift);
-    velocity = pace + left * (drift - rate * (off + dt_s * drift));
+    const double left = 1 / (1 + x * (1 + x * (0.5 + x / 6)));  // about exp(-x), without libm
+    const Vector off = position - (goal - dt_s * goal_velocity);
+    const Vector drift = velocity - goal_velocity + rate * off;
+    position = goal + left * (off + dt_s * drift);
+    velocity = goal_velocity + left * (drift - rate * (off + dt_s * drift));
   }
 };
 

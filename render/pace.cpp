@@ -7,16 +7,18 @@
 namespace sunder::render {
 namespace {
 
-constexpr double kWhole = 1e-6;  // frames by which a picture may miss one that it shows
+constexpr double kFrameTolerance = 1e-6;  // tolerance for the time of a picture, in source frames
 
 }  // namespace
 
 std::uint64_t Pace::first_picture(std::uint64_t frame) const {
-  return static_cast<std::uint64_t>(std::ceil((static_cast<double>(frame) - kWhole) / step()));
+  return static_cast<std::uint64_t>(
+      std::ceil((static_cast<double>(frame) - kFrameTolerance) / step()));
 }
 
 std::uint64_t Pace::last_picture(std::uint64_t frame) const {
-  return static_cast<std::uint64_t>(std::floor((static_cast<double>(frame) + kWhole) / step()));
+  return static_cast<std::uint64_t>(
+      std::floor((static_cast<double>(frame) + kFrameTolerance) / step()));
 }
 
 bool PacedSource::read() {
@@ -27,7 +29,7 @@ bool PacedSource::read() {
   return !ended_;
 }
 
-/// Of the first two frames that are held; worked out once for all pictures in it.
+/// Returns the interval between the first two frames held, computed once for all its pictures.
 const Interval& PacedSource::interval() {
   if (interval_.before == frames_[0]) return interval_;
   if (frames_.size() < 3) read();
@@ -47,7 +49,7 @@ FramePtr PacedSource::next() {
   if (!started_) picture_ = pace_.first_picture(frames_[0]->index);
   started_ = true;
   const double at = static_cast<double>(picture_) * pace_.step();
-  const auto whole = static_cast<std::uint64_t>(std::floor(at + kWhole));
+  const auto whole = static_cast<std::uint64_t>(std::floor(at + kFrameTolerance));
   while (frames_[0]->index < whole) {
     if (frames_.size() == 1 && !read()) return nullptr;
     frames_.pop_front();
@@ -55,7 +57,7 @@ FramePtr PacedSource::next() {
   const double part = at - static_cast<double>(whole);
   const bool is_passed_over = picture_ < first_;
   std::shared_ptr<Frame> shown;
-  if (part <= kWhole || is_passed_over) {
+  if (part <= kFrameTolerance || is_passed_over) {
     if (frames_[0]->index == picture_) {
       ++picture_;
       return frames_[0];

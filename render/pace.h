@@ -1,4 +1,4 @@
-// How fast a film goes: any number of pictures a second, and time drawn out or pressed together.
+// Frame rate and playback speed of a video.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +8,25 @@
 
 namespace sunder::render {
 
+/// Frame rate and playback speed of a video of a run of 60 frames per second.
 struct Pace {
-  int frames_per_s = 60;  ///< Of the film.
-  double speed = 1;       ///< Seconds of the run in a second of it.
+  int frames_per_s = 60;  ///< Frame rate of the video.
+  double speed = 1;       ///< Seconds of the run per second of the video.
 
-  /// Frames of the source from picture to picture.
+  /// Returns the number of source frames from one picture of the video to the next.
   double step() const { return 60 * speed / frames_per_s; }
-  /// The first picture that shows a frame of the source or what comes after it, and the last that
-  /// shows it or what comes before; picture 0 shows frame 0.
+  /// Returns the first picture that is not before a source frame; picture 0 shows frame 0.
   std::uint64_t first_picture(std::uint64_t frame) const;
+  /// Returns the last picture that is not after a source frame.
   std::uint64_t last_picture(std::uint64_t frame) const;
 };
 
-/// The pictures of a source of frames, 1/60 s apart and numbered, at another pace: each is a frame
-/// of the source, or what is between two of them. They are numbered anew, as Pace says.
+/// Resamples a source of numbered frames 1/60 s apart at another pace: each picture is a source
+/// frame or an interpolation between two. Pictures are numbered from Pace.
 class PacedSource final : public FrameSource {
  public:
-  /// Of those before picture `first` there is one a frame at most, and it is not worked out.
+  /// Resamples `source`, which must outlive this. Before picture `first` there is at most one
+  /// picture per source frame, without interpolation.
   PacedSource(FrameSource& source, const Pace& pace, std::uint64_t first = 0)
       : source_(source), pace_(pace), first_(first) {}
   FramePtr next() override;
@@ -38,7 +40,7 @@ class PacedSource final : public FrameSource {
   std::uint64_t first_;
   bool started_ = false, ended_ = false;
   std::uint64_t picture_ = 0;
-  std::deque<FramePtr> frames_;  ///< What has been read, from the one before the picture on.
+  std::deque<FramePtr> frames_;  ///< Frames read, from the last one not after the picture on.
   Interval interval_;
 };
 

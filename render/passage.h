@@ -1,8 +1,8 @@
-// From one frame to the next: what became of what, and how things stand between the two.
+// Matching of the contents of two successive frames, and interpolation between them.
 //
-// Bodies are known by their keys, and pieces by what they came off: they lie in its rest frame, so
-// where a piece was before the break is known. Debris and dust have no keys: they keep their places
-// in a frame but for those that come and go, and are known again by what they look like.
+// Bodies are matched by key, and pieces with the body they came off: both share its rest frame,
+// which gives the pose of a piece before the break. Debris and dust have no keys: they keep their
+// order in a frame except for added and removed ones, and are matched by their properties.
 #pragma once
 
 #include <cstdint>
@@ -13,31 +13,31 @@
 
 namespace sunder::render {
 
-inline constexpr std::uint32_t kNotThere = 0xffffffff;
+inline constexpr std::uint32_t kNoMatch = 0xffffffff;
 
-/// For bodies, debris and dust of a frame: their numbers in the frame before, or kNotThere.
-struct Passage {
+/// Index in the previous frame of each body, chip and puff of a frame, or kNoMatch.
+struct FrameMatch {
   std::vector<std::uint32_t> bodies, debris, dust;
 };
-Passage passage(const Frame& before, const Frame& after);
+/// Matches the contents of frame `after` with those of the previous frame `before`.
+FrameMatch passage(const Frame& before, const Frame& after);
 
-/// Two frames, and what is known of the one behind them, if there is one.
+/// Two successive frames with their matching, and optionally the frame after them.
 struct Interval {
   FramePtr before, after;
-  Passage into_after;
-  FramePtr beyond = nullptr;
-  Passage into_beyond = {};
+  FrameMatch into_after;        ///< Matches `after` with `before`.
+  FramePtr beyond = nullptr;    ///< Frame after `after`, or null.
+  FrameMatch into_beyond = {};  ///< Matches `beyond` with `after`.
 };
 
-/// Up to a frame: from the one before or, where there is none, as if all had moved evenly. What is
-/// given has to outlive it.
+/// Returns the interval from `before` to `after`. If `before` is null, the bodies of `after` are
+/// moved back by their velocities in its place. The frames must outlive the interval.
 Interval up_to(const Frame& after, const Frame* before);
 
-/// The instant `part` (0 to 1) of the way from one frame to the other. Bodies go straight and turn
-/// evenly. What breaks on the way comes apart at that time: until then its pieces are where they
-/// were in the whole, and then they move to where they are after. A shot comes from where it flew.
-/// What is gone afterwards flies on as it did; debris and dust grow into view, from where they fly
-/// away from, and shrink out of it.
+/// Interpolates between the two frames at `part` (0 to 1). Bodies move along straight lines and
+/// turn at constant rates. A body that breaks moves as a whole until the time of the break; then
+/// its pieces move to their final poses. New bodies are extrapolated backwards, removed ones
+/// forwards. New debris and dust grow from their points of emission, removed ones shrink.
 std::shared_ptr<Frame> between(const Interval& interval, double part);
 
 }  // namespace sunder::render

@@ -1,4 +1,4 @@
-// The reference of scene files, written by the reader's own tables.
+// Writes the reference of scene files from the tables that the reader uses.
 #include "engine/geometry/approximate_hull.h"
 #include "scenes/file/body.h"
 #include "scenes/file/ground_mesh.h"
@@ -32,7 +32,7 @@ std::string show(const Eigen::Matrix<Scalar, 3, 1>& v) {
   return text + "]";
 }
 
-/// What the field of a fresh object holds.
+/// Returns the default of a key: the value of its field in the default-constructed object `fresh`.
 std::string default_of(const Key& key, void* fresh) {
   using Kind = Key::Kind;
   if (key.required) return "required";
@@ -43,7 +43,7 @@ std::string default_of(const Key& key, void* fresh) {
   return text;
 }
 
-/// A bar would end the cell of a Markdown table.
+/// Returns the text with bars escaped, which would end the cell of a Markdown table.
 std::string escaped(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -54,7 +54,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string row(const Key& key, void* fresh) {
-  Key bare = key;  // the unit has a column of its own
+  Key bare = key;  // without the unit, which has its own column
   bare.unit = "";
   std::string name = "`";
   name.append(key.name).append("`");

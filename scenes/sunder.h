@@ -1,5 +1,5 @@
-// Sunder as a library, all of it: a scene becomes a simulation, which is pumped as frames into
-// sinks.
+// The whole public interface of Sunder as a library: make a simulation of a scene, and pump its
+// frames into sinks.
 //
 //   #include <sunder/sunder.h>
 //
@@ -9,7 +9,7 @@
 //   sunder::FrameSink* const sinks[] = {video.get(), &hash};
 //   sunder::pump(*simulation, sinks);
 //
-// Read next: scene.h for what there is in a scene, frame.h for what comes out.
+// Read next: scene.h for the input, frame.h for the output.
 #pragma once
 
 #include "engine/base/check.h"                  // InputError, FileError

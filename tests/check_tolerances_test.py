@@ -2,7 +2,7 @@
 """check_tolerances.py must find each violation, and nothing in what is right."""
 import unittest
 
-from check_tolerances import MOST, check_book, check_source
+from check_tolerances import check_book, check_source
 
 GOOD = "/// Of it.\nSUNDER_TUNED double kPush = 4;\nSUNDER_TUNED float kSlow = 1, kFast = 2;  ///< Both.\n"
 
@@ -13,13 +13,10 @@ class CheckTolerances(unittest.TestCase):
         self.assertEqual(check_source("a.cpp", "constexpr int kMost = 7;\nx = 0.5 * y + 1e-9; // 0.3"),
                          [])
 
-    def test_the_book_is_short_and_says_what_numbers_are(self):
-        names = ", ".join(f"k{chr(65 + i)} = {i}" for i in range(MOST - 3))
-        full = f"/// All.\nSUNDER_TUNED float {names};\n"
-        self.assertEqual(check_book(GOOD + full), [])
-        self.assertEqual(len(check_book(GOOD + full + GOOD)), 1)
+    def test_the_book_says_what_numbers_are(self):
         self.assertEqual(len(check_book("")), 1)
         self.assertIn("kPush", check_book(GOOD + "\nSUNDER_TUNED double kPush = 4;\n")[0])
+        self.assertIn("kPull", check_book(GOOD + "\nSUNDER_TUNED const double& kPull = kPush;\n")[0])
 
     def test_numbers_outside_the_book_are_found(self):
         for bad in ("constexpr float kMost = 1;", "inline constexpr double kA = 1, kB = 2;",

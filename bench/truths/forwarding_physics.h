@@ -23,6 +23,9 @@ class ForwardingPhysics : public Physics {
   std::vector<Touch> touches(std::span<const BodyId> bodies) override {
     return physics_->touches(bodies);
   }
+  std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
+    return physics_->probe(std::move(cluster));
+  }
   void set_state(BodyId body, const BodyState& state) override { physics_->set_state(body, state); }
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override {
     physics_->apply_impulse(body, impulse_W, point_W);

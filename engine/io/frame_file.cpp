@@ -1,7 +1,8 @@
-// Layout: "SUNDERF6" (or 5: contacts without keys of bodies; or 4: without paints, lights and what
-// happens inside, either; or 3: nothing is known to be asleep, either; or 2: without poses of
-// meshes, either; or 1: without debris and dust, either), XXH3 of the rest (8 bytes), size of the
-// content (8 bytes), content in zstd.
+// Layout: "SUNDERF" and the version, XXH3 of the rest (8 bytes), content size (8 bytes), zstd data.
+//
+// Versions: 6 is current; 5 has contacts without keys of bodies; 4 also lacks textures, lights and
+// the inspection; 3 also lacks the sleep flag; 2 also lacks poses of meshes; 1 also lacks debris
+// and dust.
 #include "engine/io/frame_file.h"
 
 #include <algorithm>
@@ -18,10 +19,11 @@ namespace sunder {
 namespace {
 
 constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '6'};
-constexpr std::size_t kName = sizeof kMagic - 1;  // what precedes the version
-constexpr std::size_t kHeader = sizeof kMagic + 8;
-constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refused
-constexpr int kLevel = 19;                      // written once, kept for years
+// Length of the magic number without the version.
+constexpr std::size_t kMagicLength = sizeof kMagic - 1;
+constexpr std::size_t kHeaderBytes = sizeof kMagic + 8;
+constexpr std::uint64_t kMaxContentBytes = 1ull << 31;  // largest accepted content
+constexpr int kCompressionLevel = 19;                   // files are written once and kept for years
 
 void put(ByteWriter& out, const FrameBody& body) {
   out.put(body.key, body.X_WB.position, body.X_WB.rotation.coeffs(), body.com_R,
@@ -88,7 +90,7 @@ std::shared_ptr<const Inspection> take_inspection(ByteReader& in, const std::str
   return inspection;
 }
 
-/// Only the meshes that the frame draws; `new_of_old` numbers them.
+/// Appends the indices of the meshes that are drawn to `drawn`; returns the new index of each mesh.
 std::vector<std::uint32_t> drawn_meshes(const Frame& frame, std::vector<std::uint32_t>& drawn) {
   std::vector<std::uint32_t> new_of_old(frame.meshes->size(), MeshIndex::kNone);
   for (const Instance& instance : frame.instances) {
@@ -171,8 +173,8 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
 void write_frame(const std::filesystem::path& path, const Frame& frame) {
   const std::vector<std::byte> content = content_of(frame);
   std::vector<std::byte> packed(ZSTD_compressBound(content.size()));
-  const std::size_t size =
-      ZSTD_compress(packed.data(), packed.size(), content.data(), content.size(), kLevel);
+  const std::size_t size = ZSTD_compress(packed.data(), packed.size(), content.data(),
+                                         content.size(), kCompressionLevel);
   SUNDER_CHECK(!ZSTD_isError(size));
   packed.resize(size);
 
@@ -189,22 +191,24 @@ void write_frame(const std::filesystem::path& path, const Frame& frame) {
 FramePtr read_frame(const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::vector<std::byte> file = read_file(path);
-  const bool is_frame = file.size() >= kHeader + 8 && std::memcmp(file.data(), kMagic, kName) == 0;
-  const int version = is_frame ? static_cast<char>(file[kName]) - '0' : 0;
-  if (version < 1 || version > kMagic[kName] - '0') {
+  const bool is_frame =
+      file.size() >= kHeaderBytes + 8 && std::memcmp(file.data(), kMagic, kMagicLength) == 0;
+  const int version = is_frame ? static_cast<char>(file[kMagicLength]) - '0' : 0;
+  if (version < 1 || version > kMagic[kMagicLength] - '0') {
     throw InputError(name + ": not a frame file of this version of sunder; record it again");
   }
   ByteReader header(file, name);
   for (std::size_t i = 0; i < sizeof kMagic; ++i) header.take<char>();
   const auto expected = header.take<std::uint64_t>();
-  if (XXH3_64bits(file.data() + kHeader, file.size() - kHeader) != expected) {
+  if (XXH3_64bits(file.data() + kHeaderBytes, file.size() - kHeaderBytes) != expected) {
     throw InputError(name + ": corrupt: the checksum does not match; record it again");
   }
   const auto size = header.take<std::uint64_t>();
-  if (size > kLargest) throw InputError(name + ": corrupt: it claims to be too large");
+  if (size > kMaxContentBytes) throw InputError(name + ": corrupt: it claims to be too large");
   std::vector<std::byte> content(size);
-  const std::size_t got = ZSTD_decompress(content.data(), content.size(), file.data() + kHeader + 8,
-                                          file.size() - kHeader - 8);
+  const std::size_t got =
+      ZSTD_decompress(content.data(), content.size(), file.data() + kHeaderBytes + 8,
+                      file.size() - kHeaderBytes - 8);
   if (ZSTD_isError(got) || got != size) throw InputError(name + ": corrupt: cannot be unpacked");
   return frame_of(content, name, version);
 }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint32_t kNoPicture = ~std::uint32_t{0};
 
-// What a paint says of itself, so that one takes no more bytes than it needs.
+// Flags of the optional members that follow.
 constexpr unsigned kFromBelow = 1, kRelief = 2, kGloss = 4;
 
 }  // namespace

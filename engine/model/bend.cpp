@@ -11,15 +11,15 @@
 namespace sunder {
 namespace {
 
-// Of the sides of a mitre at its sharpest, 75°: how far from the centroid its tip is, in parts of
-// the section's reach.
-constexpr double kFarthest = 4;
-constexpr double kSame = 1e-6;  // areas of faces that cover each other
-// Of the faces that a section is of, how much it is of at least, for these to end with it.
-constexpr double kWhole = 0.9;
+// Distance of a mitre's tip from the centroid over the section's reach, at the largest bend, 75°.
+constexpr double kMaxTipDistance = 4;
+// Relative tolerance of areas of faces that cover each other.
+constexpr double kAreaTolerance = 1e-6;
+// Least share of its faces' area that a section must cover for the faces to end with it.
+constexpr double kMinCoverage = 0.9;
 
-/// Whether a section is all of the faces that it is of.
-bool is_whole(const BentSide& side) {
+/// True if a section covers all of the faces that it is on.
+bool covers_faces(const BentSide& side) {
   SUNDER_CHECK(side.slots.size() == side.areas_m2.size());
   std::set<std::pair<std::uint32_t, std::uint32_t>> counted;
   double all_m2 = 0, bonds_m2 = 0;
@@ -29,11 +29,11 @@ bool is_whole(const BentSide& side) {
     if (counted.emplace(side.slots[i], side.faces[i]).second)
       all_m2 += face_area(convex, side.faces[i]);
   }
-  return bonds_m2 > kWhole * all_m2;
+  return bonds_m2 > kMinCoverage * all_m2;
 }
 
-/// What the plane of a wall is called; none if it has several.
-PlaneId name_of(const BentSide& wall) {
+/// Returns the id of the plane of a wall's faces; none if they lie in several.
+PlaneId plane_id_of(const BentSide& wall) {
   const auto id = [&](std::size_t i) {
     return wall.structure.convex(ConvexSlot(wall.slots[i]))->polyhedron.faces[wall.faces[i]].id;
   };
@@ -42,9 +42,9 @@ PlaneId name_of(const BentSide& wall) {
   return id(0);
 }
 
-class SideEnder {
+class SideMitre {
  public:
-  SideEnder(const BentSide& side, const Plane& midplane, PlaneId id)
+  SideMitre(const BentSide& side, const Plane& midplane, PlaneId id)
       : side_(side), structure_(side.structure), midplane_(midplane), id_(id) {
     for (const std::uint32_t slot : side.slots) {
       const Box& box = structure_.convex(ConvexSlot(slot))->box;
@@ -56,18 +56,18 @@ class SideEnder {
   std::vector<Ended> run() {
     for (std::size_t i = 0; i < side_.slots.size(); ++i) {
       const ConvexSlot slot(side_.slots[i]);
-      if (!ended_.contains(slot)) end_column(slot, side_.faces[i]);
+      if (!results_.contains(slot)) end_column(slot, side_.faces[i]);
     }
     cut_behind();
     std::vector<Ended> all;
-    for (auto& [slot, convex] : ended_)
+    for (auto& [slot, convex] : results_)
       if (convex != structure_.convex(slot)) all.push_back({slot, std::move(convex)});
     return all;
   }
 
  private:
-  /// The face of a convex that looks most the other way.
-  std::uint32_t back_of(const Convex& convex, std::uint32_t front) const {
+  /// Returns the face of a convex that is most opposite to another.
+  std::uint32_t opposite_face(const Convex& convex, std::uint32_t front) const {
     const auto& faces = convex.polyhedron.faces;
     const auto along = [&](const ConvexPolyhedron::Face& face) {
       return face.plane.normal.dot(faces[front].plane.normal);
@@ -75,16 +75,18 @@ class SideEnder {
     return static_cast<std::uint32_t>(std::ranges::min_element(faces, {}, along) - faces.begin());
   }
 
-  /// The convex behind one, if what they share is the whole of a face of both.
-  const Link* behind(ConvexSlot slot, std::uint32_t front) const {
+  /// Returns the link to the convex behind another, if they share the whole of a face of both.
+  const Link* link_behind(ConvexSlot slot, std::uint32_t front) const {
     const Convex& convex = *structure_.convex(slot);
-    const std::uint32_t back = back_of(convex, front);
+    const std::uint32_t back = opposite_face(convex, front);
     const double area_m2 = face_area(convex.polyhedron, back);
     for (const Link& link : structure_.links(slot)) {
       if (link.face != back) continue;
       const Convex& other = *structure_.convex(link.other);
       const double other_m2 = face_area(other.polyhedron, link.other_face);
-      const auto same = [&](double m2) { return std::abs(link.area_m2 - m2) <= kSame * m2; };
+      const auto same = [&](double m2) {
+        return std::abs(link.area_m2 - m2) <= kAreaTolerance * m2;
+      };
       if (same(area_m2) && same(other_m2) && convex.is_internal() == other.is_internal() &&
           convex.material == other.material)
         return &link;
@@ -92,27 +94,27 @@ class SideEnder {
     return nullptr;
   }
 
-  bool reaches(const Convex& convex) const {
+  bool crosses_midplane(const Convex& convex) const {
     return std::ranges::any_of(convex.polyhedron.vertices, [&](const Vec3& vertex) {
       return midplane_.distance(vertex) > tolerance_m_;
     });
   }
 
-  /// Ends the convexes behind one face of the section.
+  /// Ends the column of convexes behind one face of the section at the midplane.
   void end_column(ConvexSlot slot, std::uint32_t front) {
     std::vector<ColumnCell> column;
     std::vector<ConvexSlot> slots;
     for (;;) {
       const Convex& convex = *structure_.convex(slot);
-      if (!slots.empty() && !reaches(convex)) break;
+      if (!slots.empty() && !crosses_midplane(convex)) break;
       slots.push_back(slot);
       column.push_back({&convex.polyhedron, front});
-      const Link* next = behind(slot, front);
-      if (!next || ended_.contains(next->other) || is_of_section(next->other)) break;
+      const Link* next = link_behind(slot, front);
+      if (!next || results_.contains(next->other) || is_of_section(next->other)) break;
       front = next->other_face;
       slot = next->other;
     }
-    for (const ConvexSlot gone : slots) ended_[gone] = nullptr;
+    for (const ConvexSlot gone : slots) results_[gone] = nullptr;
     ConvexPolyhedron result;
     const auto last = mitre(column, midplane_, id_, tolerance_m_, result, scratch_);
     if (!last) return;
@@ -126,30 +128,32 @@ class SideEnder {
       if (side == PlaneSide::kOutside) return;
       if (side == PlaneSide::kCut) visual = std::move(mesh);
     }
-    ended_[slots[*last]] =
+    results_[slots[*last]] =
         make_convex(std::move(result), parent.material, std::move(visual), parent.X_RT);
-    for (std::size_t i = *last + 1; i < slots.size(); ++i) ended_.erase(slots[i]);
+    for (std::size_t i = *last + 1; i < slots.size(); ++i) results_.erase(slots[i]);
   }
 
   bool is_of_section(ConvexSlot slot) const {
     return std::ranges::find(side_.slots, slot.value) != side_.slots.end();
   }
 
-  /// What the midplane reaches beside and behind the columns.
+  /// Cuts convexes beside and behind the columns at the midplane.
   void cut_behind() {
     std::vector<ConvexSlot> heap;
     const auto add_around = [&](ConvexSlot slot) {
       for (const Link& link : structure_.links(slot))
-        if (!ended_.contains(link.other)) heap.push_back(link.other);
+        if (!results_.contains(link.other)) heap.push_back(link.other);
     };
-    for (const auto& [slot, convex] : ended_) add_around(slot);
+    for (const auto& [slot, convex] : results_) add_around(slot);
     for (std::size_t i = 0; i < heap.size(); ++i) {
       const ConvexSlot slot = heap[i];
       const ConvexPtr& convex = structure_.convex(slot);
       const double far_m = (convex->box.center() - side_.end.centroid).norm();
-      if (ended_.contains(slot) || far_m > kFarthest * side_.reach_m || !reaches(*convex)) continue;
-      ended_[slot] = cut(convex);
-      if (ended_[slot] != convex) add_around(slot);
+      if (results_.contains(slot) || far_m > kMaxTipDistance * side_.reach_m ||
+          !crosses_midplane(*convex))
+        continue;
+      results_[slot] = cut(convex);
+      if (results_[slot] != convex) add_around(slot);
     }
   }
 
@@ -176,25 +180,25 @@ class SideEnder {
   double tolerance_m_ = 0;
   MitreScratch scratch_;
   MeshClipScratch mesh_scratch_;
-  std::map<ConvexSlot, ConvexPtr> ended_;
+  std::map<ConvexSlot, ConvexPtr> results_;
 };
 
 }  // namespace
 
 std::optional<MeetingPlane> meeting_plane(const BentSide& a, const BentSide& b, const Pose& X_AB) {
-  const bool whole_a = is_whole(a), whole_b = is_whole(b);
-  if (!whole_a && !whole_b) return std::nullopt;
-  if (whole_a && whole_b) {
+  const bool covers_a = covers_faces(a), covers_b = covers_faces(b);
+  if (!covers_a && !covers_b) return std::nullopt;
+  if (covers_a && covers_b) {
     const std::optional<Midplane> middle = midplane(a.end, b.end, X_AB);
     return middle ? std::optional(MeetingPlane{*middle, true, true, {}}) : std::nullopt;
   }
   const Vec3 along_b_A = X_AB.rotation * b.end.along;
   MeetingPlane meeting;
-  meeting.ends_a = whole_a, meeting.ends_b = whole_b;
-  meeting.of_wall = name_of(whole_a ? b : a);
+  meeting.ends_a = covers_a, meeting.ends_b = covers_b;
+  meeting.of_wall = plane_id_of(covers_a ? b : a);
   if (meeting.of_wall.none() || -a.end.along.dot(along_b_A) < kLeastCosine) return std::nullopt;
-  const Vec3 normal_A = whole_a ? Vec3(-along_b_A) : a.end.along;
-  const Vec3 point_A = whole_a ? X_AB * b.end.centroid : a.end.centroid;
+  const Vec3 normal_A = covers_a ? Vec3(-along_b_A) : a.end.along;
+  const Vec3 point_A = covers_a ? X_AB * b.end.centroid : a.end.centroid;
   const Pose X_BA = X_AB.inverse();
   meeting.planes = {Plane::through(point_A, normal_A),
                     Plane::through(X_BA * point_A, X_BA.rotation * -normal_A)};
@@ -202,7 +206,7 @@ std::optional<MeetingPlane> meeting_plane(const BentSide& a, const BentSide& b, 
 }
 
 std::vector<Ended> end_side(const BentSide& side, const Plane& midplane, PlaneId id) {
-  return SideEnder(side, midplane, id).run();
+  return SideMitre(side, midplane, id).run();
 }
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// What becomes of a solid's convexes beside a section that has bent (engine/geometry/mitre.h).
+// Mitring of a solid's convexes at a section that has bent (engine/geometry/mitre.h).
 #pragma once
 
 #include <cstdint>
@@ -11,36 +11,36 @@
 
 namespace sunder {
 
-/// One side of a section: its convexes, and which of their faces are of it, per bond that it had.
+/// One side of a section: its convexes and their faces at the section, one element per former bond.
 struct BentSide {
   const Structure& structure;
   std::span<const std::uint32_t> slots, faces;
-  std::span<const double> areas_m2;  ///< Of the bonds.
+  std::span<const double> areas_m2;  ///< Areas of the bonds.
   SectionEnd end;
-  double reach_m = 0;  ///< From the centroid to what is farthest in the section.
+  double reach_m = 0;  ///< Distance from the centroid to the farthest point of the section.
 };
 
-/// The plane in which both sides of a section end once it has bent, as each sees it. Where one of
-/// them is but a part of what it is on, as a girder's end on the flank of a column, or a post on
-/// its foundation, that stays as it is, and the other ends in its plane.
+/// The plane in which both sides of a bent section end, in each side's rest frame. A side whose
+/// section covers only part of its faces, such as the flank of a column that carries a girder,
+/// stays unchanged, and the other side ends in its plane.
 struct MeetingPlane {
   Midplane planes;
   bool ends_a = true, ends_b = true;
-  PlaneId of_wall;  ///< What the plane is called on the side that does not end there, if one.
+  PlaneId of_wall;  ///< Id of the plane on the unchanged side, if there is one.
 };
 
-/// Nothing where they are bent too far, or each is but a part of what it is on. B's rest frame has
-/// the pose X_AB in a's.
+/// Returns the meeting plane, or nothing if the sides are bent too far or both sections cover only
+/// part of their faces. X_AB is the pose of b's rest frame in a's.
 std::optional<MeetingPlane> meeting_plane(const BentSide& a, const BentSide& b, const Pose& X_AB);
 
-/// A convex that ends in the midplane now; null: nothing is left of it.
+/// A convex that has been cut or extended to the midplane; null: nothing is left of it.
 struct Ended {
   ConvexSlot slot;
   ConvexPtr convex;
 };
 
-/// What ends otherwise than it did, ascending. Those of the section are drawn out to the midplane,
-/// and what it reaches behind them is cut; the new faces are named `id`.
+/// Returns the convexes that change, ascending by slot. Convexes of the section are extended to the
+/// midplane, and parts of other convexes beyond it are cut off. New faces get the id `id`.
 std::vector<Ended> end_side(const BentSide& side, const Plane& midplane, PlaneId id);
 
 }  // namespace sunder

@@ -11,9 +11,10 @@
 namespace sunder {
 namespace {
 
-constexpr double kThin = 0.25;  // thickness over the cube root of the volume, of plates; at most
+// largest thickness of thin convexes over the cube root of their volume
+constexpr double kMaxThinness = 0.25;
 
-/// Calls `visit` with every convex, and every ghost that weighs, and its sign.
+/// Calls visit(convex, sign) for every convex, and for every ghost that counts in sums.
 template <class Visit>
 void for_each_solid(const Compound& compound, const Visit& visit) {
   for (const ConvexPtr& convex : compound.convexes) visit(*convex, 1.0);
@@ -46,7 +47,7 @@ double mean_thickness_m(const Convex& convex) {
 }
 
 bool is_thin(const Convex& convex) {
-  return mean_thickness_m(convex) < kThin * std::cbrt(convex.solid.volume_m3);
+  return mean_thickness_m(convex) < kMaxThinness * std::cbrt(convex.solid.volume_m3);
 }
 
 bool Compound::is_anchored() const {

@@ -13,7 +13,7 @@ SectionLoad in_parts(const SectionStrength& strength, const Wrench& wrench_R) {
 }
 
 double utilisation(const SectionStrength& strength, const Wrench& wrench_R) {
-  // The load factor s has s·m + s²·n² = 1; this is 1/s.
+  // The load factor s satisfies s·m + s²·n² = 1; this is 1/s.
   const SectionLoad load = in_parts(strength, wrench_R);
   return 0.5 * (load.across + std::hypot(load.across, 2 * load.axial));
 }

@@ -12,8 +12,9 @@ namespace {
 using Vec7 = Eigen::Matrix<double, 7, 1>;
 
 struct Knot {
+  /// Camera at a key, with all members set.
   double time_s = 0;
-  Vec7 camera;  ///< Eye, target, angle.
+  Vec7 camera;  ///< Eye, target, field of view.
 };
 
 std::vector<Knot> knots_of(std::span<const ViewKey> keys, const View& view) {
@@ -33,7 +34,7 @@ double length_s(std::span<const Knot> knots, std::size_t i) {
   return knots[i].time_s - knots[i - 1].time_s;
 }
 
-/// Of the straight line to a knot.
+/// Returns the slope of the straight line to a knot.
 Vec7 line_to(std::span<const Knot> knots, std::size_t i) {
   return (knots[i].camera - knots[i - 1].camera) / length_s(knots, i);
 }

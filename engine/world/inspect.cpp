@@ -9,7 +9,7 @@
 namespace sunder {
 namespace {
 
-/// Bodies that press on each other or are joined, as long as none of them is held.
+/// Returns the island of each actor: movable bodies connected by contact forces or joints.
 std::vector<std::uint32_t> islands(const World& world, const std::vector<PressPoint>& presses) {
   DisjointSets sets(world.actors.size());
   const auto join = [&](std::uint32_t key_a, std::uint32_t key_b) {
@@ -23,19 +23,19 @@ std::vector<std::uint32_t> islands(const World& world, const std::vector<PressPo
   return sets.roots();
 }
 
-/// By slot; nothing of what no load can break.
+/// Returns the stresses of an actor by slot; empty if load cannot break it.
 std::vector<float> stresses_of(const World& world, const Breaker& breaker, const Actor& actor,
                                const Quat& rotation_WB) {
   const StressState& stress = actor.stress;
   if (!stress.breakable) return {};
-  // What falls freely feels nothing but its spin.
+  // In free fall, only spin causes stress.
   if (!actor.is_static && stress.pressing.empty() && stress.spin_R.isZero())
     return std::vector<float>(actor.structure.slot_count(), 0);
   std::vector<Load> loads;
-  return breaker.utilisation(actor.structure, bearing(world, actor, rotation_WB, loads));
+  return breaker.utilisation(actor.structure, make_load_case(world, actor, rotation_WB, loads));
 }
 
-/// In the order of the frame's instances.
+/// Returns stresses in the order of the frame's instances.
 std::vector<float> stresses(const World& world, const Breaker& breaker, const Frame& frame) {
   std::vector<std::vector<float>> by_actor(world.actors.size());
   for_chunks(by_actor.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
@@ -70,7 +70,7 @@ std::shared_ptr<const Inspection> inspect(const World& world, const Breaker& bre
   }
   seen->islands = islands(world, physics.presses);
   seen->stresses = stresses(world, breaker, frame);
-  // The ground's meshes come last.
+  // Meshes of the ground come last.
   for (auto i = seen->islands.size(); i < frame.bodies.size(); ++i)
     seen->islands.push_back(static_cast<std::uint32_t>(i));
   seen->stresses.resize(frame.instances.size(), -1);

@@ -1,5 +1,4 @@
-// Sections of pictures; golden_report.css and .js hold what is special in their style, and the
-// script.
+// Generates the HTML; golden_report.css and golden_report.js hold the style and the script.
 #include "render/image/golden_report.h"
 
 #include <algorithm>

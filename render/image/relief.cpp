@@ -7,9 +7,10 @@
 namespace sunder::render {
 namespace {
 
-/// Where all is grey: how much higher than black white is, in parts of the picture's width.
-constexpr float kHeight = 0.02f;
-constexpr float kMostSteeper = 100;  ///< Paint::relief_scale, in files that nobody has seen.
+/// Height of white above black in a height map, as a fraction of the width of the picture.
+constexpr float kReliefHeight = 0.02f;
+/// Greatest plausible Paint::relief_scale; a greater one in a file counts as 1.
+constexpr float kMaxReliefScale = 100;
 
 std::size_t texel_at(const Image& image, int x, int y) {
   return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
@@ -23,7 +24,7 @@ bool is_grey(const Image& image) {
   return true;
 }
 
-/// The normal at a pixel, right, up in the picture and off it, which goes on at its edges.
+/// Returns the normal at a pixel: right, up in the picture, and out of it. The picture is periodic.
 Vec3f normal_at(const Image& image, bool heights, int x, int y) {
   const auto level = [&](int column, int row, std::size_t channel) {
     const std::size_t at =
@@ -31,11 +32,11 @@ Vec3f normal_at(const Image& image, bool heights, int x, int y) {
     return static_cast<float>(image.rgb[at + channel]) / 255;
   };
   if (heights) {
-    const float steep = 0.5f * kHeight * static_cast<float>(image.width);
+    const float steep = 0.5f * kReliefHeight * static_cast<float>(image.width);
     return Vec3f(steep * (level(x - 1, y, 0) - level(x + 1, y, 0)),
                  steep * (level(x, y + 1, 0) - level(x, y - 1, 0)), 1);
   }
-  // 128 is 0, that a flat picture is flat.
+  // 128 maps to 0, so that a uniform picture is flat.
   const auto signed_level = [&](std::size_t channel) {
     return (255 * level(x, y, channel) - 128) / 127;
   };
@@ -44,15 +45,17 @@ Vec3f normal_at(const Image& image, bool heights, int x, int y) {
 
 }  // namespace
 
-Image normals_of(const Image& relief, float steeper_along, float steeper_up) {
-  const auto sane = [](float scale) { return std::abs(scale) <= kMostSteeper ? scale : 1.0f; };
-  const Vec3f steeper(sane(steeper_along), sane(steeper_up), 1);
+Image normals_of(const Image& relief, float scale_along, float scale_up) {
+  const auto limited = [](float scale) {
+    return std::abs(scale) <= kMaxReliefScale ? scale : 1.0f;
+  };
+  const Vec3f scale(limited(scale_along), limited(scale_up), 1);
   const bool heights = is_grey(relief);
   Image image{relief.width, relief.height, {}};
   image.rgb.reserve(relief.rgb.size());
   for (int y = 0; y < relief.height; ++y) {
     for (int x = 0; x < relief.width; ++x) {
-      const Vec3f n = normal_at(relief, heights, x, y).cwiseProduct(steeper).normalized();
+      const Vec3f n = normal_at(relief, heights, x, y).cwiseProduct(scale).normalized();
       for (const float level : n) {
         image.rgb.push_back(static_cast<std::uint8_t>(std::lround(128 + 127 * level)));
       }

@@ -1,4 +1,4 @@
-// What a paint's picture of relief says: normals, or heights that have normals.
+// Normal maps from the relief textures of mesh files, which are normal maps or height maps.
 #pragma once
 
 #include "engine/base/types.h"
@@ -6,11 +6,12 @@
 
 namespace sunder::render {
 
-/// The normals of a picture of relief as colours, so many times steeper along it and up in it.
-Image normals_of(const Image& relief, float steeper_along, float steeper_up);
+/// Returns the normal map of a relief texture (a normal map, or a height map if it is all grey),
+/// with slopes scaled by `scale_along` along its rows and by `scale_up` up its columns.
+Image normals_of(const Image& relief, float scale_along, float scale_up);
 
-/// A picture of normals in place of one of heights; any other is itself. Throws InputError for what
-/// is neither PNG nor JPEG.
+/// Converts a height map to a normal map; returns any other picture unchanged. Throws InputError if
+/// the picture is neither PNG nor JPEG.
 Picture as_normals(const Picture& relief);
 
 }  // namespace sunder::render

@@ -1,5 +1,4 @@
-// What lies behind what is drawn already need not be drawn: the picture stays the same, bit for
-// bit.
+// Occlusion culling by the depths drawn so far; the image stays bit-identical.
 #pragma once
 
 #include <cstdint>
@@ -10,47 +9,46 @@
 
 namespace sunder::render {
 
-/// A box in eye space.
-struct TurnedBox {
+/// An oriented box in eye space.
+struct OrientedBox {
   Vec3f center;
-  Mat3f half_axes;  ///< Columns.
+  Mat3f half_axes;  ///< Half axes in columns.
 };
 
-/// A camera, or a light as its shadow map has it: takes eye space to a picture whose width, height
-/// and depth run from 0 to 1.
-struct SeenFrom {
+/// View of a camera or shadow map: maps eye space to an image with coordinates and depth in [0, 1].
+struct CullingView {
   Eigen::Matrix4f picture_of_eye;
-  Vec3f ahead;
-  int width;
-  int height;
+  Vec3f ahead;     ///< Unit direction of view.
+  int width;       ///< In pixels.
+  int height;      ///< In pixels.
   int depth_bits;  ///< 16 or 24.
 };
 
-/// By the matrices of FrameUniforms.
-SeenFrom seen_by_light(const float (&picture_of_eye)[16], int texels);
-SeenFrom seen_by_camera(const float (&clip_of_eye)[16], int width, int height);
+// Views by the matrices of FrameUniforms.
+CullingView view_of_light(const float (&picture_of_eye)[16], int texels);
+CullingView view_of_camera(const float (&clip_of_eye)[16], int width, int height);
 
-/// The farthest depth that a picture has so far, in each of its tiles.
-class CoveredTiles {
+/// The greatest depth drawn so far in each tile of an image.
+class DepthTiles {
  public:
   static constexpr int kSide = 8;  // pixels
 
-  explicit CoveredTiles(const GlTable& gl) : gl_(gl) {}
+  explicit DepthTiles(const GlTable& gl) : gl_(gl) {}
 
-  /// A picture in which nothing is yet.
-  void start(const SeenFrom& seen);
-  /// Takes the depths of the bound framebuffer, once all is drawn.
+  /// Starts an empty image.
+  void start(const CullingView& view);
+  /// Reads the depths of the bound framebuffer.
   void read();
-  /// Whether nothing of what is in the box would be seen: it is out of the picture, or covered.
-  bool hides(const TurnedBox& box) const;
-  const SeenFrom& seen_from() const { return seen_; }
+  /// Returns true if nothing in the box is visible: it is outside the image or behind drawn depths.
+  bool hides(const OrientedBox& box) const;
+  const CullingView& view() const { return view_; }
 
  private:
   template <class Depth>
   void find_farthest(std::vector<Depth>& depths, GLenum type);
 
   const GlTable& gl_;
-  SeenFrom seen_;
+  CullingView view_;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<float> farthest_;

@@ -16,7 +16,7 @@ namespace {
 struct Kind {
   const char* name;
   const char* define;
-  int channels;  ///< 0: floats.
+  int channels;  ///< Number of channels; 0 for floats.
   const char* meaning;
 };
 constexpr std::array<Kind, 4> kKinds = {{
@@ -67,7 +67,7 @@ Layers::Layers(const GlTable& gl, const std::vector<std::string>& names, int wid
 
 std::vector<Layer> Layers::draw(const Frame& frame, Pieces& pieces, const Chips& chips) {
   std::vector<Layer> layers;
-  pieces.name_bodies(frame);
+  pieces.write_body_ids(frame);
   gl_.Viewport(0, 0, width_, height_);
   gl_.Enable(GL_DEPTH_TEST);
   for (const Pass& pass : passes_) {
@@ -113,9 +113,8 @@ std::vector<float> Layers::read_metres() const {
   return metres;
 }
 
-/// The layer of depth. All pictures have the scale of the first; it is a power of two, so that
-/// parts of a run that are drawn apart agree, unless their cameras differ twofold in their
-/// distances.
+/// Returns layer "depth". All images have the scale of the first, a power of two, so that parts of
+/// a run drawn separately agree unless their camera distances differ by a factor of two.
 DeepImage Layers::depth_image(const View& view) {
   constexpr double kWhite = 65535;
   if (!far_m_) {

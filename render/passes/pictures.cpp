@@ -11,8 +11,8 @@
 namespace sunder::render {
 namespace {
 
-/// RGBA texels of a picture scaled to `side` x `side`: the mean of what each covers, and of its
-/// nearest pixels where that is less than one; the row where texture coordinates begin comes first.
+/// Returns the RGBA texels of a picture scaled to `side` x `side` by the mean of the pixels that
+/// each texel covers, at least one. The row of texture coordinate v = 0 comes first.
 std::vector<std::uint8_t> scaled(const Image& image, int side, bool from_below) {
   std::vector<std::uint8_t> texels(4 * static_cast<std::size_t>(side) *
                                    static_cast<std::size_t>(side));
@@ -66,7 +66,7 @@ void Pictures::update(const std::vector<Paint>& paints) {
   std::vector<Image> images;
   int largest = 1;
   const auto add = [&](const Layer& layer) {
-    if (!layer.picture || layers_.size() == kMostPictures || layer_of(layer) > 0) return;
+    if (!layer.picture || layers_.size() == kMaxPictures || layer_of(layer) > 0) return;
     images.push_back(decode_picture(*layer.picture));
     if (layer.relief_scale) {
       const float scale = *layer.relief_scale;
@@ -79,7 +79,7 @@ void Pictures::update(const std::vector<Paint>& paints) {
   for (const Paint& paint : paints) add(relief_layer(paint));
   for (const Paint& paint : paints) add(gloss_layer(paint));
   const auto wanted = static_cast<int>(std::bit_ceil(static_cast<unsigned>(largest)));
-  const int side = std::min(wanted, kMostPictureTexels);
+  const int side = std::min(wanted, kMaxPictureSide);
   std::vector<std::uint8_t> texels(images.empty() ? 4 : 0);
   for (std::size_t i = 0; i < images.size(); ++i) {
     const std::vector<std::uint8_t> layer = scaled(images[i], side, layers_[i].from_below);

@@ -13,19 +13,21 @@
 
 namespace sunder::app {
 
-bool Ended::crashed() const {
+bool ProcessResult::crashed() const {
   return signal == SIGABRT || signal == SIGSEGV || signal == SIGBUS || signal == SIGFPE ||
          signal == SIGILL;
 }
 
-std::string Ended::how() const {
+std::string ProcessResult::description() const {
   if (signal == 0) return "exit code " + std::to_string(exit_code);
   return (crashed() ? "crashed: " : "ended by ") + std::string(strsignal(signal));
 }
 
-Ended run_apart(const std::function<int()>& work) { return run_apart(std::span(&work, 1)).front(); }
+ProcessResult run_in_child(const std::function<int()>& work) {
+  return run_in_child(std::span(&work, 1)).front();
+}
 
-std::vector<Ended> run_apart(std::span<const std::function<int()>> works) {
+std::vector<ProcessResult> run_in_child(std::span<const std::function<int()>> works) {
   std::vector<pid_t> children;
   for (const std::function<int()>& work : works) {
     const pid_t parent = getpid(), child = fork();
@@ -39,7 +41,7 @@ std::vector<Ended> run_apart(std::span<const std::function<int()>> works) {
     }
     children.push_back(child);
   }
-  std::vector<Ended> ended;
+  std::vector<ProcessResult> ended;
   for (std::size_t i = 0; i < children.size(); ++i) {
     int status = 0;
     while (waitpid(children[i], &status, 0) < 0 && errno == EINTR) {

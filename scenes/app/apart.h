@@ -1,5 +1,4 @@
-// Work in a process of its own, so that a crash is a result of it and takes nothing else with it,
-// and its memory and its time are its own.
+// Runs work in child processes, which isolates its crashes, and its memory and time.
 #pragma once
 
 #include <functional>
@@ -9,22 +8,22 @@
 
 namespace sunder::app {
 
-/// How a process ended.
-struct Ended {
+/// The exit code or signal that ended a process.
+struct ProcessResult {
   int exit_code = 0;
-  int signal = 0;  ///< That ended it; 0: none did.
+  int signal = 0;  ///< Signal that ended it; 0 if none did.
 
-  /// By a mistake of its own, and not because somebody ended it.
+  /// Returns true if the signal is that of a fault in the process, such as SIGSEGV or SIGABRT.
   bool crashed() const;
-  /// "crashed: ...", "ended by ..." or "exit code ...".
-  std::string how() const;
+  /// Returns "crashed: ...", "ended by ..." or "exit code ...".
+  std::string description() const;
 };
 
-/// Does the work, which answers an exit code, in a copy of this process, which must have begun no
-/// threads; the copy ends with this one, and when this one has caught a stop signal (run.h). Waits
-/// for it. Throws FileError if there can be none.
-Ended run_apart(const std::function<int()>& work);
-/// Does all of it at once.
-std::vector<Ended> run_apart(std::span<const std::function<int()>> works);
+/// Runs `work`, which returns an exit code, in a fork of this process and waits for it. This
+/// process must have started no threads. The child is killed if this process ends or has caught a
+/// stop signal (run.h). Throws FileError if no process can be started.
+ProcessResult run_in_child(const std::function<int()>& work);
+/// Runs all of `works` at the same time, each in a fork of this process. Otherwise as above.
+std::vector<ProcessResult> run_in_child(std::span<const std::function<int()>> works);
 
 }  // namespace sunder::app

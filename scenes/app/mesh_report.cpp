@@ -80,11 +80,11 @@ std::size_t write_solids(const std::string& output, const std::vector<Compound>&
                          const std::vector<Material>& materials, std::vector<Paint> paints,
                          std::optional<double> explode, Walls walls) {
   if (output.ends_with(".png")) {
-    constexpr double kApart = 0.3;  // that cracks are seen
-    draw_solids(output, solids, materials, std::move(paints), explode.value_or(kApart));
+    constexpr double kDefaultExplode = 0.3;  // makes cracks visible
+    draw_solids(output, solids, materials, std::move(paints), explode.value_or(kDefaultExplode));
     return 0;
   }
-  std::map<Picture, Picture> normals;  // what other programs take for relief
+  std::map<Picture, Picture> normals;  // normal maps, as other programs read no height maps
   for (Paint& paint : paints) {
     if (!paint.relief) continue;
     Picture& known = normals[paint.relief];

@@ -10,7 +10,7 @@
 namespace sunder::app {
 namespace {
 
-/// Looks at a box from the front, a little from above and from the right, so that all of it shows.
+/// Returns a view of a whole box from the front, a little from above and from the right.
 View view_of(const Box& box) {
   View view;
   const double radius = 0.5 * box.extent().norm();

@@ -1,4 +1,4 @@
-// sunder simulate: a run without pictures, with its figures and its state hash.
+// sunder simulate: runs a scene without pictures, and reports its figures and state hash.
 #include <cstdio>
 #include <optional>
 
@@ -41,17 +41,17 @@ int simulate(const SimulateOptions& options) {
   const int stopped = pump_until_stopped(frames, sinks);
   if (!options.trace.empty()) {
     write_text(options.trace, format_trace(take_trace()));
-    options.say("wrote " + options.trace + ": open it at ui.perfetto.dev\n");
+    options.print("wrote " + options.trace + ": open it at ui.perfetto.dev\n");
   }
   if (const std::string warning = statistics.limits_warning(); !warning.empty())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  options.say(statistics.table() + "state hash " + hash.hex() + "\n");
+  options.print(statistics.table() + "state hash " + hash.hex() + "\n");
   options.write_json(statistics.json(hash.hex(), true));
-  if (writer) options.say("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
+  if (writer) options.print("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
   if (stopped != 0 || !verifier) return stopped;
   const std::string same = std::to_string(verifier->same()) + " frames are those of the take\n";
   if (verifier->difference().empty()) {
-    options.say(same);
+    options.print(same);
     return 0;
   }
   std::fprintf(stderr, "failed: differs from %s at %s; before, %s", options.verify.c_str(),

@@ -1,4 +1,4 @@
-// What a scene file may say. Defaults are those of the objects the keys are stored in.
+// The tables and keys of a scene file. Defaults are those of the objects that keys are stored in.
 #include "scenes/file/schema.h"
 
 namespace sunder::scenes {

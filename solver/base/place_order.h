@@ -1,4 +1,4 @@
-// An order in which what is near each other in the world is near each other.
+// Spatial sorting along a Morton curve, so that neighbours in space are close in memory.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,12 @@
 
 namespace sunder::solver {
 
-/// The cell's number along a curve through space (Morton 1966), which begins again every 1024
-/// cells.
+/// Returns the Morton code (Morton 1966) of a cell; it repeats every 1024 cells along each axis.
 std::uint32_t place_key(std::uint32_t x, std::uint32_t y, std::uint32_t z);
-/// Sorts `order`, which holds numbers of `keys`, by key; equals stay in their order.
+/// Sorts `order`, which holds indices into `keys`, by key; stable.
 void sort_by_key(std::span<const std::uint32_t> keys, std::vector<std::uint32_t>& order);
-/// Sorts numbers of positions by place_key() in cells of 0.25 m, so it begins again every 256 m;
-/// equals stay in their order.
+/// Sorts `order`, which holds indices into `position_W`, by the place_key() of their cells of 0.25
+/// m, which repeats every 256 m; stable.
 void sort_by_place(std::span<const Vec3f> position_W, std::vector<std::uint32_t>& order);
 
 }  // namespace sunder::solver

@@ -16,7 +16,7 @@ class DebrisAndDust final : public Particles {
         dust_(options.limits.dust, options.gravity_W, options.air_cells) {}
 
   void emit(std::span<const Emission> faces) override {
-    const Shares shares = solver::shares(faces, debris_, dust_);
+    const CapacityShares shares = capacity_shares(faces, debris_, dust_);
     for (const Emission& face : faces) {
       Random random(seed_, next_stream_++);
       crumble(face, shares, random, debris_, dust_);
@@ -51,7 +51,8 @@ class DebrisAndDust final : public Particles {
 
  private:
   std::uint64_t seed_;
-  std::uint64_t next_stream_ = 0;  ///< One a face or chip: what one draws changes no other.
+  /// Next random stream; each face and chip has its own, so that their draws are independent.
+  std::uint64_t next_stream_ = 0;
   Debris debris_;
   Dust dust_;
 };

@@ -1,15 +1,17 @@
-// Every number of the rigid solver that somebody has tuned, by the rule it belongs to: what each
-// rule buys is in docs/ablation.md. What is mathematics, rounding, or room for work and memory
-// stays where it is used. tests/check_tolerances.py counts them.
+// Every tuned number of the rigid solver, by the rule that uses it; docs/ablation.md has the
+// measured effect of each rule. Constants of mathematics, of rounding and of memory are defined
+// where they are used. tests/check_tolerances.py checks that tuned numbers are here and commented.
 //
-// Lengths are shares of the inner radius of the smaller shape of a contact, unless they say
-// otherwise; speeds and times are in those of falling (engine/base/froude.h, docs/decisions/034).
+// A length is a fraction of the inner radius of the smaller shape of a contact, unless its comment
+// says otherwise. Speeds and times are multiples of the speed and time of falling by a body's size
+// (engine/base/froude.h, docs/decisions/034).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-/// Numbers change in the copy of the solver that ablation_bench is linked with.
+/// Makes a number constant, or a variable in the copy of the solver that ablation_bench changes. A
+/// constant that is a reference to another changes with it.
 #ifdef SUNDER_ABLATION
 #define SUNDER_TUNED inline
 #else
@@ -20,104 +22,162 @@ namespace sunder::solver {
 
 // Softness of contacts (decision 003).
 
-/// Contact frequency times substep: two sweeps keep up with it where pieces touch in a point or
-/// two, as rubble does. Of joints, the share of an error that a substep takes out.
+/// Frequency of a contact of one or two points, times the substep. Two sweeps solve contacts of
+/// this stiffness in rubble, where pieces touch in one or two points.
 SUNDER_TUNED double kStiffness = 0.25;
-/// Of faces, whose points are springs side by side, or a wall makes standing waves; friction
-/// between them is half as stiff as a point.
+/// Frequency of a contact of three or more points, times the substep: its points are springs in
+/// parallel, and a stiffer wall has standing waves. Their friction has half of kStiffness.
 SUNDER_TUNED double kFaceStiffness = 0.18;
-SUNDER_TUNED double kDampingRatio = 5;  ///< To critical.
-/// Fastest correction of an overlap, in speeds of falling; of joints, by the reach.
+SUNDER_TUNED double kDampingRatio = 5;  ///< Damping of a contact over critical damping.
+/// Maximum speed at which an overlap is corrected, in speeds of falling by the inner radius.
 SUNDER_TUNED double kPush = 4;
 
-// Stiffening: springs go by the mass they hold, so a pebble that boulders press into a corner sinks
-// in by a share of its size. What gives way by more gets stiffer; slowly, or an impact would be
-// thrown back by a spring that hardened while it was compressed (decision 031).
+// Stiffening: the stiffness of a contact follows from the mass of its bodies, so boulders would
+// press a pebble into a corner by a fraction of its size. A contact that is compressed by more than
+// kMostGive becomes stiffer; slowly, since a spring that hardens while an impact compresses it
+// would throw the bodies back (decision 031).
 
-SUNDER_TUNED float kMostGive = 0.01f;        ///< Softer than this, a contact gets stiffer.
-SUNDER_TUNED float kLeastCompliance = 0.1f;  ///< Of the softness: beyond, sweeps do not keep up.
-/// Of it, for what is not pinched: what stands on it bounces at 0.3.
+SUNDER_TUNED float kMostGive = 0.01f;  ///< Compression above which a contact becomes stiffer.
+/// Minimum compliance of a contact of a pinched body, as a fraction of its unloaded compliance. The
+/// sweeps do not converge at a lower one.
+SUNDER_TUNED float kLeastCompliance = 0.1f;
+/// Minimum compliance of a contact of any other body: a body on such contacts bounces at 0.3.
 SUNDER_TUNED float kLeastProp = 0.5f;
-SUNDER_TUNED float kComplianceStep = 0.97f;  ///< Of it, a step.
-/// Loaded manifolds from which on a piece is pinched; a pebble under a column, held by two, would
-/// bounce off contacts that get much stiffer.
+/// Factor by which the compliance of a contact changes in a step, at most.
+SUNDER_TUNED float kComplianceStep = 0.97f;
+/// Number of loaded manifolds from which a body counts as pinched. A pebble under a column has two,
+/// and would bounce off contacts as stiff as kLeastCompliance.
 SUNDER_TUNED std::uint8_t kPinched = 3;
 
-// Rest.
+// Rest. These speeds are multiples of g·dt, the speed that gravity adds in a step.
 
-/// In g·dt, of a step or a substep: what is slower rests. It may bear a load from the first step on
-/// (decision 023), and does not rebound; what moves twice as fast is watched for energy (029), and
-/// no slower impact is looked for (036).
+/// Speed below which a new contact is at rest, and gets a static warm start (decision 023).
 SUNDER_TUNED double kSlowFalls = 2;
-/// In a step, of the inner radius or of a body's reach, and in rad: what moves less lies still, and
-/// needs no look, no new arms and no gyroscopic term.
+/// Closing speed below which a contact does not rebound; multiple of g·h, h being the substep.
+SUNDER_TUNED const double& kReboundSpeed = kSlowFalls;
+/// Speed of a body above which the energy guard is active (decision 029).
+SUNDER_TUNED double kGuardedSpeed = 2 * kSlowFalls;
+/// Minimum closing speed of an impact that is propagated (decision 036).
+SUNDER_TUNED double kLeastImpactSpeed = 2 * kSlowFalls;
+
+/// Motion of two bodies against each other in a step below which their contact is not tested again.
 SUNDER_TUNED float kStill = 1e-6f;
+/// Motion in a step below which the lever arms of a contact are kept; for the check of all bodies,
+/// a fraction of a body's reach.
+SUNDER_TUNED const float& kArmMotion = kStill;
+/// Rotation in a step below which a body has no gyroscopic term, rad.
+SUNDER_TUNED const float& kStillAngle = kStill;
 
 // The static warm start (decision 023).
 
-SUNDER_TUNED double kMostLeft = 0.01;   ///< Of the energy of a substep of free fall.
-SUNDER_TUNED float kLeastSlope = 0.2f;  ///< Cosine to the vertical of a normal that bears weight.
+/// Maximum kinetic energy that a supported body has left, over that of a substep of free fall.
+SUNDER_TUNED double kMostLeft = 0.01;
+/// Minimum cosine between the vertical and the normal of a contact that supports weight.
+SUNDER_TUNED float kLeastSlope = 0.2f;
 
-// Where shapes touch.
+// Contact distances and overlaps (decisions 030, 031).
 
-/// Contact before touch, and what rests is no farther from one (decision 023); how far a point may
-/// slide that is kept (033). Boxes have room for three.
+/// Distance within which shapes have a contact before they touch, besides their motion in the step.
 SUNDER_TUNED float kMargin = 0.05f;
-/// An overlap of faces that is no area (decision 030), and a gap that is none to what rests (023).
+/// Distance that a box of the broad phase has around its shape; a fat box has three more.
+SUNDER_TUNED const float& kBoxMargin = kMargin;
+/// Overlap up to which two bodies that pass each other have no contact in the way.
+SUNDER_TUNED const float& kPassingOverlap = kMargin;
+/// Distance that a kept contact point may slide (decision 033).
+SUNDER_TUNED const float& kKeptPointSlide = kMargin;
+/// Maximum gap or overlap of a new contact at rest (decision 023).
+SUNDER_TUNED const float& kRestingDistance = kMargin;
+
+/// Overlap of two faces up to which they touch without area (decision 030).
 SUNDER_TUNED float kSliver = 1e-3f;
-/// Points so far above the lowest still count (031); half as much must another axis be better.
+/// Distance from a facet's sides within which a contact point is on the facet.
+SUNDER_TUNED const float& kFacetTolerance = kSliver;
+/// Gap at which a ball that is cast counts as touching.
+SUNDER_TUNED const float& kBallImpactGap = kSliver;
+/// Gap that the static warm start takes for none (decision 023).
+SUNDER_TUNED const float& kClosedGap = kSliver;
+
+/// Distance from the deepest point within which points of a contact count as deep (decision 031).
 SUNDER_TUNED float kLayer = 0.02f;
-SUNDER_TUNED float kApart = 0.5f;  ///< Cosine between two faces that leave no area.
-/// Inner radius of a sliver, at least, of its reach.
+/// Half of this is the separation by which an axis must be better than a preferred one.
+SUNDER_TUNED const float& kAxisPreference = kLayer;
+SUNDER_TUNED float kApart = 0.5f;  ///< Maximum cosine between two faces that touch without area.
+/// Minimum inner radius of a hull as a tolerance, as a fraction of its reach.
 SUNDER_TUNED float kLeastInner = 0.02f;
-/// A contact as deep is deep, so are shapes whose middles are nearer by as much than balls that
-/// touch (decision 020), and no seat is farther from a touch (023).
+
+/// Overlap from which a contact is deep (decision 020).
 SUNDER_TUNED float kDeep = 0.1f;
+/// Overlap of two balls of the inner radii from which shapes of a dense cluster may be skipped; a
+/// fraction of the sum of the radii.
+SUNDER_TUNED const float& kDenseOverlap = kDeep;
+/// Maximum distance between the rest separation of a contact and touch (decision 023).
+SUNDER_TUNED const float& kMaxRestOffset = kDeep;
 
-// Manifolds that are kept, and points (decision 033).
+// Manifolds and points that are kept (decision 033), and casting.
 
-/// Farther, and a manifold is made anew; or turned by as much at three inner radii.
+/// Motion since a manifold was built, from which the manifold is built again; or a rotation that
+/// moves a point at three inner radii by this distance.
 SUNDER_TUNED float kReuse = 0.03f;
-/// Is elsewhere: points as far from each other are others, and what moves as far in a step is
-/// looked ahead for; what moves half as far keeps no old points, and what closes by as much is an
-/// impact (036).
+/// Motion in a step above which a ball is cast: its normal depends on where it touches.
+SUNDER_TUNED const float& kBallCastingMotion = kReuse;
+/// Motion in a step above which a pair is cast (continuous collision).
 SUNDER_TUNED float kFar = 0.5f;
+/// Distance between contact points of two steps above which they are different points.
+SUNDER_TUNED const float& kPointMatchDistance = kFar;
+/// Motion in a step above which no old contact points are kept.
+SUNDER_TUNED float kKeptPointMotion = 0.5f * kFar;
+/// Closing in a step below which a contact is no impact (decision 036).
+SUNDER_TUNED float kImpactMotion = 0.5f * kFar;
 
-// Crowds (decision 020).
+// Dense clusters: many overlapping shapes (decision 020).
 
-/// Neighbours of a shape, and deep contacts of a body, that are looked at, about; of more, a share.
+/// Number of neighbours of a shape above which only some of its pairs are tested.
 SUNDER_TUNED std::size_t kCrowd = 24;
+/// Number of deep contacts of a body above which only some of them are kept.
+SUNDER_TUNED const std::size_t& kMaxDeepContacts = kCrowd;
 
-// Rules without a number at which they are off, for ablation_bench: the guard of energy (029),
-// strikes (035), conjugate gradients (028), points that are kept (033), looking ahead for impacts.
+// Switches of ablation_bench for rules that no number turns off: the energy guard (029),
+// restitution (035), conjugate gradients (028), kept points (033), casting.
 
 SUNDER_TUNED bool kGuards = true, kStrikes = true, kAccelerates = true, kKeeps = true,
                   kLooksAhead = true;
 
-// Sleep (decision 016). Rest is judged by the way, not by speed: a light piece pinched by heavy
-// ones trembles on the spot at centimetres a second for ever, and would keep its neighbours awake.
-// No step can tell what is slower than what gravity does in it, nor a few steps what is about to
-// tip.
+// Sleep (decision 016). Rest is decided by drift and not by speed alone: a light piece pinched by
+// heavy ones vibrates in place at centimetres a second, and would keep its neighbours awake. A
+// speed below that of gravity in a step cannot be measured, nor tipping in a few steps.
 
-/// Of the reach, within the time of rest. The load of a body also moves by no more than this while
-/// the contacts that it lost carried no larger share of its weight.
+/// Maximum drift of a body during the time of rest, as a fraction of its reach.
 SUNDER_TUNED double kDrift = 0.005;
-SUNDER_TUNED double kSlow = 0.25;     ///< Speeds of falling; a third of it is a hit.
-SUNDER_TUNED double kRestTime = 2.6;  ///< Times of falling (half a second for a piece of 35 cm).
-SUNDER_TUNED double kRestSteps = 20;  ///< At least so many.
-/// Of the sleeper's weight: what wakes it, beyond as much of what each contact carried. Where
-/// stones press each other with many times their weight, one that wakes shifts a fifth of that on;
-/// less than this, and waking goes round for ever.
+/// Weight that the lost contacts of a body at rest may have carried, as a fraction of its weight: a
+/// smaller one moves the body by no more than kDrift.
+SUNDER_TUNED const double& kMaxLostSupport = kDrift;
+SUNDER_TUNED double kSlow = 0.25;  ///< Maximum speed of a body at rest, in speeds of falling.
+/// Closing speed from which a contact wakes a sleeping body, in speeds of falling.
+SUNDER_TUNED double kHitSpeed = kSlow / 3;
+/// Minimum time of rest before sleep, in times of falling: half a second for a piece of 35 cm.
+SUNDER_TUNED double kRestTime = 2.6;
+SUNDER_TUNED double kRestSteps = 20;  ///< Minimum time of rest before sleep, in steps.
+/// Change of the contact forces on a sleeping body that wakes it, as a fraction of its weight. In
+/// heaps whose stones press each other with many times their weight, a stone that wakes changes
+/// those forces by a fifth, and with a smaller value wakes never end.
 SUNDER_TUNED float kChange = 0.3f;
+/// Change of a contact's force that does not count, as a fraction of the force.
+SUNDER_TUNED const float& kIgnoredForceChange = kChange;
+/// Minimum force, as a fraction of a body's weight, with which another body supports it.
+SUNDER_TUNED const float& kSupportingForce = kChange;
 
 // Joints (decision 026).
 
-/// Of the stiffness of a tension in a substep: from here damping grows by more than the tension
-/// does, since what bends over many links is damped less than what bends at every one.
+/// Fraction of a joint's error that a substep corrects.
+SUNDER_TUNED const double& kJointCorrection = kStiffness;
+/// Maximum speed at which an error of a joint is corrected, in speeds of falling by the reach.
+SUNDER_TUNED const double& kMaxJointPush = kPush;
+/// Stiffness of a tension, h²·K/I, above which damping grows faster than the tension: a chain that
+/// bends over many links is damped less than one that bends at each link.
 SUNDER_TUNED double kStiffest = 24;
 
-// Spins.
+// Free rotation.
 
-SUNDER_TUNED double kLargestAngle = 0.1;  ///< Rad in one midpoint step.
+SUNDER_TUNED double kLargestAngle = 0.1;  ///< Maximum rotation in one midpoint step, rad.
 
 }  // namespace sunder::solver

@@ -1,4 +1,5 @@
-// A scripted Physics and Breaker: the world's stages under test, without solver or fracture.
+// A scripted Physics and Breaker: the world's stages under test, with the solver's impact probe
+// but without its motion, and without fracture.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "engine/world/simulation.h"
+#include "solver/impact/event_probe.h"
 
 namespace sunder::testing {
 
@@ -58,6 +60,9 @@ class ScriptedPhysics : public Physics {
                          approach.normal_W, approach.separation_m});
     }
     return touches;
+  }
+  std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
+    return solver::make_event_probe(std::move(cluster));
   }
   void set_state(BodyId id, const BodyState& state) override {
     if (!bodies[id.slot].desc.is_static) bodies[id.slot].state = state;

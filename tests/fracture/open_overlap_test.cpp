@@ -19,21 +19,26 @@ namespace {
 
 constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40;
 constexpr double kStrength_Pa = 1e6;
+constexpr MaterialIndex kStone(0);
 
 struct Result {
   Compound stays;
   std::vector<Compound> loose;
 };
 
-/// Asks until the answer is settled, as a simulation does.
+/// Asks until the answer is settled, as a simulation does; loads act on what is nearest to them
+/// until that comes off.
 Result under_load(const Compound& compound, std::span<const Material> materials,
                   const std::vector<Load>& loads, const Vec3& gravity_R) {
   Structure structure(compound);
   Result result;
   StressMemoryPtr memory;
   for (int step = 0; step < 50; ++step) {
-    std::vector<Load> left = loads;
-    std::erase_if(left, [&](const Load& load) { return !structure.has(load.convex); });
+    std::vector<Load> left;
+    for (Load load : loads) {
+      load.convex = nearest(structure, load.point_R);
+      if (result.loose.empty()) left.push_back(load);
+    }
     const StressAnswer answer =
         break_by_stress(structure, {materials, left, gravity_R, Vec3::Zero(), kPlenty, memory});
     structure.apply(answer.edit);
@@ -60,8 +65,8 @@ double volume_of(const Result& result) {
 
 /// A post of 0.4 m x 0.4 m reaches 0.2 m into a slab above it; the slab is held by its top.
 Compound slab_and_post(bool post_first) {
-  const Part slab{make_box(Vec3(-1, 0, -1), Vec3(1, 0.5, 1)), {}, anchor_side(1, true)};
-  const Part post{make_box(Vec3(-0.2, -1.3, -0.2), Vec3(0.2, 0.2, 0.2)), {}};
+  const Part slab{make_box(Vec3(-1, 0, -1), Vec3(1, 0.5, 1)), kStone, anchor_side(1, true)};
+  const Part post{make_box(Vec3(-0.2, -1.3, -0.2), Vec3(0.2, 0.2, 0.2)), kStone};
   return post_first ? make_compound({post, slab}) : make_compound({slab, post});
 }
 
@@ -116,7 +121,7 @@ Compound roof_on_posts(bool roof_first) {
                        MaterialIndex(0), anchor_side(1, false)});
     }
   }
-  Part roof{make_box(Vec3(-2.5, 2, -2), Vec3(2.5, 2.3, 2)), MaterialIndex(1)};
+  Part roof{make_box(Vec3(-2.5, 2, -2), Vec3(2.5, 3, 2)), MaterialIndex(1)};
   parts.insert(roof_first ? parts.begin() : parts.end(), std::move(roof));
   return make_compound(std::move(parts));
 }
@@ -128,14 +133,14 @@ TEST(OpenOverlap, ARoofHeldByOverlapsAloneFallsWhenItIsTurnedOverAndTooHeavy) {
     materials[1] = materials[0];
     materials[1].density_kg_m3 = 9000;
     const Compound compound = roof_on_posts(roof_first);
-    // The later part is cut: posts below the roof, or the roof around the posts, whose sides then
-    // hold it as well.
-    const double section_m2 = 4 * (0.2 * 0.2 + (roof_first ? 0 : 4 * 0.2 * 0.1));
-    const double roof_kg = 9000 * 5 * 4 * 0.3;
+    // The later part is cut: posts below the roof, which then tears off at 0.95 of this load, or
+    // the roof around the posts, whose bonds then bend: 0.55.
+    const double section_m2 = 4 * 0.2 * 0.2;
+    const double roof_kg = 9000 * 5 * 4 * 1.0;
     const double falls_m_s2 = kStrength_Pa * section_m2 / roof_kg;
     const double mass_kg = weigh(compound, materials).mass_kg;
     const Result held = under_load(compound, materials, {}, Vec3(0, 0.5 * falls_m_s2, 0));
-    const Result torn = under_load(compound, materials, {}, Vec3(0, 1.5 * falls_m_s2, 0));
+    const Result torn = under_load(compound, materials, {}, Vec3(0, 1.2 * falls_m_s2, 0));
     EXPECT_TRUE(held.loose.empty());
     EXPECT_FALSE(torn.loose.empty());
     for (const Result* result : {&held, &torn}) {
@@ -149,9 +154,9 @@ TEST(OpenOverlap, ARoofHeldByOverlapsAloneFallsWhenItIsTurnedOverAndTooHeavy) {
 
 TEST(OpenOverlap, ABeamThroughAWallIsHeldByTheSurfaceInIt) {
   // 0.2 m x 0.2 m, through a wall of 0.3 m: a surface of 0.24 m² in shear.
-  const Compound compound =
-      make_compound({{make_box(Vec3(-1, -1, -0.15), Vec3(1, 1, 0.15)), {}, anchor_side(1, false)},
-                     {make_box(Vec3(-0.1, -0.1, -1), Vec3(0.1, 0.1, 1)), {}}});
+  const Compound compound = make_compound(
+      {{make_box(Vec3(-1, -1, -0.15), Vec3(1, 1, 0.15)), kStone, anchor_side(1, false)},
+       {make_box(Vec3(-0.1, -0.1, -1), Vec3(0.1, 0.1, 1)), kStone}});
   std::vector<Material> materials = weightless();
   materials[0].shear_Pa = kStrength_Pa;
   const double slips_N = materials[0].shear_Pa * 4 * 0.2 * 0.3;

@@ -14,21 +14,20 @@
 namespace sunder {
 namespace {
 
-/// Names with the number's digits filled up, so that they sort.
+/// Returns a name with leading zeros, so that names sort by index.
 std::string part_name(std::size_t index, std::size_t count) {
   const std::string digits = std::to_string(index), most = std::to_string(count - 1);
   return "piece_" + std::string(most.size() - digits.size(), '0') + digits;
 }
 
-/// The number of a face's material in a model. Paints follow two materials for each of the scene's.
+/// Returns the index of a face's material: two per material of the scene, then those from files.
 std::uint32_t material_of(const PolygonMesh::Face& face, MaterialIndex material,
                           std::uint32_t first_paint) {
   if (face.kind == FaceKind::kInterior) return 2 * material.value + 1;
   return face.mark > 0 ? first_paint + face.mark - 1 : 2 * material.value;
 }
 
-/// The shells of a piece; several where all walls are kept. `is_walled` says if they are kept as
-/// they cannot be removed.
+/// Returns the shells of a piece. Sets `is_walled` to 1 if inner walls could not be removed.
 std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_paint, Walls walls,
                                     std::uint8_t& is_walled) {
   std::vector<std::shared_ptr<const PolygonMesh>> meshes;

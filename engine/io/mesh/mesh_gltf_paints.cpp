@@ -28,7 +28,8 @@ Picture GltfPaints::used(const json& use) {
   if (use.empty() || data_.index(use, "texCoord", 64, 0) != 0) return nullptr;
   const json& textures = data_.array(data_.document(), "textures");
   const json& texture = textures[data_.index(use, "index", textures.size())];
-  if (!texture.is_object() || !texture.contains("source")) return nullptr;  // an extension's
+  // source of an extension
+  if (!texture.is_object() || !texture.contains("source")) return nullptr;
   const json& images = data_.array(data_.document(), "images");
   return picture(data_.index(texture, "source", images.size()));
 }
@@ -45,7 +46,7 @@ Picture GltfPaints::picture(std::size_t image) {
     const auto uri = given["uri"].get<std::string>();
     try {
       bytes = data_.load_uri(uri);
-    } catch (const InputError&) {  // not there, or out of its folder
+    } catch (const InputError&) {  // missing, or outside the folder
       missing_.push_back(uri.starts_with("data:") ? "one within it" : uri);
     }
   }

@@ -1,4 +1,4 @@
-// What the materials of a glTF look like.
+// Appearance of the materials of a glTF file.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,25 @@
 
 namespace sunder {
 
+/// Reads materials and their images.
 class GltfPaints {
  public:
   explicit GltfPaints(const GltfData& data) : data_(data) {}
 
-  /// Base colour, gloss and normals, what it does not say as the format has it; none where a
-  /// material says nothing of these. A picture that is not there, or uses other texture coordinates
-  /// than the first, is left out.
+  /// Returns base colour, roughness, metalness and normal map, with glTF's defaults; nothing if the
+  /// material has neither. An image that is missing, or that uses other texture coordinates than
+  /// the first, is left out.
   std::optional<Paint> of(const nlohmann::json& material);
-  /// Returns the names of the pictures that were sought and are not there.
+  /// Returns the names of missing images.
   const std::vector<std::string>& missing() const { return missing_; }
 
  private:
-  /// What a use of a texture shows; null if that is not there, or is used otherwise.
+  /// Returns the image of a texture reference; null if missing or for other texture coordinates.
   Picture used(const nlohmann::json& use);
   Picture picture(std::size_t image);
 
   const GltfData& data_;
-  std::map<std::size_t, Picture> pictures_;  ///< By image.
+  std::map<std::size_t, Picture> pictures_;  ///< By index of the image.
   std::vector<std::string> missing_;
 };
 

@@ -6,7 +6,7 @@
 namespace sunder {
 namespace {
 
-/// What a vertex line holds after its position, from the keyword's prefix.
+/// Data of a vertex after its position, by the keyword's prefix.
 struct OffLayout {
   bool texture = false, color = false, normal = false;
 };
@@ -35,7 +35,7 @@ OffLayout layout_of(std::string_view word, const MeshText& text) {
 
 std::size_t to_count(std::string_view word, const MeshText& text, const MeshSource& source) {
   const std::int64_t count = text.to_integer(word);
-  // A vertex, face or corner takes two characters at least.
+  // A vertex, face or corner takes at least two characters.
   if (count < 0 || static_cast<std::size_t>(count) > source.bytes.size() / 2) {
     text.fail("a count of " + std::to_string(count) +
               " is more than the file can hold: it is cut short or corrupt");

@@ -5,11 +5,11 @@
 namespace sunder {
 namespace {
 
-constexpr std::uint32_t kLeastRange = 1u << 24;
+constexpr std::uint32_t kMinRange = 1u << 24;
 
 }  // namespace
 
-/// Moves the highest byte out; a run of 0xff waits for a carry.
+/// Outputs the highest byte; bytes 0xff are held back until a carry is decided.
 void BitWriter::shift() {
   const auto low = static_cast<std::uint32_t>(low_);
   const bool carry = (low_ >> 32) != 0;
@@ -38,20 +38,21 @@ void BitWriter::put(BitModel& model, bool bit) {
     range_ = zero;
   }
   model.learn(bit);
-  for (; range_ < kLeastRange; range_ <<= 8) shift();
+  for (; range_ < kMinRange; range_ <<= 8) shift();
 }
 
 void BitWriter::put_plain(std::uint32_t bits, int count) {
   for (int b = count - 1; b >= 0; --b) {
     range_ >>= 1;
     if ((bits >> b & 1) != 0) low_ += range_;
-    for (; range_ < kLeastRange; range_ <<= 8) shift();
+    for (; range_ < kMinRange; range_ <<= 8) shift();
   }
 }
 
 void BitWriter::finish(ByteWriter& out) {
   for (int i = 0; i < 5; ++i) shift();
-  while (!bytes_.empty() && bytes_.back() == std::byte{}) bytes_.pop_back();  // as reads go on
+  // the reader supplies these zeros
+  while (!bytes_.empty() && bytes_.back() == std::byte{}) bytes_.pop_back();
   out.put(static_cast<std::uint32_t>(bytes_.size()));
   out.bytes.insert(out.bytes.end(), bytes_.begin(), bytes_.end());
 }
@@ -66,7 +67,7 @@ std::uint32_t BitReader::next_byte() {
 }
 
 void BitReader::shift() {
-  for (; range_ < kLeastRange; range_ <<= 8) code_ = code_ << 8 | next_byte();
+  for (; range_ < kMinRange; range_ <<= 8) code_ = code_ << 8 | next_byte();
 }
 
 bool BitReader::take(BitModel& model) {

@@ -1,8 +1,8 @@
-// Bits and numbers as few bytes: a range coder whose models learn from what went by.
+// Adaptive range coding of bits and numbers.
 //
-// Read first: BitModel, then NumberModel. Writer and reader keep the same models in step, so a
-// number that is what its kind mostly is costs a fraction of a bit (Martin 1979; the binary form
-// with carries held back is that of LZMA).
+// Begin with BitModel, then NumberModel. Writer and reader update equal models, so that a frequent
+// value costs a fraction of a bit (Martin 1979; the binary form with delayed carries is that of
+// LZMA).
 #pragma once
 
 #include <array>
@@ -14,33 +14,34 @@
 
 namespace sunder {
 
-/// How likely a bit is to be 0, learnt from those so far: fast at first, then slowly.
+/// Adaptive estimate of the probability that a bit is 0; adapts fast at first, then slowly.
 class BitModel {
  public:
-  /// In 65536ths, never none and never all.
+  /// Probability of 0, in 65536ths; never 0 or 1.
   std::uint32_t zero() const { return zero_; }
   void learn(bool bit) {
-    const int rate = rate_ < kSlowest ? rate_++ : kSlowest;
+    const int rate = rate_ < kMaxRate ? rate_++ : kMaxRate;
     zero_ = static_cast<std::uint16_t>(bit ? zero_ - (zero_ >> rate)
                                            : zero_ + ((65536u - zero_) >> rate));
-    if (zero_ < kLeast) zero_ = kLeast;
-    if (zero_ > 65536 - kLeast) zero_ = static_cast<std::uint16_t>(65536 - kLeast);
+    if (zero_ < kMinProbability) zero_ = kMinProbability;
+    if (zero_ > 65536 - kMinProbability)
+      zero_ = static_cast<std::uint16_t>(65536 - kMinProbability);
   }
 
  private:
-  static constexpr std::uint8_t kSlowest = 6;
-  static constexpr std::uint16_t kLeast = 64;
+  static constexpr std::uint8_t kMaxRate = 6;
+  static constexpr std::uint16_t kMinProbability = 64;
   std::uint16_t zero_ = 32768;
   std::uint8_t rate_ = 1;
 };
 
-/// One run of bits into bytes.
+/// Encodes a sequence of bits.
 class BitWriter {
  public:
   void put(BitModel& model, bool bit);
-  /// The low bits of a number that may as well be any.
+  /// Appends the low `count` bits of a number without a model.
   void put_plain(std::uint32_t bits, int count);
-  /// Appends what was put, with its length before it.
+  /// Appends the length and the encoded bytes to `out`.
   void finish(ByteWriter& out);
 
  private:
@@ -48,16 +49,16 @@ class BitWriter {
 
   std::uint64_t low_ = 0;
   std::uint32_t range_ = 0xffffffff;
-  std::uint64_t held_ = 0;  ///< Bytes 0xff behind `last_`, which a carry may still change.
+  std::uint64_t held_ = 0;  ///< Number of bytes 0xff after `last_`, which a carry may still change.
   std::byte last_{};
   bool first_ = true;
   std::vector<std::byte> bytes_;
 };
 
-/// The way back. Whatever the bytes, it reads bits, and zeros behind their end.
+/// Decodes a sequence of bits; any bytes are valid, and zeros follow their end.
 class BitReader {
  public:
-  /// Throws InputError if `in` holds no such run; its bytes are used as long as this.
+  /// Begins a sequence; throws InputError if `in` is too short. The bytes must outlive this object.
   explicit BitReader(ByteReader& in);
   bool take(BitModel& model);
   std::uint32_t take_plain(int count);
@@ -72,7 +73,8 @@ class BitReader {
   std::uint32_t code_ = 0;
 };
 
-/// Numbers that are mostly small: how many bits each has, the two below the first, the rest plain.
+/// Adaptive code of mostly small numbers: the bit length and the two bits below the highest have
+/// models, the rest has none.
 class NumberModel {
  public:
   void put(BitWriter& out, std::uint32_t number);
@@ -80,7 +82,8 @@ class NumberModel {
 
  private:
   std::array<BitModel, 32> longer_;
-  std::array<std::array<BitModel, 3>, 33> below_;  ///< By length: the next bit, and that after it.
+  /// By bit length: the second highest bit, and the third for either value of the second.
+  std::array<std::array<BitModel, 3>, 33> below_;
 };
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// Takes: recorded runs. One is written while a run goes on, and played from any frame on.
+// Recordings of runs ("takes"): written during a run, and played from any frame.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace sunder {
 
-/// A sink that writes a take on a thread of its own; the same frames give the same bytes. The file
-/// can be played up to the last frame that has reached it, however the run ends.
+/// A sink that writes a recording on a thread of its own; equal frames give equal bytes. The file
+/// can be played up to the last frame written, however the run ends.
 class TakeWriter final : public FrameSink {
  public:
-  /// Throws FileError if the file cannot be written.
+  /// Creates the file; throws FileError if it cannot be written.
   explicit TakeWriter(const std::filesystem::path& path);
   ~TakeWriter() override;
-  /// Throws FileError if an earlier frame could not be written.
+  /// Queues a frame; throws FileError if an earlier frame could not be written.
   void take(const FramePtr& frame) override;
-  /// Waits until all is written, and adds the index.
+  /// Waits until all frames are written, then writes the index.
   void finish() override;
-  /// So far; all of the file after finish().
+  /// Returns the number of bytes written; complete after finish().
   std::uint64_t bytes() const;
 
  private:
@@ -30,25 +30,25 @@ class TakeWriter final : public FrameSink {
   std::unique_ptr<Recording> recording_;
 };
 
-/// A source of what a take holds. What is cut short or corrupt is played as far as it can be read,
-/// and damage() says what is wrong.
+/// A source that plays a recording. A truncated or corrupt file is played as far as it can be read,
+/// and damage() describes the fault.
 class TakeReader final : public FrameSource {
  public:
-  /// Throws InputError if the file cannot be read, is no take of this version, or holds no frame
-  /// that can be read.
+  /// Opens a recording; throws InputError if the file cannot be read, is not a recording of a known
+  /// version, or has no readable frame.
   explicit TakeReader(const std::filesystem::path& path);
   ~TakeReader() override;
-  /// Null at the end, or where the damage begins.
+  /// Returns the next frame; null at the end, or where the damage begins.
   FramePtr next() override;
-  /// next() will give this one, counted from 0; the last if there are fewer.
+  /// Sets the frame that next() returns, counted from 0; the last one if there are fewer.
   void seek(std::uint32_t frame);
-  /// How many there are, as far as is known: later ones may turn out to be corrupt.
+  /// Returns the number of frames as far as known: later ones may turn out to be corrupt.
   std::uint32_t frames() const;
-  /// Empty if nothing wrong has been met so far.
+  /// Returns a description of the damage found so far; empty if none.
   const std::string& damage() const;
-  /// Whether the run came to its end: else it was killed, or the file was cut short.
+  /// True if the run finished; false if it was killed, or the file is truncated.
   bool is_complete() const;
-  /// A short hash of the exact state of each body of the frame that next() gave last.
+  /// Returns a short hash of the exact state of each body of the frame that next() returned last.
   const std::vector<std::int32_t>& body_hashes() const;
 
  private:

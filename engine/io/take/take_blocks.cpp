@@ -8,7 +8,8 @@
 namespace sunder {
 namespace {
 
-constexpr int kLevel = 3;  // more costs the run more than it saves the disk
+// A higher level slows the run more than it saves space.
+constexpr int kCompressionLevel = 3;
 
 std::uint64_t hash_header(const BlockHeader& header) {
   return XXH3_64bits(&header, offsetof(BlockHeader, header_hash));
@@ -36,7 +37,7 @@ std::vector<std::byte> make_block(BlockKind kind, std::uint32_t first, std::uint
   return std::move(out.bytes);
 }
 
-bool is_sound(const BlockHeader& header) {
+bool is_valid(const BlockHeader& header) {
   return header.header_hash == hash_header(header) && header.kind >= BlockKind::kMaterials &&
          header.kind <= BlockKind::kIndex && header.content_bytes <= kMostBlockBytes &&
          header.bytes <= kMostBlockBytes;
@@ -48,7 +49,7 @@ bool matches(const BlockHeader& header, const std::vector<std::byte>& packed) {
 
 Packer::Packer() : stream_(ZSTD_createCCtx(), free_packer) {
   SUNDER_CHECK(stream_ != nullptr);
-  ZSTD_CCtx_setParameter(stream_.get(), ZSTD_c_compressionLevel, kLevel);
+  ZSTD_CCtx_setParameter(stream_.get(), ZSTD_c_compressionLevel, kCompressionLevel);
 }
 
 void Packer::restart() { ZSTD_CCtx_reset(stream_.get(), ZSTD_reset_session_only); }
@@ -80,7 +81,7 @@ std::vector<std::byte> Unpacker::unpack(const std::vector<std::byte>& packed,
     const bool stuck = in.pos == in_before && out.pos == out_before;
     if (ZSTD_isError(left) || stuck) break;
   }
-  // What the stream still holds back comes out without more input.
+  // Output that the stream still buffers needs no more input.
   while (out.pos < out.size) {
     const std::size_t before = out.pos;
     if (ZSTD_isError(ZSTD_decompressStream(stream_.get(), &out, &in)) || out.pos == before) break;

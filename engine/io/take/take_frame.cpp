@@ -1,4 +1,4 @@
-// Read first: FrameCoder::write() and read(), which mirror each other.
+// Begin with FrameCoder::write() and read(), which mirror each other.
 #include "engine/io/take/take_frame.h"
 
 #include <algorithm>
@@ -13,18 +13,19 @@
 namespace sunder {
 namespace {
 
-constexpr std::size_t kMostInstances = 1 << 24;
-constexpr double kPlaceSteps_m = 8192;
-constexpr double kTurnSteps = 4096;
-constexpr double kSpeedSteps_m_s = 2;  // no picture shows a speed
+constexpr std::size_t kMaxInstances = 1 << 24;
+constexpr double kPositionSteps = 8192;
+constexpr double kRotationSteps = 4096;
+constexpr double kSpeedSteps = 2;  // coarse: speeds are not drawn
 
-// Columns of a body: position and rotation (gliding), velocities, flags, hash, key, centre of mass;
-// by how much its key has grown since the frame before, name.
+// Columns of a body: position and rotation (extrapolated), velocities, flags, hash, key, centre of
+// mass, key less the key in the previous frame, name.
 constexpr std::size_t kBodyColumns = 25;
-constexpr std::size_t kOldBodyColumns = 23;  // without the last two
-constexpr std::size_t kBodyGlides = 7;
-// Of particles only positions: their rotations are too coarse to tell a pace from rounding.
-constexpr std::size_t kParticleGlides = 3;
+constexpr std::size_t kOldBodyColumns = 23;  // without the last two columns
+constexpr std::size_t kExtrapolatedBodyColumns = 7;
+// Only positions of particles are extrapolated: their rotations are too coarse to tell a rate of
+// change from rounding.
+constexpr std::size_t kExtrapolatedParticleColumns = 3;
 
 std::int32_t code(double value, double steps) {
   const double scaled = value * steps;
@@ -37,10 +38,10 @@ void put_code(std::int32_t*& to, const Vec3& v, double steps) {
 }
 
 void encode(const FrameBody& body, std::int32_t* to) {
-  put_code(to, body.X_WB.position, kPlaceSteps_m);
-  for (int i = 0; i < 4; ++i) *to++ = code(body.X_WB.rotation.coeffs()[i], kTurnSteps);
-  put_code(to, body.velocity_W, kSpeedSteps_m_s);
-  put_code(to, body.angular_velocity_W, kSpeedSteps_m_s);
+  put_code(to, body.X_WB.position, kPositionSteps);
+  for (int i = 0; i < 4; ++i) *to++ = code(body.X_WB.rotation.coeffs()[i], kRotationSteps);
+  put_code(to, body.velocity_W, kSpeedSteps);
+  put_code(to, body.angular_velocity_W, kSpeedSteps);
   *to++ = (body.is_static ? 1 : 0) | (body.asleep ? 2 : 0);
   *to++ = short_hash(body);
   const auto put_bits = [&](std::uint64_t bits) {
@@ -62,15 +63,15 @@ Vec3 vector_of(const std::int32_t*& from, double steps) {
 FrameBody decode_body(std::span<const std::int32_t> row, std::int32_t& hash) {
   const std::int32_t* from = row.data();
   FrameBody body;
-  body.X_WB.position = vector_of(from, kPlaceSteps_m);
+  body.X_WB.position = vector_of(from, kPositionSteps);
   for (int i = 0; i < 4; ++i) {
-    body.X_WB.rotation.coeffs()[i] = static_cast<double>(*from++) / kTurnSteps;
+    body.X_WB.rotation.coeffs()[i] = static_cast<double>(*from++) / kRotationSteps;
   }
   const double norm = body.X_WB.rotation.norm();
   body.X_WB.rotation.coeffs() = norm > 0.5 ? Eigen::Vector4d(body.X_WB.rotation.coeffs() / norm)
                                            : Eigen::Vector4d(0, 0, 0, 1);
-  body.velocity_W = vector_of(from, kSpeedSteps_m_s);
-  body.angular_velocity_W = vector_of(from, kSpeedSteps_m_s);
+  body.velocity_W = vector_of(from, kSpeedSteps);
+  body.angular_velocity_W = vector_of(from, kSpeedSteps);
   body.is_static = (*from & 1) != 0;
   body.asleep = (*from++ & 2) != 0;
   hash = *from++;
@@ -88,7 +89,7 @@ FrameBody decode_body(std::span<const std::int32_t> row, std::int32_t& hash) {
   return body;
 }
 
-/// Both lists ascend by key.
+/// Returns for each body its row in the last frame, or kNewRow; both lists ascend by key.
 std::vector<std::uint32_t> match_keys(const std::vector<FrameBody>& bodies,
                                       const std::vector<std::uint64_t>& before) {
   std::vector<std::uint32_t> rows(bodies.size(), kNewRow);
@@ -100,44 +101,47 @@ std::vector<std::uint32_t> match_keys(const std::vector<FrameBody>& bodies,
   return rows;
 }
 
-/// Whether a row may be what another was a frame ago.
-bool is_near(std::span<const std::int32_t> now, std::span<const std::int32_t> then) {
-  constexpr std::int32_t kFar = 512;  // steps of position
-  constexpr std::int32_t kTurned = 8;
+/// True if two rows may be of one particle in consecutive frames.
+bool may_match(std::span<const std::int32_t> now, std::span<const std::int32_t> then) {
+  constexpr std::int32_t kMaxPositionSteps = 512;
+  constexpr std::int32_t kMaxRotationSteps = 8;
   if (now[8] != then[8]) return false;
   for (std::size_t c = 0; c < 7; ++c) {
-    if (std::abs(std::int64_t{now[c]} - then[c]) > (c < 3 ? kFar : kTurned)) return false;
+    if (std::abs(std::int64_t{now[c]} - then[c]) > (c < 3 ? kMaxPositionSteps : kMaxRotationSteps))
+      return false;
   }
   return true;
 }
 
-/// Debris keeps its place; where a piece went, another from the end may have taken it.
+/// Returns the rows of debris in the last frame. Debris keeps its index, except that the last piece
+/// may move to the index of a removed one.
 std::vector<std::uint32_t> match_debris(const NumberTable& table, const NumberTable& before) {
   std::vector<std::uint32_t> rows(table.rows(), kNewRow);
   for (std::size_t r = 0; r < std::min(rows.size(), before.rows()); ++r) {
-    if (is_near(table.row(r), before.row(r))) rows[r] = static_cast<std::uint32_t>(r);
+    if (may_match(table.row(r), before.row(r))) rows[r] = static_cast<std::uint32_t>(r);
   }
   return rows;
 }
 
-/// Dust keeps its order but for gaps: of the next few, the one that is most like it.
+/// Returns the rows of dust in the last frame. Dust keeps its order with gaps: a row matches the
+/// most similar of the next rows.
 std::vector<std::uint32_t> match_dust(const NumberTable& table, const NumberTable& before) {
-  constexpr std::size_t kWindow = 24;
-  constexpr std::int64_t kSame = 8;  // so little apart it need not be another
+  constexpr std::size_t kSearchWindow = 24;
+  constexpr std::int64_t kCloseEnough = 8;  // difference below which no further row is tried
   std::vector<std::uint32_t> rows(table.rows(), kNewRow);
   std::size_t expected = 0;
   for (std::size_t r = 0; r < rows.size() && expected < before.rows(); ++r) {
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    const std::size_t end = std::min(expected + kWindow, before.rows());
-    for (std::size_t b = expected; b < end && least > kSame; ++b) {
+    std::int64_t min_difference = std::numeric_limits<std::int64_t>::max();
+    const std::size_t end = std::min(expected + kSearchWindow, before.rows());
+    for (std::size_t b = expected; b < end && min_difference > kCloseEnough; ++b) {
       const auto now = table.row(r), then = before.row(b);
-      if (!is_near(now, then)) continue;
-      std::int64_t apart = 0;
+      if (!may_match(now, then)) continue;
+      std::int64_t difference = 0;
       for (std::size_t c = 0; c < kParticleNumbers; ++c) {
-        apart += std::abs(std::int64_t{now[c]} - then[c]);
+        difference += std::abs(std::int64_t{now[c]} - then[c]);
       }
-      if (apart >= least) continue;
-      least = apart;
+      if (difference >= min_difference) continue;
+      min_difference = difference;
       rows[r] = static_cast<std::uint32_t>(b);
     }
     if (rows[r] != kNewRow) expected = rows[r] + 1;
@@ -172,7 +176,7 @@ std::vector<Particle> read_particles(ByteReader& in, const std::string& file, Ta
   return particles;
 }
 
-/// Counted, not timed, so that the same run gives the same bytes.
+/// Appends counts only, no times, so that equal runs give equal bytes.
 void write_report(ByteWriter& out, const Frame& frame) {
   const FrameReport& report = frame.report;
   out.put(report.counts);
@@ -213,9 +217,10 @@ std::int32_t short_hash(const FrameBody& body) {
 
 FrameCoder::FrameCoder(char version)
     : version_(version),
-      bodies_(version >= kFirstWithNames ? kBodyColumns : kOldBodyColumns, kBodyGlides),
-      debris_(kParticleNumbers, kParticleGlides),
-      dust_(kParticleNumbers, kParticleGlides) {}
+      bodies_(version >= kFirstWithNames ? kBodyColumns : kOldBodyColumns,
+              kExtrapolatedBodyColumns),
+      debris_(kParticleNumbers, kExtrapolatedParticleColumns),
+      dust_(kParticleNumbers, kExtrapolatedParticleColumns) {}
 
 void FrameCoder::reset() {
   bodies_.reset();
@@ -241,7 +246,7 @@ void FrameCoder::write(ByteWriter& out, const Frame& frame) {
   write_particles(out, frame.dust, dust_, match_dust);
 }
 
-/// Only of bodies that are new or drawn otherwise than before: which, and their meshes.
+/// Writes the meshes of those bodies that are new or whose meshes have changed.
 void FrameCoder::write_instances(ByteWriter& out, const Frame& frame,
                                  const std::vector<std::uint32_t>& before) {
   std::vector<std::vector<std::uint32_t>> meshes(frame.bodies.size());
@@ -300,7 +305,7 @@ void FrameCoder::read_instances(ByteReader& in, const std::string& file,
     }
   }
   for (std::size_t b = 0; b < meshes.size(); ++b) {
-    if (take.frame.instances.size() + meshes[b].size() > kMostInstances) {
+    if (take.frame.instances.size() + meshes[b].size() > kMaxInstances) {
       throw InputError(file + ": corrupt: more to draw than a frame can hold");
     }
     for (const std::uint32_t mesh : meshes[b]) {

@@ -1,7 +1,7 @@
-// A frame as the bytes of a take, as a change of the frame before.
+// Encoding of a frame in a recording, as a difference to the previous frame.
 //
-// Bodies are kept to 0.1 mm and 0.5 mrad, which is for the eye; what a run must match bit for bit
-// to be the same is kept as hashes: one of the frame, and a short one of each body.
+// Bodies are stored with 0.1 mm and 0.5 mrad, for display. The exact state is stored as hashes, for
+// comparison with another run: one of the frame, and a short one of each body.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,26 @@
 
 namespace sunder {
 
-/// What is left of FrameBody's exact state: enough to tell bodies apart that differ.
+/// Returns a short hash of a body's exact state, to find bodies that differ.
 std::int32_t short_hash(const FrameBody& body);
 
-/// What a take holds of one instant.
+/// One frame of a recording.
 struct TakeFrame {
-  Frame frame;                            ///< Without its mesh store and materials.
-  std::vector<std::int32_t> body_hashes;  ///< short_hash() of each body as it was.
-  std::uint32_t meshes = 0;               ///< Size of the store then.
+  Frame frame;                            ///< Without mesh store and materials.
+  std::vector<std::int32_t> body_hashes;  ///< short_hash() of each body's original state.
+  std::uint32_t meshes = 0;               ///< Size of the mesh store at that time.
 };
 
-/// One end of a stream of frames: writer and reader each keep one, in step.
+/// Encoder or decoder of a stream of frames; writer and reader each have one, in equal states.
 class FrameCoder {
  public:
-  /// The version is that of the take, from kOldestTake on.
+  /// Makes a coder for a recording of `version`, at least kOldestTake.
   explicit FrameCoder(char version = kTakeMagic[kTakeName]);
-  /// The next frame stands alone.
+  /// Forgets the previous frame: the next one is encoded without reference to it.
   void reset();
+  /// Appends a frame as a difference to the last one.
   void write(ByteWriter& out, const Frame& frame);
-  /// Throws InputError, naming `file`, for bytes that are no frame of this stream.
+  /// Decodes a frame; throws InputError, naming `file`, if the bytes are no frame of this stream.
   TakeFrame read(const std::vector<std::byte>& bytes, const std::string& file);
 
  private:
@@ -42,8 +43,9 @@ class FrameCoder {
 
   char version_;
   TableCoder bodies_, debris_, dust_;
-  std::vector<std::uint64_t> keys_;                 ///< Of the last frame's bodies.
-  std::vector<std::vector<std::uint32_t>> meshes_;  ///< Drawn on each of them.
+  std::vector<std::uint64_t> keys_;  ///< Keys of the last frame's bodies.
+  /// For each of those bodies, the meshes drawn on it.
+  std::vector<std::vector<std::uint32_t>> meshes_;
 };
 
 }  // namespace sunder

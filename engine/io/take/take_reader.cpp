@@ -1,4 +1,4 @@
-// Read first: the constructor (where the blocks are), then next().
+// Begin with the constructor, which finds the blocks, then next().
 #include <algorithm>
 #include <cstring>
 #include <fstream>
@@ -11,7 +11,7 @@
 
 namespace sunder {
 
-/// A take being played; its members are those of TakeReader.
+/// State of a recording being played; implements the members of TakeReader.
 class TakeReader::Playback {
  public:
   explicit Playback(const std::filesystem::path& path);
@@ -30,7 +30,7 @@ class TakeReader::Playback {
 
   bool read_index();
   void scan();
-  void note(const BlockPlace& place);
+  void register_block(const BlockPlace& place);
   std::optional<Block> block_at(std::uint64_t offset);
   std::vector<std::byte> content_at(const BlockPlace& place, Unpacker& unpacker);
   FramePtr decode(std::uint32_t frame);
@@ -51,7 +51,7 @@ class TakeReader::Playback {
   std::size_t mesh_blocks_read_ = 0;
 
   std::uint32_t next_ = 0;
-  std::optional<std::uint32_t> decoded_;  ///< What the coder stands at.
+  std::optional<std::uint32_t> decoded_;  ///< The frame that `coder_` decoded last.
   FrameCoder coder_;
   Unpacker frame_unpacker_, other_unpacker_;
   std::vector<std::int32_t> body_hashes_;
@@ -90,12 +90,14 @@ TakeReader::Playback::Playback(const std::filesystem::path& path) : file_(path.s
   if (!in.at_end()) paints_ = std::make_shared<const std::vector<Paint>>(take_paints(in, file_));
 }
 
-/// Blocks follow each other in the order of the run, each with its frame or mesh number.
-void TakeReader::Playback::note(const BlockPlace& place) {
-  const auto wrong = [&] { throw InputError(file_ + ": corrupt: its blocks are out of order"); };
+/// Registers a block. Blocks are in the order of the run, each with its frame or mesh index.
+void TakeReader::Playback::register_block(const BlockPlace& place) {
+  const auto fail_order = [&] {
+    throw InputError(file_ + ": corrupt: its blocks are out of order");
+  };
   switch (place.kind) {
     case BlockKind::kMaterials:
-      if (materials_block_) wrong();
+      if (materials_block_) fail_order();
       materials_block_ = place;
       break;
     case BlockKind::kMeshes:
@@ -103,8 +105,8 @@ void TakeReader::Playback::note(const BlockPlace& place) {
       break;
     case BlockKind::kKeyFrame:
     case BlockKind::kFrame:
-      if (place.first != frame_blocks_.size()) wrong();
-      if (frame_blocks_.empty() && place.kind != BlockKind::kKeyFrame) wrong();
+      if (place.first != frame_blocks_.size()) fail_order();
+      if (frame_blocks_.empty() && place.kind != BlockKind::kKeyFrame) fail_order();
       frame_blocks_.push_back(place);
       break;
     case BlockKind::kIndex:
@@ -113,7 +115,7 @@ void TakeReader::Playback::note(const BlockPlace& place) {
   }
 }
 
-/// False if there is no index, or none that is right: scan() does without.
+/// Reads the index; returns false if it is missing or invalid, in which case scan() is needed.
 bool TakeReader::Playback::read_index() {
   constexpr std::uint64_t kEnd = 8 + sizeof kIndexMagic;
   std::vector<std::byte> end(kEnd);
@@ -132,7 +134,7 @@ bool TakeReader::Playback::read_index() {
     while (!in.at_end()) {
       BlockPlace place;
       in.take_to(place.offset, place.kind, place.first);
-      note(place);
+      register_block(place);
     }
   } catch (const InputError&) {
     materials_block_.reset();
@@ -144,7 +146,7 @@ bool TakeReader::Playback::read_index() {
   return true;
 }
 
-/// Goes from block to block until the file ends or makes no sense.
+/// Registers blocks one after another until the end of the file or the first invalid one.
 void TakeReader::Playback::scan() {
   complete_ = false;
   for (std::uint64_t at = sizeof kTakeMagic; at < size_ && !complete_;) {
@@ -156,19 +158,19 @@ void TakeReader::Playback::scan() {
       damage_ = "the take is cut short or corrupt " + frame + " (byte " + std::to_string(at) + ")";
       return;
     }
-    note({at, block->header.kind, block->header.first});
+    register_block({at, block->header.kind, block->header.first});
     at += sizeof(BlockHeader) + block->header.bytes;
   }
 }
 
-/// Nothing unless a whole block, unharmed, is there.
+/// Returns the block at an offset, or nothing if it is incomplete or corrupt.
 std::optional<TakeReader::Playback::Block> TakeReader::Playback::block_at(std::uint64_t offset) {
   if (offset > size_ || size_ - offset < sizeof(BlockHeader)) return {};
   Block block;
   in_.clear();
   in_.seekg(static_cast<std::streamoff>(offset));
   in_.read(reinterpret_cast<char*>(&block.header), sizeof(BlockHeader));
-  if (!in_ || !is_sound(block.header)) return {};
+  if (!in_ || !is_valid(block.header)) return {};
   if (block.header.bytes > size_ - offset - sizeof(BlockHeader)) return {};
   block.packed.resize(block.header.bytes);
   in_.read(reinterpret_cast<char*>(block.packed.data()),
@@ -191,7 +193,7 @@ void TakeReader::Playback::seek(std::uint32_t frame) { next_ = std::min(frame, f
 
 FramePtr TakeReader::Playback::next() {
   if (next_ >= frames()) return nullptr;
-  // On from where the coder stands, or from the key frame before.
+  // Continue from the last decoded frame, or begin at the key frame before.
   std::uint32_t at = next_;
   if (decoded_ && *decoded_ < next_ && next_ - *decoded_ <= kFramesAChunk) {
     at = *decoded_ + 1;
@@ -241,7 +243,7 @@ FramePtr TakeReader::Playback::decode(std::uint32_t frame) {
   return result;
 }
 
-/// The store grows as the run's did; frames given out keep the store they have.
+/// Extends the mesh store as the run did; frames returned earlier keep their store.
 void TakeReader::Playback::read_meshes(std::uint32_t until) {
   if (meshes_->size() >= until) return;
   meshes_ = std::make_shared<MeshStore>(*meshes_);

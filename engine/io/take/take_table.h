@@ -1,9 +1,8 @@
-// Tables of whole numbers that change little from frame to frame, as few bytes: what a take's
-// bodies, debris and dust become.
+// Compression of integer tables that change little from frame to frame, for recordings.
 //
-// Read first: TableCoder::write(). Rows are found again in the previous table, numbers are
-// predicted to go on as they did, and what is left over is coded bit by bit, by how much the same
-// number was off a frame ago and its neighbour is now.
+// Begin with TableCoder::write(). Rows are matched with the previous table, numbers are
+// extrapolated, and residuals are entropy-coded. The model of a residual depends on the residual of
+// the same number in the previous frame and on that of the preceding column.
 #pragma once
 
 #include <cstdint>
@@ -25,43 +24,48 @@ struct NumberTable {
   }
 };
 
+/// Row without a match in the last table.
 inline constexpr std::uint32_t kNewRow = 0xffffffff;
 
-/// One end of a stream of tables: writer and reader each keep one, in step.
+/// Encoder or decoder of a stream of tables; writer and reader each have one, in equal states.
 class TableCoder {
  public:
-  /// The first `gliding` columns are predicted to change as they did before, the others to stay.
-  TableCoder(std::size_t columns, std::size_t gliding);
+  /// Makes a coder. The first `extrapolated` columns are extrapolated at their last rate of change,
+  /// the others are predicted to stay constant.
+  TableCoder(std::size_t columns, std::size_t extrapolated);
 
-  /// Forgets what came before: the next table stands alone.
+  /// Forgets the last table: the next one is encoded without reference to it.
   void reset();
   const NumberTable& last() const { return last_; }
-  /// `before`: for each row its number in the last table, or kNewRow.
+  /// Encodes a table. `before`: for each row its index in the last table, or kNewRow.
   void write(ByteWriter& out, NumberTable table, std::span<const std::uint32_t> before);
-  /// Throws InputError if the bytes are not those of a table. The rows' numbers in the last table
-  /// come back in `before`.
+  /// Decodes a table; throws InputError if the bytes are not a table. Sets `before` to the rows'
+  /// indices in the last table.
   NumberTable read(ByteReader& in, const std::string& file, std::vector<std::uint32_t>& before);
 
  private:
-  static constexpr std::size_t kSizes = 8, kBeside = 4;  ///< Kinds of how far off.
+  /// Numbers of classes of residuals: of the previous frame, of the preceding column.
+  static constexpr std::size_t kLengthClasses = 8, kNeighbourClasses = 4;
 
-  /// What a row is expected to be.
+  /// Sets `row` to the prediction for a row.
   void predict(std::uint32_t before, std::span<std::int32_t> row) const;
-  /// How far off the columns of a row were a frame ago, as lengths in bits; none of a new row.
+  /// Returns the lengths in bits of a row's residuals in the last table; empty for a new row.
   std::span<const std::uint8_t> lengths(std::uint32_t before) const;
-  std::size_t was_off(std::uint32_t expected, bool off_above) const;
-  NumberModel& model(std::size_t column, std::span<const std::uint8_t> then, std::uint8_t beside);
-  void remember(NumberTable table, std::span<const std::uint32_t> before,
-                std::vector<std::uint8_t> lengths);
+  std::size_t context_of(std::uint32_t expected, bool above_differs) const;
+  NumberModel& model(std::size_t column, std::span<const std::uint8_t> last_lengths,
+                     std::uint8_t neighbour_length);
+  void store_last(NumberTable table, std::span<const std::uint32_t> before,
+                  std::vector<std::uint8_t> lengths);
 
-  std::size_t gliding_;
+  std::size_t extrapolated_;
   NumberTable last_;
-  std::vector<std::int32_t> pace_;     ///< Last change of the gliding columns, row by row.
-  std::vector<std::uint8_t> lengths_;  ///< Of what was left over, number by number.
-  // What has been learnt since the last reset.
-  std::array<BitModel, 4> is_off_;
-  NumberModel moved_;
-  std::vector<NumberModel> new_, known_;  ///< By column; by column, and how far off others are.
+  std::vector<std::int32_t> last_change_;  ///< Last change of the extrapolated columns, by row.
+  std::vector<std::uint8_t> lengths_;      ///< Length in bits of the residual of each number.
+  // Adaptive models, trained since the last reset.
+  std::array<BitModel, 4> differs_models_;
+  NumberModel move_model_;
+  /// `new_row_models_` by column; `known_row_models_` by column and classes of residuals.
+  std::vector<NumberModel> new_row_models_, known_row_models_;
 };
 
 }  // namespace sunder

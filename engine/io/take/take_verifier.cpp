@@ -8,7 +8,7 @@
 namespace sunder {
 namespace {
 
-/// The first body that differs, both lists ascending by key.
+/// Returns a description of the first body that differs; both lists ascend by key.
 std::string first_difference(const Frame& now, const Frame& then,
                              const std::vector<std::int32_t>& hashes_then) {
   for (std::size_t b = 0; b < std::max(now.bodies.size(), then.bodies.size()); ++b) {

@@ -1,4 +1,4 @@
-// Holds a run against a take: the same bits in every frame, or where they first differ.
+// Comparison of a run with a recording, bit by bit.
 #pragma once
 
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace sunder {
 
-/// A sink that compares frame by frame with a take, in the take's order.
+/// A sink that compares each frame with the next frame of a recording.
 class TakeVerifier final : public FrameSink {
  public:
-  /// `take` is read from its beginning, and must outlive this.
+  /// `take` is read from its current position and must outlive this object.
   explicit TakeVerifier(TakeReader& take) : take_(take) {}
 
   void take(const FramePtr& frame) override;
-  /// Frames that were the same before the first that was not.
+  /// Returns the number of equal frames before the first that differs.
   std::uint32_t same() const { return same_; }
-  /// Empty if all were the same: else the first frame and body that differ.
+  /// Returns the first frame and body that differ; empty if none.
   const std::string& difference() const { return difference_; }
 
  private:

@@ -1,4 +1,4 @@
-// Read first: write(), what a frame becomes.
+// Begin with write(), which encodes a frame.
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -14,11 +14,11 @@
 namespace sunder {
 namespace {
 
-constexpr std::size_t kMostWaiting = 16;  // frames; a run that is faster waits
+constexpr std::size_t kMaxQueued = 16;  // queued frames; a faster run has to wait
 
 }  // namespace
 
-/// A take being written; its members are those of TakeWriter.
+/// State of a recording being written; implements the members of TakeWriter.
 class TakeWriter::Recording {
  public:
   explicit Recording(const std::filesystem::path& path);
@@ -28,7 +28,7 @@ class TakeWriter::Recording {
   std::uint64_t bytes() const { return offset_; }
 
  private:
-  void work();
+  void write_queued();
   void write(const Frame& frame);
   void write_new_meshes(const Frame& frame);
   void append(BlockKind kind, std::uint32_t first, std::uint64_t content_bytes,
@@ -42,7 +42,7 @@ class TakeWriter::Recording {
   bool closed_ = false;
   std::exception_ptr failure_;
 
-  // Of the thread that writes.
+  // Members used by the writing thread only:
   std::ofstream out_;
   std::uint64_t offset_ = 0;
   std::vector<BlockPlace> places_;
@@ -64,14 +64,14 @@ TakeWriter::Recording::Recording(const std::filesystem::path& path) : path_(path
     throw FileError(path.string() + ": cannot be written; check the folder and its permissions");
   }
   offset_ = sizeof kTakeMagic;
-  thread_ = std::thread([this] { work(); });
+  thread_ = std::thread([this] { write_queued(); });
 }
 
 TakeWriter::Recording::~Recording() { stop(); }
 
 void TakeWriter::Recording::take(const FramePtr& frame) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return failure_ || queue_.size() < kMostWaiting; });
+  changed_.wait(lock, [&] { return failure_ || queue_.size() < kMaxQueued; });
   if (failure_) std::rethrow_exception(failure_);
   queue_.push_back(frame);
   changed_.notify_all();
@@ -104,7 +104,7 @@ void TakeWriter::Recording::finish() {
   if (!out_) throw FileError(path_.string() + ": cannot be written; is the disk full?");
 }
 
-void TakeWriter::Recording::work() {
+void TakeWriter::Recording::write_queued() {
   for (;;) {
     FramePtr frame;
     {
@@ -135,7 +135,7 @@ void TakeWriter::Recording::write(const Frame& frame) {
     if (frame.paints) put(content, *frame.paints);
     append(BlockKind::kMaterials, 0, content.bytes.size(), other_packer_.pack(content.bytes));
   }
-  SUNDER_CHECK(frame.materials == materials_);  // a take is of one run
+  SUNDER_CHECK(frame.materials == materials_);  // a recording is of one run
   write_new_meshes(frame);
   const bool is_key = frames_ % kFramesAChunk == 0;
   if (is_key) {

@@ -46,9 +46,9 @@ void add_as_block(const Structure& structure, std::span<const ConvexSlot> block,
 
 }  // namespace
 
-LoadCase bearing(const World& world, const Actor& actor, const Quat& rotation_WB,
-                 std::vector<Load>& loads) {
-  for (const Press& press : actor.stress.pressing) {
+LoadCase make_load_case(const World& world, const Actor& actor, const Quat& rotation_WB,
+                        std::vector<Load>& loads) {
+  for (const ConvexForce& press : actor.stress.pressing) {
     const Vec3& centroid = actor.structure.convex(press.convex)->solid.centroid;
     loads.push_back({press.convex, press.force_R, centroid, press.torque_R});
   }
@@ -58,7 +58,7 @@ LoadCase bearing(const World& world, const Actor& actor, const Quat& rotation_WB
   load.gravity_R = rotation_WB.conjugate() * world.scene.gravity_W;
   load.spin_R = actor.stress.spin_R;
   load.memory = actor.stress.memory;
-  load.hinged = world.joints.hinged(actor.key);
+  load.hinged = world.joints.hinged_convexes(actor.key);
   return load;
 }
 

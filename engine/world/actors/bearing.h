@@ -1,4 +1,4 @@
-// What an actor bears, as a breaker is asked about it. Internal to engine/world.
+// Load case of an actor for the breaker. Internal to engine/world.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace sunder {
 
-/// Its own weight, its spin, and what presses on it; `loads` is where that is kept. How much work
-/// the answer may take is the caller's to say.
-LoadCase bearing(const World& world, const Actor& actor, const Quat& rotation_WB,
-                 std::vector<Load>& loads);
+/// Returns the load case of self-weight, spin, and contact and joint forces, without a limit of
+/// work. `loads` receives the forces and must outlive the load case.
+LoadCase make_load_case(const World& world, const Actor& actor, const Quat& rotation_WB,
+                        std::vector<Load>& loads);
 
 /// Appends the loads of a joint that acts on a structure at `at_R` with a force and a torque about
 /// that point (or with impulses). A joint without torque acts on the convex nearest to the point. A

@@ -1,4 +1,5 @@
-// What the running world counts and weighs, for the next frame. Internal to engine/world.
+// Conservation: mass, energy and momentum of the run, and the counts of the current frame. Internal
+// to engine/world.
 #pragma once
 
 #include <vector>
@@ -10,21 +11,21 @@
 namespace sunder {
 
 struct Ledger {
-  FrameReport report;              ///< Of the frame under way.
-  std::vector<BreakEvent> breaks;  ///< Of the frame under way.
-  WorkLog work;                    ///< Of the frame under way.
-  double debris_mass_kg = 0;       ///< Of all that became too small for a body.
-  double removed_mass_kg = 0;      ///< By the script.
-  double plastic_J = 0;            ///< That bending took, of the whole run.
-  double kinetic_J = 0;            ///< At the end of the last frame.
-  double momentum_error_Ns = 0, momentum_moved_Ns = 0;  ///< Of the frame under way.
+  FrameReport report;              ///< Report of the current frame.
+  std::vector<BreakEvent> breaks;  ///< Breaks of the current frame.
+  WorkLog work;                    ///< Work of the current frame.
+  double debris_mass_kg = 0;       ///< Mass of all pieces too small for a body.
+  double removed_mass_kg = 0;      ///< Mass removed by the script.
+  double plastic_J = 0;            ///< Plastic work of the whole run.
+  double kinetic_J = 0;            ///< Kinetic energy at the end of the last frame.
+  double momentum_error_Ns = 0, momentum_moved_Ns = 0;  ///< Of the current frame.
 
-  /// What a solve did, of a step in which gravity changes velocities by `fall_m_s`. Momentum that
-  /// came neither from gravity nor from static bodies is an error.
-  void note(const SolveReport& solved, double fall_m_s) {
+  /// Adds the report of a solve, in whose step gravity changes velocities by `fall_m_s`. Changes of
+  /// momentum by neither gravity nor static bodies are errors.
+  void add_solve(const SolveReport& solved, double fall_m_s) {
     momentum_error_Ns +=
         (solved.momentum_after_Ns - solved.momentum_before_Ns - solved.external_impulse_Ns).norm();
-    // At rest weight and support cancel: what changed hands is the weight, not the sum of both.
+    // The weight of resting bodies counts, though weight and support cancel in the momentum.
     momentum_moved_Ns += solved.momentum_before_Ns.norm() + solved.mass_kg * fall_m_s;
     report.energy += solved.energy;
     report.friction_allowed_Ns += solved.friction_allowed_Ns;
@@ -32,14 +33,14 @@ struct Ledger {
     report.counts.contacts = solved.contacts;
     report.frozen += solved.frozen;
   }
-  /// Bending takes energy of joints that a solve has booked as that of joints.
-  void note_bending(double work_J) {
+  /// Adds plastic work of hinges, which the solve has counted as energy of joints.
+  void add_plastic_work(double work_J) {
     plastic_J += work_J;
     report.energy.bending += work_J;
   }
-  /// Ends the frame under way: what its report says of energy and momentum. In the first frame all
-  /// motion is the scene's.
-  void close(FrameReport& frame, bool is_first) {
+  /// Ends the current frame: completes the energy and momentum of its report. In the first frame
+  /// all kinetic energy is the scene's.
+  void end_frame(FrameReport& frame, bool is_first) {
     if (is_first) frame.energy.script = frame.kinetic_J;
     frame.energy_residual_J = frame.kinetic_J - kinetic_J - frame.energy.sum();
     kinetic_J = frame.kinetic_J;

@@ -1,6 +1,6 @@
-// What there is in the running world. Internal to engine/world; users see Simulation and Frame.
+// State of the running world: read World. Internal to engine/world; users see Simulation and Frame.
 //
-// Each part keeps its own order; what belongs to one stage alone is kept by that stage.
+// Each part keeps its own invariants; state of a single stage is in that stage.
 #pragma once
 
 #include <memory>
@@ -23,10 +23,11 @@
 namespace sunder {
 
 struct World {
-  const Scene scene;  ///< As it was given.
+  const Scene scene;  ///< As given.
   const std::shared_ptr<const std::vector<Material>> materials;
-  const std::shared_ptr<const std::vector<std::string>> names;  ///< Solids, balls, then shots.
-  const std::shared_ptr<const std::vector<Paint>> paints;       ///< Null: none.
+  /// Names of solids, balls, then shots.
+  const std::shared_ptr<const std::vector<std::string>> names;
+  const std::shared_ptr<const std::vector<Paint>> paints;  ///< Null if there are none.
   const std::unique_ptr<Physics> physics;
   Clock clock;
   Actors actors;
@@ -34,8 +35,9 @@ struct World {
   Meshes meshes;
   Landscape landscape;
   Ledger ledger;
-  std::uint64_t next_event = 1;    ///< Names the planes that breaks and bends make.
-  std::optional<Exposed> exposed;  ///< None where nobody wants to know: without particles.
+  std::uint64_t next_event =
+      1;  ///< Number of the next event, which names the planes that it makes.
+  std::optional<Exposed> exposed;  ///< None in a run without particles.
 
   World(Scene given, std::unique_ptr<Physics> moves)
       : scene(std::move(given)),

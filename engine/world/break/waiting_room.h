@@ -1,7 +1,8 @@
-// Clusters that sit steps out, at the place of the impact, until it can be decided. What a moved
-// body drives cannot: it would be run over. Internal to engine/world.
+// Deferred impacts: clusters that are paused at the time of an impact until a later step has the
+// budget for it. Clusters that a moving kinematic body touches cannot be paused, as the body would
+// run through them. Internal to engine/world.
 //
-// Read first: the order of calls, which is that of the functions.
+// Read first: the functions, which are called in the order of their declarations.
 #pragma once
 
 #include <cstdint>
@@ -9,53 +10,56 @@
 #include <set>
 #include <vector>
 
+#include "engine/model/impact_probe.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/break_probe.h"
 
 namespace sunder {
 
-/// A body that waits.
-struct Waiter {
+/// A body of a deferred cluster.
+struct DeferredBody {
   std::uint32_t key = 0;
-  std::uint64_t since_step = 0;
-  std::uint64_t cluster = 0;  ///< Waits together with the others of this number.
+  std::uint64_t since_step = 0;  ///< First step that deferred the body.
+  std::uint64_t cluster = 0;     ///< Number of the cluster.
 };
 
 class WaitingRoom {
  public:
-  /// A step begins: who waited in the last one queues, the longest waiting first.
+  /// Begins a step: clusters deferred in the last one enter the queue, the longest deferred first.
   void begin_step(const World& world);
-  /// Lets the first clusters out of the queue: they are looked at again.
-  void admit();
+  /// Removes the first clusters from the queue, so that they are probed again.
+  void release_first();
   bool queue_empty() const { return queue_.empty(); }
-  /// Contacts have been found anew.
-  void forget_driven() { driven_.reset(); }
-  /// Whether none of a cluster is driven by what is moved.
-  bool may_wait(const World& world, const BreakProbe& cluster);
-  /// The bodies of a cluster that has ended by pause() wait until the next step.
-  void add(World& world, const BreakProbe& cluster);
-  /// Who is in the queue still waits on. Physics::pause() for all.
+  /// To be called when contacts have been found anew.
+  void invalidate_driven() { driven_.reset(); }
+  /// Returns true if no body of a cluster is in contact, direct or through others, with a moving
+  /// kinematic body.
+  bool may_defer(const World& world, const ImpactProbe& cluster);
+  /// Defers the bodies of a cluster, whose probe has ended by pause(), to the next step.
+  void add(World& world, const ImpactProbe& cluster);
+  /// Ends a step: clusters still in the queue stay deferred. Calls Physics::pause() for all bodies.
   void end_step(World& world);
 
-  /// Since when a body waits that did in the last step; `otherwise`, if it did not.
+  /// Returns the first step that deferred a body; `otherwise` if the body was not deferred in the
+  /// last step.
   std::uint64_t since_step(std::uint32_t key, std::uint64_t otherwise) const;
-  /// Calls `visit` with those who wait now.
+  /// Calls `visit` with each deferred body.
   template <class Visit>
   void for_each(const Visit& visit) const {
-    for (const Waiter& waiter : waiters_) visit(waiter);
-    for (const Waiter& waiter : queue_) visit(waiter);
+    for (const DeferredBody& body : bodies_) visit(body);
+    for (const DeferredBody& body : queue_) visit(body);
   }
-  /// How many wait, after end_step().
+  /// Number of deferred clusters, after end_step().
   std::uint32_t clusters() const { return clusters_; }
 
  private:
-  /// Adds the bodies that would hit a waiting one in this step, directly or through others.
-  void hold_what_hits(World& world);
+  /// Defers the bodies that would hit a deferred one in this step, directly or through others.
+  void pause_bodies_that_hit(World& world);
 
-  std::vector<Waiter> last_;     ///< Of the last step; ascending by key.
-  std::vector<Waiter> queue_;    ///< Of those, who is not admitted yet; cluster by cluster.
-  std::vector<Waiter> waiters_;  ///< Since this step.
-  /// Keys of what is moved and all that it reaches by touch, if anybody has asked.
+  std::vector<DeferredBody> last_step_;  ///< Deferred in the last step; ascending by key.
+  std::vector<DeferredBody> queue_;   ///< Those of last_step_ not released yet, cluster by cluster.
+  std::vector<DeferredBody> bodies_;  ///< Deferred in this step.
+  /// Keys of moving kinematic bodies and all bodies connected to them by contacts; computed when
+  /// first needed.
   std::optional<std::set<std::uint32_t>> driven_;
   std::uint64_t next_cluster_ = 0;
   std::uint32_t clusters_ = 0;

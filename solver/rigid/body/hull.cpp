@@ -1,4 +1,4 @@
-// Layout of a hull. Topology comes from the polyhedron: no hull is computed here.
+// Layout of a hull. Its topology is that of the polyhedron: no hull is computed here.
 #include "solver/rigid/body/hull.h"
 
 #include <algorithm>
@@ -49,7 +49,8 @@ Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
   add_edges();
 }
 
-/// Sorted by their vertices, so that the two of an edge are neighbours: by counting, twice.
+/// Returns the half edges sorted by their vertices, so that the two of an edge are neighbours; two
+/// passes of counting sort.
 std::vector<Hull::HalfEdge> Hull::half_edges() const {
   std::vector<HalfEdge> halves, sorted(corners_.size());
   halves.reserve(corners_.size());

@@ -1,4 +1,4 @@
-// Approaches, from manifolds and the velocities before the solve.
+// Finds speculative contacts from manifolds and the velocities before the solve.
 #include "solver/rigid/collide/approach.h"
 
 #include <algorithm>
@@ -17,13 +17,13 @@ double inverse_effective_mass(const Bodies& bodies, BodySlot body, const Vec3f& 
                              (bodies.root_B[body].transpose() * angular_B).squaredNorm());
 }
 
-/// Whether no point of it can close fast enough to count. Points are on the bodies, or no farther
-/// from them than what closes so slowly and falls comes in a step: twice as fast is more than any.
-bool rests(const Manifold& m, const Bodies& bodies, const StepContext& step) {
+/// True if no point can close fast enough to count. A point is on its body, or farther by no more
+/// than a slow closing and a fall in a step: twice the speed of the bodies is an upper bound.
+bool is_slow(const Manifold& m, const Bodies& bodies, const StepContext& step) {
   return 2 * (bodies.fastest_m_s(m.body_a) + bodies.fastest_m_s(m.body_b)) < step.still_m_s;
 }
 
-/// Middle of the points that may close within the step; false if none does.
+/// Finds the mean of the points that may close within the step; returns false if none does.
 bool closing_middle(const Manifold& m, const Bodies& bodies, const StepContext& step, Vec3f& arm_A,
                     Vec3f& arm_B, float& separation_m) {
   int closing = 0;
@@ -57,7 +57,7 @@ bool make_approach(const Pair& pair, const Manifold& m, const Bodies& bodies, co
   approach.a = bodies.id(m.body_a), approach.b = bodies.id(m.body_b);
   approach.body_tag_a = bodies.tag[m.body_a], approach.body_tag_b = bodies.tag[m.body_b];
   approach.shape_tag_a = shapes[pair.shape_a].tag, approach.shape_tag_b = shapes[pair.shape_b].tag;
-  // On the body that stands still, if one does: there the point is where the impact will land.
+  // On the body that stands still, if one does: the impact will be there.
   const bool on_a = !bodies.awake(m.body_a) || bodies.awake(m.body_b);
   approach.point_W = on_a ? Vec3(bodies.position[m.body_a] + arm_A.cast<double>())
                           : Vec3(bodies.position[m.body_b] + arm_B.cast<double>());
@@ -77,40 +77,40 @@ double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A
   return m.normal_W.cast<double>().dot(v_a - v_b);
 }
 
-void Approaches::forget_changed(const Bodies& bodies) {
-  forgotten_.resize(bodies.size());
-  for (const BodySlot body : bodies.slots()) forgotten_[body] |= bodies.changed[body];
+void SpeculativeContacts::invalidate_changed(const Bodies& bodies) {
+  stale_.resize(bodies.size());
+  for (const BodySlot body : bodies.slots()) stale_[body] |= bodies.changed[body];
 }
 
-std::vector<Approach> Approaches::find(const Contacts& contacts, const Bodies& bodies,
-                                       const Shapes& shapes, const StepContext& step) {
+std::vector<Approach> SpeculativeContacts::find(const Contacts& contacts, const Bodies& bodies,
+                                                const Shapes& shapes, const StepContext& step) {
   constexpr std::size_t kChunk = 4096;
-  forget_changed(bodies);
+  invalidate_changed(bodies);
   if (std::exchange(dt_s_, step.dt_s) != step.dt_s)
-    std::fill(forgotten_.begin(), forgotten_.end(), std::uint8_t{1});
+    std::fill(stale_.begin(), stale_.end(), std::uint8_t{1});
   std::erase_if(known_, [&](const Keyed& keyed) {
     const BodyId a = keyed.second.a, b = keyed.second.b;
-    return !bodies.contains(a) || !bodies.contains(b) || forgotten_[BodySlot(a.slot)] ||
-           forgotten_[BodySlot(b.slot)];
+    return !bodies.contains(a) || !bodies.contains(b) || stale_[BodySlot(a.slot)] ||
+           stale_[BodySlot(b.slot)];
   });
-  const auto look = [&](std::size_t begin, std::size_t end, std::vector<Keyed>& found) {
+  const auto find_in = [&](std::size_t begin, std::size_t end, std::vector<Keyed>& found) {
     for (std::size_t i = begin; i < end; ++i) {
       const Manifold& m = contacts.manifolds[ManifoldSlot(i)];
-      if (m.count == 0 || !(forgotten_[m.body_a] || forgotten_[m.body_b])) continue;
-      if (!touches_awake(m, bodies) || rests(m, bodies, step)) continue;
+      if (m.count == 0 || !(stale_[m.body_a] || stale_[m.body_b])) continue;
+      if (!touches_awake(m, bodies) || is_slow(m, bodies, step)) continue;
       const Pair& pair = contacts.pairs[m.pair];
       Approach approach;
       if (make_approach(pair, m, bodies, shapes, step, approach))
         found.emplace_back(pair.key(), approach);
     }
   };
-  auto fresh = collect_chunks<Keyed>(contacts.manifolds.size(), kChunk, look);
+  auto fresh = collect_chunks<Keyed>(contacts.manifolds.size(), kChunk, find_in);
   const auto by_key = [](const Keyed& a, const Keyed& b) { return a.first < b.first; };
   std::sort(fresh.begin(), fresh.end(), by_key);
   const auto kept = static_cast<std::ptrdiff_t>(known_.size());
   known_.insert(known_.end(), fresh.begin(), fresh.end());
   std::inplace_merge(known_.begin(), known_.begin() + kept, known_.end(), by_key);
-  std::fill(forgotten_.begin(), forgotten_.end(), std::uint8_t{0});
+  std::fill(stale_.begin(), stale_.end(), std::uint8_t{0});
   std::vector<Approach> approaches;
   approaches.reserve(known_.size());
   for (const Keyed& keyed : known_) approaches.push_back(keyed.second);
@@ -136,7 +136,7 @@ ContactsOfBodies::ContactsOfBodies(const Contacts& contacts, const Bodies& bodie
 
 namespace {
 
-/// Manifolds of any of these bodies, by pair key.
+/// Returns the manifolds of any of these bodies, by pair key.
 std::vector<std::pair<std::uint64_t, ManifoldSlot>> manifolds_of(
     const Contacts& contacts, const Bodies& bodies, const ContactsOfBodies& contacts_of_bodies,
     std::span<const BodyId> of) {

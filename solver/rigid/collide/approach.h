@@ -1,4 +1,4 @@
-// Which contacts close, how fast, and with how much mass behind them.
+// Speculative contacts: contacts that close, their closing speed and their effective mass.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +12,27 @@
 
 namespace sunder::solver {
 
-/// One approach for each manifold that closes, or would within the step; kept from one time to the
-/// next where nothing has changed.
-class Approaches {
+/// Finds one speculative contact for each manifold that closes now or within the step; keeps those
+/// of unchanged pairs from call to call.
+class SpeculativeContacts {
  public:
-  /// In order of pair keys.
+  /// Returns the speculative contacts in order of pair keys.
   std::vector<Approach> find(const Contacts& contacts, const Bodies& bodies, const Shapes& shapes,
                              const StepContext& step);
-  /// A pair comes to touch, or parts.
-  void forget(const Pair& pair) { forgotten_[pair.body_a] = forgotten_[pair.body_b] = 1; }
-  /// What a collide is about to look at anew.
-  void forget_changed(const Bodies& bodies);
+  /// Must be called when a pair begins or ceases to touch.
+  void invalidate(const Pair& pair) { stale_[pair.body_a] = stale_[pair.body_b] = 1; }
+  /// Must be called before a collide clears Bodies::changed.
+  void invalidate_changed(const Bodies& bodies);
 
  private:
   using Keyed = std::pair<std::uint64_t, Approach>;
 
-  std::vector<Keyed> known_;        ///< Ascending by pair key.
-  double dt_s_ = 0;                 ///< Of the step then.
-  ByBody<std::uint8_t> forgotten_;  ///< Since the last time.
+  std::vector<Keyed> known_;    ///< Ascending by pair key.
+  double dt_s_ = 0;             ///< Step of the last find().
+  ByBody<std::uint8_t> stale_;  ///< 1: the body's contacts are to be found again.
 };
 
-/// The manifolds of each body that can move.
+/// The manifolds of each dynamic body.
 class ContactsOfBodies {
  public:
   ContactsOfBodies() = default;
@@ -46,20 +46,21 @@ class ContactsOfBodies {
   }
 
  private:
-  std::vector<std::uint32_t> first_;  ///< In `manifolds_`, by body; one more than there are.
+  /// First index into `manifolds_`, by body; one more than there are bodies.
+  std::vector<std::uint32_t> first_;
   std::vector<ManifoldSlot> manifolds_;
 };
 
-/// The bodies of the contacts of any of `bodies`; in order of pair keys.
+/// Returns the bodies in contact with any of `of`, in order of pair keys.
 std::vector<TouchingBodies> find_touching(const Contacts& contacts, const Bodies& bodies,
                                           const ContactsOfBodies& contacts_of_bodies,
                                           std::span<const BodyId> of);
-/// The contact points of any of `bodies`, each once; in order of pair keys.
+/// Returns the contact points of any of `of`, each once, in order of pair keys.
 std::vector<Touch> find_touches(const Contacts& contacts, const Bodies& bodies,
                                 const Shapes& shapes, const ContactsOfBodies& contacts_of_bodies,
                                 std::span<const BodyId> of);
 
-/// Approach speed at an arm, along the manifold's normal; > 0 when closing.
+/// Returns the closing speed at two lever arms along the manifold's normal; positive if closing.
 double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A,
                      const Vec3f& arm_B);
 

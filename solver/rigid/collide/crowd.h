@@ -1,5 +1,5 @@
-// Very many bodies in one place, as when thousands appear at the same point: each overlaps all
-// others, and work would grow with their square.
+// Dense clusters: very many overlapping bodies in one place, as when thousands appear at one point.
+// Each overlaps all others, and the work would grow with the square of their number.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,26 @@
 
 namespace sunder::solver {
 
-/// What the narrow phase found in a chunk of pairs.
+/// Results of the narrow phase for a chunk of pairs.
 struct ContactChanges {
   std::vector<std::pair<PairSlot, Manifold>> touched;
-  std::vector<PairSlot> parted, gone;
-  std::vector<PairSlot> deep;          ///< Of those that touch.
-  std::uint64_t moved = 0, looks = 0;  ///< Pairs of which a body moved; those looked at.
+  std::vector<PairSlot> separated, removed;
+  std::vector<PairSlot> deep;  ///< Pairs with a deep contact.
+  /// Number of pairs with a body that moved, and of pairs tested.
+  std::uint64_t moved = 0, tested = 0;
 
   void clear() {
-    touched.clear(), parted.clear(), gone.clear(), deep.clear();
-    moved = looks = 0;
+    touched.clear(), separated.clear(), removed.clear(), deep.clear();
+    moved = tested = 0;
   }
 };
 
-class Crowd {
+class DenseClusters {
  public:
-  /// Leaves out contacts of crowded bodies with each other, others in every step, so that none has
-  /// many more than 24; bodies with fewer deep contacts keep all of theirs. The same for any number
-  /// of threads.
-  void thin_out(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies);
+  /// Leaves out contacts between bodies that have more than kMaxDeepContacts deep ones, different
+  /// contacts in each step, so that no body has many more than that. Bodies with fewer deep
+  /// contacts keep all of theirs. The choice does not depend on the number of threads.
+  void drop_contacts(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies);
 
  private:
   std::uint64_t times_ = 0;

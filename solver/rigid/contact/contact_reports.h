@@ -1,4 +1,4 @@
-// What contacts did in the last solve, for the world and its statistics.
+// Reports of the contacts of the last solve, for the world and its statistics.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace sunder::solver {
 /// See Physics::contact_loads().
 std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodies& bodies,
                                             const Shapes& shapes);
-/// See Physics::inspect(); `h_s` is that of the impulses kept, 0: there are none.
+/// See Physics::inspect(); `h_s` is the substep of the stored impulses, 0: none stored.
 std::vector<PressPoint> find_presses(const Contacts& contacts, const Bodies& bodies, double h_s);
 /// See Physics::penetrations().
 std::vector<float> find_penetrations(const Contacts& contacts);

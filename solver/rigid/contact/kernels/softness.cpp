@@ -8,8 +8,8 @@
 namespace sunder::solver {
 namespace {
 
-/// A spring of (omega·h)² of the mass over h²; what it gives way under an impulse p a substep is
-/// p / (mass · h) / omega².
+/// Returns the softness of a spring of stiffness mass·omega². An impulse p per substep compresses
+/// it by p / (mass·h·omega²).
 Softness softness(double stiffness, double h) {
   const double omega_h = 2 * std::numbers::pi * stiffness;
   const double a1 = 2 * kDampingRatio + omega_h, a2 = omega_h * a1, a3 = 1 / (1 + a2);

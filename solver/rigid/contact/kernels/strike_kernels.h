@@ -1,12 +1,13 @@
-// Before the sweeps of a substep: strikes, impacts that rebound, one contact after the other. Read
-// first: strike(). Included by sweep_1.cpp and so on alone, under the same rule as sweep_kernels.h.
+// Restitution, before the sweeps of a substep: impacts that rebound, one contact after another.
+// Read first: apply_restitution(). Included only by sweep_1.cpp and so on, under the rule of
+// sweep_kernels.h.
 #pragma once
 
 #include "solver/rigid/contact/kernels/derive_kernels.h"
 
 namespace sunder::solver {
 
-/// The rows of those lanes that take part, 1; of others none.
+/// Rows of the lanes for which `active` is 1; 0 for other lanes.
 template <std::uint32_t lanes>
 struct ActiveRows {
   std::int32_t a[lanes], b[lanes];
@@ -22,17 +23,18 @@ struct ActiveRows {
   }
 };
 
-/// How the points of a contact meet, as of the start of a substep, before which gravity has kicked.
+/// Closing of a contact's points at the start of a substep, after gravity was added.
 template <std::uint32_t lanes>
-struct Meeting {
+struct Closing {
   using V = WideOf<lanes>;
-  V closes[4];  ///< Speeds before the kick; 0: the point does not meet in this substep or the next.
-  V meets_s;    ///< When the first of them meets.
-  V struck = {};  ///< 1: within the substep, and it rebounds.
+  /// Closing speeds before gravity; 0: the point does not touch in this substep or the next.
+  V speed[4];
+  V touch_s;          ///< Time when the first of them touches.
+  V rebounding = {};  ///< 1: touches within the substep and rebounds.
 
-  SUNDER_INLINE Meeting(const ConstraintBlock<lanes>& c, const Pairs<lanes, false>& x,
+  SUNDER_INLINE Closing(const ConstraintBlock<lanes>& c, const Pairs<lanes, false>& x,
                         const Pairs<lanes, false>& v, float h_s)
-      : meets_s(splat<V>(2 * h_s)) {
+      : touch_s(splat<V>(2 * h_s)) {
     const V zero = {}, one = splat<V>(1), h = splat<V>(h_s), fall = c.rebound.fall_m_s2;
     for (std::uint32_t i = 0; i < c.points; ++i) {
       const PointLanes<lanes>& p = c.point[i];
@@ -42,50 +44,52 @@ struct Meeting {
       const V gap = max(zero, s), square = before * before + splat<V>(2) * fall * gap;
       const V hits = sqrt(meets ? square : one);
       const auto rebounds = meets & (hits > splat<V>(c.rebound.least_m_s)) & (s + u * h < zero);
-      closes[i] = meets ? before : zero;
-      meets_s = rebounds ? min(meets_s, splat<V>(2) * gap / (before + hits)) : meets_s;
-      struck = rebounds & (c.rebound.restitution > zero) ? one : struck;
+      speed[i] = meets ? before : zero;
+      touch_s = rebounds ? min(touch_s, splat<V>(2) * gap / (before + hits)) : touch_s;
+      rebounding = rebounds & (c.rebound.restitution > zero) ? one : rebounding;
     }
   }
 
-  /// Speeds with arms that have come to meet.
-  SUNDER_INLINE void close(const ConstraintBlock<lanes>& c, const Pairs<lanes, false>& v,
-                           float h_s) {
+  /// Recomputes the closing speeds after the arms moved to the point of contact.
+  SUNDER_INLINE void update_speeds(const ConstraintBlock<lanes>& c, const Pairs<lanes, false>& v,
+                                   float h_s) {
     const V zero = {};
     for (std::uint32_t i = 0; i < c.points; ++i) {
       const V u = v.along(c.normal, c.point[i].angular_a, c.point[i].angular_b);
       const V before = -u - c.rebound.fall_m_s2 * splat<V>(h_s);
-      closes[i] = closes[i] > zero ? max(zero, before) : zero;
+      speed[i] = speed[i] > zero ? max(zero, before) : zero;
     }
   }
 
-  /// Newton's law when it meets. The parabola that the rebound belongs to is followed backwards.
-  SUNDER_INLINE V leaves(const ConstraintBlock<lanes>& c, std::uint32_t i, float h_s) const {
+  /// Returns the separating speed by Newton's law of impact, at the start of the parabola that the
+  /// rebound is part of.
+  SUNDER_INLINE V rebound_speed(const ConstraintBlock<lanes>& c, std::uint32_t i, float h_s) const {
     const V fall = c.rebound.fall_m_s2;
-    const V hits = closes[i] + fall * meets_s;
-    return c.rebound.restitution * hits + fall * (meets_s - splat<V>(h_s));
+    const V hits = speed[i] + fall * touch_s;
+    return c.rebound.restitution * hits + fall * (touch_s - splat<V>(h_s));
   }
 };
 
-/// Both bodies of a struck contact, and the impulses so far.
+/// Both bodies of a contact that rebounds, and the impulses so far.
 template <std::uint32_t lanes>
-struct Strike {
+struct Restitution {
   using V = WideOf<lanes>;
   Pairs<lanes, false> was, now;
-  V impulse[4] = {}, slide_1 = {}, slide_2 = {};
+  V impulse[4] = {}, friction_1 = {}, friction_2 = {};
 
-  SUNDER_INLINE Strike(const ConstraintBlock<lanes>& c, const SolverRows& bodies)
+  SUNDER_INLINE Restitution(const ConstraintBlock<lanes>& c, const SolverRows& bodies)
       : was(c, bodies, &BodyRow::base), now(was) {}
 
-  SUNDER_INLINE void press(const ConstraintBlock<lanes>& c, const Meeting<lanes>& meeting,
-                           float h_s) {
+  SUNDER_INLINE void solve_normal(const ConstraintBlock<lanes>& c, const Closing<lanes>& closing,
+                                  float h_s) {
     const V zero = {};
     for (std::uint32_t i = 0; i < c.points; ++i) {
       const PointLanes<lanes>& p = c.point[i];
-      const auto meets = (meeting.struck > zero) & (meeting.closes[i] > zero);
-      const V change = meeting.leaves(c, i, h_s) - now.along(c.normal, p.angular_a, p.angular_b);
+      const auto meets = (closing.rebounding > zero) & (closing.speed[i] > zero);
+      const V change =
+          closing.rebound_speed(c, i, h_s) - now.along(c.normal, p.angular_a, p.angular_b);
       const V next = meets ? max(zero, impulse[i] + p.mass * change) : zero;
-      now.push(c, c.normal, p.angular_a, p.angular_b, next - impulse[i]);
+      now.apply_impulse(c, c.normal, p.angular_a, p.angular_b, next - impulse[i]);
       impulse[i] = next;
     }
   }
@@ -96,25 +100,26 @@ struct Strike {
     return sum;
   }
 
-  SUNDER_INLINE void slide(const ConstraintBlock<lanes>& c) {
+  SUNDER_INLINE void solve_friction(const ConstraintBlock<lanes>& c) {
     const V limit = c.friction * load(c);
-    const V u1 = now.along(c.tangent_1, c.slide_1_a, c.slide_1_b);
-    const V u2 = now.along(c.tangent_2, c.slide_2_a, c.slide_2_b);
-    V next_1 = slide_1 - (c.slide_11 * u1 + c.slide_12 * u2);
-    V next_2 = slide_2 - (c.slide_12 * u1 + c.slide_22 * u2);
+    const V u1 = now.along(c.tangent_1, c.friction_1_a, c.friction_1_b);
+    const V u2 = now.along(c.tangent_2, c.friction_2_a, c.friction_2_b);
+    V next_1 = friction_1 - (c.friction_mass_11 * u1 + c.friction_mass_12 * u2);
+    V next_2 = friction_2 - (c.friction_mass_12 * u1 + c.friction_mass_22 * u2);
     const V square = next_1 * next_1 + next_2 * next_2;
     const auto slips = square > limit * limit;
     const V scale = slips ? limit / sqrt(slips ? square : splat<V>(1)) : splat<V>(1);
     next_1 *= scale, next_2 *= scale;
-    now.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, next_1 - slide_1);
-    now.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, next_2 - slide_2);
-    slide_1 = next_1, slide_2 = next_2;
+    now.apply_impulse(c, c.tangent_1, c.friction_1_a, c.friction_1_b, next_1 - friction_1);
+    now.apply_impulse(c, c.tangent_2, c.friction_2_a, c.friction_2_b, next_2 - friction_2);
+    friction_1 = next_1, friction_2 = next_2;
   }
 
-  /// Of the impulses, so that they make no energy: Newton's law with friction may (Kane 1984).
-  SUNDER_INLINE V share(const ConstraintBlock<lanes>& c) const {
+  /// Returns the scale of the impulses with which they add no energy: Newton's law with friction
+  /// may add some (Kane 1984).
+  SUNDER_INLINE V energy_scale(const ConstraintBlock<lanes>& c) const {
     const V zero = {};
-    V first = zero, both = zero;  // twice the work at the speeds before, and at their mean
+    V first = zero, both = zero;  // twice the work at the speeds before, and at the mean speeds
     const auto add = [&](const V& pushed, const Wide3Of<lanes>& direction,
                          const Wide3Of<lanes>& on_a, const Wide3Of<lanes>& on_b) {
       const V before = was.along(direction, on_a, on_b), after = now.along(direction, on_a, on_b);
@@ -122,53 +127,57 @@ struct Strike {
     };
     for (std::uint32_t i = 0; i < c.points; ++i)
       add(impulse[i], c.normal, c.point[i].angular_a, c.point[i].angular_b);
-    add(slide_1, c.tangent_1, c.slide_1_a, c.slide_1_b);
-    add(slide_2, c.tangent_2, c.slide_2_a, c.slide_2_b);
+    add(friction_1, c.tangent_1, c.friction_1_a, c.friction_1_b);
+    add(friction_2, c.tangent_2, c.friction_2_a, c.friction_2_b);
     const auto gains = (both > zero) & (both - first > zero);
     return gains ? max(zero, -first / (gains ? both - first : splat<V>(1))) : splat<V>(1);
   }
 
-  SUNDER_INLINE void scale(V share) {
-    for (V& of_point : impulse) of_point *= share;
-    slide_1 *= share, slide_2 *= share;
+  SUNDER_INLINE void scale(V factor) {
+    for (V& of_point : impulse) of_point *= factor;
+    friction_1 *= factor, friction_2 *= factor;
   }
 
   SUNDER_INLINE void apply(const ConstraintBlock<lanes>& c, Pairs<lanes, false>& to,
                            V scale) const {
     for (std::uint32_t i = 0; i < c.points; ++i)
-      to.push(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, impulse[i] * scale);
-    to.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, slide_1 * scale);
-    to.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, slide_2 * scale);
+      to.apply_impulse(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, impulse[i] * scale);
+    to.apply_impulse(c, c.tangent_1, c.friction_1_a, c.friction_1_b, friction_1 * scale);
+    to.apply_impulse(c, c.tangent_2, c.friction_2_a, c.friction_2_b, friction_2 * scale);
   }
 };
 
 template <std::uint32_t lanes>
-bool strike(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& bodies, float h_s) {
+bool apply_restitution(ConstraintBlock<lanes>& c, ArmLanes<lanes>& arms, const SolverRows& bodies,
+                       float h_s) {
   using V = WideOf<lanes>;
   if (!c.bouncy || c.split) return false;
   constexpr int kRounds = 16;
   const V zero = {}, one = splat<V>(1);
   Pairs<lanes, false> x(c, bodies, &BodyRow::position), v(c, bodies, &BodyRow::velocity);
-  Strike<lanes> strike(c, bodies);
-  Meeting<lanes> meeting(c, x, strike.was, h_s);
-  if (!any(meeting.struck > zero)) return false;
-  const Wide3Of<lanes> way = (strike.was.b.linear - strike.was.a.linear) * meeting.meets_s;
-  bridge(c, arms, arms.gap + (x.b.linear - x.a.linear) + way, x, meeting.struck);
-  meeting.close(c, strike.was, h_s);
-  for (int round = 0; round < kRounds; ++round) strike.press(c, meeting, h_s), strike.slide(c);
-  strike.scale(strike.share(c));
-  strike.now = strike.was;
-  strike.apply(c, strike.now, one);
-  strike.apply(c, v, one);
-  strike.apply(c, x, -meeting.meets_s);  // the way to where they met was gone at the speed before
+  Restitution<lanes> restitution(c, bodies);
+  Closing<lanes> closing(c, x, restitution.was, h_s);
+  if (!any(closing.rebounding > zero)) return false;
+  const Wide3Of<lanes> displacement =
+      (restitution.was.b.linear - restitution.was.a.linear) * closing.touch_s;
+  move_arms(c, arms, arms.gap + (x.b.linear - x.a.linear) + displacement, x, closing.rebounding);
+  closing.update_speeds(c, restitution.was, h_s);
+  for (int round = 0; round < kRounds; ++round)
+    restitution.solve_normal(c, closing, h_s), restitution.solve_friction(c);
+  restitution.scale(restitution.energy_scale(c));
+  restitution.now = restitution.was;
+  restitution.apply(c, restitution.now, one);
+  restitution.apply(c, v, one);
+  // undoes the displacement up to the contact by the change of speed
+  restitution.apply(c, x, -closing.touch_s);
   std::int32_t active[lanes];
-  for (std::uint32_t lane = 0; lane < lanes; ++lane) active[lane] = meeting.struck[lane] > 0;
+  for (std::uint32_t lane = 0; lane < lanes; ++lane) active[lane] = closing.rebounding[lane] > 0;
   const ActiveRows<lanes> to(c, active);
   to.store(v, bodies, &BodyRow::velocity);
-  to.store(strike.now, bodies, &BodyRow::base);
+  to.store(restitution.now, bodies, &BodyRow::base);
   to.store(x, bodies, &BodyRow::position);
-  for (std::uint32_t i = 0; i < c.points; ++i) c.step_impulse[i] += strike.impulse[i];
-  c.step_impulse[4] += strike.slide_1, c.step_impulse[5] += strike.slide_2;
+  for (std::uint32_t i = 0; i < c.points; ++i) c.step_impulse[i] += restitution.impulse[i];
+  c.step_impulse[4] += restitution.friction_1, c.step_impulse[5] += restitution.friction_2;
   return true;
 }
 

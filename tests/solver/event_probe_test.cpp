@@ -1,6 +1,6 @@
 // The break probe against what can be worked out by hand: hits that are passed on, shared, or come
 // one after the other.
-#include "engine/world/break/break_probe.h"
+#include "solver/impact/event_probe.h"
 
 #include <cmath>
 #include <utility>
@@ -9,7 +9,7 @@
 
 #include "engine/base/rotation.h"
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 constexpr double kStep_s = 1.0 / 60;
@@ -60,11 +60,11 @@ std::vector<ProbeContact> four_corners(std::uint32_t a, std::uint32_t b) {
   return contacts;
 }
 
-TEST(BreakProbe, FindsTheWorkOfABlowPassedOnByAPlate) {
+TEST(EventProbe, FindsTheWorkOfABlowPassedOnByAPlate) {
   const double m = 2, plate_kg = 6, v = 8;
   std::vector<ProbeContact> contacts = four_corners(1, 0);
   contacts.push_back(contact(2, 1));
-  BreakProbe probe({pane(), ball(plate_kg, Vec3::Zero()), ball(m, Vec3(0, -v, 0))}, contacts,
+  EventProbe probe({pane(), ball(plate_kg, Vec3::Zero()), ball(m, Vec3(0, -v, 0))}, contacts,
                    kStep_s, kStill_m_s);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 1u);
@@ -75,8 +75,8 @@ TEST(BreakProbe, FindsTheWorkOfABlowPassedOnByAPlate) {
   EXPECT_LT((loads[0].direction_W + Vec3::UnitY()).norm(), 1e-9);
 }
 
-TEST(BreakProbe, KnowsHowMuchItHasLookedAt) {
-  BreakProbe probe({ball(1, Vec3(0, -3, 0)), pane()}, {contact(0, 1)}, kStep_s, kStill_m_s);
+TEST(EventProbe, KnowsHowMuchItHasLookedAt) {
+  EventProbe probe({ball(1, Vec3(0, -3, 0)), pane()}, {contact(0, 1)}, kStep_s, kStill_m_s);
   EXPECT_EQ(probe.work(), 1u) << "its contact";
   ASSERT_EQ(probe.next().size(), 1u);
   const std::uint64_t once = probe.work();
@@ -86,11 +86,11 @@ TEST(BreakProbe, KnowsHowMuchItHasLookedAt) {
   EXPECT_GT(probe.work(), once);
 }
 
-TEST(BreakProbe, TellsWhichWayABlowGoesWhicheverBodyComesFirst) {
+TEST(EventProbe, TellsWhichWayABlowGoesWhicheverBodyComesFirst) {
   for (const bool first : {false, true}) {
     const Vec3 way = first ? Vec3(Vec3::UnitY()) : Vec3(-Vec3::UnitY());
     std::vector<ProbeBody> bodies = {pane(), ball(2, 8 * way)};
-    BreakProbe probe(bodies, {first ? contact(0, 1) : contact(1, 0)}, kStep_s, kStill_m_s);
+    EventProbe probe(bodies, {first ? contact(0, 1) : contact(1, 0)}, kStep_s, kStill_m_s);
     const auto loads = probe.next();
     ASSERT_EQ(loads.size(), 1u);
     EXPECT_EQ(loads[0].body, 0u);
@@ -98,7 +98,7 @@ TEST(BreakProbe, TellsWhichWayABlowGoesWhicheverBodyComesFirst) {
   }
 }
 
-TEST(BreakProbe, FindsTheWorkOfABlowPassedAlongARow) {
+TEST(EventProbe, FindsTheWorkOfABlowPassedAlongARow) {
   // Of twenty, more meet one after the other than are all looked at.
   for (const auto& [n, gap_m] : {std::pair(6, 0.0), {6, 1e-3}, {20, 1e-3}}) {
     const double m = 3, v = 20;
@@ -109,7 +109,7 @@ TEST(BreakProbe, FindsTheWorkOfABlowPassedAlongARow) {
       const auto self = static_cast<std::uint32_t>(i + 1);
       contacts.push_back(contact(self, self - 1, i == n - 1 ? 0 : gap_m));
     }
-    BreakProbe probe(bodies, contacts, kStep_s, kStill_m_s);
+    EventProbe probe(bodies, contacts, kStep_s, kStill_m_s);
     const auto loads = probe.next();
     ASSERT_EQ(loads.size(), 1u) << n << ", " << gap_m;
     const double work_J = 0.5 * m * v * v / n;
@@ -117,7 +117,7 @@ TEST(BreakProbe, FindsTheWorkOfABlowPassedAlongARow) {
   }
 }
 
-TEST(BreakProbe, GoesOnToTheHardestOnceADozenHaveMet) {
+TEST(EventProbe, GoesOnToTheHardestOnceADozenHaveMet) {
   std::vector<ProbeBody> bodies = {pane(), ball(100, Vec3(0, -5, 0)), pane(),
                                    ball(0.01, Vec3(0, -10, 0))};
   std::vector<ProbeContact> contacts = {contact(1, 0, 0.05), contact(3, 2, 0.06)};
@@ -127,13 +127,13 @@ TEST(BreakProbe, GoesOnToTheHardestOnceADozenHaveMet) {
     if (i > 0) contacts.push_back(contact(self - 1, self, 1e-3));
   }
   // Of what is left, the light ball would be there first.
-  const auto loads = BreakProbe(bodies, contacts, kStep_s, kStill_m_s).next();
+  const auto loads = EventProbe(bodies, contacts, kStep_s, kStill_m_s).next();
   ASSERT_FALSE(loads.empty());
   EXPECT_EQ(loads[0].body, 0u);
   EXPECT_NEAR(loads[0].work_J, 0.5 * 100 * 25, 1);
 }
 
-TEST(BreakProbe, SharesAFlatLandingAmongTenColumns) {
+TEST(EventProbe, SharesAFlatLandingAmongTenColumns) {
   const double m = 500, v = 3;
   std::vector<ProbeBody> bodies(10, pane());
   bodies.push_back(ball(m, Vec3(0, -v, 0)));
@@ -141,7 +141,7 @@ TEST(BreakProbe, SharesAFlatLandingAmongTenColumns) {
   for (std::uint32_t i = 0; i < 10; ++i) {
     contacts.push_back(contact(10, i, 0, Vec3(i % 5 - 2.0, 0, i < 5 ? -1 : 1)));
   }
-  BreakProbe probe(bodies, contacts, kStep_s, kStill_m_s);
+  EventProbe probe(bodies, contacts, kStep_s, kStill_m_s);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 10u);
   const double all_J = 0.5 * m * v * v;
@@ -158,14 +158,14 @@ TEST(BreakProbe, SharesAFlatLandingAmongTenColumns) {
   EXPECT_NEAR(kinetic_J(probe.bodies(), probe.motions()), 0.5 * all_J, 1e-9 * all_J);
 }
 
-TEST(BreakProbe, BreaksNoColumnThatTheOthersRelieve) {
+TEST(EventProbe, BreaksNoColumnThatTheOthersRelieve) {
   std::vector<ProbeBody> bodies(4, pane());
   bodies.push_back(ball(100, Vec3(0, -2, 0)));
   std::vector<ProbeContact> contacts;
   for (std::uint32_t i = 0; i < 4; ++i) {
     contacts.push_back(contact(4, i, 0, Vec3(i % 2 ? 1 : -1, 0, i < 2 ? 1 : -1)));
   }
-  BreakProbe probe(bodies, contacts, kStep_s, kStill_m_s);
+  EventProbe probe(bodies, contacts, kStep_s, kStill_m_s);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 4u);
   // One of four legs gives way: the slab still stands on a diagonal and one leg more, and goes
@@ -174,9 +174,9 @@ TEST(BreakProbe, BreaksNoColumnThatTheOthersRelieve) {
   EXPECT_TRUE(probe.release(one).empty());
 }
 
-TEST(BreakProbe, HasTheBallBehindItsDebrisBreakTheNextLayer) {
+TEST(EventProbe, HasTheBallBehindItsDebrisBreakTheNextLayer) {
   const double m = 3, crumb_kg = 1e-3, v = 25;
-  BreakProbe probe({pane(), ball(crumb_kg, Vec3(0, -v, 0)), ball(m, Vec3(0, -v, 0))},
+  EventProbe probe({pane(), ball(crumb_kg, Vec3(0, -v, 0)), ball(m, Vec3(0, -v, 0))},
                    {contact(1, 0, 1e-3), contact(2, 1, 0)}, kStep_s, kStill_m_s);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 1u);
@@ -184,10 +184,10 @@ TEST(BreakProbe, HasTheBallBehindItsDebrisBreakTheNextLayer) {
   EXPECT_NEAR(loads[0].work_J, work_J, 0.05 * work_J);
 }
 
-TEST(BreakProbe, TakesTheEnergyAtTheTimeOfTheHitAndLeavesTheBallThere) {
+TEST(EventProbe, TakesTheEnergyAtTheTimeOfTheHitAndLeavesTheBallThere) {
   const double m = 0.1, v = 200, energy_J = 40, distance_m = 0.5;
   for (const double dt_s : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
-    BreakProbe probe({pane(), pane(), ball(m, Vec3(0, -v, 0))},
+    EventProbe probe({pane(), pane(), ball(m, Vec3(0, -v, 0))},
                      {contact(2, 0, distance_m), contact(2, 1, distance_m + 0.1)}, dt_s,
                      kStill_m_s);
     const auto loads = probe.next();
@@ -202,11 +202,11 @@ TEST(BreakProbe, TakesTheEnergyAtTheTimeOfTheHitAndLeavesTheBallThere) {
   }
 }
 
-TEST(BreakProbe, MeetsAtTheSpeedThatGravityHasGivenByThen) {
+TEST(EventProbe, MeetsAtTheSpeedThatGravityHasGivenByThen) {
   const double m = 5, v = 1, gap_m = 0.01, energy_J = 2;
   const Vec3 gravity_W(0, -10, 0);
   const double work_J = 0.5 * m * v * v + m * 10 * gap_m;
-  BreakProbe probe({pane(), ball(m, Vec3(0, -v, 0))}, {contact(1, 0, gap_m)}, kStep_s, kStill_m_s,
+  EventProbe probe({pane(), ball(m, Vec3(0, -v, 0))}, {contact(1, 0, gap_m)}, kStep_s, kStill_m_s,
                    gravity_W);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 1u);
@@ -222,7 +222,7 @@ TEST(BreakProbe, MeetsAtTheSpeedThatGravityHasGivenByThen) {
   EXPECT_NEAR(way_W.y(), -gap_m, 1e-12);
 }
 
-TEST(BreakProbe, KeepsAngularMomentumOfAGlancingBlowBetweenSpinningBodies) {
+TEST(EventProbe, KeepsAngularMomentumOfAGlancingBlowBetweenSpinningBodies) {
   const double gap_m = 0.2;
   ProbeBody stone = ball(2, Vec3(0, -20, 0)), plank = ball(5, Vec3(10, 0, 3));
   stone.position_W = Vec3(1, 0.5 + gap_m, 0.3);
@@ -238,7 +238,7 @@ TEST(BreakProbe, KeepsAngularMomentumOfAGlancingBlowBetweenSpinningBodies) {
     const Mat3 inertia_W = turn * body.inverse_inertia_W.inverse() * turn.transpose();
     return (body.position_W + shift_W).cross(velocity_W) / body.inverse_mass + inertia_W * w_W;
   };
-  BreakProbe probe({stone, plank}, {blow}, kStep_s, kStill_m_s);
+  EventProbe probe({stone, plank}, {blow}, kStep_s, kStill_m_s);
   ASSERT_EQ(probe.next().size(), 1u);
   const std::vector<ProbeBreak> wanted = {{0, 5}};
   ASSERT_EQ(probe.release(wanted).size(), 1u);
@@ -254,24 +254,24 @@ TEST(BreakProbe, KeepsAngularMomentumOfAGlancingBlowBetweenSpinningBodies) {
   EXPECT_LT((after - before).norm(), 1e-9 * before.norm());
 }
 
-TEST(BreakProbe, LetsNothingFallThatStandsOrLeans) {
+TEST(EventProbe, LetsNothingFallThatStandsOrLeans) {
   // Gravity as strong as it takes to break the pane, were it felt.
   for (const bool leans : {false, true}) {
     ProbeBody stands = ball(5, Vec3::Zero());
     stands.leans = leans;
-    BreakProbe probe({pane(0.1), stands, pane(0.1)},
+    EventProbe probe({pane(0.1), stands, pane(0.1)},
                      {contact(1, 0, 0.05), contact(1, 2, leans ? 1 : 0)}, kStep_s, kStill_m_s,
                      Vec3(0, -1000, 0));
     EXPECT_TRUE(probe.next().empty());
   }
 }
 
-TEST(BreakProbe, LoadsWhatIsBehindASolidThatHolds) {
+TEST(EventProbe, LoadsWhatIsBehindASolidThatHolds) {
   // A ball on a loose brick on a pane: if the brick holds, the pane has to bear the rest.
   ProbeBody brick = ball(4, Vec3::Zero());
   brick.breakable = true;
   brick.least_J = 0.01;
-  BreakProbe probe({pane(0.01), brick, ball(2, Vec3(0, -10, 0))}, {contact(1, 0), contact(2, 1)},
+  EventProbe probe({pane(0.01), brick, ball(2, Vec3(0, -10, 0))}, {contact(1, 0), contact(2, 1)},
                    kStep_s, kStill_m_s);
   auto loads = probe.next();
   ASSERT_EQ(loads.size(), 1u);
@@ -287,4 +287,4 @@ TEST(BreakProbe, LoadsWhatIsBehindASolidThatHolds) {
 }
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::solver

@@ -1,15 +1,17 @@
-#include "engine/world/break/linkage.h"
+#include "solver/impact/linkage.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
-constexpr double kYield = 1e-12;  // of each row: what repeats another has a solution by that
-constexpr double kNoWay = 1e-11;  // of a contact's inverse mass: less than that is rounding
+// Added to the unit diagonal, so that linearly dependent rows have a solution.
+constexpr double kRegularization = 1e-12;
+// Share of a contact's inverse mass without joints below which the one with joints is rounding.
+constexpr double kMinInverseMass = 1e-11;
 
 }  // namespace
 
@@ -26,7 +28,7 @@ Linkage::Linkage(std::vector<ContactRow> rows) : rows_(std::move(rows)) {
     for (Eigen::Index j = 0; j < i; ++j) {
       A(i, j) = A(j, i) = unit_[i] * unit_[j] * row(i).coupling(row(j));
     }
-    A(i, i) = 1 + kYield;
+    A(i, i) = 1 + kRegularization;
   }
   coupling_.compute(A);
 }
@@ -47,7 +49,7 @@ void Linkage::project(std::vector<BodyVelocity>& velocities) const {
   }
 }
 
-void Linkage::join(ContactRow& row, std::size_t bodies) const {
+void Linkage::add_joint_responses(ContactRow& row, std::size_t bodies) const {
   if (rows_.empty()) return;
   Eigen::VectorXd speeds(unit_.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -61,12 +63,12 @@ void Linkage::join(ContactRow& row, std::size_t bodies) const {
   }
   for (std::uint32_t b = 0; b < bodies; ++b) {
     if (!change[b].linear.isZero(0) || !change[b].angular.isZero(0)) {
-      row.passed_on.push_back({b, change[b]});
+      row.joint_responses.push_back({b, change[b]});
     }
   }
   const double free = row.inverse_mass;
   row.inverse_mass = row.coupling(row);
-  if (row.inverse_mass < kNoWay * free) row.inverse_mass = 0;
+  if (row.inverse_mass < kMinInverseMass * free) row.inverse_mass = 0;
 }
 
-}  // namespace sunder
+}  // namespace sunder::solver

@@ -1,17 +1,17 @@
-#include "engine/world/break/even_load.h"
+#include "solver/impact/even_load.h"
 
 #include <algorithm>
 
 #include <Eigen/Dense>
 
-namespace sunder {
+namespace sunder::solver {
 
 void spread_evenly(std::span<PressedPoint> points) {
   const auto n = static_cast<Eigen::Index>(points.size());
   double reach_m = 0;
   for (const PressedPoint& point : points) reach_m = std::max(reach_m, point.arm_W.norm());
   if (n < 2 || !(reach_m > 0)) return;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> G(6, n);  // of unit impulses, sum and moment
+  Eigen::Matrix<double, 6, Eigen::Dynamic> G(6, n);  // force and moment of each unit impulse
   Eigen::VectorXd impulses_Ns(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const PressedPoint& point = points[static_cast<std::size_t>(i)];
@@ -25,4 +25,4 @@ void spread_evenly(std::span<PressedPoint> points) {
   for (Eigen::Index i = 0; i < n; ++i) points[static_cast<std::size_t>(i)].impulse_Ns = even[i];
 }
 
-}  // namespace sunder
+}  // namespace sunder::solver

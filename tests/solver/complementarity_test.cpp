@@ -1,5 +1,5 @@
 // The exact solve of a break probe: what contacts do to each other, however unlike the masses.
-#include "engine/world/break/complementarity.h"
+#include "solver/impact/complementarity.h"
 
 #include <cmath>
 #include <vector>
@@ -9,7 +9,7 @@
 #include "engine/base/random.h"
 #include "engine/base/types.h"
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 struct Contacts {
@@ -96,4 +96,4 @@ TEST(Complementarity, OfOneContactIsItsClosedForm) {
 }
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::solver

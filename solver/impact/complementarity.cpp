@@ -1,4 +1,4 @@
-#include "engine/world/break/complementarity.h"
+#include "solver/impact/complementarity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,15 +7,15 @@
 
 #include <Eigen/Cholesky>
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 constexpr double kTolerance = 1e-9;
 constexpr int kMostPivots = 200;
 constexpr int kPatience = 3;      // block exchanges without progress before single ones
-constexpr int kMostSweeps = 200;  // where pivoting comes to no end
+constexpr int kMostSweeps = 200;  // if pivoting does not end
 
-/// x with A·x = b where `free`, 0 elsewhere.
+/// Returns x with A·x = b in the rows that are `free`, and x = 0 in the others.
 Eigen::VectorXd solve_free(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
                            const std::vector<std::uint8_t>& free) {
   std::vector<Eigen::Index> rows;
@@ -27,12 +27,13 @@ Eigen::VectorXd solve_free(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
   return x;
 }
 
-/// What x does to the energy, with A·x ≥ b: never more than nothing for the solution.
+/// Returns the change of energy by x: at most 0 for the solution.
 double energy(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::VectorXd& x) {
   return x.dot(0.5 * (A * x) - b);
 }
 
-/// The solution, or, if rounding keeps pivoting from an end, the least energy that it came to.
+/// Returns the solution; if rounding errors keep pivoting from ending (`solved` is false), the
+/// iterate of least energy.
 Eigen::VectorXd pivot(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool& solved) {
   const auto n = static_cast<std::size_t>(b.size());
   const double enough = kTolerance * b.maxCoeff();
@@ -68,7 +69,7 @@ Eigen::VectorXd pivot(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool& 
                                    [&](const Eigen::VectorXd& x) { return energy(A, b, x); });
 }
 
-/// Projected Gauss-Seidel: every change of x takes energy.
+/// Improves x by projected Gauss-Seidel, in which every change of x reduces the energy.
 void sweep(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   const double enough = kTolerance * b.maxCoeff();
   for (int i = 0; i < kMostSweeps; ++i) {
@@ -86,7 +87,7 @@ void sweep(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, Eigen::VectorXd& 
 
 Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   if (b.size() == 0 || b.maxCoeff() <= 0) return Eigen::VectorXd::Zero(b.size());
-  // In units in which all are alike: a pebble under a roof is a millionth of it.
+  // Scaled to a unit diagonal: masses in a cluster may differ by a factor of a million.
   const Eigen::VectorXd unit = A.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd A_unit = unit.asDiagonal() * A * unit.asDiagonal();
   const Eigen::VectorXd b_unit = unit.cwiseProduct(b);
@@ -96,4 +97,4 @@ Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& A, const Eigen::Vec
   return unit.cwiseProduct(x);
 }
 
-}  // namespace sunder
+}  // namespace sunder::solver

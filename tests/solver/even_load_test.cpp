@@ -1,11 +1,11 @@
 // How what presses at many points is shared between them.
-#include "engine/world/break/even_load.h"
+#include "solver/impact/even_load.h"
 
 #include <vector>
 
 #include <gtest/gtest.h>
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 /// Sum and moment.
@@ -55,4 +55,4 @@ TEST(EvenLoad, StaysWhereItIsIfSomePointWouldHaveToPull) {
 }
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::solver

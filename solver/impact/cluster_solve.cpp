@@ -1,25 +1,26 @@
-#include "engine/world/break/cluster_solve.h"
+#include "solver/impact/cluster_solve.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/nncg.h"
-#include "engine/world/break/complementarity.h"
+#include "solver/impact/complementarity.h"
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
-constexpr std::size_t kMostExact = 48;  // contacts that are solved exactly; more, by sweeps
+constexpr std::size_t kMostExact = 48;  // contacts of a group that is solved exactly
 constexpr int kMostRounds = 20;
-constexpr double kConverged = 1e-2;  // of the greatest closing speed
+constexpr double kConverged = 1e-2;  // closing speed at rest, as a share of the highest one
 
-/// Contacts that hang together.
+/// Contacts connected through moving bodies.
 class Group {
  public:
-  Group(std::vector<const ContactRow*> rows, double give) : rows_(std::move(rows)), give_(give) {}
+  Group(std::vector<const ContactRow*> rows, double softness)
+      : rows_(std::move(rows)), softness_(softness) {}
 
-  /// Impulses per row, which are added to the velocities.
+  /// Returns the impulse of each row, and adds the impulses to the velocities.
   std::vector<double> solve(double fastest_m_s, std::vector<BodyVelocity>& v,
                             std::uint64_t& work) const {
     const auto closes = [&](const ContactRow* row) {
@@ -40,7 +41,7 @@ class Group {
              std::vector<double>& change) const;
 
   std::vector<const ContactRow*> rows_;
-  double give_;
+  double softness_;
 };
 
 std::vector<double> Group::solve_exactly(std::vector<BodyVelocity>& v) const {
@@ -53,14 +54,14 @@ std::vector<double> Group::solve_exactly(std::vector<BodyVelocity>& v) const {
   for (Eigen::Index i = 0; i < n; ++i) {
     closing[i] = row(i).speed(v);
     for (Eigen::Index j = 0; j < i; ++j) A(i, j) = A(j, i) = row(i).coupling(row(j));
-    A(i, i) = row(i).inverse_mass + give_;
+    A(i, i) = row(i).inverse_mass + softness_;
   }
   const Eigen::VectorXd impulses = solve_complementarity(A, closing);
   for (Eigen::Index i = 0; i < n; ++i) row(i).push(v, impulses[i]);
   return {impulses.begin(), impulses.end()};
 }
 
-/// One sweep of projected Gauss-Seidel, there and back; `change` is what it did to the impulses.
+/// Does one symmetric sweep of projected Gauss-Seidel; `change` receives the change per impulse.
 void Group::sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns,
                   std::vector<double>& change) const {
   const std::size_t n = rows_.size();
@@ -69,7 +70,7 @@ void Group::sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns
     const std::size_t i = k < n ? k : 2 * n - 1 - k;
     const ContactRow& row = *rows_[i];
     double& sum = impulses_Ns[i];
-    const double wanted = (row.speed(v) - give_ * sum) / (row.inverse_mass + give_);
+    const double wanted = (row.speed(v) - softness_ * sum) / (row.inverse_mass + softness_);
     const double impulse = std::max(sum + wanted, 0.0) - sum;
     if (impulse == 0) continue;
     sum += impulse;
@@ -78,7 +79,7 @@ void Group::sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns
   }
 }
 
-/// Conjugate gradients over sweeps: see nncg.h.
+/// Solves by nonsmooth nonlinear conjugate gradients over sweeps (engine/base/nncg.h).
 std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyVelocity>& v,
                                            std::uint64_t& work) const {
   const std::size_t n = rows_.size();
@@ -116,7 +117,7 @@ double ContactRow::coupling(const ContactRow& other) const {
   if (other.a == b) sum -= normal.dot(other.push_a) + angular_b.dot(other.spin_a);
   if (other.b == a) sum -= normal.dot(other.push_b) + angular_a.dot(other.spin_b);
   if (other.b == b) sum += normal.dot(other.push_b) + angular_b.dot(other.spin_b);
-  for (const PassedOn& on : other.passed_on) {
+  for (const JointResponse& on : other.joint_responses) {
     if (on.body == a) sum -= normal.dot(on.change.linear) + angular_a.dot(on.change.angular);
     if (on.body == b) sum += normal.dot(on.change.linear) + angular_b.dot(on.change.angular);
   }
@@ -125,19 +126,19 @@ double ContactRow::coupling(const ContactRow& other) const {
 
 ClusterMotion solve_cluster(const std::vector<ContactRow>& rows,
                             std::span<const std::uint32_t> closed,
-                            std::span<const std::uint32_t> in_way, double give, double fastest_m_s,
-                            const std::vector<BodyVelocity>& velocities) {
+                            std::span<const std::uint32_t> active, double softness,
+                            double fastest_m_s, const std::vector<BodyVelocity>& velocities) {
   DisjointSets bodies(velocities.size());
-  for (const std::uint32_t i : in_way) {
+  for (const std::uint32_t i : active) {
     const ContactRow& row = rows[closed[i]];
     if (row.moves_a && row.moves_b) bodies.join(row.a, row.b);
-    for (const ContactRow::PassedOn& on : row.passed_on) {
+    for (const ContactRow::JointResponse& on : row.joint_responses) {
       bodies.join(row.moves_a ? row.a : row.b, on.body);
     }
   }
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> grouped;  // by group
-  grouped.reserve(in_way.size());
-  for (const std::uint32_t i : in_way) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> grouped;  // group and position in `closed`
+  grouped.reserve(active.size());
+  for (const std::uint32_t i : active) {
     const ContactRow& row = rows[closed[i]];
     grouped.emplace_back(bodies.root(row.moves_a ? row.a : row.b), i);
   }
@@ -149,7 +150,7 @@ ClusterMotion solve_cluster(const std::vector<ContactRow>& rows,
       group.push_back(&rows[closed[grouped[end].second]]);
     }
     const std::vector<double> impulses_Ns =
-        Group(std::move(group), give).solve(fastest_m_s, solved.velocities, solved.work);
+        Group(std::move(group), softness).solve(fastest_m_s, solved.velocities, solved.work);
     for (std::size_t i = begin; i < end; ++i) {
       solved.impulses_Ns[grouped[i].second] = impulses_Ns[i - begin];
     }
@@ -157,4 +158,4 @@ ClusterMotion solve_cluster(const std::vector<ContactRow>& rows,
   return solved;
 }
 
-}  // namespace sunder
+}  // namespace sunder::solver

@@ -1,11 +1,11 @@
-#include "engine/world/break/probe_rows.h"
+#include "solver/impact/probe_rows.h"
 
 #include "engine/base/rotation.h"
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
-/// From what it asks of the two bodies.
+/// Returns a row with this Jacobian of two bodies.
 ContactRow make_row(const std::vector<ProbeBody>& bodies, std::uint32_t a, std::uint32_t b,
                     const Vec3& normal_W, const Vec3& angular_a_W, const Vec3& angular_b_W) {
   const ProbeBody &body_a = bodies[a], &body_b = bodies[b];
@@ -22,25 +22,26 @@ ContactRow make_row(const std::vector<ProbeBody>& bodies, std::uint32_t a, std::
   return row;
 }
 
-/// Where the ends of two arms are by now.
+/// Current centres of mass and lever arms of a contact or joint.
 struct Ends {
   Vec3 center_a, center_b, arm_a, arm_b;
 
   template <typename Pair>
-  Ends(const std::vector<ProbePlace>& places, const Pair& pair)
-      : center_a(places[pair.a].center_W),
-        center_b(places[pair.b].center_W),
-        arm_a(places[pair.a].turn_W * pair.arm_a_W),
-        arm_b(places[pair.b].turn_W * pair.arm_b_W) {}
+  Ends(const std::vector<ProbePose>& poses, const Pair& pair)
+      : center_a(poses[pair.a].center_W),
+        center_b(poses[pair.b].center_W),
+        arm_a(poses[pair.a].rotation_W * pair.arm_a_W),
+        arm_b(poses[pair.b].rotation_W * pair.arm_b_W) {}
 
-  /// The direction from b's to a's.
-  Vec3 apart(const Vec3& otherwise) const {
+  /// Returns the unit vector from b's end to a's; `fallback` if the ends coincide.
+  Vec3 direction_from_b(const Vec3& fallback) const {
     const Vec3 between = center_a + arm_a - (center_b + arm_b);
     const double length = between.norm();
-    return length > 0 ? Vec3(between / length) : otherwise;
+    return length > 0 ? Vec3(between / length) : fallback;
   }
-  /// Moves both to midway between them: or a blow would make angular momentum.
-  void unite() {
+  /// Moves the ends of both arms to their midpoint: impulses at different points would create
+  /// angular momentum.
+  void move_arms_to_midpoint() {
     const Vec3 point = 0.5 * (center_a + arm_a + center_b + arm_b);
     arm_a = point - center_a;
     arm_b = point - center_b;
@@ -49,13 +50,14 @@ struct Ends {
 
 }  // namespace
 
-std::vector<ProbePlace> places_after(const std::vector<ProbeBody>& bodies,
-                                     const std::vector<BodyVelocity>& way) {
-  std::vector<ProbePlace> places(bodies.size());
+std::vector<ProbePose> poses_after(const std::vector<ProbeBody>& bodies,
+                                   const std::vector<BodyVelocity>& displacements) {
+  std::vector<ProbePose> poses(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    places[b] = {bodies[b].position_W + way[b].linear, rotation_by(way[b].angular)};
+    poses[b] = {bodies[b].position_W + displacements[b].linear,
+                rotation_by(displacements[b].angular)};
   }
-  return places;
+  return poses;
 }
 
 ContactRow make_row(const std::vector<ProbeBody>& bodies, const ProbeContact& contact,
@@ -68,48 +70,48 @@ ContactRow make_row(const std::vector<ProbeBody>& bodies, const ProbeContact& co
   return row;
 }
 
-ContactRow meet(const std::vector<ProbeBody>& bodies, const std::vector<ProbePlace>& places,
-                const ProbeContact& contact) {
-  Ends ends(places, contact);
+ContactRow make_current_row(const std::vector<ProbeBody>& bodies,
+                            const std::vector<ProbePose>& poses, const ProbeContact& contact) {
+  Ends ends(poses, contact);
   if (!contact.rope) {
-    ends.unite();
+    ends.move_arms_to_midpoint();
     return make_row(bodies, contact, ends.arm_a, ends.arm_b);
   }
   ProbeContact rope = contact;
-  rope.normal_W = ends.apart(contact.normal_W);
+  rope.normal_W = ends.direction_from_b(contact.normal_W);
   return make_row(bodies, rope, ends.arm_a, ends.arm_b);
 }
 
-std::vector<ContactRow> joint_rows(const std::vector<ProbeBody>& bodies,
-                                   const std::vector<ProbePlace>& places,
-                                   const std::vector<ProbeJoint>& joints) {
+std::vector<ContactRow> make_joint_rows(const std::vector<ProbeBody>& bodies,
+                                        const std::vector<ProbePose>& poses,
+                                        const std::vector<ProbeJoint>& joints) {
   std::vector<ContactRow> rows;
   for (const ProbeJoint& joint : joints) {
     if (bodies[joint.a].inverse_mass <= 0 && bodies[joint.b].inverse_mass <= 0) continue;
-    Ends ends(places, joint);
-    const auto hold = [&](const Vec3& n) {
+    Ends ends(poses, joint);
+    const auto add_linear_row = [&](const Vec3& n) {
       rows.push_back(
           make_row(bodies, joint.a, joint.b, n, ends.arm_a.cross(n), ends.arm_b.cross(n)));
     };
-    const auto hold_turn = [&](const Vec3& axis) {
+    const auto add_angular_row = [&](const Vec3& axis) {
       rows.push_back(make_row(bodies, joint.a, joint.b, Vec3::Zero(), axis, axis));
     };
     if (joint.kind == JointKind::kDistance) {
-      hold(ends.apart(Vec3::UnitX()));
+      add_linear_row(ends.direction_from_b(Vec3::UnitX()));
       continue;
     }
-    ends.unite();
-    for (int i = 0; i < 3; ++i) hold(Vec3::Unit(i));
+    ends.move_arms_to_midpoint();
+    for (int i = 0; i < 3; ++i) add_linear_row(Vec3::Unit(i));
     if (joint.kind == JointKind::kHinge) {
-      const Vec3 axis = places[joint.a].turn_W * joint.axis_W;
+      const Vec3 axis = poses[joint.a].rotation_W * joint.axis_W;
       const Vec3 across = axis.unitOrthogonal();
-      hold_turn(across);
-      hold_turn(axis.cross(across));
-    } else if (joint.kind == JointKind::kFixed) {  // within no time, what flows bears no moment
-      for (int i = 0; i < 3; ++i) hold_turn(Vec3::Unit(i));
+      add_angular_row(across);
+      add_angular_row(axis.cross(across));
+    } else if (joint.kind == JointKind::kFixed) {  // yielding joints transmit no moment at once
+      for (int i = 0; i < 3; ++i) add_angular_row(Vec3::Unit(i));
     }
   }
   return rows;
 }
 
-}  // namespace sunder
+}  // namespace sunder::solver

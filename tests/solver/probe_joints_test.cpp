@@ -7,9 +7,9 @@
 
 #include "engine/base/random.h"
 #include "engine/base/rotation.h"
-#include "engine/world/break/break_probe.h"
+#include "solver/impact/event_probe.h"
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 constexpr double kStill_m_s = 1e-3;
@@ -82,7 +82,7 @@ Sums sums_before(const std::vector<ProbeBody>& bodies) {
   return sums;
 }
 
-Sums sums_after(const BreakProbe& probe) {
+Sums sums_after(const EventProbe& probe) {
   Sums sums;
   for (std::size_t b = 0; b < probe.bodies().size(); ++b) {
     const ProbeBody& body = probe.bodies()[b];
@@ -93,7 +93,7 @@ Sums sums_after(const BreakProbe& probe) {
 }
 
 /// The only load there is has that work; half of that breaks it, and is all that is lost.
-void expect_work(BreakProbe probe, double work_J) {
+void expect_work(EventProbe probe, double work_J) {
   const double before_J = sums_before(probe.bodies()).kinetic_J;
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 1u);
@@ -158,7 +158,7 @@ TEST(ProbeJoints, ARopeBearsAlongItselfOnlyOnceItIsTaut) {
 
 /// A free chain of rods along x with ball joints, all at one velocity, whose first rod hits with
 /// its tip at the origin.
-BreakProbe chain_that_hits(int rods, const Vec3& velocity_W, double dt_s) {
+EventProbe chain_that_hits(int rods, const Vec3& velocity_W, double dt_s) {
   std::vector<ProbeBody> bodies = {fixed_body(true)};
   for (int i = 0; i < rods; ++i) {
     bodies.push_back(
@@ -230,7 +230,7 @@ TEST(ProbeJoints, WhatJointsHoldBearsAsWhatIsFixed) {
       joined_body(2, Vec3::Constant(0.1), Vec3(0.7, 0, 0), Vec3::Zero()), fixed_body(false),
       joined_body(m, Vec3::Constant(0.1), Vec3(-0.1, 0, 0), Vec3(v, 0, 0))};
   bodies[0].breakable = true;
-  BreakProbe probe(bodies, {contact_at(bodies, 3, 0, Vec3::Zero(), Vec3::UnitX())}, kSteps_s[0],
+  EventProbe probe(bodies, {contact_at(bodies, 3, 0, Vec3::Zero(), Vec3::UnitX())}, kSteps_s[0],
                    kStill_m_s, Vec3::Zero(),
                    {joint_between(bodies, JointKind::kFixed, 0, 1, at_W, at_W),
                     joint_between(bodies, JointKind::kFixed, 1, 2, at_W, at_W)});
@@ -248,7 +248,7 @@ TEST(ProbeJoints, WhatHangsDoesNotFallAndWhatSwingsFallsAsItMay) {
         fixed_body(false)};
     const Vec3 pivot_W = hangs ? Vec3(0, 2, 0) : Vec3(2, 0, 0);
     const ProbeJoint rod = joint_between(bodies, JointKind::kDistance, 1, 2, Vec3::Zero(), pivot_W);
-    BreakProbe probe(bodies, {contact_at(bodies, 1, 0, Vec3::Zero(), -Vec3::UnitY(), 0.02)},
+    EventProbe probe(bodies, {contact_at(bodies, 1, 0, Vec3::Zero(), -Vec3::UnitY(), 0.02)},
                      kSteps_s[0], kStill_m_s, gravity_W, {rod});
     const auto loads = probe.next();
     ASSERT_EQ(loads.size(), hangs ? 0u : 1u);
@@ -307,7 +307,7 @@ TEST(ProbeJoints, KeepMomentumAndMakeNoEnergyHoweverTheyHangTogether) {
   for (int i = 0; i < 2000; ++i) {
     const bool at_once = i % 2 == 0;
     const Throw thrown = random_throw(random, at_once);
-    BreakProbe probe(thrown.bodies, thrown.contacts, 1.0 / 60, kStill_m_s, Vec3::Zero(),
+    EventProbe probe(thrown.bodies, thrown.contacts, 1.0 / 60, kStill_m_s, Vec3::Zero(),
                      thrown.joints);
     const auto loads = probe.next();
     if (loads.empty()) continue;
@@ -329,4 +329,4 @@ TEST(ProbeJoints, KeepMomentumAndMakeNoEnergyHoweverTheyHangTogether) {
 }
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::solver

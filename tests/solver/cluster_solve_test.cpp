@@ -1,5 +1,5 @@
 // Contacts of a cluster solved at once: whatever they are, and however many, they take energy.
-#include "engine/world/break/cluster_solve.h"
+#include "solver/impact/cluster_solve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "engine/base/random.h"
 
-namespace sunder {
+namespace sunder::solver {
 namespace {
 
 /// Bodies of between a tenth of a gram and 1000 tonnes that touch each other by faces, at four
@@ -93,4 +93,4 @@ TEST(ClusterSolve, TakesEnergyHoweverManyTouch) {
 }
 
 }  // namespace
-}  // namespace sunder
+}  // namespace sunder::solver
