@@ -16,7 +16,7 @@ class Camera {
   /// Returns the view of a frame. The frame's own view is the starting point of the camera.
   virtual View at(const Frame& frame) = 0;
   /// Returns true if the view of a frame depends on all frames before it.
-  virtual bool remembers() const { return false; }
+  virtual bool depends_on_history() const { return false; }
 };
 
 /// Specifications of make_camera(), for help and messages.

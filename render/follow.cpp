@@ -42,7 +42,7 @@ const FrameBody* FollowCamera::largest_body(const Frame& frame, bool of_followed
   for (std::size_t b = 0; b < frame.bodies.size(); ++b) {
     const FrameBody& body = frame.bodies[b];
     const bool is_one =
-        of_followed ? body.before_key == *key_ : std::ranges::count(names_, body.name) > 0;
+        of_followed ? body.previous_key == *key_ : std::ranges::count(names_, body.name) > 0;
     if (!is_one || size_m3[b] <= most_m3) continue;
     most_m3 = size_m3[b];
     found = &body;

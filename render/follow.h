@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/camera.h"
-#include "render/glide.h"
+#include "render/damped_spring.h"
 #include "render/mesh_sizes.h"
 
 namespace sunder::render {
@@ -18,7 +18,7 @@ class FollowCamera final : public Camera {
  public:
   explicit FollowCamera(std::string name) : name_(std::move(name)) {}
   View at(const Frame& frame) override;
-  bool remembers() const override { return true; }
+  bool depends_on_history() const override { return true; }
 
  private:
   void find_names(const Frame& frame);

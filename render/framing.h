@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "render/camera.h"
-#include "render/glide.h"
+#include "render/damped_spring.h"
 #include "render/mesh_sizes.h"
 
 namespace sunder::render {
@@ -15,7 +15,7 @@ namespace sunder::render {
 class FramingCamera final : public Camera {
  public:
   View at(const Frame& frame) override;
-  bool remembers() const override { return true; }
+  bool depends_on_history() const override { return true; }
 
  private:
   /// State of the camera: target, and logarithm of the distance to it.

@@ -8,13 +8,13 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
+#include "render/frame_interpolation.h"
 #include "render/gl/context.h"
 #include "render/gl/objects.h"
 #include "render/gl/units.h"
 #include "render/image/antialias.h"
 #include "render/image/hud.h"
 #include "render/options.h"
-#include "render/passage.h"
 #include "render/passes/chips.h"
 #include "render/passes/layers.h"
 #include "render/passes/marks.h"
@@ -114,7 +114,7 @@ struct Renderer::Impl {
   Target sum;  ///< Sum of the samples.
   Target picture;
   std::shared_ptr<const std::vector<Material>> materials;
-  std::shared_ptr<const std::vector<Paint>> paints;
+  std::shared_ptr<const std::vector<Appearance>> paints;
   std::vector<std::uint32_t> pixels;
   std::vector<PassTime> times;
   Stopwatch watch;
@@ -131,7 +131,7 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
       depth_tiles(gl),
       chips(gl),
       puffs(gl) {
-  if (view_mode.looks_inside()) marks.emplace(gl);
+  if (view_mode.needs_inspection()) marks.emplace(gl);
   const int w = options.width;
   const int h = options.height;
   const int half_w = (w + 1) / 2;
@@ -191,7 +191,7 @@ void Renderer::Impl::upload(const Frame& frame, const Sample& sample) {
   if (frame.paints != paints) {
     paints = frame.paints;
     activate_unit(gl, kPictureUnit);
-    pictures->update(paints ? *paints : std::vector<Paint>());
+    pictures->update(paints ? *paints : std::vector<Appearance>());
     materials = nullptr;  // forces the upload of all rows: those of paints follow the materials'
   }
   if (frame.materials != materials) {
@@ -333,7 +333,7 @@ Image Renderer::Impl::read_back() {
   gl.ReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   end_pass("read");
   Image image = gathers() ? unpacked(pixels, options.width, options.height, options.transparent)
-                          : antialiased(pixels, options.width, options.height);
+                          : apply_fxaa(pixels, options.width, options.height);
   end_pass("antialias");
   return image;
 }
@@ -370,7 +370,7 @@ Image Renderer::draw(const Frame& frame, const Frame* before) {
   } else {
     const double weight = 1.0 / r.options.samples;
     const bool blurs = frame.view.shutter > 0;
-    const Interval interval = blurs ? up_to(frame, before) : Interval{};
+    const FrameInterval interval = blurs ? up_to(frame, before) : FrameInterval{};
     for (int s = 0; s < r.options.samples; ++s) {
       const double part = 1 - frame.view.shutter * (1 - (s + 0.5) * weight);
       r.draw_light(blurs ? *between(interval, part) : frame, {jitter_of(s), weight});

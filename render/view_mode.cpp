@@ -99,7 +99,7 @@ const Frame& ViewMode::shown(const Frame& frame) {
     explode();
     return shown_;
   }
-  if (looks_inside()) {
+  if (needs_inspection()) {
     if (!frame.inspection) {
       throw InputError("--view-mode " + name_ + ": frame " + std::to_string(frame.index) +
                        " does not say what happens inside, as takes and older frame files do not; "

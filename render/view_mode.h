@@ -28,7 +28,7 @@ class ViewMode {
   /// Returns true if the edges of triangles are drawn in place of faces.
   bool edges() const { return kind_ == Kind::kWireframe; }
   /// Returns true if the mode needs Frame::inspection.
-  bool looks_inside() const { return kind_ >= Kind::kContacts; }
+  bool needs_inspection() const { return kind_ >= Kind::kContacts; }
 
  private:
   enum class Kind {

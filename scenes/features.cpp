@@ -112,7 +112,7 @@ void without_yielding(Scene& scene) {
 /// `reason_for_none` the reason if that is 0, and `makes_particles` is true for a material whose
 /// crack faces release this kind of particle.
 std::string particles_state(const Scene& scene, std::uint32_t limit, const char* reason_for_none,
-                            bool (*makes_particles)(const Crumbling&)) {
+                            bool (*makes_particles)(const DebrisEmission&)) {
   if (limit == 0) return std::string("off: ") + reason_for_none;
   if (!may_break(scene)) return "off: nothing here is breakable";
   const bool any = any_solid(scene, [&](const Solid& solid) {
@@ -124,11 +124,11 @@ std::string particles_state(const Scene& scene, std::uint32_t limit, const char*
 }
 std::string debris_state(const Scene& scene) {
   return particles_state(scene, scene.limits.debris, "debris = 0 in [limits]",
-                         [](const Crumbling& c) { return c.debris_ratio > 0; });
+                         [](const DebrisEmission& c) { return c.debris_ratio > 0; });
 }
 std::string dust_state(const Scene& scene) {
   return particles_state(scene, scene.limits.dust, "dust = 0 in [limits]",
-                         [](const Crumbling& c) { return c.debris_ratio < 1; });
+                         [](const DebrisEmission& c) { return c.debris_ratio < 1; });
 }
 void without_debris(Scene& scene) { scene.limits.debris = 0; }
 void without_dust(Scene& scene) { scene.limits.dust = 0; }

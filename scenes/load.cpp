@@ -135,12 +135,12 @@ void Loader::read_accuracy() {
 void Loader::find_substeps() {
   Accuracy& accuracy = scene_.accuracy;
   if (accuracy.error_target_m <= 0) return;
-  const int wanted = substeps_for_sink(stacks_in(scene_).deepest, scene_.gravity_W.norm(),
-                                       accuracy.dt_s, accuracy.error_target_m);
-  accuracy.substeps = std::min(wanted, kMostSubsteps);
+  const int wanted = substeps_for_penetration(find_stacks(scene_).deepest, scene_.gravity_W.norm(),
+                                              accuracy.dt_s, accuracy.error_target_m);
+  accuracy.substeps = std::min(wanted, kMaxSubsteps);
 }
 
-void read_crumbling(const Value& table, Crumbling& crumbling) {
+void read_crumbling(const Value& table, DebrisEmission& crumbling) {
   read(schema().crumbling, table, {}, crumbling);
   if (crumbling.debris_smallest_m > crumbling.debris_largest_m) {
     throw InputError(table.where + ": debris_smallest_m = " + format(crumbling.debris_smallest_m) +
@@ -219,7 +219,7 @@ void anchor(std::vector<Piece>& pieces, Anchored how, const Value& table,
   }
   for (Piece& piece : pieces) {
     for (Part& part : piece.parts) {
-      if (how == Anchored::kAll) part.anchored = kAnchoredAllRound;
+      if (how == Anchored::kAll) part.anchored = kAnchoredAllSides;
     }
   }
 }

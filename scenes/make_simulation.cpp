@@ -34,7 +34,7 @@ std::shared_ptr<fracture::FailureLog> failure_log(const Scene& scene,
   for (const Solid& solid : scene.solids) volume_m3 += volume(solid.compound);
   const auto warn_and_delete = [folder, volume_m3, warn = options.warn](fracture::FailureLog* log) {
     if (log->failed() > 0 && warn) {
-      std::string text = left_whole_warning(log->failed(), log->failed_m3(), volume_m3);
+      std::string text = uncut_convexes_warning(log->failed(), log->failed_m3(), volume_m3);
       if (log->files() > 0) {
         text += "; " + std::to_string(log->files()) + " breaks are kept in " + folder +
                 "/, to look into by `sunder fracture`";
@@ -108,10 +108,10 @@ std::string obsolete_warning(const Scene& scene) {
 }
 
 std::vector<std::string> warnings_of(const Scene& scene) {
-  std::vector<std::string> warnings = chain_warnings(scene, kMostSubsteps);
-  const std::string accuracy = accuracy_warning(scene, kMostSubsteps);
+  std::vector<std::string> warnings = chain_warnings(scene, kMaxSubsteps);
+  const std::string accuracy = accuracy_warning(scene, kMaxSubsteps);
   for (const std::string& warning :
-       {accuracy.empty() ? crush_warning(scene, kMostSubsteps) : accuracy, post_warning(scene),
+       {accuracy.empty() ? crush_warning(scene, kMaxSubsteps) : accuracy, post_warning(scene),
         long_step_warning(scene), far_warning(scene), placement_warning(scene),
         obsolete_warning(scene)}) {
     if (!warning.empty()) warnings.push_back(warning);

@@ -15,8 +15,8 @@
 #include "engine/base/check.h"                  // InputError, FileError
 #include "engine/base/types.h"                  // Vec3, Quat, Pose, Box
 #include "engine/geometry/convex_polyhedron.h"  // make_box(), make_prism(), make_hull()
+#include "engine/io/recording/recording.h"      // RecordingWriter, RecordingReader
 #include "engine/io/statistics.h"               // Statistics, StateHash
-#include "engine/io/take/take.h"                // TakeWriter, TakeReader
 #include "engine/model/compound.h"              // Part, Compound
 #include "engine/model/frame.h"                 // Frame, FrameSource, FrameSink, pump()
 #include "engine/model/joint.h"

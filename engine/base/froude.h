@@ -24,7 +24,7 @@ class FroudeScale {
   /// Approximate time in which a body falls by its own size: √(size/g).
   double time_s(double size_m) const { return std::sqrt(size_m / gravity_m_s2_); }
   /// Speed below which a body counts as at rest: 0.1·g·dt, a tenth of what gravity adds in a step.
-  double still_m_s(double dt_s) const { return 0.1 * gravity_m_s2_ * dt_s; }
+  double rest_speed_m_s(double dt_s) const { return 0.1 * gravity_m_s2_ * dt_s; }
 
  private:
   double gravity_m_s2_;

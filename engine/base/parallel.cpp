@@ -109,8 +109,10 @@ int threads() {
   return thread_count;
 }
 
-bool may_share_work() { return !is_busy && threads() > 1; }
+bool can_run_parallel() { return !is_busy && threads() > 1; }
 
-void detail::work_together(void (*call)(const void*), const void* work) { team().run(call, work); }
+void detail::run_on_free_threads(void (*call)(const void*), const void* work) {
+  team().run(call, work);
+}
 
 }  // namespace sunder

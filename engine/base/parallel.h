@@ -18,26 +18,26 @@ void set_threads(int count);
 /// Returns the number of threads of parallel loops.
 int threads();
 /// Returns true if other threads could take part in a loop that this thread starts now.
-bool may_share_work();
+bool can_run_parallel();
 
 namespace detail {
-void work_together(void (*call)(const void*), const void* work);
+void run_on_free_threads(void (*call)(const void*), const void* work);
 }  // namespace detail
 
 /// Calls `work()` on this thread, and on each other thread that becomes free before the call
 /// returns here; returns when all calls have returned. `work` distributes the items itself and must
 /// not throw. Threads that have not begun are not waited for, so on a busy machine this thread may
-/// do all of the work (docs/decisions/019-threads-that-wait-for-none.md).
+/// do all of the work (docs/decisions/019-thread-pool.md).
 template <class Work>
-void work_together(const Work& work) {
+void run_on_free_threads(const Work& work) {
   // Other threads trace their part under the name of this thread's span.
-  const char* const name = traced_span();
+  const char* const name = current_span_name();
   const auto traced = [&work, name] {
     const TraceSpan span(name);
     work();
   };
   using Traced = decltype(traced);
-  detail::work_together([](const void* all) { (*static_cast<Traced*>(all))(); }, &traced);
+  detail::run_on_free_threads([](const void* all) { (*static_cast<Traced*>(all))(); }, &traced);
 }
 
 /// Calls `work(begin, end, chunk)` for each chunk of [0, n). Chunks run in any order on any thread,
@@ -46,14 +46,14 @@ template <class Work>
 void for_chunks(std::size_t n, std::size_t chunk_size, const Work& work) {
   const std::size_t chunks = (n + chunk_size - 1) / chunk_size;
   auto run = [&](std::size_t c) { work(c * chunk_size, std::min(n, (c + 1) * chunk_size), c); };
-  if (chunks <= 1 || !may_share_work()) {
+  if (chunks <= 1 || !can_run_parallel()) {
     for (std::size_t c = 0; c < chunks; ++c) run(c);
     return;
   }
   std::atomic<std::size_t> next{0};
   std::mutex failure_mutex;
   std::exception_ptr failure;
-  work_together([&] {
+  run_on_free_threads([&] {
     for (std::size_t c; (c = next.fetch_add(1, std::memory_order_relaxed)) < chunks;) {
       try {
         run(c);

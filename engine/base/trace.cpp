@@ -39,12 +39,12 @@ Stopwatch trace_clock;
 std::atomic<bool> detail::tracing = false;
 
 void start_trace() {
-  take_trace();
+  stop_trace();
   trace_clock = {};
   detail::tracing = true;
 }
 
-std::vector<TracedSpan> take_trace() {
+std::vector<TracedSpan> stop_trace() {
   detail::tracing = false;
   const std::lock_guard lock(trace_mutex);
   std::vector<TracedSpan> all;
@@ -55,7 +55,7 @@ std::vector<TracedSpan> take_trace() {
   return all;
 }
 
-const char* traced_span() {
+const char* current_span_name() {
   return detail::tracing.load(std::memory_order_relaxed) ? this_thread_trace().innermost : nullptr;
 }
 

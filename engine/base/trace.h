@@ -32,10 +32,10 @@ struct TracedSpan {
   double begin_us = 0, duration_us = 0;
 };
 
-/// Starts recording spans until take_trace(). No other thread may be in a span.
+/// Starts recording spans until stop_trace(). No other thread may be in a span.
 void start_trace();
 /// Stops recording and returns all spans, sorted by thread, then by time of their end.
-std::vector<TracedSpan> take_trace();
+std::vector<TracedSpan> stop_trace();
 
 namespace detail {
 extern std::atomic<bool> tracing;
@@ -44,7 +44,7 @@ void trace_end(const char* name, const char* outer, double begin_us);
 }  // namespace detail
 
 /// Returns the name of this thread's innermost span; null if there is none or no recording.
-const char* traced_span();
+const char* current_span_name();
 
 /// Records a span from its construction to the end of the block. Costs one test of a flag while
 /// nothing is recorded. The name must have static lifetime; a null name records nothing.

@@ -90,25 +90,25 @@ struct Id {
 };
 
 /// An image as the PNG or JPEG bytes of its file, repeated beyond its edges; null if there is none.
-using Picture = std::shared_ptr<const std::vector<std::byte>>;
+using EncodedImage = std::shared_ptr<const std::vector<std::byte>>;
 
 /// Metallic-roughness parameters of a surface, as in glTF.
-struct Gloss {
-  float roughness = 1;        ///< From 0 (mirror) to 1 (rough).
-  float metallic = 0;         ///< From 0 (dielectric) to 1 (metal).
-  Picture picture = nullptr;  ///< Green scales roughness, blue scales metallic.
+struct MetallicRoughness {
+  float roughness = 1;             ///< From 0 (mirror) to 1 (rough).
+  float metallic = 0;              ///< From 0 (dielectric) to 1 (metal).
+  EncodedImage picture = nullptr;  ///< Green scales roughness, blue scales metallic.
 };
 
 /// The appearance of a face as its mesh file defines it: base colour, textures and gloss.
-struct Paint {
+struct Appearance {
   Vec3f color = Vec3f::Ones();  ///< Linear RGB.
-  Picture picture;              ///< Base colour texture, multiplied by `color`.
+  EncodedImage picture;         ///< Base colour texture, multiplied by `color`.
   /// True if v = 0 is the bottom row of an image (as in OBJ), false if the top row (glTF).
-  bool from_below = false;
+  bool v_from_bottom = false;
   /// Normal map (red: right in the image, green: up, blue: outward), or a bump map if it is grey.
-  Picture relief = nullptr;
-  float relief_scale = 1;                     ///< Factor on the slopes of `relief`.
-  std::optional<Gloss> gloss = std::nullopt;  ///< None: diffuse colour only.
+  EncodedImage relief = nullptr;
+  float normal_scale = 1;                                 ///< Factor on the slopes of `relief`.
+  std::optional<MetallicRoughness> gloss = std::nullopt;  ///< None: diffuse colour only.
 };
 
 }  // namespace sunder

@@ -1,6 +1,6 @@
 // One pass over the faces renumbers the corners that remain and adds a vertex to each edge that
 // changes side; each edge without an opposite is then, reversed, an edge of the cap. All decisions
-// depend on the sides of the vertices only (docs/decisions/005-cut-by-signs.md).
+// depend on the sides of the vertices only (docs/decisions/005-robust-clipping.md).
 //
 // The first attempt reuses vertices on the plane. Where the solid is about as thin as the
 // tolerance, the result may not be a sphere; then the cut is repeated without vertices on the

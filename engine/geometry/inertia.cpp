@@ -22,7 +22,7 @@ PrincipalMoments principal_moments(const Mat3& inertia) {
   return {axes, bounded(moments)};
 }
 
-Mat3 spinnable(const Mat3& inertia) {
+Mat3 bounded_inertia(const Mat3& inertia) {
   const auto [axes, moments] = eigen_moments(inertia);
   const Vec3 raised = bounded(moments);
   return raised == moments ? inertia : Mat3(axes * raised.asDiagonal() * axes.transpose());

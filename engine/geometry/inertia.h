@@ -16,6 +16,6 @@ PrincipalMoments principal_moments(const Mat3& inertia);
 
 /// Returns the tensor with moments bounded as by principal_moments(); bit for bit the given tensor
 /// if no moment is raised.
-Mat3 spinnable(const Mat3& inertia);
+Mat3 bounded_inertia(const Mat3& inertia);
 
 }  // namespace sunder

@@ -94,7 +94,7 @@ bool lies_within(const ConvexPolyhedron& convex, const Box& box) {
 Box extension_bounds(const ConvexPolyhedron& convex, double depth) {
   Box box = bounds(convex);
   const double rounding = 1e-9 * box.max.cwiseMax(-box.min).norm();
-  const double margin = std::max(depth, 0.0) / kLeastCosine + box.extent().norm() + rounding;
+  const double margin = std::max(depth, 0.0) / kMinMitreCosine + box.extent().norm() + rounding;
   box.min.array() -= margin;
   box.max.array() += margin;
   return box;
@@ -207,7 +207,7 @@ double depth_within(const PolygonMesh& mesh, PlaneId front, const Plane& plane) 
 
 std::optional<Midplane> midplane(const SectionEnd& a, const SectionEnd& b, const Pose& X_AB) {
   const Vec3 twice = a.along - X_AB.rotation * b.along;
-  if (twice.norm() < 2 * kLeastCosine) return std::nullopt;
+  if (twice.norm() < 2 * kMinMitreCosine) return std::nullopt;
   const Vec3 normal = twice.normalized();
   const Vec3 point = 0.5 * (a.centroid + X_AB * b.centroid);
   const Pose X_BA = X_AB.inverse();

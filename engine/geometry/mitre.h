@@ -16,7 +16,7 @@
 namespace sunder {
 
 /// cos 75°, the least cosine of half the angle of a bend. Larger bends get no mitre.
-inline constexpr double kLeastCosine = 0.25881904510252074;
+inline constexpr double kMinMitreCosine = 0.25881904510252074;
 
 /// The end of one side of a section, in that side's rest frame.
 struct SectionEnd {

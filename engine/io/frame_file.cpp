@@ -36,7 +36,7 @@ FrameBody take_body(ByteReader& in) {
   const auto flags = in.take<std::uint8_t>();
   body.is_static = (flags & 1) != 0;
   body.asleep = (flags & 2) != 0;
-  body.before_key = body.key;
+  body.previous_key = body.key;
   return body;
 }
 
@@ -119,7 +119,7 @@ std::vector<std::byte> content_of(const Frame& frame) {
   }
   put_codes(out, frame.debris);
   put_codes(out, frame.dust);
-  put(out, frame.paints ? *frame.paints : std::vector<Paint>());
+  put(out, frame.paints ? *frame.paints : std::vector<Appearance>());
   std::vector<std::shared_ptr<const Mesh>> meshes;
   for (const std::uint32_t mesh : drawn) meshes.push_back((*frame.meshes)[mesh]);
   put_uvs(out, meshes);
@@ -134,7 +134,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
   in.take_to(frame->index, frame->time_s);
   frame->view = take_view(in, version >= 5);
   std::vector<Material> materials = take_materials(in);
-  std::vector<Mesh> meshes(in.take_count(kLeastMeshBytes));
+  std::vector<Mesh> meshes(in.take_count(kMinMeshBytes));
   for (Mesh& mesh : meshes) mesh = take_mesh(in, file, materials.size(), version >= 3);
   frame->bodies.resize(in.take_count(89));
   for (FrameBody& body : frame->bodies) body = take_body(in);
@@ -149,19 +149,19 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
     frame->debris = take_codes(in, file, materials.size(), decode_debris);
     frame->dust = take_codes(in, file, materials.size(), decode_dust);
   }
-  std::vector<Paint> paints;
+  std::vector<Appearance> paints;
   if (version >= 5) {
     paints = take_paints(in, file);
     take_uvs(in, file, meshes);
   }
-  for (const Mesh& mesh : meshes) check_looks(mesh, file, paints.size());
+  for (const Mesh& mesh : meshes) check_appearances(mesh, file, paints.size());
   if (version >= 5 && in.take<std::uint8_t>() != 0) {
     frame->inspection = take_inspection(in, file, *frame, version >= 6);
   }
   if (!in.at_end()) throw InputError(file + ": corrupt: bytes are left over");
   frame->materials = std::make_shared<const std::vector<Material>>(std::move(materials));
   if (!paints.empty())
-    frame->paints = std::make_shared<const std::vector<Paint>>(std::move(paints));
+    frame->paints = std::make_shared<const std::vector<Appearance>>(std::move(paints));
   auto store = std::make_shared<MeshStore>();
   for (Mesh& mesh : meshes) store->push_back(std::make_shared<const Mesh>(std::move(mesh)));
   frame->meshes = std::move(store);

@@ -179,7 +179,7 @@ Json frame_json(const FrameReport& report, double ms, std::span<const double> fr
 
 }  // namespace
 
-std::string left_whole_warning(std::uint64_t convexes, double volume_m3, double of_m3) {
+std::string uncut_convexes_warning(std::uint64_t convexes, double volume_m3, double of_m3) {
   return std::to_string(convexes) + (convexes == 1 ? " convex was" : " convexes were") +
          printed(" left whole, %.3g %% of the volume, because ", 100 * ratio(volume_m3, of_m3)) +
          (convexes == 1 ? "its" : "their") + " parts did not add up";
@@ -292,7 +292,7 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["warnings"] = s.info.warnings;
   if (const std::uint32_t failed = s.sum(&FrameReport::failed); failed > 0) {
     json["warnings"].push_back(
-        left_whole_warning(failed, s.sum(&FrameReport::failed_m3), s.first.volume_m3));
+        uncut_convexes_warning(failed, s.sum(&FrameReport::failed_m3), s.first.volume_m3));
   }
   if (const std::string limits = limits_warning(); !limits.empty())
     json["warnings"].push_back(limits);

@@ -32,13 +32,13 @@ struct RunInfo {
   int threads = 1;
   Accuracy accuracy;
   std::map<std::string, std::string> modelled;  ///< feature -> "on" | "off" | "off: reason"
-  SolverDials solver;                           ///< `lanes` is the number in use.
+  SolverOptions solver;                         ///< `lanes` is the number in use.
   std::vector<std::string> warnings = {};
 };
 
 /// Returns a warning that breaks left `convexes` whole because their parts did not sum to their
 /// volume; `volume_m3` is their volume, `of_m3` that of all solids.
-std::string left_whole_warning(std::uint64_t convexes, double volume_m3, double of_m3);
+std::string uncut_convexes_warning(std::uint64_t convexes, double volume_m3, double of_m3);
 
 /// Returns a warning that limits of the scene were reached `hits` times; empty if 0.
 std::string limits_warning(std::uint32_t hits);

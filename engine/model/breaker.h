@@ -16,7 +16,7 @@
 // A steady load breaks a structure in two steps (engine/world/load/load_stage.cpp), whenever the
 // load or the bonds have changed:
 //
-//   StressAnswer answer =
+//   StressResult answer =
 //       breaker.stress(structure, {materials, loads, gravity_R, spin_R, work, memory});
 //   structure.apply(answer.edit);                         // may cut bonds without loose pieces
 //   memory = answer.memory;
@@ -44,7 +44,7 @@
 namespace sunder {
 
 /// An impact on a structure, in the structure's rest frame R.
-struct Hit {
+struct StructureImpact {
   Vec3 point_R = Vec3::Zero();
   Vec3 direction_R = Vec3::UnitY();  ///< Unit; direction of the impulse on the solid, into it.
   ConvexSlot convex;                 ///< The convex that is struck.
@@ -104,8 +104,8 @@ struct BreakCommand {
   Fit fit;              ///< Rule for fitting new convexes to their visual meshes.
   std::optional<Plug> plug = {};  ///< Replaces `pattern` if set.
   /// Unbreakable materials: the pattern does not cut their convexes.
-  std::vector<MaterialIndex> spared;
-  /// Convexes smaller than this that overlap a convex of `spared` are not cut either.
+  std::vector<MaterialIndex> unbreakable;
+  /// Convexes smaller than this that overlap a convex of `unbreakable` are not cut either.
   double smallest_m3 = 0;
 };
 
@@ -176,7 +176,7 @@ struct BreakEdit {
 };
 
 /// A force, or an impulse where so stated, on a convex of a structure, in the rest frame R.
-struct Load {
+struct AppliedForce {
   ConvexSlot convex;
   Vec3 force_N = Vec3::Zero();
   Vec3 point_R = Vec3::Zero();
@@ -184,15 +184,15 @@ struct Load {
 };
 
 /// State of the stress solver for a structure, passed back in the next call; immutable and opaque.
-class StressMemory {
+class StressCache {
  public:
-  virtual ~StressMemory() = default;
+  virtual ~StressCache() = default;
 };
-using StressMemoryPtr = std::shared_ptr<const StressMemory>;
+using StressCachePtr = std::shared_ptr<const StressCache>;
 
 /// An impact load: impulses that act in no time.
-struct Blow {
-  std::span<const Load> impulses;  ///< In N s in place of N.
+struct ImpulsiveLoad {
+  std::span<const AppliedForce> impulses;  ///< In N s in place of N.
   /// Work that the impulses would do on the structure (break_probe.h); infinite: no striker would
   /// move on with the structure.
   double energy_J = 0;
@@ -205,37 +205,37 @@ struct Blow {
 /// A steady load on a structure, and an optional impact load.
 struct LoadCase {
   std::span<const Material> materials;  ///< By MaterialIndex.
-  std::span<const Load> loads;          ///< Loads besides self-weight.
+  std::span<const AppliedForce> loads;  ///< Loads besides self-weight.
   Vec3 gravity_R = Vec3::Zero();
   /// Angular velocity in rad/s; used only for structures without anchors.
   Vec3 spin_R = Vec3::Zero();
   /// Approximate work units (bond evaluations) for this call; a few iterations are always made.
   std::uint64_t most_work = 0;
   /// Memory of this structure, or of the structure that it was a piece of; null at first.
-  StressMemoryPtr memory;
-  Blow blow = {};  ///< Usually empty.
+  StressCachePtr memory;
+  ImpulsiveLoad blow = {};  ///< Usually empty.
   /// Slots whose convexes are next to a plastic hinge, ascending: bonds between them and their
   /// neighbours do not yield again.
   std::vector<ConvexSlot> hinged = {};
 };
 
 /// Effect of an impact load before any bond breaks.
-struct BlowStress {
+struct ImpulsiveStress {
   double local = 1;  ///< Share of the energy that stays within reach of the point of impact.
   double worst = 0;  ///< Highest stress over its limit.
   Vec3 worst_R = Vec3::Zero();  ///< Position of the highest stress.
 };
 
 /// Result of a load on a structure.
-struct StressAnswer {
+struct StressResult {
   BreakEdit edit;  ///< Cuts the bonds that failed; separated parts become loose pieces.
   /// Highest stress over its limit in what remains; <= 1, except for bonds that can only yield.
   double worst = 0;
   /// True if no further call is needed until the load or the structure changes.
   bool settled = false;
   std::uint64_t work = 0;  ///< Work units spent.
-  StressMemoryPtr memory;  ///< Memory for the next call, about the structure or any of its pieces.
-  BlowStress blow;         ///< Set if there was an impact load.
+  StressCachePtr memory;   ///< Memory for the next call, about the structure or any of its pieces.
+  ImpulsiveStress blow;    ///< Set if there was an impact load.
   /// True if the work ran out before the stress of the impact load was known. A call with `memory`
   /// continues the solve.
   bool undecided = false;
@@ -278,15 +278,16 @@ class Breaker {
   /// MaterialIndex, `event` is unique in a run and at least 1, and `seed` determines all random
   /// choices.
   virtual BreakCommand command(const Convex& convex, std::span<const Material> materials,
-                               const Hit& hit, std::uint64_t event, std::uint64_t seed) const = 0;
+                               const StructureImpact& hit, std::uint64_t event,
+                               std::uint64_t seed) const = 0;
   /// Computes the break of a command, at a cost that depends on the convexes in its reach; the
   /// structure stays unchanged. A pattern that misses all convexes changes nothing.
   virtual BreakEdit plan(const Structure& structure, const BreakCommand& command) const = 0;
   /// Called for every plan() that is applied.
-  virtual void note_carried_out(const BreakPlan& /*plan*/) const {}
+  virtual void on_applied(const BreakPlan& /*plan*/) const {}
   /// Returns the bonds of a non-empty structure that a steady load breaks, by the stress in
   /// equilibrium with the load; spends about `load.most_work`.
-  virtual StressAnswer stress(const Structure& structure, const LoadCase& load) const = 0;
+  virtual StressResult stress(const Structure& structure, const LoadCase& load) const = 0;
   /// Returns for each slot the highest stress over its limit among the bonds of its convex;
   /// negative if it has none. For debug views; does not affect the simulation.
   virtual std::vector<float> utilisation(const Structure& /*structure*/,

@@ -66,8 +66,8 @@ std::uint8_t inherited_anchors(std::uint8_t anchored, const Box& parent, const B
   return kept & anchored;
 }
 
-Weight weigh(const Compound& compound, std::span<const Material> materials) {
-  Weight weight;
+CompoundMass mass_of(const Compound& compound, std::span<const Material> materials) {
+  CompoundMass weight;
   Vec3 moment = Vec3::Zero();
   for_each_solid(compound, [&](const Convex& convex, double sign) {
     SUNDER_CHECK(convex.material.value < materials.size());
@@ -84,7 +84,7 @@ Weight weigh(const Compound& compound, std::span<const Material> materials) {
     weight.inertia_R += density * convex.solid.inertia() +
                         mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
   });
-  weight.inertia_R = spinnable(weight.inertia_R);
+  weight.inertia_R = bounded_inertia(weight.inertia_R);
   return weight;
 }
 
@@ -101,7 +101,7 @@ Box bounds(const Compound& compound) {
   return box;
 }
 
-double distance_outside(const Convex& convex, const Vec3& point_R) {
+double distance_to(const Convex& convex, const Vec3& point_R) {
   double farthest = 0;
   for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces)
     farthest = std::max(farthest, face.plane.distance(point_R));

@@ -66,7 +66,7 @@ constexpr std::uint8_t anchor_side(int axis, bool high) {
   return static_cast<std::uint8_t>(1u << (2 * ((axis + 2) % 3) + (high ? 1 : 0)));
 }
 /// Anchored by all six sides.
-inline constexpr std::uint8_t kAnchoredAllRound = 0x3f;
+inline constexpr std::uint8_t kAnchoredAllSides = 0x3f;
 /// Returns the anchored sides of `parent` that a part of it still reaches.
 std::uint8_t inherited_anchors(std::uint8_t anchored, const Box& parent, const Box& part);
 
@@ -92,19 +92,19 @@ struct Part {
 };
 
 /// Mass, centre of mass and inertia about it, in the rest frame; overlaps count once.
-struct Weight {
+struct CompoundMass {
   double mass_kg = 0;
   Vec3 com_R = Vec3::Zero();
-  Mat3 inertia_R = Mat3::Zero();  ///< In kg m²; adjusted by spinnable().
+  Mat3 inertia_R = Mat3::Zero();  ///< In kg m²; adjusted by bounded_inertia().
 };
 /// Returns the sum over convexes and ghosts; `materials` are by MaterialIndex.
-Weight weigh(const Compound& compound, std::span<const Material> materials);
+CompoundMass mass_of(const Compound& compound, std::span<const Material> materials);
 /// Returns the volume of the union of the convexes, in m³.
 double volume(const Compound& compound);
 /// Returns the bounding box of all convexes.
 Box bounds(const Compound& compound);
 /// Returns the largest signed distance from a point to a convex's face planes; 0 inside.
-double distance_outside(const Convex& convex, const Vec3& point_R);
+double distance_to(const Convex& convex, const Vec3& point_R);
 
 /// Sorts ghosts as in Compound::ghosts; ghosts of the same convexes by position.
 void sort_ghosts(std::vector<Ghost>& ghosts);

@@ -49,7 +49,7 @@ struct HalfEdge {
   auto operator<=>(const HalfEdge&) const = default;
 };
 
-/// Returns the angle, as in FacetBends, by which `other` bends away beyond an edge of a triangle.
+/// Returns the angle, as in EdgeAngles, by which `other` bends away beyond an edge of a triangle.
 Vec2 bend_to(const Surface& surface, const HalfEdge& edge, std::size_t other) {
   const Vec3 &n = surface.normal(edge.triangle), &m = surface.normal(other);
   const Vec3 along =
@@ -59,7 +59,7 @@ Vec2 bend_to(const Surface& surface, const HalfEdge& edge, std::size_t other) {
   return cosine <= 0 ? Vec2(Vec2::UnitY()) : Vec2(cosine, sine).normalized();
 }
 
-std::vector<FacetBends> bends_of(const GroundMesh& ground, const Surface& surface) {
+std::vector<EdgeAngles> bends_of(const GroundMesh& ground, const Surface& surface) {
   std::vector<HalfEdge> edges;
   edges.reserve(3 * surface.size());
   for (std::uint32_t t = 0; t < surface.size(); ++t) {
@@ -70,7 +70,7 @@ std::vector<FacetBends> bends_of(const GroundMesh& ground, const Surface& surfac
     }
   }
   std::sort(edges.begin(), edges.end());
-  std::vector<FacetBends> bends(surface.size(), {Vec2::UnitY(), Vec2::UnitY(), Vec2::UnitY()});
+  std::vector<EdgeAngles> bends(surface.size(), {Vec2::UnitY(), Vec2::UnitY(), Vec2::UnitY()});
   const auto ends = [](const HalfEdge& edge) { return std::tie(edge.least, edge.most); };
   for (auto first = edges.begin(); first != edges.end();) {
     const auto last = std::find_if(first, edges.end(),
@@ -181,7 +181,7 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const GroundMesh& ground, const
 
 std::vector<Facet> make_facets(const GroundMesh& ground) {
   const Surface surface(ground);
-  const std::vector<FacetBends> bends = bends_of(ground, surface);
+  const std::vector<EdgeAngles> bends = bends_of(ground, surface);
   std::vector<Box> boxes(surface.size());
   for (std::size_t t = 0; t < surface.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) boxes[t].extend(surface.corner(t, i));

@@ -12,7 +12,7 @@ namespace sunder {
 /// A triangle as a shape of a static body (ShapeDesc::bends).
 struct Facet {
   ConvexPolyhedron prism;  ///< In W.
-  FacetBends bends;
+  EdgeAngles bends;
 };
 
 /// Returns one facet per triangle, in order. The depth follows from the surface's size and edge

@@ -70,7 +70,7 @@ struct ViewKey {
 };
 
 /// Index in place of a name, for bodies without one.
-inline constexpr std::uint32_t kUnnamed = 0xffffffff;
+inline constexpr std::uint32_t kNoName = 0xffffffff;
 
 /// A body at one instant. `key` is unique in a run and never reused.
 struct FrameBody {
@@ -83,9 +83,9 @@ struct FrameBody {
   bool asleep = false;
   /// Key, in the previous frame, of the body that this was part of, whose rest frame it shares;
   /// equal to `key` if nothing broke.
-  std::uint64_t before_key = 0;
+  std::uint64_t previous_key = 0;
   /// Index in Frame::names of the solid, ball or shot that this came from.
-  std::uint32_t name = kUnnamed;
+  std::uint32_t name = kNoName;
 };
 
 /// A mesh drawn on a body: world = X_WB * (X_RT * (origin_T + position) − com_R).
@@ -139,9 +139,9 @@ struct FrameDust {
 
 /// A body broke or cracked. A body may be created and broken within one frame: `parent_key` is then
 /// among the `child_keys` of an earlier event of the frame, and no frame has such a body.
-/// `before_key` and `name` identify the origin of every parent; FrameBody has them for the pieces.
-/// Bodies that bend, that are merged again or that the script releases get new keys without an
-/// event.
+/// `previous_key` and `name` identify the origin of every parent; FrameBody has them for the
+/// pieces. Bodies that bend, that are merged again or that the script releases get new keys without
+/// an event.
 struct BreakEvent {
   double time_s = 0;
   std::uint64_t parent_key = 0;  ///< Key of the body that broke.
@@ -149,8 +149,8 @@ struct BreakEvent {
   std::vector<std::uint64_t> child_keys;
   MaterialIndex material;  ///< Material at the point of the break.
   /// Key, in the previous frame, of the body that the parent was part of.
-  std::uint64_t before_key = 0;
-  std::uint32_t name = kUnnamed;  ///< Index in Frame::names of the parent's origin.
+  std::uint64_t previous_key = 0;
+  std::uint32_t name = kNoName;  ///< Index in Frame::names of the parent's origin.
   /// Point of impact, or, if an impact elsewhere broke it, the point of highest stress.
   Vec3 point_W = Vec3::Zero();
   double energy_J = 0;  ///< Energy taken from the impact.
@@ -209,7 +209,7 @@ struct Frame {
   double time_s = 0;
   View view;
   std::shared_ptr<const std::vector<Material>> materials;
-  std::shared_ptr<const std::vector<Paint>> paints;  ///< Null if there are none.
+  std::shared_ptr<const std::vector<Appearance>> paints;  ///< Null if there are none.
   std::shared_ptr<const MeshStore> meshes;
   /// Names of the scene's solids, balls and shots; the same in all frames. Null if unknown.
   std::shared_ptr<const std::vector<std::string>> names;

@@ -36,7 +36,7 @@ struct ProbeBody {
   Vec3 position_W = Vec3::Zero();         ///< Centre of mass.
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
-  bool leans = false;  ///< Supported by something outside the cluster.
+  bool is_supported = false;  ///< Supported by something outside the cluster.
   bool breakable = false;
   double least_J = 0;   ///< Work up to this cannot break the body.
   ImpactLimits limits;  ///< An impact that does not exceed these limits cannot break the body.
@@ -91,7 +91,7 @@ struct ProbeImpulse {
 };
 
 /// Impact load on a breakable body.
-struct ProbeLoad {
+struct ImpactLoad {
   std::uint32_t body = 0;            ///< Index of the loaded body.
   std::uint32_t shape = 0;           ///< Shape with the largest contact impulse.
   Vec3 arm_W = Vec3::Zero();         ///< From the body's centre of mass to the mean contact point.
@@ -130,7 +130,7 @@ class ImpactProbe {
   virtual ~ImpactProbe() = default;
   /// Advances to the next event, with a closing energy of at least `least_J`, that loads breakable
   /// bodies beyond their limits. Returns the loads in order of body; empty at the end of the step.
-  virtual std::vector<ProbeLoad> next(double least_J = 0) = 0;
+  virtual std::vector<ImpactLoad> next(double least_J = 0) = 0;
   /// Marks the loaded bodies as unbroken in this event, so that next() also returns the bodies that
   /// are loaded through them at the same time.
   virtual void hold() = 0;

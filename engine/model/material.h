@@ -25,7 +25,7 @@ struct Look {
 
 /// Debris and dust that come off new crack area (paper section 5); they do not affect bodies. None
 /// by default. 0 < debris_smallest_m <= debris_largest_m.
-struct Crumbling {
+struct DebrisEmission {
   double particles_per_m2 = 0;      ///< Number per area, debris and dust together.
   double debris_ratio = 0.2;        ///< Fraction of the particles that is debris; the rest is dust.
   double debris_smallest_m = 0.01;  ///< Least radius; radii follow a power law, N(> r) ~ r^-2.
@@ -56,7 +56,7 @@ struct PatternSpec {
 };
 
 /// Pattern and radius for impacts above an energy.
-struct StrongerImpact {
+struct ImpactResponse {
   double energy_J = 0;  ///< Least energy of the impact.
   PatternSpec pattern;
   double impact_radius_m = 1;
@@ -83,7 +83,7 @@ struct Material {
   /// Radius of the impact sphere (paper 3.2); infinity breaks the whole solid.
   double impact_radius_m = 1;
   /// Patterns for stronger impacts, ascending by energy, with their own radii.
-  std::vector<StrongerImpact> stronger;
+  std::vector<ImpactResponse> stronger;
   /// Stress that breaks bonds between convexes, under self-weight and slow loads as well; 0:
   /// unlimited. A bond of two materials has the lower limit.
   double tensile_Pa = 0;
@@ -99,27 +99,29 @@ struct Material {
   double elongation = 0.2;  ///< Plastic strain at which a yielding section tears.
   /// Rule for fitting new convexes to their visual meshes (paper 3.3).
   Fit fit;
-  /// Obsolete: volume below which pieces do not break; see smallest_broken_m3().
+  /// Obsolete: volume below which pieces do not break; see min_breakable_volume_m3().
   std::optional<double> smallest_break_m3;
   /// Volume below which pieces become debris: such bodies would destabilise the solver (paper 5).
   double smallest_piece_m3 = 1e-6;
   Look surface;
   Look interior;
-  Crumbling crumbling;
+  DebrisEmission crumbling;
 
   bool breakable() const { return pattern.kind != PatternSpec::Kind::kNone; }
   bool yields() const { return yield_Pa > 0; }
   /// Returns the speed of shear waves, √(E / 2.4 ρ), for a Poisson's ratio of 0.2.
   double shear_wave_m_s() const { return std::sqrt(youngs_Pa / (2.4 * density_kg_m3)); }
   /// Returns the least of the stress limits; infinite if there is none.
-  double weakest_Pa() const {
+  double min_stress_limit_Pa() const {
     double least = std::numeric_limits<double>::infinity();
     for (const double limit : {tensile_Pa, shear_Pa, compressive_Pa, yield_Pa})
       if (limit > 0 && limit < least) least = limit;
     return least;
   }
   /// Returns the volume below which a piece does not break: eight times the smallest piece.
-  double smallest_broken_m3() const { return smallest_break_m3.value_or(8 * smallest_piece_m3); }
+  double min_breakable_volume_m3() const {
+    return smallest_break_m3.value_or(8 * smallest_piece_m3);
+  }
   /// Returns the stress at which an impact breaks a convex at the point of impact: the tensile
   /// limit for thin convexes, which bend, else the compressive limit. 0: any stress.
   double impact_limit_Pa(bool is_thin) const {
@@ -132,11 +134,13 @@ struct Material {
   double strain_energy_J(double limit_Pa, double volume_m3) const {
     return limit_Pa * limit_Pa * volume_m3 / (2 * youngs_Pa);
   }
-  bool breaks_by_load() const { return weakest_Pa() < std::numeric_limits<double>::infinity(); }
+  bool breaks_by_load() const {
+    return min_stress_limit_Pa() < std::numeric_limits<double>::infinity();
+  }
 };
 
 /// Returns the crack energy per area between two materials: the mean, or the breakable one's.
-inline double crack_J_m2(const Material& a, const Material& b) {
+inline double crack_energy_J_m2(const Material& a, const Material& b) {
   if (a.breakable() != b.breakable()) return (a.breakable() ? a : b).toughness_J_m2;
   return 0.5 * (a.toughness_J_m2 + b.toughness_J_m2);
 }

@@ -22,19 +22,19 @@
 namespace sunder {
 
 /// A face exposed by a break, from which debris and dust come off.
-struct Emission {
+struct ExposedPolygon {
   std::span<const Vec3> corners_W;  ///< A convex polygon; read during the call only.
   Vec3 normal_W = Vec3::UnitY();    ///< Unit, out of the solid.
   VelocityField motion;             ///< Velocity field of the solid.
   /// Speed at which the break separates the solid from its parent. A higher speed gives more
   /// particles, up to the material's limit, and faster ones.
-  double parting_m_s = 5;
+  double opening_speed_m_s = 5;
   MaterialIndex material;
-  Crumbling crumbling;
+  DebrisEmission crumbling;
 };
 
 /// A piece too small to be a body; the world keeps its mass in the accounting.
-struct Chip {
+struct DebrisPiece {
   Vec3 center_W = Vec3::Zero();
   double radius_m = 0;  ///< Radius of a sphere of equal volume.
   Vec3 velocity_W = Vec3::Zero();
@@ -102,7 +102,7 @@ struct ParticleLimits {
 };
 
 /// Counts of one kind of particle; emitted + ignored were requested, alive = emitted − gone.
-struct ParticleLedger {
+struct ParticleCounts {
   std::uint32_t alive = 0;
   std::uint32_t awake = 0;    ///< Number awake, out of `alive`.
   std::uint64_t emitted = 0;  ///< Since the start.
@@ -112,8 +112,8 @@ struct ParticleLedger {
 
 /// Counts of all particles.
 struct ParticleReport {
-  ParticleLedger debris;
-  ParticleLedger dust;
+  ParticleCounts debris;
+  ParticleCounts dust;
   std::uint32_t air_cells = 0;       ///< Cells of the air grid; 0 without dust.
   std::uint32_t air_iterations = 0;  ///< Iterations of the last pressure solve.
 };
@@ -124,9 +124,9 @@ class Particles {
   virtual ~Particles() = default;
 
   /// Emits debris and dust, distributed uniformly on each face.
-  virtual void emit(std::span<const Emission> faces) = 0;
+  virtual void emit(std::span<const ExposedPolygon> faces) = 0;
   /// Emits one piece of debris per chip.
-  virtual void emit(std::span<const Chip> chips) = 0;
+  virtual void emit(std::span<const DebrisPiece> chips) = 0;
   /// Advances all particles by dt_s; `obstacles` are in their poses at the end of it.
   virtual void advance(double dt_s, const Obstacles& obstacles) = 0;
 

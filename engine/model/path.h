@@ -11,7 +11,7 @@ namespace sunder {
 struct PathKey {
   double time_s = 0;
   Vec3 shift_W = Vec3::Zero();
-  Vec3 turn_W = Vec3::Zero();  ///< Rotation vector; angles above 2π are several turns.
+  Vec3 rotation_W = Vec3::Zero();  ///< Rotation vector; angles above 2π are several turns.
 };
 
 /// A path from the pose at time 0 through all keys, whose times ascend from 0. After the last key

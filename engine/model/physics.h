@@ -5,14 +5,14 @@
 //   replace(), join(), cut()         bodies and joints that the script adds or removes
 //   collide()                        contacts, speculative ones included
 //   repeated while something breaks:
-//     approaches(), touches()        contacts that may break a body, and what is connected to it
-//     set_state(), replace(), edit() the body keeps moving, its pieces are added
+//     speculative_contacts(), touches()        contacts that may break a body, and what is
+//     connected to it set_state(), replace(), edit() the body keeps moving, its pieces are added
 //     attach(), cut()                joints are moved to the pieces
 //     collide()                      contacts of the new bodies
 //   pause(), apply_impulse()         bodies of deferred impacts stop; blasts and drives push
 //   solve(), then take_broken()      all bodies move by the step
-//   contact_loads(), joint_loads()   impulses on breakable bodies; if bonds break, replace(),
-//   joint_flows(), strengthen()      plastic flow of joints, and their hardening
+//   contact_impulses(), joint_impulses()   impulses on breakable bodies; if bonds break, replace(),
+//   plastic_flows(), strengthen()      plastic flow of joints, and their hardening
 //   ...
 // At the end of a frame the world calls penetrations(), and inspect() if a debug view needs it.
 // states() may be called at any time.
@@ -41,7 +41,7 @@ namespace sunder {
 /// Angles between a triangle and its neighbours, one per edge, as the cosine and sine of the angle
 /// by which the surface bends away (convex edge) beyond the edge; limited to a right angle. (1, 0):
 /// the neighbour is flat or rises (concave edge). (0, 1): the surface ends at the edge.
-using FacetBends = std::array<Vec2, 3>;
+using EdgeAngles = std::array<Vec2, 3>;
 
 /// One convex shape of a body. `hull` is read during the call only.
 struct ShapeDesc {
@@ -52,7 +52,7 @@ struct ShapeDesc {
   /// its front only. The hull is a prism whose faces are the triangle, then the sides behind its
   /// edges in their order, then the back. A shape that penetrates no deeper than the prism is
   /// pushed out through the front.
-  std::optional<FacetBends> bends;
+  std::optional<EdgeAngles> bends;
   Vec3 center_R = Vec3::Zero();   ///< kSphere: centre; kHalfSpace: a point of the surface.
   double radius_m = 0;            ///< kSphere.
   Vec3 normal_R = Vec3::UnitY();  ///< kHalfSpace: out of the solid.
@@ -75,7 +75,7 @@ struct BodyDesc {
   Mat3 inertia_B = Mat3::Zero();  ///< kg·m², about the centre of mass; unless static.
   std::vector<ShapeDesc> shapes;
   std::uint32_t tag = 0;      ///< Not read by the solver; returned with contacts.
-  bool reports_load = false;  ///< True: contact_loads() and joint_loads() include this body.
+  bool reports_load = false;  ///< True: contact_impulses() and joint_impulses() include this body.
 };
 
 /// A change to the shapes of a static body. Shapes that are not removed keep their contacts, at no
@@ -117,7 +117,7 @@ struct JointDesc {
 
 /// A contact that closes, or that would close within the step (speculative contact). Sorted by a
 /// key that does not depend on the number of threads.
-struct Approach {
+struct SpeculativeContact {
   BodyId a, b;
   std::uint32_t body_tag_a = 0, body_tag_b = 0;
   std::uint32_t shape_tag_a = 0, shape_tag_b = 0;
@@ -145,14 +145,14 @@ struct TouchingBodies {
 };
 
 /// Impulse of a contact on a body that has `reports_load`, over one solve.
-struct ContactLoad {
+struct ContactImpulse {
   std::uint32_t body_tag = 0, shape_tag = 0;
   Vec3 impulse_W = Vec3::Zero();  ///< On the body, in N s, friction included.
   Vec3 point_W = Vec3::Zero();
 };
 
 /// Impulse of a joint on a body that has `reports_load`, over one solve, at the body's anchor.
-struct JointLoad {
+struct JointImpulse {
   std::uint32_t body_tag = 0;
   Vec3 impulse_W = Vec3::Zero();  ///< On the body, in N s.
   Vec3 point_W = Vec3::Zero();
@@ -160,11 +160,11 @@ struct JointLoad {
 };
 
 /// Plastic flow of a joint over one solve: motion of b relative to a, in the rest frame of a.
-struct JointFlow {
+struct PlasticFlow {
   JointId joint;
-  Vec3 turn_R = Vec3::Zero();   ///< Rotation, as a rotation vector.
-  Vec3 drawn_R = Vec3::Zero();  ///< Displacement of b's anchor relative to a's, in m.
-  double work_J = 0;            ///< Plastic work, >= 0.
+  Vec3 turn_R = Vec3::Zero();          ///< Rotation, as a rotation vector.
+  Vec3 displacement_R = Vec3::Zero();  ///< Displacement of b's anchor relative to a's, in m.
+  double work_J = 0;                   ///< Plastic work, >= 0.
 };
 
 /// Results of one solve, for the accounting of momentum and energy.
@@ -185,7 +185,7 @@ struct SolveReport {
 };
 
 /// A contact point that carries load, for debug views.
-struct PressPoint {
+struct ContactForce {
   std::uint32_t body_tag_a = 0, body_tag_b = 0;
   Vec3 point_W = Vec3::Zero();
   Vec3 force_W = Vec3::Zero();  ///< On b, in N, friction included; mean over the last substep.
@@ -200,7 +200,7 @@ struct ShapeBox {
 /// Internal state of the solver, for debug views.
 struct PhysicsInspection {
   /// Sorted by a key that does not depend on the number of threads.
-  std::vector<PressPoint> presses;
+  std::vector<ContactForce> contact_forces;
   std::vector<ShapeBox> boxes;  ///< Sorted by a key that does not depend on the number of threads.
 };
 
@@ -218,7 +218,7 @@ class Physics {
   /// Finds contacts, speculative ones within `horizon_s` included; a second call adds new bodies.
   virtual void collide(double horizon_s) = 0;
   /// Returns the contacts of the last collide() that close at the current velocities.
-  virtual std::vector<Approach> approaches() = 0;
+  virtual std::vector<SpeculativeContact> speculative_contacts() = 0;
   /// Returns the contact points of `bodies`, each once, as the last collide() found them, in order
   /// of their keys. Valid until the next call that changes anything.
   virtual std::vector<Touch> touches(std::span<const BodyId> bodies) = 0;
@@ -267,11 +267,11 @@ class Physics {
   /// Returns the contact impulses of the last solve() on bodies that have `reports_load`, sorted by
   /// a key that does not depend on the number of threads. A sleeping contact counts with the
   /// impulse that it last carried.
-  virtual std::vector<ContactLoad> contact_loads() const = 0;
+  virtual std::vector<ContactImpulse> contact_impulses() const = 0;
   /// Returns the joint impulses of the last solve() on bodies that have `reports_load`.
-  virtual std::vector<JointLoad> joint_loads() const { return {}; }
+  virtual std::vector<JointImpulse> joint_impulses() const { return {}; }
   /// Returns the plastic joints that flowed in the last solve(); ascending.
-  virtual std::vector<JointFlow> joint_flows() const { return {}; }
+  virtual std::vector<PlasticFlow> plastic_flows() const { return {}; }
   /// Returns the penetrations (m, >= 0) of contact points that carry load, unordered; statistics.
   virtual std::vector<float> penetrations() const = 0;
   /// Returns the current internal state; called for debug views only.

@@ -24,7 +24,7 @@ class OverlapGroups {
   /// several convexes of a group lie beyond a face, only the largest bond counts as cover, since
   /// the overlap of their areas is unknown.
   ConvexSlot of(ConvexSlot slot) {
-    if (structure_.ghosts_of(slot).empty()) return {};
+    if (structure_.ghost_indices(slot).empty()) return {};
     if (const auto known = group_of_.find(slot.value); known != group_of_.end())
       return known->second;
     std::vector<ConvexSlot> group = {slot};
@@ -32,7 +32,7 @@ class OverlapGroups {
     group_of_[slot.value] = slot;
     for (std::size_t i = 0; i < group.size(); ++i) {
       least = std::min(least, group[i]);
-      for (const std::uint32_t number : structure_.ghosts_of(group[i])) {
+      for (const std::uint32_t number : structure_.ghost_indices(group[i])) {
         for (const std::uint32_t other : structure_.ghost(number).of) {
           const ConvexSlot member(other);
           if (group_of_.emplace(other, member).second) group.push_back(member);

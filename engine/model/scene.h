@@ -119,7 +119,7 @@ struct Accuracy {
 };
 
 /// Options of the contact solver, described in solver/rigid/rigid_physics.h.
-struct SolverDials {
+struct SolverOptions {
   int max_colors = 64;
   int sweeps = 1;
   int lanes = 0;
@@ -149,14 +149,14 @@ struct Scene {
   std::uint64_t seed = 1;
   bool planar = false;  ///< True: motion in the plane z = 0 only, by a two-dimensional solver.
   Accuracy accuracy;
-  SolverDials solver;
+  SolverOptions solver;
   Limits limits;
   Ground ground;
   View view;
   std::vector<ViewKey> view_keys;  ///< Keys of the camera's path; empty: the camera is fixed.
   std::vector<Material> materials;
   /// Appearance of faces of meshes from files, by PolygonMesh::Face::mark.
-  std::vector<Paint> paints;
+  std::vector<Appearance> paints;
   std::vector<Solid> solids;
   std::vector<Ball> balls;
   std::vector<Joint> joints;
@@ -170,7 +170,7 @@ struct Scene {
 
 /// Returns the names of solids, balls and shots, in this order; a chain has the name of its ball.
 /// Shots without a name are shot.0, shot.1 and so on, by their index among all shots.
-inline std::vector<std::string> names_in(const Scene& scene) {
+inline std::vector<std::string> object_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const Solid& solid : scene.solids) names.push_back(solid.name);
   for (const Ball& ball : scene.balls) names.push_back(ball.name);

@@ -46,6 +46,6 @@ struct SectionLoad {
   double across = 0;
 };
 /// Returns a wrench in the axes of the section, over the section's strength.
-SectionLoad in_parts(const SectionStrength& strength, const Wrench& wrench_R);
+SectionLoad relative_load(const SectionStrength& strength, const Wrench& wrench_R);
 
 }  // namespace sunder

@@ -186,10 +186,10 @@ Box bounds(const Structure& structure) {
   return box;
 }
 
-double distance_outside(const Structure& structure, const Vec3& point_R) {
+double distance_to(const Structure& structure, const Vec3& point_R) {
   double least = std::numeric_limits<double>::infinity();
   structure.for_each([&](ConvexSlot, const Convex& convex) {
-    least = std::min(least, distance_outside(convex, point_R));
+    least = std::min(least, distance_to(convex, point_R));
   });
   return least;
 }
@@ -200,7 +200,7 @@ ConvexSlot nearest(const Structure& structure, const Vec3& point_R) {
   ConvexSlot found;
   const auto search = [&](double radius_m) {
     for (const ConvexSlot slot : structure.within(point_R, radius_m)) {
-      const double distance = distance_outside(*structure.convex(slot), point_R);
+      const double distance = distance_to(*structure.convex(slot), point_R);
       if (!found.none() && distance >= least) continue;
       least = distance;
       found = slot;

@@ -56,7 +56,7 @@ class Structure {
   /// Returns the bonds of a convex, unordered.
   std::span<const Link> links(ConvexSlot slot) const { return slots_[slot.value].links; }
   /// Returns the indices of the ghosts of a convex; ascending.
-  std::span<const std::uint32_t> ghosts_of(ConvexSlot slot) const {
+  std::span<const std::uint32_t> ghost_indices(ConvexSlot slot) const {
     return slots_[slot.value].ghosts;
   }
   /// Returns a ghost by its index; its convexes are slots.
@@ -114,7 +114,7 @@ class Structure {
 /// Returns the bounding box of all convexes.
 Box bounds(const Structure& structure);
 /// Returns a lower bound of the distance from a point to the structure; 0 inside.
-double distance_outside(const Structure& structure, const Vec3& point_R);
+double distance_to(const Structure& structure, const Vec3& point_R);
 /// Returns the convex that contains a point, or else the nearest one; the lowest slot if several
 /// do. The structure must not be empty.
 ConvexSlot nearest(const Structure& structure, const Vec3& point_R);

@@ -41,8 +41,8 @@ Vec7 line_to(std::span<const Knot> knots, std::size_t i) {
 
 Vec7 slope_at(std::span<const Knot> knots, std::size_t i) {
   if (i == 0 || i + 1 == knots.size()) return Vec7::Zero();
-  return slope_between<Vec7>(line_to(knots, i), length_s(knots, i), line_to(knots, i + 1),
-                             length_s(knots, i + 1));
+  return monotone_slope<Vec7>(line_to(knots, i), length_s(knots, i), line_to(knots, i + 1),
+                              length_s(knots, i + 1));
 }
 
 Vec7 camera_at(std::span<const Knot> knots, double time_s) {
@@ -54,7 +54,7 @@ Vec7 camera_at(std::span<const Knot> knots, double time_s) {
   const double h = length_s(knots, n), s = (time_s - knots[n - 1].time_s) / h;
   const Vec7 line = line_to(knots, n);
   return knots[n - 1].camera + h * s * line +
-         h * bow<Vec7>(s, line, slope_at(knots, n - 1), slope_at(knots, n));
+         h * cubic_offset<Vec7>(s, line, slope_at(knots, n - 1), slope_at(knots, n));
 }
 
 }  // namespace

@@ -4,13 +4,14 @@
 
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/parallel.h"
-#include "engine/world/actors/bearing.h"
+#include "engine/world/actors/load_case.h"
 
 namespace sunder {
 namespace {
 
 /// Returns the island of each actor: movable bodies connected by contact forces or joints.
-std::vector<std::uint32_t> islands(const World& world, const std::vector<PressPoint>& presses) {
+std::vector<std::uint32_t> islands(const World& world,
+                                   const std::vector<ContactForce>& contact_forces) {
   DisjointSets sets(world.actors.size());
   const auto join = [&](std::uint32_t key_a, std::uint32_t key_b) {
     const Actor *a = world.actors.find(key_a), *b = world.actors.find(key_b);
@@ -18,7 +19,7 @@ std::vector<std::uint32_t> islands(const World& world, const std::vector<PressPo
     sets.join(static_cast<std::uint32_t>(world.actors.place_of(*a)),
               static_cast<std::uint32_t>(world.actors.place_of(*b)));
   };
-  for (const PressPoint& press : presses) join(press.body_tag_a, press.body_tag_b);
+  for (const ContactForce& press : contact_forces) join(press.body_tag_a, press.body_tag_b);
   for (const Joints::Live& joint : world.joints.live()) join(joint.a.key, joint.b.key);
   return sets.roots();
 }
@@ -29,9 +30,9 @@ std::vector<float> stresses_of(const World& world, const Breaker& breaker, const
   const StressState& stress = actor.stress;
   if (!stress.breakable) return {};
   // In free fall, only spin causes stress.
-  if (!actor.is_static && stress.pressing.empty() && stress.spin_R.isZero())
+  if (!actor.is_static && stress.mean_forces.empty() && stress.spin_R.isZero())
     return std::vector<float>(actor.structure.slot_count(), 0);
-  std::vector<Load> loads;
+  std::vector<AppliedForce> loads;
   return breaker.utilisation(actor.structure, make_load_case(world, actor, rotation_WB, loads));
 }
 
@@ -58,7 +59,7 @@ std::shared_ptr<const Inspection> inspect(const World& world, const Breaker& bre
                                           const Frame& frame) {
   const PhysicsInspection physics = world.physics->inspect();
   auto seen = std::make_shared<Inspection>();
-  for (const PressPoint& press : physics.presses) {
+  for (const ContactForce& press : physics.contact_forces) {
     seen->contacts.push_back({press.point_W.cast<float>(), press.force_W.cast<float>(),
                               press.body_tag_a, press.body_tag_b});
   }
@@ -68,7 +69,7 @@ std::shared_ptr<const Inspection> inspect(const World& world, const Breaker& bre
     seen->boxes.push_back({box.box_W.min.cast<float>(), box.box_W.max.cast<float>(),
                            static_cast<std::uint32_t>(world.actors.place_of(*actor))});
   }
-  seen->islands = islands(world, physics.presses);
+  seen->islands = islands(world, physics.contact_forces);
   seen->stresses = stresses(world, breaker, frame);
   // Meshes of the ground come last.
   for (auto i = seen->islands.size(); i < frame.bodies.size(); ++i)

@@ -38,8 +38,8 @@ class StageClock {
 void solve(World& world) {
   const Clock& clock = world.clock;
   const SolveReport report = world.physics->solve(clock.dt_s, clock.substeps);
-  world.ledger.add_solve(report, world.scene.gravity_W.norm() * clock.dt_s);
-  world.ledger.report.joints_lost += world.joints.take_broken(*world.physics);
+  world.conservation.add_solve(report, world.scene.gravity_W.norm() * clock.dt_s);
+  world.conservation.report.joints_lost += world.joints.take_broken(*world.physics);
   update_hinges(world);
 }
 
@@ -101,10 +101,10 @@ FramePtr Simulation::next() {
   started = true;
   const TraceSpan span(kStageNames[static_cast<int>(Stage::kSnapshot)]);
   StageClock clock;
-  for (const WorkItem& item : world.physics->take_work()) world.ledger.work.add(item);
+  for (const WorkItem& item : world.physics->take_work()) world.conservation.work.add(item);
   auto frame = snapshot(world, particles, act.shots_to_come(world.scene),
                         breaks.deferred() + loads.deferred());
-  frame->report.work = world.ledger.work.take();
+  frame->report.work = world.conservation.work.take();
   clock.end(Stage::kSnapshot, frame->report);
   if (inspects) frame->inspection = sunder::inspect(world, *breaker, *frame);
   return frame;
@@ -118,9 +118,9 @@ void Simulation::advance() {
   const auto timed = [&](Stage stage, const auto& work) {
     const TraceSpan span(kStageNames[static_cast<int>(stage)]);
     work();
-    clock.end(stage, world.ledger.report);
+    clock.end(stage, world.conservation.report);
   };
-  std::vector<Impact> impacts;  // of blasts
+  std::vector<ActorImpact> impacts;  // of blasts
   timed(Stage::kAct, [&] { impacts = parts.act.run(world); });
   timed(Stage::kCollide, [&] { world.physics->collide(world.clock.horizon_s()); });
   timed(Stage::kBreak, [&] { parts.breaks.run(world, breaker, impacts); });
@@ -132,7 +132,7 @@ void Simulation::advance() {
     // Faces exposed by a blast emit particles after the blast's impulse, at the speed of their
     // parting.
     const bool delayed = parts.act.any_blast();
-    WorkSpan span(world.ledger.work, Stage::kParticles, "particles");
+    WorkSpan span(world.conservation.work, Stage::kParticles, "particles");
     parts.particles.run(world, delayed ? Exposed{} : std::exchange(*world.exposed, {}));
     span.count(parts.particles.alive());
     if (delayed) world.exposed->delay(world.clock.frame_s());

@@ -95,7 +95,7 @@ void add_landscape(const World& world, Frame& frame) {
 
 std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
                                 std::span<const Shot> shots_to_come, std::uint32_t carried_over) {
-  Ledger& ledger = world.ledger;
+  Conservation& conservation = world.conservation;
   draw_bends(world);
   world.meshes.draw(world.actors);
   auto frame = std::make_shared<Frame>();
@@ -107,22 +107,22 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   frame->names = world.names;
   frame->paints = world.paints;
   frame->meshes = world.meshes.publish();
-  frame->report = std::exchange(ledger.report, {});
+  frame->report = std::exchange(conservation.report, {});
   FrameReport& report = frame->report;
   add_bodies(world, *frame);
   add_landscape(world, *frame);
   for (Actor& actor : world.actors) actor.last_frame_key = actor.key;
   particles.show(*frame);
-  report.mass_kg += ledger.debris_mass_kg + ledger.removed_mass_kg;
+  report.mass_kg += conservation.debris_mass_kg + conservation.removed_mass_kg;
   for (const Shot& shot : shots_to_come) {
     report.mass_kg += ball_mass_kg(shot.ball, *world.materials);
     for (const Solid& link : shot.links)
-      report.mass_kg += weigh(link.compound, *world.materials).mass_kg;
+      report.mass_kg += mass_of(link.compound, *world.materials).mass_kg;
   }
   report.penetrations_m = world.physics->penetrations();
   report.carried_over = carried_over;
-  ledger.end_frame(report, frame->index == 0);
-  frame->breaks = std::exchange(ledger.breaks, {});
+  conservation.end_frame(report, frame->index == 0);
+  frame->breaks = std::exchange(conservation.breaks, {});
   return frame;
 }
 

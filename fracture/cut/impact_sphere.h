@@ -11,8 +11,8 @@ namespace sunder::fracture {
 /// the same objects.
 struct ImpactSphere {
   Vec3 center_R = Vec3::Zero();
-  double radius_m = 1;                     ///< Infinity: all that is breakable breaks.
-  std::vector<MaterialIndex> spared = {};  ///< Materials that do not break.
+  double radius_m = 1;                          ///< Infinity: all that is breakable breaks.
+  std::vector<MaterialIndex> unbreakable = {};  ///< Materials that do not break.
   /// Smaller convexes that overlap an unbreakable one do not break either.
   double smallest_m3 = 0;
 

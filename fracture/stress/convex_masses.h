@@ -10,7 +10,7 @@
 
 namespace sunder::fracture {
 
-/// A force on a convex of a compound; see Load.
+/// A force on a convex of a compound; see AppliedForce.
 struct ConvexLoad {
   std::uint32_t convex = 0;  ///< Index of the convex.
   Vec3 force_N = Vec3::Zero();

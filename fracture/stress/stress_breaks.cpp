@@ -75,8 +75,8 @@ class StressBreaks {
       hinged_[c] = std::ranges::binary_search(load.hinged, slots_[c]) ? 1 : 0;
   }
 
-  StressAnswer run() {
-    StressAnswer answer;
+  StressResult run() {
+    StressResult answer;
     answer.work = kOverheadIterations * (compound_.bonds.size() + kOverheadSprings);
     memory_ = recall(load_.memory.get(), compound_, slots_, load_.materials, answer.work);
     most_work_ =
@@ -125,7 +125,7 @@ class StressBreaks {
   }
 
   std::vector<float> utilisation(std::size_t slots) {
-    StressAnswer answer;
+    StressResult answer;
     memory_ = recall(load_.memory.get(), compound_, slots_, load_.materials, answer.work);
     most_work_ = std::numeric_limits<std::uint64_t>::max();
     solve(answer);
@@ -149,9 +149,9 @@ class StressBreaks {
            (material_of(bond.a).breaks_by_load() || material_of(bond.b).breaks_by_load());
   }
 
-  std::vector<ConvexLoad> by_convex(std::span<const Load> loads) const {
+  std::vector<ConvexLoad> by_convex(std::span<const AppliedForce> loads) const {
     std::vector<ConvexLoad> all;
-    for (const Load& one : loads) {
+    for (const AppliedForce& one : loads) {
       const auto at = std::lower_bound(slots_.begin(), slots_.end(), one.convex);
       const auto convex = static_cast<std::uint32_t>(at - slots_.begin());
       all.push_back({convex, one.force_N, one.point_R, one.torque_Nm});
@@ -162,7 +162,7 @@ class StressBreaks {
   /// Continues a solve; returns false if there is no work left, or the solve was abandoned.
   bool improve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, const Vec3& spin_R,
                double tolerance, std::vector<Displacement>& displacements,
-               Nodal<double>& last_direction, int& iterations, StressAnswer& answer) {
+               Nodal<double>& last_direction, int& iterations, StressResult& answer) {
     const std::uint64_t each = std::max<std::uint64_t>(1, memory_->system->work());
     if (answer.work >= most_work_) return false;
     const auto left = static_cast<int>(
@@ -175,7 +175,7 @@ class StressBreaks {
   }
 
   /// Solves for the steady load; returns false if its stress is not known yet.
-  bool solve(StressAnswer& answer) {
+  bool solve(StressResult& answer) {
     const bool known =
         improve(loads_, load_.gravity_R, load_.spin_R, kTolerance, memory_->displacements,
                 memory_->last_direction, memory_->iterations, answer);
@@ -193,7 +193,7 @@ class StressBreaks {
   /// all of that energy is strain energy: λ² = 2U / (m + M). The rest of W, a share M / (m + M),
   /// stays near the impact, and so does the strain energy there. Without a striker, as in a blast,
   /// m is 0.
-  bool add_impact(StressAnswer& answer) {
+  bool add_impact(StressResult& answer) {
     if (impulses_.empty()) return true;
     std::vector<Displacement>& deflection = memory_->deflection.displacements;
     int iterations = 0;
@@ -220,7 +220,7 @@ class StressBreaks {
     KnownDeflection& deflection = memory_->deflection;
     std::vector<ConvexSlot> struck;
     double impulse_Ns = 0;
-    for (const Load& impulse : load_.blow.impulses) {
+    for (const AppliedForce& impulse : load_.blow.impulses) {
       struck.push_back(impulse.convex);
       impulse_Ns += impulse.force_N.norm();
     }
@@ -237,7 +237,7 @@ class StressBreaks {
     }
   }
 
-  void record_impact_work(bool is_known, StressAnswer& answer) {
+  void record_impact_work(bool is_known, StressResult& answer) {
     std::uint64_t& work = memory_->deflection.work;
     const bool ran_out = !is_known && cut_.empty() && answer.work >= most_work_;
     work = ran_out ? work + answer.work : 0;
@@ -249,14 +249,14 @@ class StressBreaks {
     return impulses_.empty() ? memory_->displacements : combined_;
   }
 
-  void record_impact_stress(StressAnswer& answer) const {
+  void record_impact_stress(StressResult& answer) const {
     if (impulses_.empty()) return;
     answer.blow.local = local_share_;
     answer.blow.worst = answer.worst;
     if (worst_ != kNoBond) answer.blow.worst_R = memory_->system->geometry()[worst_].centroid_R;
   }
 
-  Yielding analyse(StressAnswer& answer) {
+  Yielding analyse(StressResult& answer) {
     std::vector<double> utilisations(compound_.bonds.size(), 0);
     for_chunks(utilisations.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) utilisations[i] = bond_utilisation(i);
@@ -342,7 +342,7 @@ class StressBreaks {
   }
 
   double crack_J(const Bond& bond) const {
-    return bond.area_m2 * crack_J_m2(material_of(bond.a), material_of(bond.b));
+    return bond.area_m2 * crack_energy_J_m2(material_of(bond.a), material_of(bond.b));
   }
 
   double bond_utilisation(std::size_t i) const {
@@ -408,7 +408,7 @@ class StressBreaks {
 
 }  // namespace
 
-StressAnswer break_by_stress(const Structure& structure, const LoadCase& load) {
+StressResult break_by_stress(const Structure& structure, const LoadCase& load) {
   SUNDER_CHECK(!structure.empty());
   return StressBreaks(structure, load).run();
 }

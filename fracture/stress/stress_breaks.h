@@ -13,7 +13,7 @@
 namespace sunder::fracture {
 
 /// Implements Breaker::stress(): cuts overloaded bonds and separates the pieces that come off.
-StressAnswer break_by_stress(const Structure& structure, const LoadCase& load);
+StressResult break_by_stress(const Structure& structure, const LoadCase& load);
 
 /// Implements Breaker::utilisation(), without a limit of work.
 std::vector<float> utilisation_by_stress(const Structure& structure, const LoadCase& load);

@@ -21,7 +21,7 @@ struct KnownDeflection {
 };
 
 /// State for the next solve.
-struct KnownStress final : StressMemory {
+struct KnownStress final : StressCache {
   std::vector<ConvexSlot> slots;  ///< Per convex.
   std::vector<ConvexPtr> convexes;
   std::vector<std::uint8_t> anchored;
@@ -42,7 +42,7 @@ struct KnownStress final : StressMemory {
 /// Returns the system of a compound and an estimate of its displacements, from the memory of the
 /// compound or of a compound that it was a part of; `memory` may be null. Adds the cost to `work`,
 /// in evaluations of springs.
-std::shared_ptr<KnownStress> recall(const StressMemory* memory, const Compound& compound,
+std::shared_ptr<KnownStress> recall(const StressCache* memory, const Compound& compound,
                                     const std::vector<ConvexSlot>& slots,
                                     std::span<const Material> materials, std::uint64_t& work);
 

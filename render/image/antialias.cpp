@@ -131,7 +131,7 @@ void copy_rgb(const std::uint32_t* in, int width, std::uint8_t* out) {
 
 }  // namespace
 
-Image antialiased(std::span<const std::uint32_t> pixels, int width, int height) {
+Image apply_fxaa(std::span<const std::uint32_t> pixels, int width, int height) {
   const auto columns = static_cast<std::size_t>(width);
   const auto rows = static_cast<std::size_t>(height);
   SUNDER_CHECK(pixels.size() == columns * rows);

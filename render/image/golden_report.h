@@ -11,7 +11,7 @@
 namespace sunder::render {
 
 /// One golden test: its reference image, the image drawn now, their difference and the runs.
-struct GoldenPicture {
+struct GoldenResult {
   std::string name;
   bool passed = false;
   std::string verdict;  ///< Result as a sentence.
@@ -19,14 +19,14 @@ struct GoldenPicture {
   Image actual;
   Difference difference;
   Thresholds thresholds;
-  std::string remade_by;  ///< Command that runs the test again and draws its reference.
-  std::string accept_by;  ///< Command that makes `actual` the reference.
-  std::string renderer;   ///< Description of the renderer that drew `actual`.
+  std::string remake_command;  ///< Command that runs the test again and draws its reference.
+  std::string accept_command;  ///< Command that makes `actual` the reference.
+  std::string renderer;        ///< Description of the renderer that drew `actual`.
   std::vector<std::vector<Cell>> runs = {};  ///< Simulations and their results, a row each.
 };
 
 /// Returns a self-contained HTML page, failures first: for each test both images and the FLIP error
 /// map side by side, under a slider or alternating; a magnifier; figures and their thresholds.
-std::string golden_report(std::span<const GoldenPicture> pictures);
+std::string golden_report(std::span<const GoldenResult> pictures);
 
 }  // namespace sunder::render

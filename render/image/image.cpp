@@ -64,7 +64,7 @@ void put_chunk(std::vector<std::uint8_t>& out, const std::string& kind,
 }
 
 /// Returns the compressed rows, each filtered as the difference from the row above ("Up").
-std::vector<std::uint8_t> packed_rows(const DeepImage& image) {
+std::vector<std::uint8_t> packed_rows(const Image16& image) {
   constexpr std::uint8_t kUp = 2;
   const auto row = static_cast<std::size_t>(image.width * image.channels);
   std::vector<std::uint8_t> above(2 * row), rows;
@@ -119,7 +119,7 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   write_file(path, std::as_bytes(std::span(bytes)));
 }
 
-void write_png(const std::filesystem::path& path, const DeepImage& image) {
+void write_png(const std::filesystem::path& path, const Image16& image) {
   SUNDER_CHECK(image.channels == 1 || image.channels == 3);
   std::vector<std::uint8_t> bytes = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   std::vector<std::uint8_t> head;

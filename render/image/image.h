@@ -22,7 +22,7 @@ struct Image {
 };
 
 /// An image of one or three channels of 16 bits, top row first.
-struct DeepImage {
+struct Image16 {
   int width = 0;
   int height = 0;
   int channels = 1;
@@ -33,7 +33,7 @@ struct DeepImage {
 /// A data layer of an image, by name: depth, depth_m, normals or ids.
 struct Layer {
   std::string name;
-  DeepImage image;            ///< Empty for depth_m.
+  Image16 image;              ///< Empty for depth_m.
   std::vector<float> metres;  ///< depth_m: distance along the view, top row first; may be infinite.
 };
 
@@ -46,7 +46,7 @@ std::vector<std::uint8_t> encode_png(const Image& image);
 void write_png(const std::filesystem::path& path, const Image& image);
 /// Writes a PNG file of 16 bits per channel with the metadata as tEXt chunks, under a temporary
 /// name, and renames it. Throws FileError if that fails.
-void write_png(const std::filesystem::path& path, const DeepImage& image);
+void write_png(const std::filesystem::path& path, const Image16& image);
 /// Reads a PNG file without its alpha. Throws InputError if that fails.
 Image read_png(const std::filesystem::path& path);
 

@@ -115,13 +115,13 @@ std::vector<float> Layers::read_metres() const {
 
 /// Returns layer "depth". All images have the scale of the first, a power of two, so that parts of
 /// a run drawn separately agree unless their camera distances differ by a factor of two.
-DeepImage Layers::depth_image(const View& view) {
+Image16 Layers::depth_image(const View& view) {
   constexpr double kWhite = 65535;
   if (!far_m_) {
     const double behind_m = 4 * (view.target_W - view.eye_W).norm();
     far_m_ = std::exp2(std::ceil(std::log2(std::max(behind_m, 1e-3))));
   }
-  DeepImage image{width_, height_, 1, {}, {}};
+  Image16 image{width_, height_, 1, {}, {}};
   for (const float depth_m : read_metres()) {
     const double level = std::min(kWhite, kWhite * double{depth_m} / *far_m_);
     image.values.push_back(static_cast<std::uint16_t>(std::lround(level)));
@@ -132,11 +132,11 @@ DeepImage Layers::depth_image(const View& view) {
   return image;
 }
 
-DeepImage Layers::read(int channels) const {
+Image16 Layers::read(int channels) const {
   const auto columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(height_);
   std::vector<std::uint16_t> pixels(4 * columns * rows);
   gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_SHORT, pixels.data());
-  DeepImage image{width_, height_, channels, {}, {}};
+  Image16 image{width_, height_, channels, {}, {}};
   for (std::size_t row = rows; row-- > 0;) {
     for (std::size_t x = 0; x < columns; ++x) {
       for (int c = 0; c < channels; ++c)

@@ -33,9 +33,9 @@ class Layers {
   };
 
   void draw(const Pass& pass, Pieces& pieces, const Chips& chips);
-  DeepImage read(int channels) const;
+  Image16 read(int channels) const;
   std::vector<float> read_metres() const;
-  DeepImage depth_image(const View& view);
+  Image16 depth_image(const View& view);
 
   const GlTable& gl_;
   int width_, height_;

@@ -23,26 +23,26 @@ class Pictures {
 
   /// Uploads the pictures of `paints` in place of the old ones; the unit must be active. Throws
   /// InputError for a picture that is neither PNG nor JPEG.
-  void update(const std::vector<Paint>& paints);
+  void update(const std::vector<Appearance>& paints);
   /// Returns the texels (RGBA, float) of `paints` for pieces.vert, two per paint. First: linear
   /// colour, layer of its picture. Second: layer of its relief, layer of its gloss, roughness (-1
   /// without gloss), metalness. Layers are counted from 1; 0 stands for none.
-  std::vector<float> rows(const std::vector<Paint>& paints) const;
+  std::vector<float> rows(const std::vector<Appearance>& paints) const;
 
  private:
   /// A picture as it is used in a layer.
   struct Layer {
-    Picture picture;
-    bool from_below = false;                           ///< True if the bottom row comes first.
-    std::optional<float> relief_scale = std::nullopt;  ///< Set if the layer is a normal map.
+    EncodedImage picture;
+    bool v_from_bottom = false;                        ///< True if the bottom row comes first.
+    std::optional<float> normal_scale = std::nullopt;  ///< Set if the layer is a normal map.
     bool operator==(const Layer&) const = default;
   };
-  static Layer color_layer(const Paint& paint) { return {paint.picture, paint.from_below}; }
-  static Layer relief_layer(const Paint& paint) {
-    return {paint.relief, paint.from_below, paint.relief_scale};
+  static Layer color_layer(const Appearance& paint) { return {paint.picture, paint.v_from_bottom}; }
+  static Layer relief_layer(const Appearance& paint) {
+    return {paint.relief, paint.v_from_bottom, paint.normal_scale};
   }
-  static Layer gloss_layer(const Paint& paint) {
-    return {paint.gloss ? paint.gloss->picture : nullptr, paint.from_below};
+  static Layer gloss_layer(const Appearance& paint) {
+    return {paint.gloss ? paint.gloss->picture : nullptr, paint.v_from_bottom};
   }
   /// Returns the number of a layer, from 1, or 0 if it is not uploaded.
   float layer_of(const Layer& layer) const;

@@ -9,7 +9,7 @@
 #include "engine/model/frame.h"
 #include "render/gl/table.h"
 #include "render/passes/blocks.h"
-#include "render/passes/covered.h"
+#include "render/passes/depth_tiles.h"
 #include "render/passes/viewpoint.h"
 
 namespace sunder::render {

@@ -24,7 +24,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/io/figures.h"
-#include "scenes/app/apart.h"
+#include "scenes/app/child_process.h"
 #include "scenes/app/run.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/features.h"
@@ -237,7 +237,7 @@ void check_program(const std::string& program) {
 int bench(const BenchOptions& options) {
   const std::optional<double> fail_slower = fail_slower_of(options);
   check_program(options.against);
-  bench::HashBook book = bench::read_hashes(options.hashes);
+  bench::StateHashes book = bench::read_hashes(options.hashes);
   std::vector<Figures> old;
   if (!options.compare.empty()) old = read_timings(options.compare);
 
@@ -260,7 +260,7 @@ int bench(const BenchOptions& options) {
     bench::accept_states(scenes, book);
     write_text(options.hashes, bench::format_hashes(book));
   }
-  std::vector<Verdict> verdicts = bench::judge_states(scenes, book, options.hashes);
+  std::vector<Verdict> verdicts = bench::compare_states(scenes, book, options.hashes);
   bench::Comparison comparison;
   if (!old_name.empty()) {
     comparison = bench::compare(scenes, old, old_name, fail_slower, !options.against.empty());

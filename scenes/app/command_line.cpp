@@ -335,7 +335,7 @@ void add_golden(CLI::App& program, Command& chosen) {
                    "File or name of a scene, or X.frame: a golden that draws the frame of another")
       ->required();
   record.app->add_option("FRAME", record.options->frame, "Which frame of a scene")
-      ->check(from_to(0, kMostFrames));
+      ->check(from_to(0, kMaxFrames));
   record.app->add_option("--size", record.options->size, "Pixels")
       ->type_name("WxH")
       ->capture_default_str();

@@ -72,7 +72,7 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
   Material material;
   material.pattern = parse_pattern(options.pattern);
   material.impact_radius_m = options.radius_m.value_or(kInfinity);
-  Hit hit;
+  StructureImpact hit;
   hit.point_R = options.at.empty() ? box.center() : parse_point("--at", options.at);
   const Vec3 inward = box.center() - hit.point_R;
   hit.direction_R =
@@ -224,7 +224,7 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
 /// A solid, its break, and the result.
 struct Attempt {
   scenes::MeshSolid solid;
-  std::vector<Paint> paints;
+  std::vector<Appearance> paints;
   fracture::BreakCase example;
   Broken broken;
 
@@ -296,7 +296,7 @@ int fracture_mesh(const FractureOptions& options) {
   progress.reset();
   if (const BreakPlan& plan = broken.plan; plan.failed > 0)
     solid.warnings.push_back(
-        left_whole_warning(plan.failed, plan.failed_m3, broken.before.volume_m3) +
+        uncut_convexes_warning(plan.failed, plan.failed_m3, broken.before.volume_m3) +
         "; more --nodes may help");
   options.print(summary(solid, broken));
   if (!options.output.empty()) {

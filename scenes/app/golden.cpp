@@ -131,7 +131,7 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
       result.verdicts.push_back(check_view(result.golden));
       const std::string book = result.golden.hashes_file().string();
       const auto verdicts =
-          bench::judge_frames(result.golden.run(), bench::read_hashes(book), book, options.full);
+          bench::compare_frames(result.golden.run(), bench::read_hashes(book), book, options.full);
       result.verdicts.insert(result.verdicts.end(), verdicts.begin(), verdicts.end());
     }
     options.print((result.passed() ? "pass " : "FAIL ") + name + ": " + result.sentence() + "\n");
@@ -175,7 +175,7 @@ Frame simulated_frame(const Golden& golden, bool quiet) {
   const int last = last_frame(scene, golden.frame, "FRAME " + std::to_string(golden.frame));
   Progress progress("record " + scene.name, last, quiet);
   const render::ViewMode mode(golden.view_mode);
-  const auto simulation = make_simulation(std::move(scene), mode.looks_inside());
+  const auto simulation = make_simulation(std::move(scene), mode.needs_inspection());
   FramePtr frame;
   for (int i = 0; i <= last; ++i) {
     frame = simulation->next();
@@ -193,7 +193,7 @@ int golden_report(const GoldenOptions& options) {
   const std::vector<GoldenResult> results = compare_all(options);
   fs::create_directories(options.out);
   const fs::path page = fs::path(options.out) / "report.html";
-  std::vector<render::GoldenPicture> pictures;
+  std::vector<render::GoldenResult> pictures;
   for (const GoldenResult& r : results) {
     pictures.push_back({r.golden.name, r.passed(), r.sentence(), r.baseline, r.actual, r.difference,
                         r.golden.thresholds, r.golden.command(), r.golden.accept_command(),
@@ -231,8 +231,8 @@ int golden_accept(const GoldenOptions& options) {
     if (has_other_view) message += ", frame anew";
     if (golden.is_simulated()) {
       const std::string file = golden.hashes_file().string();
-      const bench::HashBook before = bench::read_hashes(file);
-      bench::HashBook book = before;
+      const bench::StateHashes before = bench::read_hashes(file);
+      bench::StateHashes book = before;
       bench::accept_frames(golden.run(), book);
       if (book != before) write_text(file, bench::format_hashes(book));
       message += book == before ? ", simulation as before" : ", simulation anew";

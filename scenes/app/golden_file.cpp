@@ -204,7 +204,7 @@ std::string format_results(const std::vector<GoldenResult>& results) {
     figures[at + "/flip_mean"] = result.difference.flip_mean;
     figures[at + "/worst_window_pixels"] = std::int64_t{result.difference.worst_window_pixels};
     figures[at + "/renderer"] = result.renderer;
-    figures[at + "/remade_by"] = result.golden.command();
+    figures[at + "/remake_command"] = result.golden.command();
     for (std::size_t j = 0; j < result.verdicts.size(); ++j) {
       const bench::Verdict& verdict = result.verdicts[j];
       const std::string of = at + "/verdicts/" + std::to_string(j);
@@ -244,8 +244,9 @@ std::string view_differences(const Frame& stored, const Scene& scene) {
         !same_look(material.interior, now->interior))
       names.push_back("colours of " + material.name);
   }
-  const std::vector<Paint> none;
-  if (!std::ranges::equal(stored.paints ? *stored.paints : none, scene.paints, scenes::same_paint))
+  const std::vector<Appearance> none;
+  if (!std::ranges::equal(stored.paints ? *stored.paints : none, scene.paints,
+                          scenes::same_appearance))
     names.emplace_back("paints");
   std::string text;
   std::set<std::string> listed;

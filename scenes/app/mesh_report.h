@@ -32,7 +32,7 @@ void check_output(const std::string& output);
 /// faces are indices into `paints` plus one. Returns the number of pieces whose inner walls should
 /// be removed but are kept, as their surface would be open. Throws InputError.
 std::size_t write_solids(const std::string& output, const std::vector<Compound>& solids,
-                         const std::vector<Material>& materials, std::vector<Paint> paints,
+                         const std::vector<Material>& materials, std::vector<Appearance> paints,
                          std::optional<double> explode, Walls walls);
 /// Returns one material with the colours of limestone, for solids without a given material.
 std::vector<Material> stone();

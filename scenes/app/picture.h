@@ -12,6 +12,7 @@ namespace sunder::app {
 /// times their distance from the common middle. Marks of faces are indices into `paints` plus one.
 /// Throws InputError if there is no OpenGL to draw with, FileError if the file cannot be written.
 void draw_solids(const std::filesystem::path& file, std::span<const Compound> solids,
-                 const std::vector<Material>& materials, std::vector<Paint> paints, double explode);
+                 const std::vector<Material>& materials, std::vector<Appearance> paints,
+                 double explode);
 
 }  // namespace sunder::app

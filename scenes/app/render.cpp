@@ -12,10 +12,10 @@
 #include "engine/io/figures.h"
 #include "engine/io/frame_file.h"
 #include "engine/io/frames_ahead.h"
+#include "engine/io/recording/recording.h"
 #include "engine/io/statistics.h"
-#include "engine/io/take/take.h"
 #include "render/camera.h"
-#include "render/pace.h"
+#include "render/playback.h"
 #include "render/sheet.h"
 #include "render/sinks.h"
 #include "render/view_mode.h"
@@ -147,9 +147,9 @@ std::unique_ptr<render::Camera> camera_of(const std::string& spec) {
 struct RenderInput {
   std::unique_ptr<FrameSource> source;
   Span drawn;
-  int skipped = 0;             ///< Number of frames before the first one of the source.
-  TakeReader* take = nullptr;  ///< The source if it is a recording.
-  bool is_recorded = false;    ///< True for a recording or a stored frame.
+  int skipped = 0;                  ///< Number of frames before the first one of the source.
+  RecordingReader* take = nullptr;  ///< The source if it is a recording.
+  bool is_recorded = false;         ///< True for a recording or a stored frame.
 };
 
 /// Throws InputError if options would change the simulation of a recording or stored frame.
@@ -182,7 +182,7 @@ RenderInput open(const RenderOptions& options, const Span& span, bool from_start
   if (options.scene.ends_with(".frame")) return open_frame(options);
   int last = 0;
   if (input.is_recorded) {
-    auto take = std::make_unique<TakeReader>(options.scene);
+    auto take = std::make_unique<RecordingReader>(options.scene);
     input.take = take.get();
     last = static_cast<int>(input.take->frames()) - 1;
     input.source = std::move(take);
@@ -190,7 +190,7 @@ RenderInput open(const RenderOptions& options, const Span& span, bool from_start
     Scene scene = scenes::load_scene(options.scene, options.load);
     last = last_frame(scene, -1);
     const render::ViewMode mode(options.render.view_mode);
-    input.source = make_simulation(std::move(scene), mode.looks_inside());
+    input.source = make_simulation(std::move(scene), mode.needs_inspection());
   }
   input.drawn = {span.first, std::min(span.last, last)};
   if (input.drawn.first > input.drawn.last) {
@@ -227,8 +227,8 @@ int render_scene(const RenderOptions& options) {
              render_options);
 
   const auto camera = camera_of(options.view);
-  const RenderInput input = open(options, span, camera->remembers());
-  const render::Pace pace{render_options.frames_per_s, options.speed};
+  const RenderInput input = open(options, span, camera->depends_on_history());
+  const render::PlaybackRate pace{render_options.frames_per_s, options.speed};
   const std::uint64_t first = pace.first_picture(static_cast<std::uint64_t>(input.drawn.first));
   const std::uint64_t last = pace.last_picture(static_cast<std::uint64_t>(input.drawn.last));
   if (first > last) {
@@ -247,7 +247,7 @@ int render_scene(const RenderOptions& options) {
   std::optional<FramesAhead> ahead;
   if (threads() > 1) ahead.emplace(frames);
   TeeSource tee(ahead ? static_cast<FrameSource&>(*ahead) : frames, record);
-  render::PacedSource paced(tee, pace, camera->remembers() ? 0 : first);
+  render::ResampledSource paced(tee, pace, camera->depends_on_history() ? 0 : first);
   CameraSource seen(paced, options, *camera, input.is_recorded);
   Progress progress("render " + options.scene, static_cast<int>(last), options.quiet);
   FrameSink* const sinks[] = {&from, &progress};

@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <optional>
 
+#include "engine/io/recording/recording.h"
+#include "engine/io/recording/recording_verifier.h"
 #include "engine/io/statistics.h"
-#include "engine/io/take/take.h"
-#include "engine/io/take/take_verifier.h"
 #include "engine/io/trace_file.h"
 #include "scenes/app/run.h"
 
@@ -29,18 +29,18 @@ int simulate(const SimulateOptions& options) {
   const auto simulation = make_simulation(std::move(scene));
   FramesUntil frames(*simulation, last);
   std::vector<FrameSink*> sinks = {&statistics, &hash, &progress};
-  std::optional<TakeReader> known;
-  std::optional<TakeVerifier> verifier;
+  std::optional<RecordingReader> known;
+  std::optional<RecordingVerifier> verifier;
   if (!options.verify.empty()) {
     known.emplace(options.verify);
     sinks.push_back(&verifier.emplace(*known));
   }
-  std::optional<TakeWriter> writer;
+  std::optional<RecordingWriter> writer;
   if (!options.take.empty()) sinks.push_back(&writer.emplace(options.take));
   if (!options.trace.empty()) start_trace();
   const int stopped = pump_until_stopped(frames, sinks);
   if (!options.trace.empty()) {
-    write_text(options.trace, format_trace(take_trace()));
+    write_text(options.trace, format_trace(stop_trace()));
     options.print("wrote " + options.trace + ": open it at ui.perfetto.dev\n");
   }
   if (const std::string warning = statistics.limits_warning(); !warning.empty())

@@ -20,7 +20,7 @@
 namespace sunder::app {
 
 using Command = std::function<int()>;
-inline constexpr int kMostFrames = 1000000;
+inline constexpr int kMaxFrames = 1000000;
 
 /// Returns a validator for a number from low to high. Unlike CLI::Range, it rejects NaN.
 template <class Number>
@@ -118,7 +118,7 @@ struct Subcommand {
   }
   void add_frames() {
     app->add_option("--frames", options->frames, "Stop after this many frames of 1/60 s")
-        ->check(from_to(1, kMostFrames));
+        ->check(from_to(1, kMaxFrames));
   }
 };
 

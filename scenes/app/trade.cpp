@@ -13,7 +13,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/io/figures.h"
-#include "scenes/app/apart.h"
+#include "scenes/app/child_process.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/file/text_file.h"

@@ -73,7 +73,7 @@ void anchor(Compound& compound, Anchored how) {
   const double bottom = box.min.y() + kBottomFraction * box.extent().y();
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
     if (how == Anchored::kAll) {
-      compound.anchored[c] = kAnchoredAllRound;
+      compound.anchored[c] = kAnchoredAllSides;
     } else if (compound.convexes[c]->box.min.y() <= bottom) {
       compound.anchored[c] = anchor_side(1, false);
     }
@@ -117,7 +117,7 @@ void read_named_materials(const Value& table, std::span<const Material> material
 }
 
 Compound read_compound(const MeshTable& given, const std::filesystem::path& folder,
-                       std::vector<Paint>& paints, std::vector<std::string>& warnings) {
+                       std::vector<Appearance>& paints, std::vector<std::string>& warnings) {
   const bool built_in = is_built_in(given.mesh);
   const std::string mesh = built_in ? given.mesh : (folder / given.mesh).string();
   MeshOptions options = options_of(given, folder);
@@ -132,7 +132,7 @@ Vec3 foot_of(const Compound& compound) {
 }
 
 Body read_body(const Value& table, std::span<const Material> materials,
-               const std::filesystem::path& folder, std::vector<Paint>& paints,
+               const std::filesystem::path& folder, std::vector<Appearance>& paints,
                std::vector<std::string>& warnings) {
   const std::string_view name = body_keys().table;
   check_known(table, name, {mesh_keys().keys, body_keys().keys, placement_keys().keys});

@@ -48,7 +48,7 @@ const Keys<BodyTable>& body_keys();
 /// and warnings are appended to `paints` and `warnings` of the scene. Throws InputError without
 /// file and line.
 Compound read_compound(const MeshTable& given, const std::filesystem::path& folder,
-                       std::vector<Paint>& paints, std::vector<std::string>& warnings);
+                       std::vector<Appearance>& paints, std::vector<std::string>& warnings);
 /// Returns the middle of the lower face of a compound's bounding box.
 Vec3 foot_of(const Compound& compound);
 
@@ -60,7 +60,7 @@ struct Body {
 };
 /// Reads a [[body]]. Throws InputError.
 Body read_body(const Value& table, std::span<const Material> materials,
-               const std::filesystem::path& folder, std::vector<Paint>& paints,
+               const std::filesystem::path& folder, std::vector<Appearance>& paints,
                std::vector<std::string>& warnings);
 
 }  // namespace sunder::scenes

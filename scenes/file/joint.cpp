@@ -47,10 +47,9 @@ std::uint32_t nearest_root(const Scene& scene, const std::string& name, const Va
   std::uint32_t nearest = 0;
   for (const std::uint32_t root : roots_named(scene, name, value)) {
     const std::size_t solids = scene.solids.size();
-    const double distance = root < solids
-                                ? distance_outside(Structure(scene.solids[root].compound),
-                                                   scene.solids[root].X_WR.inverse() * point_W)
-                                : (scene.balls[root - solids].center_W - point_W).norm();
+    const double distance = root < solids ? distance_to(Structure(scene.solids[root].compound),
+                                                        scene.solids[root].X_WR.inverse() * point_W)
+                                          : (scene.balls[root - solids].center_W - point_W).norm();
     if (distance >= least) continue;
     least = distance;
     nearest = root;

@@ -29,7 +29,7 @@ struct MeshOptions {
   std::vector<std::pair<std::string, MaterialIndex>> materials{};
   /// The appearances in the file are appended to this, and faces are drawn with them: pass the
   /// scene's Scene::paints. Null: faces are drawn as their materials.
-  std::vector<Paint>* paints = nullptr;
+  std::vector<Appearance>* paints = nullptr;
   /// Warnings about appearances are appended to this, each once; null: there are none.
   std::vector<std::string>* warnings = nullptr;
   bool cached = false;  ///< True if decompositions are cached on disk (mesh_cache.h).

@@ -125,25 +125,25 @@ fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const Me
   return attempt(std::move(copy));
 }
 
-bool same(const Picture& a, const Picture& b) {
+bool same(const EncodedImage& a, const EncodedImage& b) {
   return a && b ? *a == *b : a == b;  // one file may have been read twice
 }
 
-bool same(const std::optional<Gloss>& a, const std::optional<Gloss>& b) {
+bool same(const std::optional<MetallicRoughness>& a, const std::optional<MetallicRoughness>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->roughness == b->roughness && a->metallic == b->metallic && same(a->picture, b->picture);
 }
 
 /// Appends the appearances of a file's groups to those of the scene. Returns the index of each
 /// group's appearance plus one; 0 if it has none.
-std::vector<std::uint32_t> add_paints(const std::vector<std::optional<Paint>>& of_groups,
-                                      std::vector<Paint>& paints) {
+std::vector<std::uint32_t> add_paints(const std::vector<std::optional<Appearance>>& of_groups,
+                                      std::vector<Appearance>& paints) {
   std::vector<std::uint32_t> numbers;
-  for (const std::optional<Paint>& paint : of_groups) {
+  for (const std::optional<Appearance>& paint : of_groups) {
     numbers.push_back(0);
     if (!paint) continue;
-    const auto known =
-        std::ranges::find_if(paints, [&](const Paint& other) { return same_paint(*paint, other); });
+    const auto known = std::ranges::find_if(
+        paints, [&](const Appearance& other) { return same_appearance(*paint, other); });
     numbers.back() = static_cast<std::uint32_t>(known - paints.begin()) + 1;
     if (known == paints.end()) paints.push_back(*paint);
   }
@@ -190,7 +190,7 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   const std::string warning = missing_warning(file, raw.missing_files);
   scale_mesh(raw, options, vacd_of);
   if (!options.materials.empty()) vacd_of.marked = materials_of(raw, file, options);
-  std::vector<std::optional<Paint>> paints;
+  std::vector<std::optional<Appearance>> paints;
   for (const RawMesh::Group& group : raw.groups) {
     paints.push_back(group.paint);
     if (options.paints) vacd_of.painted.push_back(group.paint ? 1 : 0);
@@ -215,9 +215,9 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
 
 }  // namespace
 
-bool same_paint(const Paint& a, const Paint& b) {
-  return a.color == b.color && same(a.picture, b.picture) && a.from_below == b.from_below &&
-         same(a.relief, b.relief) && a.relief_scale == b.relief_scale && same(a.gloss, b.gloss);
+bool same_appearance(const Appearance& a, const Appearance& b) {
+  return a.color == b.color && same(a.picture, b.picture) && a.v_from_bottom == b.v_from_bottom &&
+         same(a.relief, b.relief) && a.normal_scale == b.normal_scale && same(a.gloss, b.gloss);
 }
 
 bool is_built_in_solid(const std::string& mesh) {

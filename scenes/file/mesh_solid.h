@@ -37,7 +37,7 @@ MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options);
 /// Wraps an existing compound, with the vertices and faces of its convexes.
 MeshSolid as_mesh_solid(const std::string& name, Compound compound);
 /// Returns true if two appearances are equal; pictures are compared by their bytes.
-bool same_paint(const Paint& a, const Paint& b);
+bool same_appearance(const Appearance& a, const Appearance& b);
 
 /// Returns true if `mesh` is no file and begins like a built-in solid ("box:1,1,1") or a built-in
 /// mesh ("statue:80000").

@@ -68,7 +68,7 @@ void read_stronger(const Value& table, const std::filesystem::path& folder, Mate
   if (!find(table, "stronger")) return;
   material.stronger.clear();
   for (const Value* entry : tables(table, "stronger")) {
-    StrongerImpact impact{0, material.pattern, material.impact_radius_m};
+    ImpactResponse impact{0, material.pattern, material.impact_radius_m};
     read(schema().stronger, *entry, {}, impact);
     if (const Value* pattern = find(*entry, "pattern")) {
       read_pattern(*pattern, folder, impact.pattern);

@@ -20,7 +20,7 @@ struct Preset {
 };
 std::span<const Preset> presets();
 
-inline constexpr int kMostSubsteps = 64;
+inline constexpr int kMaxSubsteps = 64;
 
 /// The keys of [[material]] that are not stored in a Material.
 struct MaterialHead {
@@ -115,7 +115,7 @@ struct Schema {
   Keys<Scene> top;
   Keys<Scene> scene;
   Keys<Accuracy> accuracy;
-  Keys<SolverDials> solver;
+  Keys<SolverOptions> solver;
   Keys<Limits> limits;
   Keys<Ground> ground;
   Keys<View> view;
@@ -123,8 +123,8 @@ struct Schema {
   Keys<MaterialHead> material_head;
   Keys<Material> material;
   Keys<PatternSpec> pattern;
-  Keys<StrongerImpact> stronger;
-  Keys<Crumbling> crumbling;
+  Keys<ImpactResponse> stronger;
+  Keys<DebrisEmission> crumbling;
   Keys<Look> look;
   Keys<SolidHead> solid;
   Keys<PartHead> part;

@@ -103,7 +103,7 @@ PathKey read_path_key(const Value& table, const PathKey& before) {
                      format(max_rate) + "; give it more time");
   };
   check((given.shift - before.shift_W).norm(), kMaxPathSpeed_m_s, "m/s");
-  check((given.turn_rad - before.turn_W).norm(), kMaxPathSpin_rad_s, "rad/s");
+  check((given.turn_rad - before.rotation_W).norm(), kMaxPathSpin_rad_s, "rad/s");
   return {given.time_s, given.shift, given.turn_rad};
 }
 
@@ -118,7 +118,7 @@ Path read_path(const Value& table, const MoveTable& given) {
   constexpr double kReturnTolerance = 1e-6;  // m; half an angle in rad
   const PathKey& last = path.keys.back();
   const bool returns = last.shift_W.norm() < kReturnTolerance &&
-                       rotation_by(last.turn_W).vec().norm() < kReturnTolerance;
+                       rotation_by(last.rotation_W).vec().norm() < kReturnTolerance;
   if (given.loop && !returns) {
     throw InputError(tables(table, "key").back()->where +
                      ": the last key of a [[script.move]] with loop = true has to be where it "

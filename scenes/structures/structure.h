@@ -29,7 +29,7 @@ struct Piece {
 struct BuildContext {
   std::span<const Material> materials;
   std::filesystem::path folder;        ///< Folder in which files are sought.
-  std::vector<Paint>& paints;          ///< Appearances of the scene; builders append to them.
+  std::vector<Appearance>& paints;     ///< Appearances of the scene; builders append to them.
   std::vector<std::string>& warnings;  ///< Warnings of the scene; builders append to them.
 };
 

@@ -37,7 +37,7 @@ void run_stages(const std::vector<Stage>& stages, const Work& work) {
     const std::uint32_t begin = block * stage.grain;
     work(stage, stage.first + begin, stage.first + std::min(stage.count, begin + stage.grain));
   };
-  if (widest < kMinParallelBlocks || !may_share_work()) {
+  if (widest < kMinParallelBlocks || !can_run_parallel()) {
     for (const Stage& stage : stages)
       for (std::uint32_t block = 0; block < stage.blocks(); ++block) run(stage, block);
     return;
@@ -49,7 +49,7 @@ void run_stages(const std::vector<Stage>& stages, const Work& work) {
   const std::unique_ptr<Count[]> claimed(new Count[stages.size() * parts]);
   const std::unique_ptr<Count[]> done(new Count[stages.size()]);
   std::atomic<std::uint32_t> arrived{0};
-  work_together([&] {
+  run_on_free_threads([&] {
     const std::uint32_t rank = arrived.fetch_add(1, std::memory_order_relaxed);
     for (std::size_t s = 0; s < stages.size(); ++s) {
       const std::uint64_t blocks = stages[s].blocks();

@@ -79,13 +79,13 @@ SUNDER_INLINE V max(V a, V b) {
   return a > b ? a : b;
 }
 /// Returns the least of eight lanes.
-SUNDER_INLINE float least_of(Wide v) {
+SUNDER_INLINE float min_lane(Wide v) {
   v = min(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
   v = min(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
   v = min(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
   return v[0];
 }
-SUNDER_INLINE float most_of(Wide v) { return -least_of(-v); }
+SUNDER_INLINE float max_lane(Wide v) { return -min_lane(-v); }
 template <class V>
 SUNDER_INLINE V sqrt(V x) {
   for (std::uint32_t i = 0; i < kLanesOf<V>; ++i) x[i] = __builtin_sqrtf(x[i]);
@@ -127,7 +127,7 @@ SUNDER_INLINE bool any(Mask mask) {
 }
 
 /// Returns the number of groups of eight lanes that hold n items.
-constexpr std::uint32_t wide_count(std::uint32_t n) { return (n + kLanes - 1) / kLanes; }
+constexpr std::uint32_t lane_groups(std::uint32_t n) { return (n + kLanes - 1) / kLanes; }
 
 /// A vector in three dimensions per lane.
 template <class V>

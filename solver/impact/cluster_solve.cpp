@@ -57,7 +57,7 @@ std::vector<double> Group::solve_exactly(std::vector<BodyVelocity>& v) const {
     A(i, i) = row(i).inverse_mass + softness_;
   }
   const Eigen::VectorXd impulses = solve_complementarity(A, closing);
-  for (Eigen::Index i = 0; i < n; ++i) row(i).push(v, impulses[i]);
+  for (Eigen::Index i = 0; i < n; ++i) row(i).apply_impulse(v, impulses[i]);
   return {impulses.begin(), impulses.end()};
 }
 
@@ -75,7 +75,7 @@ void Group::sweep(std::vector<BodyVelocity>& v, std::vector<double>& impulses_Ns
     if (impulse == 0) continue;
     sum += impulse;
     change[i] += impulse;
-    row.push(v, impulse);
+    row.apply_impulse(v, impulse);
   }
 }
 
@@ -100,7 +100,7 @@ std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyV
       direction[i] *= beta;
       if (direction[i] != 0) {
         impulses_Ns[i] += direction[i];
-        rows_[i]->push(v, direction[i]);
+        rows_[i]->apply_impulse(v, direction[i]);
       }
       direction[i] += change[i];
     }
@@ -113,10 +113,14 @@ std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyV
 
 double ContactRow::coupling(const ContactRow& other) const {
   double sum = 0;
-  if (other.a == a) sum += normal.dot(other.push_a) + angular_a.dot(other.spin_a);
-  if (other.a == b) sum -= normal.dot(other.push_a) + angular_b.dot(other.spin_a);
-  if (other.b == a) sum -= normal.dot(other.push_b) + angular_a.dot(other.spin_b);
-  if (other.b == b) sum += normal.dot(other.push_b) + angular_b.dot(other.spin_b);
+  if (other.a == a)
+    sum += normal.dot(other.linear_response_a) + angular_a.dot(other.angular_response_a);
+  if (other.a == b)
+    sum -= normal.dot(other.linear_response_a) + angular_b.dot(other.angular_response_a);
+  if (other.b == a)
+    sum -= normal.dot(other.linear_response_b) + angular_a.dot(other.angular_response_b);
+  if (other.b == b)
+    sum += normal.dot(other.linear_response_b) + angular_b.dot(other.angular_response_b);
   for (const JointResponse& on : other.joint_responses) {
     if (on.body == a) sum -= normal.dot(on.change.linear) + angular_a.dot(on.change.angular);
     if (on.body == b) sum += normal.dot(on.change.linear) + angular_b.dot(on.change.angular);

@@ -30,11 +30,13 @@ struct RowJacobian {
 /// Constraint row of a contact point between two bodies, or of one degree of freedom that a joint
 /// removes.
 struct ContactRow : RowJacobian {
-  bool moves_a = false, moves_b = false;              ///< False: static or kinematic.
-  Vec3 push_a = Vec3::Zero(), push_b = Vec3::Zero();  ///< Velocity change per impulse.
-  Vec3 spin_a = Vec3::Zero(), spin_b = Vec3::Zero();  ///< Angular velocity change.
-  double inverse_mass = 0;                            ///< Inverse effective mass along the row.
-  bool rope = false;                                  ///< A rope: breaks nothing, never removed.
+  bool moves_a = false, moves_b = false;  ///< False: static or kinematic.
+  Vec3 linear_response_a = Vec3::Zero(),
+       linear_response_b = Vec3::Zero();  ///< Velocity change per impulse.
+  Vec3 angular_response_a = Vec3::Zero(),
+       angular_response_b = Vec3::Zero();  ///< Angular velocity change.
+  double inverse_mass = 0;                 ///< Inverse effective mass along the row.
+  bool rope = false;                       ///< A rope: breaks nothing, never removed.
 
   /// Velocity change, per impulse of the row, that joints cause in a body (also in a and b).
   struct JointResponse {
@@ -43,11 +45,11 @@ struct ContactRow : RowJacobian {
   };
   std::vector<JointResponse> joint_responses;
 
-  void push(std::vector<BodyVelocity>& v, double impulse_Ns) const {
-    v[a].linear -= impulse_Ns * push_a;
-    v[a].angular -= impulse_Ns * spin_a;
-    v[b].linear += impulse_Ns * push_b;
-    v[b].angular += impulse_Ns * spin_b;
+  void apply_impulse(std::vector<BodyVelocity>& v, double impulse_Ns) const {
+    v[a].linear -= impulse_Ns * linear_response_a;
+    v[a].angular -= impulse_Ns * angular_response_a;
+    v[b].linear += impulse_Ns * linear_response_b;
+    v[b].angular += impulse_Ns * angular_response_b;
     for (const JointResponse& on : joint_responses) {
       v[on.body].linear += impulse_Ns * on.change.linear;
       v[on.body].angular += impulse_Ns * on.change.angular;

@@ -8,7 +8,7 @@
 
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/rotation.h"
-#include "solver/impact/even_load.h"
+#include "solver/impact/impulse_distribution.h"
 
 namespace sunder::solver {
 namespace {
@@ -83,7 +83,7 @@ void EventProbe::find_gravity(const Linkage& linkage, const Vec3& gravity_W) {
   }
   gravity_ = solve_cluster(rows_, taut, all, softness_, gravity_W.norm(), gravity_).velocities;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    bodies_[b].leans |= gravity_[b].linear.norm() < kHangingShare * gravity_W.norm();
+    bodies_[b].is_supported |= gravity_[b].linear.norm() < kHangingShare * gravity_W.norm();
   }
 }
 
@@ -92,7 +92,7 @@ void EventProbe::find_gravity(const Linkage& linkage, const Vec3& gravity_W) {
 void EventProbe::find_falling() {
   DisjointSets groups(bodies_.size());
   std::vector<std::uint8_t> supported(bodies_.size(), 0);
-  for (std::size_t b = 0; b < bodies_.size(); ++b) supported[b] = bodies_[b].leans;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) supported[b] = bodies_[b].is_supported;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ContactRow& row = rows_[i];
     if (row.inverse_mass <= 0 || !touches(i) || speeds_m_s_[i] < -rest_speed_m_s_) continue;
@@ -217,7 +217,7 @@ bool EventProbe::may_break_any() const {
   return false;
 }
 
-std::vector<ProbeLoad> EventProbe::next(double least_J) {
+std::vector<ImpactLoad> EventProbe::next(double least_J) {
   for (;;) {
     if (!with_) {  // between events
       if (!advance_to_event()) return {};
@@ -245,7 +245,7 @@ void EventProbe::mark_moved(const ClusterMotion& motion) {
 }
 
 void EventProbe::hold() {
-  for (const ProbeLoad& load : loads_) undecided_[load.body] = 0;
+  for (const ImpactLoad& load : loads_) undecided_[load.body] = 0;
 }
 
 /// Returns the kinetic energy of v₁ + s·(v₀ − v₁) less that of v₁, v₁ with and v₀ without the
@@ -340,19 +340,19 @@ std::uint32_t EventProbe::body_to_load(const ProbeContact& c) const {
   return std::pair(a.least_J, a.key) < std::pair(b.least_J, b.key) ? c.a : c.b;
 }
 
-std::vector<ProbeLoad> EventProbe::loads(const ClusterMotion& without) const {
-  std::vector<ProbeLoad> all(bodies_.size());
+std::vector<ImpactLoad> EventProbe::loads(const ClusterMotion& without) const {
+  std::vector<ImpactLoad> all(bodies_.size());
   std::vector<double> most(bodies_.size(), 0), flux(bodies_.size(), 0),
       most_flux(bodies_.size(), 0);
   for (std::uint32_t b = 0; b < all.size(); ++b) all[b].body = b;
-  for (ProbeLoad& load : all) load.direction_W.setZero();
+  for (ImpactLoad& load : all) load.direction_W.setZero();
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const ProbeContact& c = contacts_[closed_[i]];
     const double impulse = with_->impulses_Ns[i];
     const ContactRow& row = rows_[closed_[i]];
     if (impulse <= 0 || !row.touches(undecided_)) continue;
     const std::uint32_t body = body_to_load(c);
-    ProbeLoad& load = all[body];
+    ImpactLoad& load = all[body];
     load.work_J += 0.5 * impulse * (row.speed(without.velocities) + row.speed(with_->velocities));
     load.impulse_Ns += impulse;
     load.arm_W += impulse * (body == c.b ? c.arm_b_W : c.arm_a_W);
@@ -368,14 +368,14 @@ std::vector<ProbeLoad> EventProbe::loads(const ClusterMotion& without) const {
     most[body] = impulse;
     load.shape = body == c.b ? c.shape_b : c.shape_a;
   }
-  for (ProbeLoad& load : all)
+  for (ImpactLoad& load : all)
     if (flux[load.body] > 0) load.speed_m_s /= flux[load.body];
-  std::erase_if(all, [&](const ProbeLoad& load) {
+  std::erase_if(all, [&](const ImpactLoad& load) {
     const ProbeBody& body = bodies_[load.body];
     return body.withstands(load.work_J, load.impulse_Ns, load.speed_m_s) ||
            load.direction_W.squaredNorm() <= 0;
   });
-  for (ProbeLoad& load : all) {
+  for (ImpactLoad& load : all) {
     load.arm_W /= load.impulse_Ns;
     load.direction_W.normalize();
     add_contact_impulses(load);
@@ -385,8 +385,8 @@ std::vector<ProbeLoad> EventProbe::loads(const ClusterMotion& without) const {
 
 /// Adds the impulses of contacts to a load, those of each other body distributed as evenly as their
 /// sum and moment allow.
-void EventProbe::add_contact_impulses(ProbeLoad& load) const {
-  std::map<std::uint32_t, std::vector<PressedPoint>> by_body;
+void EventProbe::add_contact_impulses(ImpactLoad& load) const {
+  std::map<std::uint32_t, std::vector<ContactPointImpulse>> by_body;
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const ProbeContact& c = contacts_[closed_[i]];
     const double impulse = with_->impulses_Ns[i];
@@ -398,10 +398,10 @@ void EventProbe::add_contact_impulses(ProbeLoad& load) const {
     if (c.b == load.body) add(c.a, c.shape_b, c.arm_b_W, 1);
   }
   for (auto& [other, points] : by_body) {
-    spread_evenly(points);
-    for (const PressedPoint& point : points) {
+    distribute_evenly(points);
+    for (const ContactPointImpulse& point : points) {
       if (point.impulse_Ns <= 0) continue;
-      load.impulses.push_back({point.shape, point.arm_W, point.impulse_Ns * point.along_W});
+      load.impulses.push_back({point.shape, point.arm_W, point.impulse_Ns * point.direction_W});
     }
   }
   add_joint_impulses(load);
@@ -409,7 +409,7 @@ void EventProbe::add_contact_impulses(ProbeLoad& load) const {
 
 /// Adds the impulses of joints to a load: the body's change of momentum less the contact impulses,
 /// in equal shares for all joints of the body.
-void EventProbe::add_joint_impulses(ProbeLoad& load) const {
+void EventProbe::add_joint_impulses(ImpactLoad& load) const {
   const ProbeBody& body = bodies_[load.body];
   std::vector<Vec3> arms_W;
   for (const ProbeJoint& joint : joints_) {

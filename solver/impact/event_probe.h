@@ -31,7 +31,7 @@ class EventProbe final : public ImpactProbe {
       : EventProbe(std::move(cluster.bodies), std::move(cluster.contacts), cluster.dt_s,
                    cluster.rest_speed_m_s, cluster.gravity_W, std::move(cluster.joints)) {}
 
-  std::vector<ProbeLoad> next(double least_J = 0) override;
+  std::vector<ImpactLoad> next(double least_J = 0) override;
   void hold() override;
   std::vector<std::uint32_t> release(std::span<const ProbeBreak> wanted) override;
   void pause() override;
@@ -58,9 +58,9 @@ class EventProbe final : public ImpactProbe {
   bool may_break_any() const;
   ClusterMotion solve(const std::vector<std::uint8_t>& removed);
   std::uint32_t body_to_load(const ProbeContact& c) const;
-  std::vector<ProbeLoad> loads(const ClusterMotion& without) const;
-  void add_contact_impulses(ProbeLoad& load) const;
-  void add_joint_impulses(ProbeLoad& load) const;
+  std::vector<ImpactLoad> loads(const ClusterMotion& without) const;
+  void add_contact_impulses(ImpactLoad& load) const;
+  void add_joint_impulses(ImpactLoad& load) const;
   EnergyDifference energy_difference(const ClusterMotion& without) const;
   void mark_moved(const ClusterMotion& motion);
   void finish(const ClusterMotion& without, double blend);
@@ -90,7 +90,7 @@ class EventProbe final : public ImpactProbe {
   double fastest_m_s_ = 0;               ///< Highest closing speed at this event.
   double closing_J_ = 0;                 ///< Upper bound of the energy of this event.
   std::vector<std::uint8_t> undecided_;  ///< Per body: may still break in this event.
-  std::vector<ProbeLoad> loads_;         ///< Loads of this event.
+  std::vector<ImpactLoad> loads_;        ///< Loads of this event.
   std::optional<ClusterMotion> with_;  ///< Motion with all bodies in the way; empty between events.
   std::vector<ProbeMotion> motions_;
 };

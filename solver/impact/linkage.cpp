@@ -45,7 +45,7 @@ void Linkage::project(std::vector<BodyVelocity>& velocities) const {
   }
   const Eigen::VectorXd impulses = impulses_Ns(speeds);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    rows_[i].push(velocities, impulses[static_cast<Eigen::Index>(i)]);
+    rows_[i].apply_impulse(velocities, impulses[static_cast<Eigen::Index>(i)]);
   }
 }
 
@@ -59,7 +59,7 @@ void Linkage::add_joint_responses(ContactRow& row, std::size_t bodies) const {
   const Eigen::VectorXd impulses = impulses_Ns(speeds);
   std::vector<BodyVelocity> change(bodies);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    rows_[i].push(change, -impulses[static_cast<Eigen::Index>(i)]);
+    rows_[i].apply_impulse(change, -impulses[static_cast<Eigen::Index>(i)]);
   }
   for (std::uint32_t b = 0; b < bodies; ++b) {
     if (!change[b].linear.isZero(0) || !change[b].angular.isZero(0)) {

@@ -15,10 +15,10 @@ ContactRow make_row(const std::vector<ProbeBody>& bodies, std::uint32_t a, std::
   row.normal = normal_W;
   row.angular_a = angular_a_W;
   row.angular_b = angular_b_W;
-  row.push_a = body_a.inverse_mass * normal_W;
-  row.push_b = body_b.inverse_mass * normal_W;
-  row.spin_a = body_a.inverse_inertia_W * row.angular_a;
-  row.spin_b = body_b.inverse_inertia_W * row.angular_b;
+  row.linear_response_a = body_a.inverse_mass * normal_W;
+  row.linear_response_b = body_b.inverse_mass * normal_W;
+  row.angular_response_a = body_a.inverse_inertia_W * row.angular_a;
+  row.angular_response_b = body_b.inverse_inertia_W * row.angular_b;
   return row;
 }
 
@@ -66,7 +66,8 @@ ContactRow make_row(const std::vector<ProbeBody>& bodies, const ProbeContact& co
   ContactRow row = make_row(bodies, contact.a, contact.b, n, arm_a_W.cross(n), arm_b_W.cross(n));
   row.rope = contact.rope;
   row.inverse_mass = bodies[contact.a].inverse_mass + bodies[contact.b].inverse_mass +
-                     row.angular_a.dot(row.spin_a) + row.angular_b.dot(row.spin_b);
+                     row.angular_a.dot(row.angular_response_a) +
+                     row.angular_b.dot(row.angular_response_b);
   return row;
 }
 

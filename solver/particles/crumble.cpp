@@ -18,7 +18,7 @@ constexpr double kMaxChipSpin_s = 15;  // greatest angular speed of a new chip, 
 constexpr double kDustVelocityShare = 0.4;
 constexpr double kMinPuffRadius_m = 0.09;  // least radius of a new puff; the greatest is twice that
 
-double area(const Emission& face) {
+double area(const ExposedPolygon& face) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t c = 2; c < face.corners_W.size(); ++c) {
     const Vec3& apex = face.corners_W[0];
@@ -28,13 +28,13 @@ double area(const Emission& face) {
 }
 
 /// Returns the number of particles, debris and dust together, that a square metre emits.
-double emission_density_m2(const Emission& face) {
+double emission_density_m2(const ExposedPolygon& face) {
   return face.crumbling.particles_per_m2 *
-         std::min(1.0, kClosedCrackShare + face.parting_m_s / kFullEmissionSpeed_m_s);
+         std::min(1.0, kClosedCrackShare + face.opening_speed_m_s / kFullEmissionSpeed_m_s);
 }
 
 /// Returns a uniform random point of the polygon: a triangle of its fan by area, a point of that.
-Vec3 point_on(const Emission& face, double face_area_m2, Random& random) {
+Vec3 point_on(const ExposedPolygon& face, double face_area_m2, Random& random) {
   double left_m2 = random.uniform() * face_area_m2;
   const Vec3& apex = face.corners_W[0];
   std::size_t c = 2;
@@ -73,12 +73,12 @@ std::uint8_t random_variant(Random& random) {
   return static_cast<std::uint8_t>(random.below(kDebrisVariants));
 }
 
-double spall_m_s(const Emission& face) {
-  return kSpall_m_s + kSpallPerOpeningSpeed * face.parting_m_s;
+double spall_m_s(const ExposedPolygon& face) {
+  return kSpall_m_s + kSpallPerOpeningSpeed * face.opening_speed_m_s;
 }
 
-DebrisBirth chip_from(const Emission& face, double area_m2, Random& random) {
-  const Crumbling& crumbling = face.crumbling;
+DebrisBirth chip_from(const ExposedPolygon& face, double area_m2, Random& random) {
+  const DebrisEmission& crumbling = face.crumbling;
   const Vec3 point = point_on(face, area_m2, random);
   const double speed = spall_m_s(face) / (random.uniform() + kSpallSpeedOffset);
   const Vec3 velocity = face.motion(point) + speed * (face.normal_W + random.direction());
@@ -94,8 +94,8 @@ DebrisBirth chip_from(const Emission& face, double area_m2, Random& random) {
           face.material};
 }
 
-DustBirth puff_from(const Emission& face, double area_m2, Random& random) {
-  const Crumbling& crumbling = face.crumbling;
+DustBirth puff_from(const ExposedPolygon& face, double area_m2, Random& random) {
+  const DebrisEmission& crumbling = face.crumbling;
   const Vec3 point = point_on(face, area_m2, random);
   const Vec3 velocity = kDustVelocityShare * face.motion(point) +
                         spall_m_s(face) * (face.normal_W + random.direction());
@@ -114,10 +114,10 @@ DustBirth puff_from(const Emission& face, double area_m2, Random& random) {
 
 }  // namespace
 
-CapacityShares capacity_shares(std::span<const Emission> faces, const Debris& debris,
+CapacityShares capacity_shares(std::span<const ExposedPolygon> faces, const Debris& debris,
                                const Dust& dust) {
   double expected_debris = 0, expected_dust = 0;
-  for (const Emission& face : faces) {
+  for (const ExposedPolygon& face : faces) {
     const double count = emission_density_m2(face) * area(face);
     expected_debris += count * face.crumbling.debris_ratio;
     expected_dust += count * (1 - face.crumbling.debris_ratio);
@@ -128,9 +128,9 @@ CapacityShares capacity_shares(std::span<const Emission> faces, const Debris& de
   return {share(debris.room(), expected_debris), share(dust.room(), expected_dust)};
 }
 
-void crumble(const Emission& face, const CapacityShares& shares, Random& random, Debris& debris,
-             Dust& dust) {
-  const Crumbling& crumbling = face.crumbling;
+void crumble(const ExposedPolygon& face, const CapacityShares& shares, Random& random,
+             Debris& debris, Dust& dust) {
+  const DebrisEmission& crumbling = face.crumbling;
   if (!(crumbling.particles_per_m2 > 0)) return;
   const double area_m2 = area(face);
   const auto count =
@@ -152,7 +152,7 @@ void crumble(const Emission& face, const CapacityShares& shares, Random& random,
   }
 }
 
-void add_chip(const Chip& chip, Random& random, Debris& debris) {
+void add_chip(const DebrisPiece& chip, Random& random, Debris& debris) {
   debris.add({chip.center_W.cast<float>(), chip.velocity_W.cast<float>(),
               chip.angular_velocity_W.cast<float>(), random_rotation(random),
               static_cast<float>(chip.radius_m), random_variant(random), chip.material});

@@ -1,4 +1,4 @@
-// Emission of debris and dust, uniformly on each face that a break has exposed.
+// ExposedPolygon of debris and dust, uniformly on each face that a break has exposed.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct CapacityShares {
   double debris = 1;
   double dust = 1;
 };
-CapacityShares capacity_shares(std::span<const Emission> faces, const Debris& debris,
+CapacityShares capacity_shares(std::span<const ExposedPolygon> faces, const Debris& debris,
                                const Dust& dust);
 
 /// Adds the debris and dust of one face (paper section 5: "uniformly on those faces with a user
@@ -23,10 +23,10 @@ CapacityShares capacity_shares(std::span<const Emission> faces, const Debris& de
 /// rounded up or down at random, so that many small faces give as many as a large one. Each
 /// particle is kept with a probability of its share in `shares`; the others are counted as ignored.
 /// Puffs of dust that are kept get heavier, so that the total mass stays.
-void crumble(const Emission& face, const CapacityShares& shares, Random& random, Debris& debris,
-             Dust& dust);
+void crumble(const ExposedPolygon& face, const CapacityShares& shares, Random& random,
+             Debris& debris, Dust& dust);
 
 /// Adds a chip in place of a body, with its motion and size, and a random shape and rotation.
-void add_chip(const Chip& chip, Random& random, Debris& debris);
+void add_chip(const DebrisPiece& chip, Random& random, Debris& debris);
 
 }  // namespace sunder::solver

@@ -7,7 +7,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
-#include "solver/base/place_order.h"
+#include "solver/base/morton_order.h"
 #include "solver/base/wide.h"
 
 namespace sunder::solver {
@@ -101,7 +101,7 @@ void Debris::advance(double dt_s, const Obstacles& obstacles) {
 /// Sorts the chips by place every few steps, because the neighbours of moving chips change slowly.
 void Debris::sort() {
   if (awake_.empty() || steps_++ % kStepsPerSort != 0) return;
-  sort_by_place(position_W_, order_);
+  sort_by_morton_code(position_W_, order_);
   lists_valid_ = false;
 }
 
@@ -139,8 +139,8 @@ void Debris::wake_hit(double dt_s, const Obstacles& obstacles) {
   std::vector<std::uint8_t> touched(asleep_.size());
   for_chunks(asleep_.size(), kChipsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     ObstacleGrid::Near near;
-    std::array<SphereWay, kLanes> paths;
-    std::array<std::optional<ObstacleTouch>, kLanes> touches;
+    std::array<SpherePath, kLanes> paths;
+    std::array<std::optional<SphereContact>, kLanes> touches;
     for (std::size_t i = begin; i < end; i += kLanes) {
       const std::size_t count = std::min<std::size_t>(kLanes, end - i);
       for (std::size_t w = 0; w < count; ++w) {
@@ -207,9 +207,9 @@ void Debris::prefetch_chip(std::uint32_t chip) const {
 /// Moves chips: each flies to its first contact, bounces and flies on, at most kMaxBounces times.
 void Debris::move(std::span<const std::uint32_t> chips, std::span<StepResult> results, double dt_s,
                   double ground_m, ObstacleGrid::Near& near) {
-  std::array<SphereWay, kChipsPerBatch> paths;     // remaining paths of the chips that still fly
+  std::array<SpherePath, kChipsPerBatch> paths;    // remaining paths of the chips that still fly
   std::array<std::size_t, kChipsPerBatch> flying;  // their indices in `chips`
-  std::array<std::optional<ObstacleTouch>, kChipsPerBatch> touches;
+  std::array<std::optional<SphereContact>, kChipsPerBatch> touches;
   const Vec3f fall = (dt_s * gravity_W_).cast<float>();
   for (std::size_t i = 0; i < chips.size(); ++i) {
     velocity_W_[chips[i]] += fall;
@@ -244,22 +244,22 @@ void Debris::move(std::span<const std::uint32_t> chips, std::span<StepResult> re
 }
 
 /// Moves a chip to its first contact or the end of its path. Returns true if time is left.
-bool Debris::advance_to_contact(std::uint32_t chip, SphereWay& path,
-                                std::optional<ObstacleTouch> touch, double dt_s, double ground_m,
+bool Debris::advance_to_contact(std::uint32_t chip, SpherePath& path,
+                                std::optional<SphereContact> touch, double dt_s, double ground_m,
                                 StepResult& result) {
   const double lowest = ground_m + path.radius_m;
   const double fall = path.from.y() - path.to.y();
   if (path.to.y() < lowest) {
     const double time = path.from.y() > lowest && fall > 0 ? (path.from.y() - lowest) / fall : 0;
     if (!touch || time < touch->time) {
-      touch = ObstacleTouch{time, lowest - path.to.y(), Vec3::UnitY(), Vec3::Zero(), kGround};
+      touch = SphereContact{time, lowest - path.to.y(), Vec3::UnitY(), Vec3::Zero(), kGround};
     }
   }
   if (!touch) {
     path.from = path.to;
     path.duration_s = 0;
   } else {
-    result = {true, touch->velocity_W.norm() < ObstacleGrid::kCreep_m_s, touch->body};
+    result = {true, touch->velocity_W.norm() < ObstacleGrid::kRestSpeed_m_s, touch->body};
     if (touch->depth_m > 0 && touch->time <= 0) {
       path.from = path.to + std::min(touch->depth_m, kMaxPushOut_m_s * dt_s) * touch->normal_W;
       path.duration_s = 0;
@@ -392,8 +392,8 @@ DebrisView Debris::view() const {
   return {position_W_, rotation_WD_, drawn_radius_m_, variant_, material_};
 }
 
-ParticleLedger Debris::ledger() const {
-  ParticleLedger ledger = ledger_;
+ParticleCounts Debris::ledger() const {
+  ParticleCounts ledger = ledger_;
   ledger.alive = static_cast<std::uint32_t>(position_W_.size());
   ledger.awake = static_cast<std::uint32_t>(awake_.size());
   return ledger;

@@ -34,14 +34,14 @@ class Debris {
   std::uint32_t room() const { return limit_ - static_cast<std::uint32_t>(position_W_.size()); }
   void advance(double dt_s, const Obstacles& obstacles);
   DebrisView view() const;
-  ParticleLedger ledger() const;
+  ParticleCounts ledger() const;
 
  private:
   enum class State : std::uint8_t { kAwake, kAsleep, kFading };
   /// Result of a step for one chip.
   struct StepResult {
     bool touched = false;
-    bool on_still_surface = false;  ///< Touches a surface slower than ObstacleGrid::kCreep_m_s.
+    bool on_still_surface = false;  ///< Touches a surface slower than ObstacleGrid::kRestSpeed_m_s.
     std::uint32_t support = 0;      ///< Index of the body that was touched, or kGround.
   };
   /// A body that sleeping chips rest on.
@@ -60,7 +60,7 @@ class Debris {
   void prefetch_chip(std::uint32_t chip) const;
   void move(std::span<const std::uint32_t> chips, std::span<StepResult> results, double dt_s,
             double ground_m, ObstacleGrid::Near& near);
-  bool advance_to_contact(std::uint32_t chip, SphereWay& path, std::optional<ObstacleTouch> touch,
+  bool advance_to_contact(std::uint32_t chip, SpherePath& path, std::optional<SphereContact> touch,
                           double dt_s, double ground_m, StepResult& result);
   void integrate_rotations(std::span<const std::uint32_t> chips,
                            std::span<const StepResult> results, float dt_s);
@@ -72,7 +72,7 @@ class Debris {
 
   std::uint32_t limit_;
   Vec3 gravity_W_;
-  ParticleLedger ledger_;
+  ParticleCounts ledger_;
   std::uint64_t next_sleep_order_ = 0;
 
   std::vector<Vec3f> position_W_, velocity_W_, angular_velocity_W_;

@@ -15,16 +15,16 @@ class DebrisAndDust final : public Particles {
         debris_(options.limits.debris, options.gravity_W),
         dust_(options.limits.dust, options.gravity_W, options.air_cells) {}
 
-  void emit(std::span<const Emission> faces) override {
+  void emit(std::span<const ExposedPolygon> faces) override {
     const CapacityShares shares = capacity_shares(faces, debris_, dust_);
-    for (const Emission& face : faces) {
+    for (const ExposedPolygon& face : faces) {
       Random random(seed_, next_stream_++);
       crumble(face, shares, random, debris_, dust_);
     }
   }
 
-  void emit(std::span<const Chip> chips) override {
-    for (const Chip& chip : chips) {
+  void emit(std::span<const DebrisPiece> chips) override {
+    for (const DebrisPiece& chip : chips) {
       Random random(seed_, next_stream_++);
       add_chip(chip, random, debris_);
     }

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "engine/base/parallel.h"
-#include "solver/base/place_order.h"
+#include "solver/base/morton_order.h"
 #include "solver/particles/rotate.h"
 
 namespace sunder::solver {
@@ -279,8 +279,8 @@ DustView Dust::view() const {
   return {position_W_, rotation_WD_, radius_m_, opacity_, age_s_, material_};
 }
 
-ParticleLedger Dust::ledger() const {
-  ParticleLedger ledger = ledger_;
+ParticleCounts Dust::ledger() const {
+  ParticleCounts ledger = ledger_;
   ledger.alive = ledger.awake = static_cast<std::uint32_t>(position_W_.size());
   return ledger;
 }

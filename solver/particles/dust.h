@@ -34,7 +34,7 @@ class Dust {
   std::uint32_t room() const { return limit_ - static_cast<std::uint32_t>(position_W_.size()); }
   void advance(double dt_s, const Obstacles& obstacles);
   DustView view() const;
-  ParticleLedger ledger() const;
+  ParticleCounts ledger() const;
   /// Returns the air, or null while there is no dust.
   const Air* air() const { return flow_ ? &flow_->air : nullptr; }
 
@@ -71,7 +71,7 @@ class Dust {
   Vec3f down_W_;
   Vec3i air_cells_;                     ///< Greatest number of air cells per axis.
   Vec3i wanted_cells_ = Vec3i::Zero();  ///< Result of cells_for() in the last step.
-  ParticleLedger ledger_;
+  ParticleCounts ledger_;
   std::optional<Flow> flow_;
   std::vector<float> sorted_m_;
   std::vector<std::uint32_t> cell_;   ///< Index of the air cell that holds each puff, or kOutside.

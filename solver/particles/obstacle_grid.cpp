@@ -93,7 +93,7 @@ void ObstacleGrid::compute_boxes(std::size_t begin, std::size_t end, Which which
     box.max = center + half;
     if (!body.moves) continue;
     const double spin_m_s = body.angular_velocity_W.norm() * reach;
-    if (which == Which::kMoving && body.velocity_W.norm() + spin_m_s < kCreep_m_s) {
+    if (which == Which::kMoving && body.velocity_W.norm() + spin_m_s < kRestSpeed_m_s) {
       box = Box();
       continue;
     }
@@ -224,16 +224,16 @@ void ObstacleGrid::find(const Vec3f& low, const Vec3f& high,
   }
 }
 
-void ObstacleGrid::find(std::span<const SphereWay> paths, Near& near) const {
+void ObstacleGrid::find(std::span<const SpherePath> paths, Near& near) const {
   if (placed_.shapes.empty()) return;
   Vec3f low = Vec3f::Constant(1e30f), high = -low;
-  const auto low_of = [](const SphereWay& path) {
+  const auto low_of = [](const SpherePath& path) {
     return Vec3f((path.from.cwiseMin(path.to).array() - path.radius_m).cast<float>());
   };
-  const auto high_of = [](const SphereWay& path) {
+  const auto high_of = [](const SpherePath& path) {
     return Vec3f((path.from.cwiseMax(path.to).array() + path.radius_m).cast<float>());
   };
-  for (const SphereWay& path : paths) {
+  for (const SpherePath& path : paths) {
     low = low.cwiseMin(low_of(path));
     high = high.cwiseMax(high_of(path));
   }
@@ -245,13 +245,13 @@ void ObstacleGrid::find(std::span<const SphereWay> paths, Near& near) const {
     return;
   }
   near.high = near.low - Vec3f::Ones();  // empty: the result is valid for these paths alone
-  for (const SphereWay& path : paths) {
+  for (const SpherePath& path : paths) {
     const double parts = std::ceil((path.to - path.from).cwiseAbs().maxCoeff() / kPathPart_m);
     if (!(parts > 1 && parts <= kMaxPathParts)) {
       find(low_of(path), high_of(path), near.shapes);
       continue;
     }
-    SphereWay part = path;
+    SpherePath part = path;
     for (double k = 1; k <= parts; ++k) {
       part.to = path.from + k / parts * (path.to - path.from);
       find(low_of(part), high_of(part), near.shapes);

@@ -19,7 +19,7 @@ class ObstacleGrid {
  public:
   enum class Which { kAll, kMoving };
   /// Speed below which an obstacle counts as at rest for chips.
-  static constexpr double kCreep_m_s = 0.05;
+  static constexpr double kRestSpeed_m_s = 0.05;
 
   /// Builds the grid of obstacles that touch `region` within the last dt_s; they must outlive
   /// queries.
@@ -32,10 +32,10 @@ class ObstacleGrid {
     Vec3f low = Vec3f::Constant(1), high = Vec3f::Zero();
   };
   /// Finds the shapes near some paths, which should be close together. Reuses `near` if sufficient.
-  void find(std::span<const SphereWay> paths, Near& near) const;
+  void find(std::span<const SpherePath> paths, Near& near) const;
   /// Finds the first contact of each of up to eight paths with the shapes of `near`.
-  void sweep(std::span<const SphereWay> paths, const Near& near,
-             std::span<std::optional<ObstacleTouch>> touches) const {
+  void sweep(std::span<const SpherePath> paths, const Near& near,
+             std::span<std::optional<SphereContact>> touches) const {
     sweep_spheres(placed_, near.shapes, paths, touches);
   }
 

@@ -45,7 +45,7 @@ struct WidePaths {
   Wide3 from, to, low, high;
   Wide radius_m, duration_s;
 
-  explicit WidePaths(std::span<const SphereWay> paths);
+  explicit WidePaths(std::span<const SpherePath> paths);
 };
 
 /// Eight paths relative to the centre of a shape's box, in the axes of the box.
@@ -64,7 +64,7 @@ void prefetch_shape(const PlacedObstacle& shape, const Obstacles& obstacles) {
   for (std::size_t at = 0; at < shape.faces.size_bytes(); at += 64) __builtin_prefetch(from + at);
 }
 
-WidePaths::WidePaths(std::span<const SphereWay> paths) {
+WidePaths::WidePaths(std::span<const SpherePath> paths) {
   alignas(Wide) float lanes[8][kLanes];
   for (std::uint32_t i = 0; i < kLanes; ++i) {
     const bool is_used = i < paths.size();
@@ -107,8 +107,8 @@ LocalPaths::LocalPaths(const WidePaths& paths, const PlacedObstacle& shape) {
 
 /// Finds the contacts of paths that meet a shape's box; keeps those earlier than `touches`.
 void meet(const PlacedObstacles& all, const PlacedObstacle& placed, const WidePaths& wide,
-          const LocalPaths& seen, std::span<const SphereWay> paths,
-          std::span<std::optional<ObstacleTouch>> touches) {
+          const LocalPaths& seen, std::span<const SpherePath> paths,
+          std::span<std::optional<SphereContact>> touches) {
   const ObstacleShape& shape = all.obstacles.shapes[placed.shape];
   Clip clip;
   Wide front_m = splat(0);  // distance to the first face at the end of a path
@@ -137,7 +137,7 @@ void meet(const PlacedObstacles& all, const PlacedObstacle& placed, const WidePa
   }
   for (; left != 0; left &= left - 1) {
     const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-    ObstacleTouch touch;
+    SphereContact touch;
     touch.time = std::max(double{clip.enter[i]}, 0.0);
     std::int32_t face = clip.enter[i] >= 0 ? clip.enter_face[i] : clip.shallowest_face[i];
     const bool is_at_side = shape.facet && face != 0;  // the sphere comes from a neighbouring facet
@@ -146,7 +146,7 @@ void meet(const PlacedObstacles& all, const PlacedObstacle& placed, const WidePa
       touch.depth_m = -double{is_at_side ? front_m[i] : clip.shallowest_m[i]};
       if (touch.depth_m <= 0) continue;  // the sphere leaves the obstacle by its own motion
     }
-    std::optional<ObstacleTouch>& first = touches[i];
+    std::optional<SphereContact>& first = touches[i];
     if (first && first->time <= touch.time) continue;
     const ObstacleBody& body = all.obstacles.bodies[shape.body];
     if (!placed.faces.empty()) {
@@ -167,9 +167,9 @@ void meet(const PlacedObstacles& all, const PlacedObstacle& placed, const WidePa
 
 /// Each shape met is prefetched, and tested when the next is found: its data are then in the cache.
 void sweep_spheres(const PlacedObstacles& placed, std::span<const std::uint32_t> near,
-                   std::span<const SphereWay> paths,
-                   std::span<std::optional<ObstacleTouch>> touches) {
-  for (std::optional<ObstacleTouch>& touch : touches) touch.reset();
+                   std::span<const SpherePath> paths,
+                   std::span<std::optional<SphereContact>> touches) {
+  for (std::optional<SphereContact>& touch : touches) touch.reset();
   if (near.empty()) return;
   const WidePaths wide(paths);
   const PlacedObstacle* pending = nullptr;

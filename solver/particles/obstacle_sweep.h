@@ -11,7 +11,7 @@
 namespace sunder::solver {
 
 /// The contact of a swept sphere with an obstacle.
-struct ObstacleTouch {
+struct SphereContact {
   double time = 1;     ///< Fraction of the path; 0 if the sphere started inside.
   double depth_m = 0;  ///< Penetration at the end of the path; > 0 if the sphere started inside.
   Vec3 normal_W = Vec3::UnitY();   ///< Unit normal, out of the obstacle.
@@ -20,7 +20,7 @@ struct ObstacleTouch {
 };
 
 /// The straight path of a small sphere during the last duration_s of the step.
-struct SphereWay {
+struct SpherePath {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
   double radius_m = 0;
   double duration_s = 0;
@@ -48,7 +48,7 @@ struct PlacedObstacles {
 /// Finds the first contact of each of up to eight paths with the shapes `near` (indices into
 /// `placed.shapes`), taking the motion of the obstacles into account.
 void sweep_spheres(const PlacedObstacles& placed, std::span<const std::uint32_t> near,
-                   std::span<const SphereWay> paths,
-                   std::span<std::optional<ObstacleTouch>> touches);
+                   std::span<const SpherePath> paths,
+                   std::span<std::optional<SphereContact>> touches);
 
 }  // namespace sunder::solver

@@ -40,13 +40,13 @@ class PlanarPhysics final : public Physics {
   std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
     return make_event_probe(std::move(cluster));
   }
-  std::vector<Approach> approaches() override;
+  std::vector<SpeculativeContact> speculative_contacts() override;
   std::vector<Touch> touches(std::span<const BodyId> bodies) override;
   void set_state(BodyId body, const BodyState& state) override;
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
   SolveReport solve(double dt_s, int substeps) override;
   BodyStates states() const override { return table_.states(); }
-  std::vector<ContactLoad> contact_loads() const override;
+  std::vector<ContactImpulse> contact_impulses() const override;
   std::vector<float> penetrations() const override { return find_penetrations(world_, plane_); }
   PhysicsInspection inspect() const override {
     return inspect_planar(world_, bodies_.items, plane_, last_h_s_);
@@ -135,7 +135,8 @@ void PlanarPhysics::edit(const BodyEdit& edit) {
   update_whole_table();
 }
 
-/// Contacts are found when approaches() or touches() is called; Box2D finds its own in the solve.
+/// Contacts are found when speculative_contacts() or touches() is called; Box2D finds its own in
+/// the solve.
 void PlanarPhysics::collide(double dt_s) {
   dt_s_ = dt_s;
   contacts_valid_ = false;
@@ -161,9 +162,9 @@ double PlanarPhysics::inverse_mass(const PlanarBody& body, const Vec3& arm_W,
   return 1 / body.mass_kg + arm * arm / body.inertia_kg_m2;
 }
 
-std::vector<Approach> PlanarPhysics::approaches() {
-  const double still_m_s = FroudeScale(options_.gravity_W).still_m_s(dt_s_);
-  std::vector<Approach> all;
+std::vector<SpeculativeContact> PlanarPhysics::speculative_contacts() {
+  const double rest_speed_m_s = FroudeScale(options_.gravity_W).rest_speed_m_s(dt_s_);
+  std::vector<SpeculativeContact> all;
   for (const FixtureContact& contact : contacts()) {
     const PlanarBody &a = bodies_.items[contact.body_a], &b = bodies_.items[contact.body_b];
     const auto awake = [](const PlanarBody& body) {
@@ -173,11 +174,11 @@ std::vector<Approach> PlanarPhysics::approaches() {
     const auto speed_at = [&](const Vec3& point) {
       return contact.normal_W.dot(velocity_at(a, point) - velocity_at(b, point));
     };
-    Approach approach;
+    SpeculativeContact approach;
     int closing = 0;
     for (int i = 0; i < contact.count; ++i) {
       const double speed = speed_at(contact.points_W[i]);
-      if (speed < still_m_s || contact.separations_m[i] > speed * dt_s_) continue;
+      if (speed < rest_speed_m_s || contact.separations_m[i] > speed * dt_s_) continue;
       approach.separation_m = closing == 0
                                   ? contact.separations_m[i]
                                   : std::min(approach.separation_m, contact.separations_m[i]);
@@ -384,8 +385,8 @@ BodyState PlanarPhysics::state_of(const PlanarBody& body) const {
   return state;
 }
 
-std::vector<ContactLoad> PlanarPhysics::contact_loads() const {
-  std::vector<ContactLoad> loads;
+std::vector<ContactImpulse> PlanarPhysics::contact_impulses() const {
+  std::vector<ContactImpulse> loads;
   for (const auto& [pair, p] : listener_.pair_impulses) {
     if (p.weight <= 0) continue;
     const Vec3 impulse = plane_.metres(p.impulse), point = plane_.metres((1 / p.weight) * p.moment);

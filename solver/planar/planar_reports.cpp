@@ -46,9 +46,9 @@ PhysicsInspection inspect_planar(const b2World& world, std::span<const PlanarBod
   PhysicsInspection seen;
   struct Keyed {
     std::uint64_t key_a, key_b;
-    PressPoint press;
+    ContactForce press;
   };
-  std::vector<Keyed> presses;
+  std::vector<Keyed> contact_forces;
   if (h_s > 0) {
     for_each_loaded(world, [&](const LoadedPoint& at) {
       const b2Fixture &a = *at.contact.GetFixtureA(), &b = *at.contact.GetFixtureB();
@@ -58,16 +58,17 @@ PhysicsInspection inspect_planar(const b2World& world, std::span<const PlanarBod
           point.normalImpulse * normal + point.tangentImpulse * b2Cross(normal, 1.f);
       const PlanarBody &body_a = owner(a, bodies), &body_b = owner(b, bodies);
       const double z = (body_a.dynamic() ? body_a : body_b).X_WB.position.z();
-      presses.push_back({key_of(&a),
-                         key_of(&b),
-                         {body_a.tag, body_b.tag, plane.metres(at.manifold.points[at.point], z),
-                          plane.metres(impulse) / h_s}});
+      contact_forces.push_back(
+          {key_of(&a),
+           key_of(&b),
+           {body_a.tag, body_b.tag, plane.metres(at.manifold.points[at.point], z),
+            plane.metres(impulse) / h_s}});
     });
   }
   // Sorted, because the order of Box2D's contact list is not reproducible.
-  std::ranges::stable_sort(presses, {},
+  std::ranges::stable_sort(contact_forces, {},
                            [](const Keyed& k) { return std::tuple(k.key_a, k.key_b); });
-  for (const Keyed& one : presses) seen.presses.push_back(one.press);
+  for (const Keyed& one : contact_forces) seen.contact_forces.push_back(one.press);
   for (const PlanarBody& body : bodies) {
     if (!body.body) continue;
     for (const b2Fixture* f = body.body->GetFixtureList(); f; f = f->GetNext()) {

@@ -15,18 +15,18 @@
 #include "solver/rigid/body/motion.h"
 #include "solver/rigid/body/paused.h"
 #include "solver/rigid/body/step_context.h"
-#include "solver/rigid/collide/approach.h"
 #include "solver/rigid/collide/broad_phase.h"
 #include "solver/rigid/collide/contacts.h"
-#include "solver/rigid/collide/crowd.h"
+#include "solver/rigid/collide/dense_clusters.h"
 #include "solver/rigid/collide/narrow_phase.h"
+#include "solver/rigid/collide/speculative_contacts.h"
 #include "solver/rigid/contact/contact_reports.h"
 #include "solver/rigid/contact/contact_solver.h"
 #include "solver/rigid/contact/static_warm_start.h"
 #include "solver/rigid/joint/joint.h"
 #include "solver/rigid/sleep.h"
 #include "solver/rigid/step_energy.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -35,7 +35,8 @@ class RigidPhysics final : public Physics {
  public:
   explicit RigidPhysics(const RigidOptions& options)
       : options_(options),
-        contact_solver_({options.sweeps, kAccelerates && options.accelerated, options.lanes}),
+        contact_solver_(
+            {options.sweeps, kUsesConjugateGradients && options.accelerated, options.lanes}),
         step_(options.gravity_W, 0) {
     SUNDER_CHECK(options.max_colors >= 0 && options.max_colors <= kMaxColors);
     SUNDER_CHECK(options.sweeps > 0 && options.lanes >= 0);
@@ -49,7 +50,7 @@ class RigidPhysics final : public Physics {
   std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
     return make_event_probe(std::move(cluster));
   }
-  std::vector<Approach> approaches() override {
+  std::vector<SpeculativeContact> speculative_contacts() override {
     return speculative_contacts_.find(contacts_, bodies_, shapes_, step_);
   }
   std::vector<Touch> touches(std::span<const BodyId> bodies) override;
@@ -72,14 +73,15 @@ class RigidPhysics final : public Physics {
   void pause(std::span<const BodyId> bodies) override;
   SolveReport solve(double dt_s, int substeps) override;
   BodyStates states() const override { return bodies_.states(); }
-  std::vector<ContactLoad> contact_loads() const override {
-    return find_contact_loads(contacts_, bodies_, shapes_);
+  std::vector<ContactImpulse> contact_impulses() const override {
+    return find_contact_impulses(contacts_, bodies_, shapes_);
   }
-  std::vector<JointLoad> joint_loads() const override { return joints_.loads(bodies_); }
-  std::vector<JointFlow> joint_flows() const override { return joints_.flows(); }
+  std::vector<JointImpulse> joint_impulses() const override { return joints_.loads(bodies_); }
+  std::vector<PlasticFlow> plastic_flows() const override { return joints_.flows(); }
   std::vector<float> penetrations() const override { return find_penetrations(contacts_); }
   PhysicsInspection inspect() const override {
-    return {find_presses(contacts_, bodies_, last_h_s_), broad_phase_.boxes(shapes_, bodies_)};
+    return {find_contact_forces(contacts_, bodies_, last_h_s_),
+            broad_phase_.boxes(shapes_, bodies_)};
   }
   std::vector<WorkItem> take_work() override { return work_.take(); }
 
@@ -237,7 +239,7 @@ void RigidPhysics::update_contacts() {
       pair.needs_test = ignored;  // tested again once the bodies collide again
       const bool near = !ignored && broad_phase_.may_touch(pair);
       if (near) update_contact(step_, shapes_, bodies_, pair, m, scratch);
-      m.deep = m.count > 0 && m.least_separation() < -kDeep * m.size_m;
+      m.deep = m.count > 0 && m.least_separation() < -kDeepOverlap * m.size_m;
       if (m.deep) changes[c].deep.push_back(i);
       if (touched && (!near || m.count == 0)) changes[c].separated.push_back(i);
       if (!touched && m.count > 0) changes[c].touched.emplace_back(i, std::exchange(fresh, {}));

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "solver/rigid/collide/approach.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/collide/speculative_contacts.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -52,7 +52,7 @@ void Sleep::update_rest_time(const StepContext& step, Bodies& bodies) {
     const Quat rotation = bodies.rest_rotation[body].conjugate() * bodies.rotation[body];
     const double drift = (bodies.position[body] - bodies.rest_position[body]).norm() +
                          2 * rotation.vec().norm() * reach;
-    if (speed < speed_m_s(kSlow, step, reach) && drift < kDrift * reach) {
+    if (speed < speed_m_s(kMaxRestSpeed, step, reach) && drift < kMaxRestDrift * reach) {
       bodies.resting_s[body] += static_cast<float>(step.dt_s);
     } else {
       bodies.restart_rest(body);
@@ -74,7 +74,8 @@ void Sleep::keep_changed_awake(const StepContext& step, const Contacts& contacts
     change_N_[m.body_b] += change_N;
   }
   for (const BodySlot body : bodies.slots())
-    if (candidate_[body] && change_N_[body] > kChange * weight_N(bodies, body, step.gravity_W))
+    if (candidate_[body] &&
+        change_N_[body] > kWakingForceChange * weight_N(bodies, body, step.gravity_W))
       candidate_[body] = 0;
 }
 
@@ -203,7 +204,7 @@ void Sleep::wake_by_load(const StepContext& step, const Contacts& contacts, Bodi
   for (const BodySlot body : bodies.slots()) {
     if (!asleep(bodies, body)) continue;
     const float weight = weight_N(bodies, body, step.gravity_W);
-    if (change_N_[body] <= kChange * weight) continue;
+    if (change_N_[body] <= kWakingForceChange * weight) continue;
     (support_N_[body] < -kSupportingForce * weight ? left : woken).push_back(body);
   }
   for (const BodySlot body : woken) bodies.wake(body);

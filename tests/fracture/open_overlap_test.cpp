@@ -29,17 +29,17 @@ struct Result {
 /// Asks until the answer is settled, as a simulation does; loads act on what is nearest to them
 /// until that comes off.
 Result under_load(const Compound& compound, std::span<const Material> materials,
-                  const std::vector<Load>& loads, const Vec3& gravity_R) {
+                  const std::vector<AppliedForce>& loads, const Vec3& gravity_R) {
   Structure structure(compound);
   Result result;
-  StressMemoryPtr memory;
+  StressCachePtr memory;
   for (int step = 0; step < 50; ++step) {
-    std::vector<Load> left;
-    for (Load load : loads) {
+    std::vector<AppliedForce> left;
+    for (AppliedForce load : loads) {
       load.convex = nearest(structure, load.point_R);
       if (result.loose.empty()) left.push_back(load);
     }
-    const StressAnswer answer =
+    const StressResult answer =
         break_by_stress(structure, {materials, left, gravity_R, Vec3::Zero(), kPlenty, memory});
     structure.apply(answer.edit);
     for (const Compound& piece : answer.edit.loose.pieces) result.loose.push_back(piece);
@@ -138,14 +138,14 @@ TEST(OpenOverlap, ARoofHeldByOverlapsAloneFallsWhenItIsTurnedOverAndTooHeavy) {
     const double section_m2 = 4 * 0.2 * 0.2;
     const double roof_kg = 9000 * 5 * 4 * 1.0;
     const double falls_m_s2 = kStrength_Pa * section_m2 / roof_kg;
-    const double mass_kg = weigh(compound, materials).mass_kg;
+    const double mass_kg = mass_of(compound, materials).mass_kg;
     const Result held = under_load(compound, materials, {}, Vec3(0, 0.5 * falls_m_s2, 0));
     const Result torn = under_load(compound, materials, {}, Vec3(0, 1.2 * falls_m_s2, 0));
     EXPECT_TRUE(held.loose.empty());
     EXPECT_FALSE(torn.loose.empty());
     for (const Result* result : {&held, &torn}) {
-      double kg = weigh(result->stays, materials).mass_kg;
-      for (const Compound& piece : result->loose) kg += weigh(piece, materials).mass_kg;
+      double kg = mass_of(result->stays, materials).mass_kg;
+      for (const Compound& piece : result->loose) kg += mass_of(piece, materials).mass_kg;
       EXPECT_NEAR(kg, mass_kg, 1e-9 * mass_kg) << roof_first;
       EXPECT_NEAR(volume_of(*result), volume(compound), 1e-11) << roof_first;
     }
@@ -186,7 +186,7 @@ TEST(OpenOverlap, OpeningOneOverlapAfterTheOtherKeepsVolumeAndHoldsAllTogether) 
     std::vector<Material> materials = stone(kStrength_Pa);
     materials.push_back(materials[0]);
     materials[1].density_kg_m3 = 100;
-    const double kg = weigh(compound, materials).mass_kg, m3 = volume(compound);
+    const double kg = mass_of(compound, materials).mass_kg, m3 = volume(compound);
     Structure structure(compound);
     for (int opened = 0; opened < 200; ++opened) {
       const Compound now = structure.compound();
@@ -197,7 +197,7 @@ TEST(OpenOverlap, OpeningOneOverlapAfterTheOtherKeepsVolumeAndHoldsAllTogether) 
       structure.apply(open_overlap(structure, slots[pair->of[0]], slots[pair->of[1]]));
       const Compound after = structure.compound();
       ASSERT_NEAR(volume(after), m3, 1e-9) << seed;
-      ASSERT_NEAR(weigh(after, materials).mass_kg, kg, 1e-9 * kg) << seed;
+      ASSERT_NEAR(mass_of(after, materials).mass_kg, kg, 1e-9 * kg) << seed;
     }
     const Compound after = structure.compound();
     EXPECT_TRUE(after.ghosts.empty()) << seed;

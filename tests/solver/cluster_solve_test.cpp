@@ -54,10 +54,10 @@ Cluster random_cluster(Random& random) {
         const Vec3 offset = x * across + y * along;
         row.angular_a = (radius_m[row.a] * row.normal + offset).cross(row.normal);
         row.angular_b = (offset - radius_m[row.b] * row.normal).cross(row.normal);
-        row.push_a = row.normal / cluster.mass_kg[row.a];
-        row.push_b = row.normal / cluster.mass_kg[row.b];
-        row.spin_a = row.angular_a / cluster.inertia_kgm2[row.a];
-        row.spin_b = row.angular_b / cluster.inertia_kgm2[row.b];
+        row.linear_response_a = row.normal / cluster.mass_kg[row.a];
+        row.linear_response_b = row.normal / cluster.mass_kg[row.b];
+        row.angular_response_a = row.angular_a / cluster.inertia_kgm2[row.a];
+        row.angular_response_b = row.angular_b / cluster.inertia_kgm2[row.b];
         row.inverse_mass = row.coupling(row);
         cluster.rows.push_back(row);
       }

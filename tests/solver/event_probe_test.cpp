@@ -146,7 +146,7 @@ TEST(EventProbe, SharesAFlatLandingAmongTenColumns) {
   ASSERT_EQ(loads.size(), 10u);
   const double all_J = 0.5 * m * v * v;
   double sum_J = 0;
-  for (const ProbeLoad& load : loads) {
+  for (const ImpactLoad& load : loads) {
     EXPECT_NEAR(load.work_J, all_J / 10, 0.1 * all_J / 10);
     sum_J += load.work_J;
   }
@@ -256,12 +256,12 @@ TEST(EventProbe, KeepsAngularMomentumOfAGlancingBlowBetweenSpinningBodies) {
 
 TEST(EventProbe, LetsNothingFallThatStandsOrLeans) {
   // Gravity as strong as it takes to break the pane, were it felt.
-  for (const bool leans : {false, true}) {
+  for (const bool is_supported : {false, true}) {
     ProbeBody stands = ball(5, Vec3::Zero());
-    stands.leans = leans;
+    stands.is_supported = is_supported;
     EventProbe probe({pane(0.1), stands, pane(0.1)},
-                     {contact(1, 0, 0.05), contact(1, 2, leans ? 1 : 0)}, kStep_s, kStill_m_s,
-                     Vec3(0, -1000, 0));
+                     {contact(1, 0, 0.05), contact(1, 2, is_supported ? 1 : 0)}, kStep_s,
+                     kStill_m_s, Vec3(0, -1000, 0));
     EXPECT_TRUE(probe.next().empty());
   }
 }

@@ -144,7 +144,7 @@ std::optional<OuterSurface> outer_surface(std::span<const PolygonMesh* const> me
   return std::nullopt;
 }
 
-void separate_triangles(OuterSurface& outer) {
+void make_triangles_manifold(OuterSurface& outer) {
   constexpr int kMaxRounds = 4;  // divided triangles have new edges, which may coincide
   for (int round = 0; round < kMaxRounds; ++round) {
     PieceSurface surface = triangles_on_common_points(outer);
@@ -157,7 +157,7 @@ void separate_triangles(OuterSurface& outer) {
   }
 }
 
-OuterSurface side_by_side(std::span<const PolygonMesh* const> meshes) {
+OuterSurface concatenate_meshes(std::span<const PolygonMesh* const> meshes) {
   OuterSurface all;
   PolygonMesh& to = all.mesh;
   const bool has_uvs = std::ranges::any_of(

@@ -29,11 +29,11 @@ struct OuterSurface {
 std::optional<OuterSurface> outer_surface(std::span<const PolygonMesh* const> meshes);
 
 /// Returns several closed meshes as one, with the walls between them.
-OuterSurface side_by_side(std::span<const PolygonMesh* const> meshes);
+OuterSurface concatenate_meshes(std::span<const PolygonMesh* const> meshes);
 
 /// Triangulates a surface so that every edge belongs to two triangles also after vertices at equal
 /// positions are welded: edges of more than two triangles are divided, at a different point for
 /// each pair. A surface that does not touch itself is left unchanged.
-void separate_triangles(OuterSurface& outer);
+void make_triangles_manifold(OuterSurface& outer);
 
 }  // namespace sunder

@@ -50,8 +50,8 @@ std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_p
   if (walls == Walls::kRemove) {
     std::optional<OuterSurface> outer = outer_surface(pointers);
     is_walled = !outer;
-    if (is_walled) outer = side_by_side(pointers);
-    separate_triangles(*outer);
+    if (is_walled) outer = concatenate_meshes(pointers);
+    make_triangles_manifold(*outer);
     add(std::make_shared<const PolygonMesh>(std::move(outer->mesh)),
         [&](std::size_t f) { return outer->from[f]; });
     return shells;
@@ -65,7 +65,7 @@ std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_p
 }  // namespace
 
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
-                 double explode, std::span<const Paint> paints, Walls walls) {
+                 double explode, std::span<const Appearance> paints, Walls walls) {
   Model model;
   for (const Material& material : materials) {
     model.materials.push_back({material.name, {material.surface.color, nullptr}});
@@ -92,7 +92,7 @@ Model make_model(std::span<const Compound> pieces, std::span<const Material> mat
   for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
     model.parts[p].shells = shells_of(pieces[p], first_paint, walls, is_walled[p]);
   });
-  model.walled_parts = static_cast<std::size_t>(std::ranges::count(is_walled, 1));
+  model.parts_with_walls = static_cast<std::size_t>(std::ranges::count(is_walled, 1));
   return model;
 }
 

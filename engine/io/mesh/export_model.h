@@ -20,7 +20,7 @@ namespace sunder {
 struct Model {
   struct Material {
     std::string name;
-    Paint look;
+    Appearance look;
   };
   /// A watertight surface and the materials of its faces.
   struct Shell {
@@ -36,7 +36,7 @@ struct Model {
   };
   std::vector<Material> materials;
   std::vector<Part> parts;
-  std::size_t walled_parts = 0;  ///< Number of parts whose inner walls could not be removed.
+  std::size_t parts_with_walls = 0;  ///< Number of parts whose inner walls could not be removed.
 };
 
 /// Selects if an export keeps the faces between convexes of one piece.
@@ -48,7 +48,8 @@ enum class Walls : std::uint8_t { kRemove, kKeep };
 /// of the model by `explode` times their distance from it. `paints` are the appearance of faces by
 /// their mark, and become materials of their own.
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
-                 double explode, std::span<const Paint> paints = {}, Walls walls = Walls::kRemove);
+                 double explode, std::span<const Appearance> paints = {},
+                 Walls walls = Walls::kRemove);
 
 /// Triangles of a shell, with one vertex per combination of point, normal and texture coordinate.
 struct ShellTriangles {

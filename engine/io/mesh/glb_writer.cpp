@@ -50,7 +50,7 @@ class GlbWriter {
     text.append((4 - text.size() % 4) % 4, ' ');
     std::size_t binary_size = 0;
     for (const ByteWriter& view : views_) binary_size += view.bytes.size();
-    for (const Picture& picture : pictures_) binary_size += aligned(picture->size());
+    for (const EncodedImage& picture : pictures_) binary_size += aligned(picture->size());
     ByteWriter out;
     for (const std::size_t value :
          {std::size_t{kMagic}, std::size_t{2}, 28 + text.size() + binary_size, text.size(),
@@ -63,7 +63,7 @@ class GlbWriter {
     for (const ByteWriter& view : views_) {
       out.bytes.insert(out.bytes.end(), view.bytes.begin(), view.bytes.end());
     }
-    for (const Picture& picture : pictures_) {
+    for (const EncodedImage& picture : pictures_) {
       out.bytes.insert(out.bytes.end(), picture->begin(), picture->end());
       out.bytes.resize(out.bytes.size() + aligned(picture->size()) - picture->size());
     }
@@ -72,7 +72,7 @@ class GlbWriter {
 
  private:
   void add_material(const Model::Material& material) {
-    const Paint& look = material.look;
+    const Appearance& look = material.look;
     const Vec3f& c = look.color;
     json base = {{"baseColorFactor", {c.x(), c.y(), c.z(), 1.0}},
                  {"metallicFactor", look.gloss ? double{look.gloss->metallic} : 0.0},
@@ -84,14 +84,14 @@ class GlbWriter {
     json described = {{"name", material.name}, {"pbrMetallicRoughness", std::move(base)}};
     if (look.relief) {
       described["normalTexture"] = use(look.relief);
-      described["normalTexture"]["scale"] = look.relief_scale;
+      described["normalTexture"]["scale"] = look.normal_scale;
     }
     document_["materials"].push_back(std::move(described));
-    from_below_.push_back(look.from_below);
+    v_from_bottom_.push_back(look.v_from_bottom);
   }
 
   /// Returns a reference to the texture of an image; each image is written once.
-  json use(const Picture& picture) {
+  json use(const EncodedImage& picture) {
     const auto known = std::find(pictures_.begin(), pictures_.end(), picture);
     const auto number = static_cast<std::size_t>(known - pictures_.begin());
     if (known == pictures_.end()) {
@@ -110,7 +110,8 @@ class GlbWriter {
     for (const Model::Shell& shell : part.shells) {
       const ShellTriangles triangles = triangles_of(shell);
       for (const auto& [material, indices] : triangles.faces) {
-        add_triangles(shell, triangles, indices, from_below_[material], part, primitives[material]);
+        add_triangles(shell, triangles, indices, v_from_bottom_[material], part,
+                      primitives[material]);
       }
     }
     json list = json::array();
@@ -127,7 +128,7 @@ class GlbWriter {
   }
 
   static void add_triangles(const Model::Shell& shell, const ShellTriangles& triangles,
-                            const std::vector<std::uint32_t>& indices, bool from_below,
+                            const std::vector<std::uint32_t>& indices, bool v_from_bottom,
                             const Model::Part& part, Primitive& primitive) {
     constexpr std::uint32_t kNone = 0xffffffff;
     std::vector<std::uint32_t> new_of_old(triangles.vertices.size(), kNone);
@@ -138,7 +139,8 @@ class GlbWriter {
         const Vec3 position = shell.mesh->vertices[vertex.point] - part.center;
         primitive.positions.push_back(position.cast<float>());
         primitive.normals.push_back(vertex.normal);
-        primitive.uvs.push_back(from_below ? Vec2f(vertex.uv.x(), 1 - vertex.uv.y()) : vertex.uv);
+        primitive.uvs.push_back(v_from_bottom ? Vec2f(vertex.uv.x(), 1 - vertex.uv.y())
+                                              : vertex.uv);
       }
       primitive.indices.push_back(new_of_old[old]);
     }
@@ -185,7 +187,7 @@ class GlbWriter {
       document_["bufferViews"].push_back(std::move(described));
       offset += views_[view].bytes.size();
     }
-    for (const Picture& picture : pictures_) {
+    for (const EncodedImage& picture : pictures_) {
       document_["bufferViews"].push_back(
           {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", picture->size()}});
       offset += aligned(picture->size());
@@ -195,9 +197,9 @@ class GlbWriter {
 
   json document_;
   std::array<ByteWriter, kViews> views_;
-  std::vector<Picture> pictures_;  ///< Images; their views follow those of `views_`.
+  std::vector<EncodedImage> pictures_;  ///< Images; their views follow those of `views_`.
   /// For each material: texture rows count from below, unlike in glTF.
-  std::vector<bool> from_below_;
+  std::vector<bool> v_from_bottom_;
 };
 
 }  // namespace

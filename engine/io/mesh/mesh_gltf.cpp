@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/io/mesh/mesh_gltf_data.h"
-#include "engine/io/mesh/mesh_gltf_paints.h"
+#include "engine/io/mesh/mesh_gltf_materials.h"
 
 namespace sunder {
 namespace {
@@ -148,7 +148,7 @@ class GltfScene {
 
   const MeshSource& source_;
   GltfData data_;
-  GltfPaints paints_;
+  GltfMaterials paints_;
   RawMesh mesh_;
   std::size_t nodes_visited_ = 0;
 };

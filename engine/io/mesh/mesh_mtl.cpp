@@ -24,13 +24,13 @@ float share(double number) { return static_cast<float>(std::clamp(number, 0.0, 1
 
 /// A material as an MTL file defines it.
 struct MtlMaterial {
-  Paint paint;
+  Appearance paint;
   std::optional<float> roughness, metallic;  ///< Pr and Pm.
   std::optional<double> exponent;            ///< Ns.
   bool has_highlights = true;                ///< False if Ks is black.
 
-  Paint appearance() const {
-    Paint result = paint;
+  Appearance appearance() const {
+    Appearance result = paint;
     if (!roughness && !metallic && !(exponent && has_highlights)) return result;
     result.gloss.emplace().metallic = metallic.value_or(0);
     if (roughness || (exponent && has_highlights)) {
@@ -84,7 +84,7 @@ class FolderImages {
       : source_(source), missing_(missing) {}
 
   /// Returns an image; null if the file is missing.
-  Picture find(const std::string& name) {
+  EncodedImage find(const std::string& name) {
     const auto [entry, is_new] = known_.try_emplace(name);
     if (!is_new) return entry->second;
     if (const auto found = source_.beside(name)) {
@@ -99,14 +99,14 @@ class FolderImages {
  private:
   const MeshSource& source_;
   std::vector<std::string>& missing_;
-  std::map<std::string, Picture> known_;
+  std::map<std::string, EncodedImage> known_;
 };
 
 }  // namespace
 
-std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::string& name,
-                                      std::vector<std::string>& missing) {
-  std::map<std::string, Paint> paints;
+std::map<std::string, Appearance> read_mtl(const MeshSource& source, const std::string& name,
+                                           std::vector<std::string>& missing) {
+  std::map<std::string, Appearance> paints;
   const std::optional<std::string> bytes = source.beside(name);
   if (!bytes) {
     if (!name.empty()) missing.push_back(name);
@@ -120,10 +120,10 @@ std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::strin
   MtlMaterial* material = &none;
   while (text.next_line()) {
     const std::string_view keyword = text.word();
-    Paint& paint = material->paint;
+    Appearance& paint = material->paint;
     if (keyword == "newmtl") {
       material = &materials[text.words()];
-      material->paint.from_below = true;
+      material->paint.v_from_bottom = true;
     } else if (keyword == "Kd") {
       if (const auto color = take_color(text)) paint.color = color->unaryExpr(&linear);
     } else if (keyword == "map_Kd") {
@@ -134,7 +134,7 @@ std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::strin
                                                        keyword == "map_Bump"))) {
       const PictureUse use = take_picture_use(text);
       paint.relief = pictures.find(use.name);
-      paint.relief_scale = static_cast<float>(use.scale);
+      paint.normal_scale = static_cast<float>(use.scale);
     } else if (keyword == "Ks") {
       if (const auto color = take_color(text)) material->has_highlights = !color->isZero();
     } else if (keyword == "Ns") {

@@ -139,7 +139,7 @@ class ObjReader {
   /// Group of `names_`, or kNoGroup if not determined yet.
   std::uint32_t group_ = RawMesh::kNoGroup;
   std::map<Names, std::uint32_t> group_of_names_;
-  std::map<std::string, Paint> paints_;  ///< By name of the material.
+  std::map<std::string, Appearance> paints_;  ///< By name of the material.
   std::vector<std::uint32_t> polygon_, corner_uvs_, corner_normals_;
   std::array<ObjList, 3> lists_{{{"vertex"}, {"texture coordinate"}, {"normal"}}};
 };

@@ -133,7 +133,7 @@ PlyHeader read_header(MeshText& text) {
 class TextValues {
  public:
   explicit TextValues(MeshText& text) : text_(text) {}
-  void begin() { text_.need_line("last vertex or face"); }
+  void begin() { text_.require_line("last vertex or face"); }
   double next(PlyType) { return text_.number_or_nan(); }
   void need(std::size_t, PlyType) {}
   [[noreturn]] void fail(const std::string& what) const { text_.fail(what); }

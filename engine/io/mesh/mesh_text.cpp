@@ -68,7 +68,7 @@ bool MeshText::next_line() {
   return at_ < text_.size();
 }
 
-void MeshText::need_line(const std::string& what) {
+void MeshText::require_line(const std::string& what) {
   while (next_line()) {
     const std::size_t start = at_;
     if (!word().empty()) {

@@ -49,7 +49,7 @@ class MeshText {
   /// Moves to the next line; returns false if there is none.
   bool next_line();
   /// Moves to the next line that has a word; throws InputError that `what` is missing otherwise.
-  void need_line(const std::string& what);
+  void require_line(const std::string& what);
   /// Returns the next word of the line; empty at its end.
   std::string_view word();
   /// Returns the remaining words of the line, separated by blanks.

@@ -34,7 +34,7 @@ struct Block {
   double height = 0;  ///< Height of its centre, against gravity.
   double mass_kg = 0;
   double size_m = 0;
-  double tilt_1_m = 0;  ///< Height over squared narrower width.
+  double slenderness_1_m = 0;  ///< Height over squared narrower width.
 };
 
 std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
@@ -47,7 +47,7 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
     block.name = solid.name;
     for (const ConvexPtr& convex : solid.compound.convexes)
       for (const Vec3& corner : convex->polyhedron.vertices) block.box.extend(solid.X_WR * corner);
-    block.mass_kg = weigh(solid.compound, scene.materials).mass_kg;
+    block.mass_kg = mass_of(solid.compound, scene.materials).mass_kg;
     blocks.push_back(block);
   }
   for (const Ball& ball : scene.balls) {
@@ -62,7 +62,7 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
     block.size_m = width.minCoeff();
     double& tall_m = width[upward];
     const double height_m = std::exchange(tall_m, std::numeric_limits<double>::infinity());
-    block.tilt_1_m = height_m / (width.minCoeff() * width.minCoeff());
+    block.slenderness_1_m = height_m / (width.minCoeff() * width.minCoeff());
   }
   return blocks;
 }
@@ -88,13 +88,14 @@ std::vector<std::vector<std::uint32_t>> supports(const std::vector<Block>& block
 
 double buckling_sink_m(const Stack& stack) {
   const double n = stack.bodies;
-  const double limit = (stack.load > 2 * n ? kBuckleLoaded : kBuckleSelf) / (n * stack.tilt_1_m);
+  const double limit =
+      (stack.load > 2 * n ? kBuckleLoaded : kBuckleSelf) / (n * stack.slenderness_1_m);
   return std::min(kMaxSink * stack.size_m, limit);
 }
 
 }  // namespace
 
-Stacks stacks_in(const Scene& scene) {
+Stacks find_stacks(const Scene& scene) {
   Stacks found;
   if (scene.gravity_W.isZero()) return found;
   const std::vector<Block> blocks = blocks_of(scene, -scene.gravity_W.normalized());
@@ -111,7 +112,7 @@ Stacks stacks_in(const Scene& scene) {
     Stack& stack = stacks[i];
     ++stack.bodies;
     stack.size_m = stack.bodies > 1 ? std::min(stack.size_m, blocks[i].size_m) : blocks[i].size_m;
-    stack.tilt_1_m += blocks[i].tilt_1_m;
+    stack.slenderness_1_m += blocks[i].slenderness_1_m;
     carried_kg[i] += blocks[i].mass_kg;
     stack.load = carried_kg[i] / blocks[i].mass_kg;
     if (stack.load > max_load) max_load = stack.load, found.deepest = stack;
@@ -125,29 +126,30 @@ Stacks stacks_in(const Scene& scene) {
   return found;
 }
 
-double expected_sink_m(const Stack& stack, double gravity_m_s2, double h_s) {
+double expected_penetration_m(const Stack& stack, double gravity_m_s2, double h_s) {
   return kSinkFactor * stack.load * gravity_m_s2 * h_s * h_s;
 }
 
-int substeps_for_sink(const Stack& stack, double gravity_m_s2, double dt_s, double target_m) {
-  const double sink_m = expected_sink_m(stack, gravity_m_s2, dt_s);
+int substeps_for_penetration(const Stack& stack, double gravity_m_s2, double dt_s,
+                             double target_m) {
+  const double sink_m = expected_penetration_m(stack, gravity_m_s2, dt_s);
   return std::max(1, static_cast<int>(std::ceil(std::min(1e6, std::sqrt(sink_m / target_m)))));
 }
 
-int substeps_to_stand(const Stack& stack, double gravity_m_s2, double dt_s) {
+int substeps_against_buckling(const Stack& stack, double gravity_m_s2, double dt_s) {
   if (stack.bodies == 0) return 1;
-  return substeps_for_sink(stack, gravity_m_s2, dt_s, buckling_sink_m(stack));
+  return substeps_for_penetration(stack, gravity_m_s2, dt_s, buckling_sink_m(stack));
 }
 
-Accuracy accuracy_to_stand(const Scene& scene, int most_substeps) {
+Accuracy accuracy_against_buckling(const Scene& scene, int max_substeps) {
   const Accuracy& accuracy = scene.accuracy;
   const int all =
-      substeps_to_stand(stacks_in(scene).weakest, scene.gravity_W.norm(), accuracy.dt_s);
-  return cut_in_substeps(accuracy, all, most_substeps);
+      substeps_against_buckling(find_stacks(scene).weakest, scene.gravity_W.norm(), accuracy.dt_s);
+  return divide_step(accuracy, all, max_substeps);
 }
 
-Accuracy cut_in_substeps(Accuracy accuracy, int all, int most_substeps) {
-  const int steps = (all + most_substeps - 1) / most_substeps;
+Accuracy divide_step(Accuracy accuracy, int all, int max_substeps) {
+  const int steps = (all + max_substeps - 1) / max_substeps;
   accuracy.dt_s /= steps;
   accuracy.substeps = (all + steps - 1) / steps;
   return accuracy;
@@ -184,7 +186,7 @@ std::string far_warning(const Scene& scene) {
   return text;
 }
 
-std::string crush_warning(const Scene& scene, int most_substeps) {
+std::string crush_warning(const Scene& scene, int max_substeps) {
   if (scene.gravity_W.isZero()) return {};
   const Accuracy& accuracy = scene.accuracy;
   const std::vector<Block> blocks = blocks_of(scene, -scene.gravity_W.normalized());
@@ -195,10 +197,11 @@ std::string crush_warning(const Scene& scene, int most_substeps) {
       blocks, {}, [](const Block& block) { return block.mass_kg * block.size_m; });
   const double ratio = heavy.mass_kg / light.mass_kg, g = scene.gravity_W.norm();
   const Stack pair{2, 1 + ratio, light.size_m};
-  if (expected_sink_m(pair, g, accuracy.dt_s / accuracy.substeps) < kCrushSink * pair.size_m)
+  if (expected_penetration_m(pair, g, accuracy.dt_s / accuracy.substeps) < kCrushSink * pair.size_m)
     return {};
-  const Accuracy sufficient = cut_in_substeps(
-      accuracy, substeps_for_sink(pair, g, accuracy.dt_s, kMaxSink * pair.size_m), most_substeps);
+  const Accuracy sufficient = divide_step(
+      accuracy, substeps_for_penetration(pair, g, accuracy.dt_s, kMaxSink * pair.size_m),
+      max_substeps);
   char text[400];
   std::snprintf(text, sizeof text,
                 "'%s' weighs %.4g times what '%s' does, which would give way if it came to lie "
@@ -210,13 +213,13 @@ std::string crush_warning(const Scene& scene, int most_substeps) {
   return text;
 }
 
-std::string accuracy_warning(const Scene& scene, int most_substeps) {
+std::string accuracy_warning(const Scene& scene, int max_substeps) {
   const Accuracy& accuracy = scene.accuracy;
-  const Stacks stacks = stacks_in(scene);
+  const Stacks stacks = find_stacks(scene);
   const double g = scene.gravity_W.norm();
   char text[400];
-  if (substeps_to_stand(stacks.weakest, g, accuracy.dt_s) > accuracy.substeps) {
-    const Accuracy sufficient = accuracy_to_stand(scene, most_substeps);
+  if (substeps_against_buckling(stacks.weakest, g, accuracy.dt_s) > accuracy.substeps) {
+    const Accuracy sufficient = accuracy_against_buckling(scene, max_substeps);
     std::snprintf(text, sizeof text,
                   "%u bodies on top of each other, the lowest under %.4g times its own weight, may "
                   "sink in and buckle: %d substeps of dt 1/%.4g s would hold them, there are %d "
@@ -226,7 +229,8 @@ std::string accuracy_warning(const Scene& scene, int most_substeps) {
                   sufficient.dt_s < accuracy.dt_s ? " and accuracy.dt_s" : "");
     return text;
   }
-  const double sink_m = expected_sink_m(stacks.deepest, g, accuracy.dt_s / accuracy.substeps);
+  const double sink_m =
+      expected_penetration_m(stacks.deepest, g, accuracy.dt_s / accuracy.substeps);
   if (accuracy.error_target_m > 0 && sink_m > accuracy.error_target_m) {
     std::snprintf(text, sizeof text,
                   "error_target_m = %g is out of reach with dt 1/%.4g s and %d substeps, the most "

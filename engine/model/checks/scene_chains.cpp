@@ -28,7 +28,7 @@ struct Body {
 };
 
 Body body_of(const Solid& solid, const Scene& scene) {
-  const Weight weight = weigh(solid.compound, scene.materials);
+  const CompoundMass weight = mass_of(solid.compound, scene.materials);
   const Vec3 diagonal = weight.inertia_R.diagonal();
   // The moment of inertia about a rod's own axis does not matter: forces at its end turn it across.
   const double across = diagonal.sum() - diagonal.minCoeff() - diagonal.maxCoeff();
@@ -143,7 +143,7 @@ void find_chain(const Scene& scene, const Shot& shot, std::vector<ChainLink>& ch
 
 }  // namespace
 
-std::vector<ChainLink> chains_in(const Scene& scene) {
+std::vector<ChainLink> find_chains(const Scene& scene) {
   std::vector<ChainLink> chains;
   if (scene.gravity_W.isZero()) return chains;
   std::vector<Body> bodies;
@@ -157,11 +157,11 @@ std::vector<ChainLink> chains_in(const Scene& scene) {
   return chains;
 }
 
-std::vector<std::string> chain_warnings(const Scene& scene, int most_substeps) {
+std::vector<std::string> chain_warnings(const Scene& scene, int max_substeps) {
   std::vector<std::string> warnings;
-  for (const ChainLink& link : chains_in(scene)) {
+  for (const ChainLink& link : find_chains(scene)) {
     if (link.substeps <= scene.accuracy.substeps) continue;
-    const Accuracy hold = cut_in_substeps(scene.accuracy, link.substeps, most_substeps);
+    const Accuracy hold = divide_step(scene.accuracy, link.substeps, max_substeps);
     char text[400];
     std::snprintf(
         text, sizeof text,

@@ -19,10 +19,10 @@ struct ChainLink {
 
 /// Returns one link for each wrecking ball with links, and for each body that is jointed to a
 /// static one and has something hanging from it; in their order.
-std::vector<ChainLink> chains_in(const Scene& scene);
+std::vector<ChainLink> find_chains(const Scene& scene);
 
-/// Returns a warning about each chain that would tear, with a remedy of at most `most_substeps`
+/// Returns a warning about each chain that would tear, with a remedy of at most `max_substeps`
 /// substeps per step.
-std::vector<std::string> chain_warnings(const Scene& scene, int most_substeps);
+std::vector<std::string> chain_warnings(const Scene& scene, int max_substeps);
 
 }  // namespace sunder

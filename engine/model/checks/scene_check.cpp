@@ -98,14 +98,14 @@ class SceneCheck {
     need_number(material.elongation, 0, kInfinity, name + "elongation");
     check_pattern(material.pattern, name + "pattern.");
     for (std::size_t k = 0; k < material.stronger.size(); ++k) {
-      const StrongerImpact& stronger = material.stronger[k];
+      const ImpactResponse& stronger = material.stronger[k];
       const std::string of = name + item("stronger", k) + ".";
       need_number(stronger.energy_J, k > 0 ? material.stronger[k - 1].energy_J : 0, kInfinity,
                   of + "energy_J");
       need_number(stronger.impact_radius_m, 0, kInfinity, of + "impact_radius_m");
       check_pattern(stronger.pattern, of + "pattern.");
     }
-    const Crumbling& crumbling = material.crumbling;
+    const DebrisEmission& crumbling = material.crumbling;
     need_number(crumbling.particles_per_m2, 0, kMaxNumber, name + "crumbling.particles_per_m2");
     need_number(crumbling.debris_ratio, 0, 1, name + "crumbling.debris_ratio");
     need_number(crumbling.debris_smallest_m, 1e-6, kMaxNumber,
@@ -306,7 +306,7 @@ class SceneCheck {
                "times that ascend from 0");
       last_s = key.time_s;
       need_finite(key.shift_W, name + ".path, shift_W");
-      need_finite(key.turn_W, name + ".path, turn_W");
+      need_finite(key.rotation_W, name + ".path, rotation_W");
     }
   }
 

@@ -1,4 +1,4 @@
-// Begin with posts_in().
+// Begin with find_posts().
 #include "engine/model/checks/scene_posts.h"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ std::vector<Body> bodies_of(const Scene& scene, const Axes& axes) {
     for (const ConvexPtr& convex : solid.compound.convexes)
       for (const Vec3& corner : convex->polyhedron.vertices)
         body.box.extend(to_axes(solid.X_WR * corner, axes));
-    const Weight weight = weigh(solid.compound, scene.materials);
+    const CompoundMass weight = mass_of(solid.compound, scene.materials);
     body.mass_kg = weight.mass_kg;
     body.center = to_axes(solid.X_WR * weight.com_R, axes).head<2>();
     body.held = solid.compound.is_anchored();
@@ -318,7 +318,7 @@ bool is_supported(const Scene& scene, const Body& body, const Axes& axes) {
 
 }  // namespace
 
-std::vector<Post> posts_in(const Scene& scene) {
+std::vector<Post> find_posts(const Scene& scene) {
   std::vector<Post> posts;
   const std::optional<Axes> axes = axes_of(scene);
   if (!axes || scene.solids.empty()) return posts;
@@ -347,7 +347,7 @@ std::vector<Post> posts_in(const Scene& scene) {
 }
 
 std::string post_warning(const Scene& scene) {
-  const std::vector<Post> posts = posts_in(scene);
+  const std::vector<Post> posts = find_posts(scene);
   const Post* worst = nullptr;
   int count = 0;
   for (const Post& post : posts) {

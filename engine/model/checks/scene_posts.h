@@ -39,7 +39,7 @@ struct Post {
 /// section; the share of a load within a factor of 2, and K within a factor of 2 where a load is
 /// shared. Posts that are parts of a larger solid, and posts that are jointed to a body other than
 /// their load, are ignored.
-std::vector<Post> posts_in(const Scene& scene);
+std::vector<Post> find_posts(const Scene& scene);
 
 /// Returns a warning about the post that exceeds its critical load most; empty if there is none.
 std::string post_warning(const Scene& scene);

@@ -62,7 +62,7 @@ void shoot(World& world, const Shot& shot) {
   const auto number = static_cast<std::size_t>(&shot - scene.shots.data());
   for (Actor& actor : world.actors) {
     if (actor.key < first_key) continue;
-    world.ledger.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
+    world.conservation.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
     actor.name = static_cast<std::uint32_t>(scene.solids.size() + scene.balls.size() + number);
   }
 }
@@ -71,7 +71,7 @@ void remove_actors(World& world, const std::vector<std::size_t>& gone) {
   std::vector<BodyId> bodies;
   for (const std::size_t i : gone) {
     bodies.push_back(world.actors[i].body);
-    world.ledger.report.joints_lost += world.joints.cut(*world.physics, world.actors[i].key);
+    world.conservation.report.joints_lost += world.joints.cut(*world.physics, world.actors[i].key);
   }
   world.physics->replace(bodies, {});
   for (auto i = gone.rbegin(); i != gone.rend(); ++i) world.actors.erase(*i);
@@ -96,7 +96,7 @@ void remove_anchors(World& world, const Box& region_W) {
   }
   for (const std::uint32_t key : loosened) {
     BreakEdit nothing_more;
-    carry_out(world, key, nothing_more);
+    apply_break(world, key, nothing_more);
   }
 }
 
@@ -111,8 +111,8 @@ void remove(World& world, const Removal& removal) {
   }
   for (const std::size_t i : gone) {
     const Actor& actor = world.actors[i];
-    world.ledger.removed_mass_kg += actor.weight.mass_kg;
-    world.ledger.report.energy.script -= kinetic_J(actor, world.physics->state(actor.body));
+    world.conservation.removed_mass_kg += actor.weight.mass_kg;
+    world.conservation.report.energy.script -= kinetic_J(actor, world.physics->state(actor.body));
   }
   remove_actors(world, gone);
 }
@@ -139,8 +139,8 @@ void age(World& world) {
   for (const std::size_t i : resting) {
     const Actor& actor = world.actors[i];
     note_chip(world, actor.structure.compound(), motion_of(actor, states[actor.body]));
-    world.ledger.debris_mass_kg += actor.weight.mass_kg;
-    ++world.ledger.report.aged;
+    world.conservation.debris_mass_kg += actor.weight.mass_kg;
+    ++world.conservation.report.aged;
   }
   if (!resting.empty()) remove_actors(world, resting);
 }
@@ -156,7 +156,7 @@ void apply_drive(World& world, const Drive& drive) {
     if (!actor || actor->is_static) continue;
     const BodyState state = world.physics->state(actor->body);
     const auto push = [&](const Vec3& impulse, const Vec3& arm) {
-      world.ledger.report.energy.drives +=
+      world.conservation.report.energy.drives +=
           push_actor(world, *actor, impulse, state.X_WB.position + arm);
     };
     if (drive.velocity_W) {
@@ -179,7 +179,7 @@ void apply_drive(World& world, const Drive& drive) {
 
 }  // namespace
 
-std::vector<Impact> ActStage::run(World& world) {
+std::vector<ActorImpact> ActStage::run(World& world) {
   for (const Shot& shot : take_due(world.clock, world.scene.shots, next_shot_)) shoot(world, shot);
   for (const Removal& removal : take_due(world.clock, world.scene.removals, next_removal_)) {
     remove(world, removal);
@@ -187,9 +187,9 @@ std::vector<Impact> ActStage::run(World& world) {
   for (const Blast& blast : take_due(world.clock, world.scene.blasts, next_blast_)) {
     blasts_.push_back(start_blast(world, blast));
   }
-  std::vector<Impact> impacts;
+  std::vector<ActorImpact> impacts;
   for (ActiveBlast& active : blasts_) {
-    for (Impact& impact : find_blast_impacts(world, active)) impacts.push_back(impact);
+    for (ActorImpact& impact : find_blast_impacts(world, active)) impacts.push_back(impact);
   }
   update_moves(world);
   age(world);

@@ -20,7 +20,7 @@ class ActStage {
   /// Carries out shots, removals, moves and blasts that are due; near the limit of bodies the
   /// smallest fragments at rest become debris. Returns the impacts of blasts on actors that they
   /// may break.
-  std::vector<Impact> run(World& world);
+  std::vector<ActorImpact> run(World& world);
   /// Applies the impulses of blasts and drives, after breaks.
   void push(World& world);
 

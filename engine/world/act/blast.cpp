@@ -147,7 +147,7 @@ double energy_J(const World& world, const BlastImpulse& impulse, const Convex& c
 
 /// Adds all impulses on an actor to the impact, if they can break it by bending.
 void add_bending(const World& world, const Actor& actor, const Pose& X_WR,
-                 std::span<const BlastImpulse> impulses, Impact& impact) {
+                 std::span<const BlastImpulse> impulses, ActorImpact& impact) {
   double all_J = 0;
   actor.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
     all_J += energy_J(world, impulses[slot.value], convex);
@@ -171,7 +171,7 @@ void add_bending(const World& world, const Actor& actor, const Pose& X_WR,
 /// Sets the point and energy of an impact by pattern, at the largest untried impulse; the energy
 /// stays 0 if it cannot break the actor.
 void add_breaking(const World& world, const ActiveBlast& active, const Actor& actor,
-                  std::vector<BlastImpulse> impulses, Impact& impact) {
+                  std::vector<BlastImpulse> impulses, ActorImpact& impact) {
   const Structure& structure = actor.structure;
   ConvexSlot hardest(0);
   structure.for_each([&](ConvexSlot slot, const Convex& convex) {
@@ -182,7 +182,7 @@ void add_breaking(const World& world, const ActiveBlast& active, const Actor& ac
   });
   if (impulses.empty() || impulses[hardest.value].sum_Ns <= 0) return;
   const Material& material = world.material(structure.convex(hardest)->material);
-  if (actor.volume_m3 < material.smallest_broken_m3()) return;
+  if (actor.volume_m3 < material.min_breakable_volume_m3()) return;
   const Vec3 point_W = impulses[hardest.value].point_W();
   Vec3 impulse_W = Vec3::Zero();
   double near_J = 0, near_m3 = 0;
@@ -224,12 +224,12 @@ void apply_impulse(World& world, const Blast& blast, const Cover& cover, const A
                 X_WR.position);
   }
   if (impulse.sum_Ns <= 0) return;
-  world.ledger.report.energy.drives +=
+  world.conservation.report.energy.drives +=
       push_actor(world, actor, impulse.impulse_W, impulse.point_W());
 }
 
 /// Applies a blast's impulse to a chip at its current position.
-void apply_impulse(const World& world, const Blast& blast, const Cover& cover, Chip& chip) {
+void apply_impulse(const World& world, const Blast& blast, const Cover& cover, DebrisPiece& chip) {
   const double elapsed_s = world.clock.elapsed_s();
   const Vec3 place_W = chip.center_W + elapsed_s * chip.velocity_W;
   if (cover.covers(place_W)) return;
@@ -248,14 +248,14 @@ ActiveBlast start_blast(const World& world, const Blast& blast) {
   return {blast, world.clock.time_s() + kBreakDuration_s, {}, number};
 }
 
-std::vector<Impact> find_blast_impacts(const World& world, ActiveBlast& active) {
+std::vector<ActorImpact> find_blast_impacts(const World& world, ActiveBlast& active) {
   const BodyStates states = world.physics->states();
   const Cover cover(world, active.blast);
-  std::vector<Impact> impacts;
+  std::vector<ActorImpact> impacts;
   for (const Actor& actor : world.actors) {
     const Pose X_WR = rest_pose(actor, states[actor.body].X_WB);
     if (actor.is_kinematic || !reaches(active.blast, actor, X_WR)) continue;
-    Impact impact;
+    ActorImpact impact;
     impact.key = actor.key;
     impact.blast = active.number;
     std::vector<BlastImpulse> impulses = impulses_on(active.blast, cover, actor, X_WR);
@@ -267,7 +267,7 @@ std::vector<Impact> find_blast_impacts(const World& world, ActiveBlast& active) 
     add_breaking(world, active, actor, std::move(impulses), impact);
     if (impact.energy_J > 0 || !impact.impulses.empty()) impacts.push_back(std::move(impact));
   }
-  for (const Impact& impact : impacts)
+  for (const ActorImpact& impact : impacts)
     if (impact.energy_J > 0) active.tried_points_W.push_back(impact.point_W);
   return impacts;
 }
@@ -275,7 +275,7 @@ std::vector<Impact> find_blast_impacts(const World& world, ActiveBlast& active) 
 void apply_blast_impulses(World& world, const Blast& blast) {
   const Cover cover(world, blast);
   if (world.exposed) {
-    for (Chip& chip : world.exposed->chips) apply_impulse(world, blast, cover, chip);
+    for (DebrisPiece& chip : world.exposed->chips) apply_impulse(world, blast, cover, chip);
   }
   for (const Actor& actor : world.actors) {
     if (!actor.is_static) apply_impulse(world, blast, cover, actor);

@@ -33,7 +33,7 @@ ActiveBlast start_blast(const World& world, const Blast& blast);
 /// Returns the impacts of a blast: by pattern, at each actor's untried point of largest impulse; by
 /// stress, with all impulses on each actor that has been edited since the last time. Records both
 /// in `active`.
-std::vector<Impact> find_blast_impacts(const World& world, ActiveBlast& active);
+std::vector<ActorImpact> find_blast_impacts(const World& world, ActiveBlast& active);
 /// Applies the impulse of a blast to all movable actors and to the chips of this frame.
 void apply_blast_impulses(World& world, const Blast& blast);
 

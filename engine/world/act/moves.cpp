@@ -15,7 +15,7 @@ void set_kinematic(World& world, Actor& actor, bool is_kinematic) {
   set_strength(world, actor);
   const BodyDesc body = make_body_desc(world, actor, motion);
   actor.body = world.physics->replace(std::span(&actor.body, 1), std::span(&body, 1))[0];
-  world.ledger.report.energy.script +=
+  world.conservation.report.energy.script +=
       kinetic_J(actor, world.physics->state(actor.body)) - before_J;
   world.joints.reattach(*world.physics, actor);
 }
@@ -23,7 +23,7 @@ void set_kinematic(World& world, Actor& actor, bool is_kinematic) {
 Pose pose_at(const Move& move, const Pose& start, double time_s) {
   const PathKey key = move.path.at(time_s);
   const Vec3 pivot_W = move.pivot_W.value_or(start.position);
-  const Quat turn = rotation_by(key.turn_W);
+  const Quat turn = rotation_by(key.rotation_W);
   return {pivot_W + key.shift_W + turn * (start.position - pivot_W), turn * start.rotation};
 }
 

@@ -19,7 +19,7 @@
 namespace sunder {
 
 /// Force on a convex in the rest frame, and torque about its centroid.
-struct ConvexForce {
+struct AppliedForce {
   ConvexSlot convex;
   Vec3 force_R = Vec3::Zero();
   Vec3 torque_R = Vec3::Zero();
@@ -27,17 +27,17 @@ struct ConvexForce {
 
 /// Loads on an actor, and the state of the stress solution for them.
 struct StressState {
-  bool breakable = false;             ///< Load can break the actor.
-  bool settled = false;               ///< The stress solve for the evaluated loads is complete.
-  std::uint64_t since_step = 0;       ///< First step with unevaluated loads, if not settled.
-  std::vector<ConvexForce> pressing;  ///< Averaged over time; ascending by convex.
-  std::vector<ConvexForce> evaluated_forces;
+  bool breakable = false;                 ///< AppliedForce can break the actor.
+  bool settled = false;                   ///< The stress solve for the evaluated loads is complete.
+  std::uint64_t since_step = 0;           ///< First step with unevaluated loads, if not settled.
+  std::vector<AppliedForce> mean_forces;  ///< Averaged over time; ascending by convex.
+  std::vector<AppliedForce> evaluated_forces;
   /// Value of ω² at which ρ ω² r² equals the weakest limit, with r the radius about the centre of
   /// mass.
   double burst_omega2_s2 = std::numeric_limits<double>::infinity();
   Vec3 spin_R = Vec3::Zero();  ///< Angular velocity, rad/s; 0 if negligible.
   Vec3 evaluated_spin_R = Vec3::Zero();
-  StressMemoryPtr memory;
+  StressCachePtr memory;
   /// An impact with less energy cannot overload any bond, as far as is known.
   double least_J = std::numeric_limits<double>::infinity();
   double least_Ns = 0;  ///< Nor can an impact with less impulse.
@@ -51,7 +51,7 @@ struct Actor {
   std::uint32_t key = 0;             ///< Unique in a run, ascending with age; the tag of its body.
   std::uint32_t root_key = 0;        ///< Key of the solid or ball of the scene that it came from.
   std::uint32_t last_frame_key = 0;  ///< Key under which the last frame showed it or its parent.
-  std::uint32_t name = kUnnamed;     ///< Index in World::names; that of its root.
+  std::uint32_t name = kNoName;      ///< Index in World::names; that of its root.
   BodyId body;
   bool is_static = false;     ///< No impulse moves it: it stands still, or is kinematic.
   bool is_kinematic = false;  ///< It follows a path of keyframes.
@@ -59,7 +59,7 @@ struct Actor {
   std::uint32_t edits = 0;    ///< Number of edits of the structure.
   /// Mass properties. The centre of mass of a static actor stays where it was when its body was
   /// made, at the origin of B.
-  Weight weight;
+  CompoundMass weight;
   double volume_m3 = 0;
   std::vector<MaterialIndex> materials;  ///< Materials of its convexes when it was made, each once.
   std::uint64_t born_step = 0;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/model/bend.h"
+#include "engine/model/bent_section.h"
 #include "engine/model/piece_mesh.h"
 
 namespace sunder {

@@ -32,7 +32,7 @@ void for_polygons(const Convex& convex, std::uint32_t face, const Use& use) {
 
 void Exposed::delay(double time_s) {
   for (Parent& parent : parents) parent.since_frame_start_s -= time_s;
-  for (Chip& chip : chips) chip.center_W += time_s * chip.velocity_W;
+  for (DebrisPiece& chip : chips) chip.center_W += time_s * chip.velocity_W;
 }
 
 void note_exposed(World& world, const Structure& structure, const BreakEdit& edit,
@@ -58,7 +58,7 @@ void note_exposed(World& world, const Structure& structure, const BreakEdit& edi
 
 void note_chip(World& world, const Compound& piece, const Motion& motion) {
   if (!world.exposed) return;
-  const Weight weight = weigh(piece, *world.materials);
+  const CompoundMass weight = mass_of(piece, *world.materials);
   const Vec3 center_W = motion.X_WR * weight.com_R;
   const Vec3 velocity_W = motion.field(center_W);
   world.exposed->chips.push_back({center_W - world.clock.elapsed_s() * velocity_W,

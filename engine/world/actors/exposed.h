@@ -30,7 +30,7 @@ struct Exposed {
   std::vector<Parent> parents;
   std::vector<Face> faces;
   std::vector<Vec3> corners_R;
-  std::vector<Chip> chips;  ///< Positions at the start of the frame.
+  std::vector<DebrisPiece> chips;  ///< Positions at the start of the frame.
 
   /// Moves the time reference on by `time_s`, when the emission is delayed by a frame.
   void delay(double time_s);

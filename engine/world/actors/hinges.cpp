@@ -17,9 +17,9 @@ constexpr double kStrengthUpdateShare = 0.01;
 
 /// Returns the strain of the outermost fibre of a section: elongation and shear, combined by von
 /// Mises, over the gauge length.
-double strain_of(const PlasticSection& section, const JointFlow& flow) {
+double strain_of(const PlasticSection& section, const PlasticFlow& flow) {
   const Mat3& axes = section.strength.axes_R;
-  const Vec3 drawn = axes.transpose() * flow.drawn_R;
+  const Vec3 drawn = axes.transpose() * flow.displacement_R;
   const Vec3 turned = (axes.transpose() * flow.turn_R).cwiseProduct(section.reach_m);
   const double along = std::abs(drawn.x()) + std::hypot(turned.y(), turned.z());
   const double across = std::hypot(drawn.y(), drawn.z()) + std::abs(turned.x());
@@ -62,7 +62,7 @@ void tear(World& world, const Joints::Live& joint) {
   event.point_W = rest_pose(actor, world.physics->state(actor.body).X_WB) * joint.a.anchor_R;
   for (const double area_m2 : hinge.areas_m2) event.new_area_m2 += area_m2;
   event.pieces = 2;
-  world.ledger.breaks.push_back(event);
+  world.conservation.breaks.push_back(event);
   world.joints.cut(*world.physics, joint.id);
 }
 
@@ -87,11 +87,11 @@ void add_hinges(World& world, const Actor& parent, const BreakEdit& edit,
 }
 
 void update_hinges(World& world) {
-  for (const JointFlow& flowed : world.physics->joint_flows()) {
+  for (const PlasticFlow& flowed : world.physics->plastic_flows()) {
     Joints::Live& joint = world.joints.at(flowed.joint);
     Hinge& hinge = *joint.hinge;
-    world.ledger.add_plastic_work(flowed.work_J);
-    world.ledger.report.energy.joints -= flowed.work_J;  // the solve has counted it there
+    world.conservation.add_plastic_work(flowed.work_J);
+    world.conservation.report.energy.joints -= flowed.work_J;  // the solve has counted it there
     hinge.flowed_step = world.clock.step;
     hinge.rejoin_failed = false;
     hinge.strain += strain_of(hinge.section, flowed);

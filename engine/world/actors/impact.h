@@ -10,7 +10,7 @@
 namespace sunder {
 
 /// An impact that may break an actor: by a body, or by a blast.
-struct Impact {
+struct ActorImpact {
   std::uint32_t key = 0;  ///< Key of the struck actor.
   ConvexSlot convex;      ///< Struck convex.
   Vec3 point_W = Vec3::Zero();
@@ -18,7 +18,7 @@ struct Impact {
   double energy_J = 0;               ///< Work that the impact can do at the point.
   std::uint32_t blast = 0;           ///< For blasts: index in the scene.
   /// For blasts: impulses that bend the actor, N·s in place of N.
-  std::vector<Load> impulses = {};
+  std::vector<AppliedForce> impulses = {};
 };
 
 }  // namespace sunder

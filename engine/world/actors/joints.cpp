@@ -17,7 +17,7 @@ const Actor* actor_at(std::span<const Actor* const> actors, const Vec3& point_R)
   const Actor* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const Actor* actor : actors) {
-    const double distance = distance_outside(actor->structure, point_R);
+    const double distance = distance_to(actor->structure, point_R);
     if (distance >= least || distance > kAnchorTolerance * std::cbrt(actor->volume_m3)) continue;
     least = distance;
     nearest = actor;

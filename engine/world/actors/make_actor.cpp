@@ -35,18 +35,19 @@ bool reports_contact_loads(const World& world, const Actor& actor) {
 
 /// Returns the value of StressState::burst_omega2_s2.
 double burst_omega2_s2_of(const World& world, const Actor& actor) {
-  double weakest_Pa = std::numeric_limits<double>::infinity(), density_kg_m3 = 0, reach_m = 0;
+  double min_stress_limit_Pa = std::numeric_limits<double>::infinity(), density_kg_m3 = 0,
+         reach_m = 0;
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
     density_kg_m3 = std::max(density_kg_m3, material.density_kg_m3);
-    weakest_Pa = std::min(weakest_Pa, material.weakest_Pa());
+    min_stress_limit_Pa = std::min(min_stress_limit_Pa, material.min_stress_limit_Pa());
   }
   actor.structure.for_each([&](ConvexSlot, const Convex& convex) {
     const Vec3 low = actor.weight.com_R - convex.box.min,
                high = convex.box.max - actor.weight.com_R;
     reach_m = std::max(reach_m, low.cwiseMax(high).norm());
   });
-  return weakest_Pa / (density_kg_m3 * reach_m * reach_m);
+  return min_stress_limit_Pa / (density_kg_m3 * reach_m * reach_m);
 }
 
 std::vector<MaterialIndex> materials_of(const Compound& compound) {
@@ -91,7 +92,7 @@ void set_least(const World& world, Actor& actor) {
   const bool may_bend = has_thin(actor.structure);
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
-    if (!material.breakable() || actor.volume_m3 < material.smallest_broken_m3()) continue;
+    if (!material.breakable() || actor.volume_m3 < material.min_breakable_volume_m3()) continue;
     const double reach_m3 = reached_m3(material, actor.volume_m3);
     const double crack_m2 = kMinCrackShare * std::cbrt(reach_m3 * reach_m3);
     actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);
@@ -110,7 +111,7 @@ void set_least(const World& world, Actor& actor) {
     if (material.breakable() && actor.structure.bond_count() > kMaxImpactBonds) continue;
     // A block with stress σ at its corner by tension and bending about both axes has the energy σ²V
     // / 14 E.
-    const double limit_Pa = material.weakest_Pa();
+    const double limit_Pa = material.min_stress_limit_Pa();
     actor.stress.least_J =
         std::min(actor.stress.least_J, limit_Pa * limit_Pa / (14 * material.youngs_Pa) * convex_m3);
   }
@@ -121,7 +122,7 @@ Actor make_actor(World& world, const Compound& compound) {
   actor.key = actor.root_key = actor.last_frame_key = world.actors.new_key();
   actor.structure = Structure(compound);
   actor.is_static = actor.structure.is_anchored();
-  actor.weight = weigh(compound, *world.materials);
+  actor.weight = mass_of(compound, *world.materials);
   actor.volume_m3 = volume(compound);
   actor.materials = materials_of(compound);
   actor.born_step = world.clock.step;

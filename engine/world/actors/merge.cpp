@@ -20,7 +20,8 @@ struct MergedMotion {
 
 /// Returns the motion of two merged bodies, whose mass properties `both` are in the rest frame of
 /// the first.
-MergedMotion merged_motion(const World& world, const Actor& a, const Actor& b, const Weight& both) {
+MergedMotion merged_motion(const World& world, const Actor& a, const Actor& b,
+                           const CompoundMass& both) {
   MergedMotion result;
   const std::array<const Actor*, 2> actors{&a, &b};
   std::array<BodyState, 2> states;
@@ -66,10 +67,10 @@ Actor make_merged_actor(World& world, Actor& a, const Actor& b, const BreakEdit&
   both.born_step = world.clock.step + 1;
   set_least(world, both);  // recomputed, as it is a fragment
   world.meshes.add_to(std::span(&both, 1), drawn_before);
-  world.ledger.debris_mass_kg +=
+  world.conservation.debris_mass_kg +=
       a.weight.mass_kg + b.weight.mass_kg - both.weight.mass_kg;  // rounding
   const auto [motion, lost_J] = merged_motion(world, a, b, both.weight);
-  world.ledger.add_plastic_work(lost_J);
+  world.conservation.add_plastic_work(lost_J);
   const BodyDesc body = make_body_desc(world, both, motion);
   const std::array<BodyId, 2> gone{a.body, b.body};
   both.body = world.physics->replace(gone, std::span(&body, 1))[0];
@@ -83,10 +84,10 @@ void merge(World& world, std::uint32_t key, std::uint32_t other, const Rejoined&
   std::vector<ConvexSlot> slot_of_b = rejoined.slot_of_b;
   if (world.actors.find(key)->is_static) {
     BreakEdit edit = rejoined.edit;
-    carry_out(world, key, edit);
+    apply_break(world, key, edit);
     const Actor& b = *world.actors.find(other);
-    world.ledger.debris_mass_kg += b.weight.mass_kg;
-    world.ledger.add_plastic_work(kinetic_J(b, world.physics->state(b.body)));
+    world.conservation.debris_mass_kg += b.weight.mass_kg;
+    world.conservation.add_plastic_work(kinetic_J(b, world.physics->state(b.body)));
     world.physics->replace(std::span(&b.body, 1), {});
   } else {
     Actor& a = *world.actors.find(key);
@@ -96,7 +97,7 @@ void merge(World& world, std::uint32_t key, std::uint32_t other, const Rejoined&
       const auto at = std::ranges::lower_bound(slots, slot);
       if (!slot.none()) slot = ConvexSlot(at - slots.begin());
     }
-    world.ledger.report.joints_lost +=
+    world.conservation.report.joints_lost +=
         world.joints.reassign_ends(*world.physics, a, false, std::span(&both, 1));
     world.actors.erase(world.actors.place_of(a));
     key = both.key;

@@ -58,7 +58,7 @@ void for_each_change(const Structure& structure, const BreakEdit& edit, const Vi
   std::vector<std::uint32_t> ghosts;
   for (const ConvexSlot slot : edit.removed) {
     visit(*structure.convex(slot), 1.0);
-    const auto of_slot = structure.ghosts_of(slot);
+    const auto of_slot = structure.ghost_indices(slot);
     ghosts.insert(ghosts.end(), of_slot.begin(), of_slot.end());
   }
   std::ranges::sort(ghosts);
@@ -79,7 +79,7 @@ std::vector<ConvexSlot> slots_to_redraw(const Structure& structure, const BreakE
     for (const Link& link : structure.links(slot)) slots.push_back(link.other);
   };
   const auto add_overlapped = [&](ConvexSlot slot) {
-    for (const std::uint32_t number : structure.ghosts_of(slot)) {
+    for (const std::uint32_t number : structure.ghost_indices(slot)) {
       for (const std::uint32_t other : structure.ghost(number).of) overlapping.emplace_back(other);
     }
   };
@@ -127,7 +127,7 @@ struct Pieces {
     piece.rejoined = parent.rejoined;
     set_least(world, piece);  // recomputed, as it is a fragment
     if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;
-    world.ledger.debris_mass_kg -= piece.weight.mass_kg;
+    world.conservation.debris_mass_kg -= piece.weight.mass_kg;
     bodies.push_back(make_body_desc(world, piece, motion));
     return piece.key;
   }
@@ -159,8 +159,10 @@ void edit_remaining_body(World& world, Actor& actor, const BreakEdit& edit,
   if (edit.changed) world.physics->edit({actor.body, removed_tags, shapes});
   world.meshes.update(actor, changed);
   set_least(world, actor);
-  const auto is_gone = [&](const ConvexForce& press) { return !actor.structure.has(press.convex); };
-  std::erase_if(actor.stress.pressing, is_gone);
+  const auto is_gone = [&](const AppliedForce& press) {
+    return !actor.structure.has(press.convex);
+  };
+  std::erase_if(actor.stress.mean_forces, is_gone);
   std::erase_if(actor.stress.evaluated_forces, is_gone);
   actor.stress.settled = false;
   actor.stress.since_step = world.clock.step;
@@ -184,13 +186,13 @@ BreakEvent make_break_event(const World& world, const Actor& actor, MaterialInde
   event.parent_key = actor.key;
   event.child_keys = {actor.key};
   event.material = material;
-  event.before_key = actor.last_frame_key;
+  event.previous_key = actor.last_frame_key;
   event.name = actor.name;
   event.pieces = 1;
   return event;
 }
 
-std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
+std::vector<std::uint64_t> apply_break(World& world, std::uint32_t key, BreakEdit& edit) {
   Actor& parent = *world.actors.find(key);
   const Motion motion = motion_of(parent, world.physics->state(parent.body));
   std::vector<ConvexSlot> changed;
@@ -207,7 +209,7 @@ std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit&
 
   Pieces pieces;
   std::vector<std::uint32_t> keys{stays ? parent.key : kNoActorKey};  // indexed as in exposed faces
-  world.ledger.debris_mass_kg += stays ? removed_kg : parent.weight.mass_kg;
+  world.conservation.debris_mass_kg += stays ? removed_kg : parent.weight.mass_kg;
   if (!stays && !parent.structure.empty()) {
     const Compound rest = parent.structure.compound();
     parent.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
@@ -234,9 +236,9 @@ std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit&
     ids = world.physics->replace(std::span(&parent.body, 1), pieces.bodies);
   }
   for (std::size_t i = 0; i < ids.size(); ++i) pieces.actors[i].body = ids[i];
-  world.ledger.report.joints_lost +=
+  world.conservation.report.joints_lost +=
       world.joints.reassign_ends(*world.physics, parent, stays, pieces.actors);
-  EnergyFlows& energy = world.ledger.report.energy;
+  EnergyFlows& energy = world.conservation.report.energy;
   const double lost_J = before_J - kinetic_J_of(world, pieces.actors);
   if (parent.is_static) {  // a kinematic parent moves on unchanged
     energy.script -= lost_J;
@@ -246,7 +248,7 @@ std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit&
   if (!parent.is_static) {
     const Vec3 after =
         momentum_of(world, pieces.actors) + debris_momentum(parent, pieces.actors, motion);
-    world.ledger.momentum_error_Ns += (after - before).norm();
+    world.conservation.momentum_error_Ns += (after - before).norm();
   }
   add_hinges(world, parent, edit, pieces.actors, keys);
   if (!stays) world.actors.erase(world.actors.place_of(parent));

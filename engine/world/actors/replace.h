@@ -23,6 +23,6 @@ BreakEvent make_break_event(const World& world, const Actor& actor, MaterialInde
 /// replaced by its pieces, the remaining structure first. Pieces keep the parent's velocity field,
 /// which conserves linear and angular momentum; the smallest become debris. Returns the keys of the
 /// pieces that are bodies, `key` first if the actor stays.
-std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit& edit);
+std::vector<std::uint64_t> apply_break(World& world, std::uint32_t key, BreakEdit& edit);
 
 }  // namespace sunder

@@ -14,10 +14,10 @@
 #include "engine/model/scene.h"
 #include "engine/world/actors/actors.h"
 #include "engine/world/actors/clock.h"
+#include "engine/world/actors/conservation.h"
 #include "engine/world/actors/exposed.h"
 #include "engine/world/actors/joints.h"
 #include "engine/world/actors/landscape.h"
-#include "engine/world/actors/ledger.h"
 #include "engine/world/actors/meshes.h"
 
 namespace sunder {
@@ -27,14 +27,14 @@ struct World {
   const std::shared_ptr<const std::vector<Material>> materials;
   /// Names of solids, balls, then shots.
   const std::shared_ptr<const std::vector<std::string>> names;
-  const std::shared_ptr<const std::vector<Paint>> paints;  ///< Null if there are none.
+  const std::shared_ptr<const std::vector<Appearance>> paints;  ///< Null if there are none.
   const std::unique_ptr<Physics> physics;
   Clock clock;
   Actors actors;
   Joints joints;
   Meshes meshes;
   Landscape landscape;
-  Ledger ledger;
+  Conservation conservation;
   std::uint64_t next_event =
       1;  ///< Number of the next event, which names the planes that it makes.
   std::optional<Exposed> exposed;  ///< None in a run without particles.
@@ -42,9 +42,10 @@ struct World {
   World(Scene given, std::unique_ptr<Physics> moves)
       : scene(std::move(given)),
         materials(std::make_shared<const std::vector<Material>>(scene.materials)),
-        names(std::make_shared<const std::vector<std::string>>(names_in(scene))),
-        paints(scene.paints.empty() ? nullptr
-                                    : std::make_shared<const std::vector<Paint>>(scene.paints)),
+        names(std::make_shared<const std::vector<std::string>>(object_names(scene))),
+        paints(scene.paints.empty()
+                   ? nullptr
+                   : std::make_shared<const std::vector<Appearance>>(scene.paints)),
         physics(std::move(moves)),
         clock(scene.accuracy) {}
 

@@ -9,7 +9,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/model/work_log.h"
-#include "engine/world/actors/bearing.h"
+#include "engine/world/actors/load_case.h"
 #include "engine/world/break/cluster_probe.h"
 #include "engine/world/break/clusters.h"
 
@@ -36,7 +36,7 @@ void add_impacts(const World& world, Trial& trial) {
   trial.planned.clear();
   const BodyStates states = world.physics->states();
   for (std::uint32_t i = 0; i < trial.loads.size(); ++i) {
-    const ProbeLoad& load = trial.loads[i];
+    const ImpactLoad& load = trial.loads[i];
     const Actor& actor = *world.actors.find(trial.probe->bodies()[load.body].key);
     const ConvexSlot slot(load.shape);
     const Material& material = world.material(actor.structure.convex(slot)->material);
@@ -100,7 +100,7 @@ bool is_stale(const World& world, const Trial& trial, std::span<const std::uint3
 
 bool is_worth_deferring(const World& world, const Trial& trial) {
   return std::ranges::any_of(trial.planned, [&](const PlannedBreak& planned) {
-    return planned.impact.energy_J > kMinDeferredShare * world.ledger.kinetic_J;
+    return planned.impact.energy_J > kMinDeferredShare * world.conservation.kinetic_J;
   });
 }
 
@@ -136,11 +136,11 @@ bool carry_out_breaks(World& world, const Breaker& breaker, Trial& trial,
   }
   const std::vector<std::uint32_t> broken = trial.probe->release(wanted);
   if (broken.empty()) return false;
-  WorkSpan span(world.ledger.work, Stage::kBreak, "breaks carried out");
+  WorkSpan span(world.conservation.work, Stage::kBreak, "breaks carried out");
   span.count(broken.size());
   const auto bends = [&](auto load) { return trial.planned[of_load[load]].only_bends(); };
   // If all broken bodies only bend, they stay in the way, and the next round probes them.
-  EnergyFlows& energy = world.ledger.report.energy;
+  EnergyFlows& energy = world.conservation.report.energy;
   if (!std::ranges::all_of(broken, bends)) energy.contacts -= apply_motion(world, *trial.probe);
   for (const std::uint32_t load : broken) {
     PlannedBreak& planned = trial.planned[of_load[load]];
@@ -171,21 +171,21 @@ std::vector<Trial> postpone_conflicts(const World& world, std::vector<Trial>& tr
   return later;
 }
 
-PlannedBreak planned_by_blast(const Actor& actor, const Impact& impact) {
+PlannedBreak planned_by_blast(const Actor& actor, const ActorImpact& impact) {
   PlannedBreak planned;
   planned.impact = impact;
   planned.impulses = impact.impulses;
   std::erase_if(planned.impulses,
-                [&](const Load& push) { return !actor.structure.has(push.convex); });
-  for (const Load& push : planned.impulses) planned.impulse_Ns += push.force_N.norm();
+                [&](const AppliedForce& push) { return !actor.structure.has(push.convex); });
+  for (const AppliedForce& push : planned.impulses) planned.impulse_Ns += push.force_N.norm();
   planned.transmitted_J = std::numeric_limits<double>::infinity();
   planned.by_pattern = impact.energy_J > 0;
   planned.by_stress = !planned.impulses.empty();
   return planned;
 }
 
-std::vector<Trial> find_trials(World& world, const WaitingRoom& deferred, double min_energy_J) {
-  WorkSpan span(world.ledger.work, Stage::kBreak, "clusters found");
+std::vector<Trial> find_trials(World& world, const DeferredImpacts& deferred, double min_energy_J) {
+  WorkSpan span(world.conservation.work, Stage::kBreak, "clusters found");
   std::vector<Trial> trials;
   for (std::unique_ptr<ImpactProbe>& probe : find_clusters(world, deferred, min_energy_J))
     trials.push_back({std::move(probe)});
@@ -194,7 +194,7 @@ std::vector<Trial> find_trials(World& world, const WaitingRoom& deferred, double
 }
 
 void plan(World& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
-  WorkSpan span(world.ledger.work, Stage::kBreak, "breaks planned");
+  WorkSpan span(world.conservation.work, Stage::kBreak, "breaks planned");
   span.count(all.size());
   plan_all(world, breaker, all);
   WorkItem parts{Stage::kBreak, "parts cut"}, visits{Stage::kBreak, "bonds visited"};
@@ -203,8 +203,8 @@ void plan(World& world, const Breaker& breaker, std::span<PlannedBreak* const> a
     for (const Compound& piece : planned->edit.loose.pieces) parts.count += piece.convexes.size();
     visits.count += planned->stressed.work;
   }
-  world.ledger.work.add(parts);
-  world.ledger.work.add(visits);
+  world.conservation.work.add(parts);
+  world.conservation.work.add(visits);
 }
 
 std::vector<PlannedBreak*> planned_in(std::vector<Trial>& trials) {
@@ -217,7 +217,7 @@ std::vector<PlannedBreak*> planned_in(std::vector<Trial>& trials) {
 
 /// Moves an impact whose solid another blast has broken to the nearest piece of the solid; returns
 /// false if there is no piece.
-bool retarget(const World& world, std::uint32_t root_key, Impact& impact) {
+bool retarget(const World& world, std::uint32_t root_key, ActorImpact& impact) {
   const Actor* known = world.actors.find(impact.key);
   if (known && known->structure.has(impact.convex)) return true;
   const BodyStates states = world.physics->states();
@@ -225,7 +225,7 @@ bool retarget(const World& world, std::uint32_t root_key, Impact& impact) {
   for (const Actor& actor : world.actors) {
     if (actor.root_key != root_key || actor.structure.empty()) continue;
     const Vec3 point_R = rest_pose(actor, states[actor.body].X_WB).inverse() * impact.point_W;
-    const double distance_m = distance_outside(actor.structure, point_R);
+    const double distance_m = distance_to(actor.structure, point_R);
     if (distance_m >= least_m) continue;
     least_m = distance_m;
     impact.key = actor.key;
@@ -250,7 +250,7 @@ bool BreakBudget::try_spend(std::uint32_t parts) {
 /// Probes run in batches, those with the most energy first, so that the budget can stop them. A
 /// probe with the initial state of an earlier one of the step without a break is not run again.
 void BreakStage::run_probes(World& world, std::vector<Trial>& trials) {
-  WorkSpan span(world.ledger.work, Stage::kBreak, "clusters asked");
+  WorkSpan span(world.conservation.work, Stage::kBreak, "clusters asked");
   std::vector<Trial*> due;
   for (Trial& trial : trials) {
     if (!std::exchange(trial.loads_known, true)) due.push_back(&trial);
@@ -280,12 +280,12 @@ void BreakStage::run_probes(World& world, std::vector<Trial>& trials) {
     if (trial.loads.empty() && !unbroken_probes_.insert(trial.fingerprint).second) --probes_run;
   }
   span.count(probes_run);
-  world.ledger.work.add(visits);
+  world.conservation.work.add(visits);
   std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
 }
 
 double BreakStage::min_impact_energy_J(const World& world) const {
-  return budget_.left() > 0 ? 0 : kMinDeferredShare * world.ledger.kinetic_J;
+  return budget_.left() > 0 ? 0 : kMinDeferredShare * world.conservation.kinetic_J;
 }
 
 bool BreakStage::prepare_within_budget(World& world, const Breaker& breaker,
@@ -310,25 +310,25 @@ void BreakStage::share_budget(std::span<PlannedBreak* const> resumable) const {
 
 void BreakStage::defer(World& world, Trial& trial) {
   trial.probe->pause();
-  world.ledger.report.energy.gravity += apply_motion(world, *trial.probe);
-  waiting_room_.add(world, *trial.probe);
+  world.conservation.report.energy.gravity += apply_motion(world, *trial.probe);
+  deferred_impacts_.add(world, *trial.probe);
 }
 
 bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
-                                 std::span<const Impact> impacts) {
-  for (const Impact& impact : impacts) {
-    const auto same = [&](const Impact& known) {
+                                 std::span<const ActorImpact> impacts) {
+  for (const ActorImpact& impact : impacts) {
+    const auto same = [&](const ActorImpact& known) {
       return known.key == impact.key && known.blast == impact.blast;
     };
     if (std::ranges::none_of(deferred_blast_impacts_, same))
       deferred_blast_impacts_.push_back(impact);
   }
   bool broke = false;
-  for (std::vector<Impact> due = std::exchange(deferred_blast_impacts_, {}); !due.empty();) {
+  for (std::vector<ActorImpact> due = std::exchange(deferred_blast_impacts_, {}); !due.empty();) {
     std::vector<PlannedBreak> all;
     // If several blasts break a solid, each breaks the pieces that the one before has left.
-    std::vector<std::pair<std::uint32_t, Impact>> later;  // with root_key
-    for (const Impact& impact : due) {
+    std::vector<std::pair<std::uint32_t, ActorImpact>> later;  // with root_key
+    for (const ActorImpact& impact : due) {
       const Actor* actor = world.actors.find(impact.key);
       if (!actor || !actor->structure.has(impact.convex)) continue;
       const auto same = [&](const PlannedBreak& other) { return other.impact.key == impact.key; };
@@ -380,7 +380,7 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
     std::vector<Trial> to_plan;
     for (Trial& trial : trials) {
       trial.may_defer =
-          is_worth_deferring(world, trial) && waiting_room_.may_defer(world, *trial.probe);
+          is_worth_deferring(world, trial) && deferred_impacts_.may_defer(world, *trial.probe);
       if (trial.planned.empty() ||
           (rounds_left && prepare_within_budget(world, breaker, trial.planned))) {
         to_plan.push_back(std::move(trial));
@@ -393,7 +393,7 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
     }
     std::vector<PlannedBreak*> resumable;
     for (Trial& trial : to_plan)
-      if (!trial.planned.empty() && waiting_room_.may_defer(world, *trial.probe))
+      if (!trial.planned.empty() && deferred_impacts_.may_defer(world, *trial.probe))
         for (PlannedBreak& planned : trial.planned) resumable.push_back(&planned);
     share_budget(resumable);
     const std::vector<PlannedBreak*> all = planned_in(to_plan);
@@ -422,31 +422,31 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
   return again;
 }
 
-void BreakStage::run(World& world, const Breaker& breaker, std::span<const Impact> impacts) {
+void BreakStage::run(World& world, const Breaker& breaker, std::span<const ActorImpact> impacts) {
   const auto collide = [&] {
-    const WorkSpan span(world.ledger.work, Stage::kBreak, "contacts found anew");
+    const WorkSpan span(world.conservation.work, Stage::kBreak, "contacts found anew");
     world.physics->collide(world.clock.horizon_s());
-    waiting_room_.invalidate_driven();
+    deferred_impacts_.invalidate_driven();
   };
   if (break_by_blasts(world, breaker, impacts)) collide();
-  waiting_room_.begin_step(world);
+  deferred_impacts_.begin_step(world);
   unbroken_probes_.clear();
   for (int round = 0; round <= kRounds; ++round) {
     const bool rounds_left = round < kRounds;
     const bool affordable = rounds_left && !budget_.spent();
-    if (affordable) waiting_room_.release_first();
-    std::vector<Trial> trials = find_trials(world, waiting_room_, min_impact_energy_J(world));
+    if (affordable) deferred_impacts_.release_first();
+    std::vector<Trial> trials = find_trials(world, deferred_impacts_, min_impact_energy_J(world));
     if (resolve(world, breaker, std::move(trials), rounds_left)) {
       collide();
-    } else if (!affordable || waiting_room_.queue_empty()) {
+    } else if (!affordable || deferred_impacts_.queue_empty()) {
       break;
     }
   }
-  waiting_room_.end_step(world);
+  deferred_impacts_.end_step(world);
 }
 
 std::uint32_t BreakStage::deferred() const {
-  return static_cast<std::uint32_t>(deferred_blast_impacts_.size()) + waiting_room_.clusters();
+  return static_cast<std::uint32_t>(deferred_blast_impacts_.size()) + deferred_impacts_.clusters();
 }
 
 }  // namespace sunder

@@ -19,8 +19,8 @@
 #include "engine/model/impact_probe.h"
 #include "engine/world/actors/impact.h"
 #include "engine/world/actors/world.h"
+#include "engine/world/break/deferred_impacts.h"
 #include "engine/world/break/planned_break.h"
-#include "engine/world/break/waiting_room.h"
 
 namespace sunder {
 
@@ -53,7 +53,7 @@ struct Trial {
   std::uint64_t fingerprint = 0;  ///< Of the probe's initial state; 0: not computed yet.
   bool loads_known = false;       ///< `loads` are those of the current event.
   std::uint64_t charged = 0;      ///< Work of the probe charged to the budget so far.
-  std::vector<ProbeLoad> loads = {};
+  std::vector<ImpactLoad> loads = {};
   std::vector<PlannedBreak> planned = {};
   bool may_defer = false;  ///< The trial may be deferred to the next step.
 };
@@ -65,7 +65,7 @@ class BreakStage {
   void begin_frame() { budget_.begin_frame(); }
   /// Breaks the solids that `impacts` of blasts and speculative contacts can break. Contacts are
   /// found anew after every round of breaks.
-  void run(World& world, const Breaker& breaker, std::span<const Impact> impacts);
+  void run(World& world, const Breaker& breaker, std::span<const ActorImpact> impacts);
   /// Number of deferred blast impacts and clusters.
   std::uint32_t deferred() const;
 
@@ -81,7 +81,7 @@ class BreakStage {
   /// Pauses the bodies of a trial until the next step, in which a new probe is made of them.
   void defer(World& world, Trial& trial);
   /// Breaks solids by the impacts of blasts; returns true if something broke.
-  bool break_by_blasts(World& world, const Breaker& breaker, std::span<const Impact> impacts);
+  bool break_by_blasts(World& world, const Breaker& breaker, std::span<const ActorImpact> impacts);
   /// Advances each probe until it breaks something, reaches the end of the step, or is deferred (if
   /// no `rounds_left`, or over the budget). Returns true if another round is due, in which solids
   /// that another trial has broken meanwhile are probed as their pieces.
@@ -90,8 +90,9 @@ class BreakStage {
   BreakBudget budget_;
   /// Fingerprints of this step's probes without a break.
   std::set<std::uint64_t> unbroken_probes_;
-  std::vector<Impact> deferred_blast_impacts_;  ///< Over the frame's budget: first in the next.
-  WaitingRoom waiting_room_;
+  std::vector<ActorImpact>
+      deferred_blast_impacts_;  ///< Over the frame's budget: first in the next.
+  DeferredImpacts deferred_impacts_;
 };
 
 }  // namespace sunder

@@ -33,11 +33,12 @@ class ProbeBuilder {
 
   std::unique_ptr<ImpactProbe> probe() {
     const double horizon_s = world_.clock.horizon_s();
-    const double still_m_s = FroudeScale(world_.scene.gravity_W).still_m_s(world_.clock.dt_s);
-    add_contacts(still_m_s * horizon_s);
+    const double rest_speed_m_s =
+        FroudeScale(world_.scene.gravity_W).rest_speed_m_s(world_.clock.dt_s);
+    add_contacts(rest_speed_m_s * horizon_s);
     for (const std::uint32_t joint : joints_of_cluster()) add_joint(world_.joints.live()[joint]);
     return world_.physics->probe({std::move(bodies_), std::move(contacts_),
-                                  std::move(probe_joints_), horizon_s, still_m_s,
+                                  std::move(probe_joints_), horizon_s, rest_speed_m_s,
                                   world_.scene.gravity_W});
   }
 
@@ -81,7 +82,7 @@ class ProbeBuilder {
     for (const Touch& touch : touches) {
       const std::uint32_t a = index_of(touch.body_tag_a), b = index_of(touch.body_tag_b);
       if (a == kOutside || b == kOutside) {
-        inside(a, b).leans |= touch.separation_m <= touching_m;
+        inside(a, b).is_supported |= touch.separation_m <= touching_m;
         continue;
       }
       contacts_.push_back({a, b, touch.shape_tag_a, touch.shape_tag_b, touch.arm_a_W, touch.arm_b_W,
@@ -147,7 +148,7 @@ class ProbeBuilder {
     if (joint.hinge && joint.hinge->flowed_step == world_.clock.step) return;
     const std::uint32_t a = index_of(joint.a.key), b = index_of(joint.b.key);
     if (a == kOutside || b == kOutside) {
-      inside(a, b).leans = true;
+      inside(a, b).is_supported = true;
       return;
     }
     const Vec3 at_a_W = anchor_W(joint.a, cluster_[a]), at_b_W = anchor_W(joint.b, cluster_[b]);

@@ -40,7 +40,7 @@ bool may_break(const World& world, const Actor* actor, const Seed& seed) {
 }
 
 /// Returns the seeds with energy enough to break an actor, in the order of find_clusters().
-std::vector<Seed> find_seeds(const World& world, const WaitingRoom& deferred,
+std::vector<Seed> find_seeds(const World& world, const DeferredImpacts& deferred,
                              const JointGraph& joints, double min_energy_J) {
   double least_of_all_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) {
@@ -49,7 +49,7 @@ std::vector<Seed> find_seeds(const World& world, const WaitingRoom& deferred,
   if (least_of_all_J == std::numeric_limits<double>::infinity()) return {};
   min_energy_J = std::max(min_energy_J, least_of_all_J);
   std::vector<Seed> pairs;
-  for (const Approach& approach : world.physics->approaches()) {
+  for (const SpeculativeContact& approach : world.physics->speculative_contacts()) {
     Seed& pair = pairs.emplace_back(Seed{approach.body_tag_a, approach.body_tag_b});
     pair.add(joints.closing_energy_J(approach), joints.closing_speed_m_s(approach));
   }
@@ -191,7 +191,7 @@ class ClusterSearch {
 }  // namespace
 
 std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const World& world,
-                                                        const WaitingRoom& deferred,
+                                                        const DeferredImpacts& deferred,
                                                         double min_energy_J) {
   const JointGraph joints(world);
   const std::vector<Seed> seeds = find_seeds(world, deferred, joints, min_energy_J);

@@ -7,7 +7,7 @@
 
 #include "engine/model/impact_probe.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/waiting_room.h"
+#include "engine/world/break/deferred_impacts.h"
 
 namespace sunder {
 
@@ -15,7 +15,7 @@ namespace sunder {
 /// than `min_energy_J`, without deferred bodies. A body that can move is in one cluster at most.
 /// The longest deferred cluster comes first, then that of the contact with the most energy.
 std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const World& world,
-                                                        const WaitingRoom& deferred,
+                                                        const DeferredImpacts& deferred,
                                                         double min_energy_J);
 
 /// Applies the motions that an ended probe has found to the bodies of its cluster. Returns the

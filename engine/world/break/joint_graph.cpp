@@ -58,16 +58,16 @@ JointGraph::Assembly JointGraph::assembly(std::uint32_t key) const {
   return body.held || ends.empty() ? body : assemblies_[assembly_of_[ends.front().joint]];
 }
 
-double JointGraph::fall_energy_J_kg(const Approach& approach) const {
+double JointGraph::fall_energy_J_kg(const SpeculativeContact& approach) const {
   return std::abs(world_.scene.gravity_W.dot(approach.normal_W)) *
          std::max(0.0, approach.separation_m);
 }
 
-double JointGraph::closing_speed_m_s(const Approach& approach) const {
+double JointGraph::closing_speed_m_s(const SpeculativeContact& approach) const {
   return std::sqrt(approach.speed_m_s * approach.speed_m_s + 2 * fall_energy_J_kg(approach));
 }
 
-double JointGraph::closing_energy_J(const Approach& approach) const {
+double JointGraph::closing_energy_J(const SpeculativeContact& approach) const {
   const double fall_energy_J_kg = this->fall_energy_J_kg(approach);
   const double each_J_kg = 0.5 * approach.speed_m_s * approach.speed_m_s + fall_energy_J_kg;
   const std::uint32_t a = approach.body_tag_a, b = approach.body_tag_b;

@@ -29,14 +29,14 @@ class JointGraph {
   /// strike with at most the kinetic energy of their assembly, and, if the assembly is free, with
   /// at most its mass (Thomson's theorem: of all motions that the joints allow, the true one has
   /// the least energy).
-  double closing_energy_J(const Approach& approach) const;
+  double closing_energy_J(const SpeculativeContact& approach) const;
   /// Closing speed of a speculative contact at the time of its closing, a fall to the contact
   /// included.
-  double closing_speed_m_s(const Approach& approach) const;
+  double closing_speed_m_s(const SpeculativeContact& approach) const;
 
  private:
   /// Energy per kilogram that a fall over the contact's separation adds.
-  double fall_energy_J_kg(const Approach& approach) const;
+  double fall_energy_J_kg(const SpeculativeContact& approach) const;
 
   /// Bodies connected by joints.
   struct Assembly {

@@ -8,7 +8,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
-#include "engine/world/actors/bearing.h"
+#include "engine/world/actors/load_case.h"
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/actors/replace.h"
 #include "engine/world/break/striker.h"
@@ -57,7 +57,7 @@ double crack_energy_J(const World& world, const Structure& structure, std::span<
   };
   double energy = 0;
   for (const Bond& bond : cut)
-    energy += bond.area_m2 * crack_J_m2(material(bond.a), material(bond.b));
+    energy += bond.area_m2 * crack_energy_J_m2(material(bond.a), material(bond.b));
   return energy;
 }
 
@@ -99,8 +99,8 @@ bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak&
   const double speed_m_s = share * planned.impulse_Ns / actor.weight.mass_kg;
   const double most_Pa =
       kStressBoundFactor * std::sqrt(3 * material.youngs_Pa * material.density_kg_m3) * speed_m_s;
-  if (most_Pa < material.weakest_Pa()) return false;
-  for (Load& load : planned.impulses) load.force_N *= share, load.torque_Nm *= share;
+  if (most_Pa < material.min_stress_limit_Pa()) return false;
+  for (AppliedForce& load : planned.impulses) load.force_N *= share, load.torque_Nm *= share;
   planned.impulse_Ns *= share;
   planned.transmitted_J = share * share * planned.impact.energy_J;
   return true;
@@ -111,7 +111,7 @@ bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak&
 /// at which a bond is overloaded. Overload within the reach of the pattern counts for the pattern.
 void choose_break_mode(const World& world, const Structure& structure, PlannedBreak& planned) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  const BlowStress& blow = planned.stressed.blow;
+  const ImpulsiveStress& blow = planned.stressed.blow;
   const double overloads = 1 / (blow.worst * blow.worst), energy_J = planned.impact.energy_J;
   double by_pattern = kNever;
   double by_stress = breaks_or_bends(planned.stressed.edit) ? overloads : kNever;
@@ -131,7 +131,7 @@ void choose_break_mode(const World& world, const Structure& structure, PlannedBr
 }
 
 /// Returns the distance from the point of impact to the farthest corner of the section.
-double reach_of(const Hit& hit) {
+double reach_of(const StructureImpact& hit) {
   double reach_m = 0;
   for (const Vec3& corner : hit.section_R)
     reach_m = std::max(reach_m, (corner - hit.point_R).norm());
@@ -140,9 +140,9 @@ double reach_of(const Hit& hit) {
 
 /// Adds the striker's section, mass and speed to a hit, and the thickness of the actor behind it.
 void add_striker(const World& world, const PlannedBreak& planned, const Actor& actor,
-                 const Pose& X_WB, Hit& hit) {
+                 const Pose& X_WB, StructureImpact& hit) {
   const Actor* striker = world.actors.find(planned.striker);
-  const Impact& impact = planned.impact;
+  const ActorImpact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
   if (!striker || !breaks_before_waves_arrive(material, planned.speed_m_s)) return;
   const std::vector<Vec3> section_W =
@@ -182,10 +182,11 @@ double volume_within(const Structure& structure, const Vec3& center_R, double ra
 }
 
 /// Returns the impact in the actor's rest frame.
-Hit hit_of(const World& world, const PlannedBreak& planned, const Actor& actor, const Pose& X_WB) {
-  const Impact& impact = planned.impact;
+StructureImpact hit_of(const World& world, const PlannedBreak& planned, const Actor& actor,
+                       const Pose& X_WB) {
+  const ActorImpact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
-  Hit hit;
+  StructureImpact hit;
   hit.point_R = X_WB.inverse() * impact.point_W + actor.weight.com_R;
   hit.direction_R = X_WB.rotation.conjugate() * impact.direction_W;
   hit.convex = impact.convex;
@@ -214,7 +215,7 @@ double share_of_speed(const World& world, const Convex& convex, const Actor* str
 
 }  // namespace
 
-bool breaks_where_struck(const World& world, const Actor& actor, const ProbeLoad& load,
+bool breaks_where_struck(const World& world, const Actor& actor, const ImpactLoad& load,
                          const Actor* striker) {
   const Convex& convex = *actor.structure.convex(ConvexSlot(load.shape));
   const Material& material = world.material(convex.material);
@@ -237,9 +238,9 @@ bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
 
 void prepare_command(const World& world, const Breaker& breaker, std::uint64_t event,
                      PlannedBreak& planned) {
-  const Impact& impact = planned.impact;
+  const ActorImpact& impact = planned.impact;
   const Actor& actor = *world.actors.find(impact.key);
-  Hit hit = hit_of(world, planned, actor, world.physics->state(actor.body).X_WB);
+  StructureImpact hit = hit_of(world, planned, actor, world.physics->state(actor.body).X_WB);
   // The seed depends on the actor alone: a repeated impact breaks it the same way, so that an
   // impact over several steps gets no several chances.
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
@@ -280,7 +281,7 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
       if (planned.by_stress && !reduce_to_transmitted(world, actor, planned))
         planned.by_stress = false;
       if (planned.by_stress) {
-        std::vector<Load> loads;
+        std::vector<AppliedForce> loads;
         LoadCase load = make_load_case(world, actor, states[actor.body].X_WB.rotation, loads);
         const Convex& convex = *actor.structure.convex(planned.impact.convex);
         const bool has_pattern = world.material(convex.material).breakable();
@@ -305,7 +306,7 @@ Outcome outcome_of(const World& world, const PlannedBreak& planned, std::size_t 
 }
 
 void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) {
-  if (outcome == Outcome::kBodyLimit) ++world.ledger.report.limits_hit;
+  if (outcome == Outcome::kBodyLimit) ++world.conservation.report.limits_hit;
   if (outcome != Outcome::kHolds) return;
   Actor& actor = *world.actors.find(planned.impact.key);
   const double energy_J = planned.impact.energy_J;
@@ -320,7 +321,7 @@ void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) 
   }
   if (!breaks_or_bends(planned.stressed.edit)) actor.stress.memory = planned.stressed.memory;
   if (!std::isfinite(planned.transmitted_J)) return;
-  const BlowStress& blow = planned.stressed.blow;
+  const ImpulsiveStress& blow = planned.stressed.blow;
   // The bending energy of a solid of mass M is at most J² / 2M: stress grows with the impulse.
   if (blow.worst > 0)
     actor.stress.least_Ns =
@@ -332,7 +333,7 @@ void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) 
 }
 
 void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
-  const Impact& impact = planned.impact;
+  const ActorImpact& impact = planned.impact;
   Actor& actor = *world.actors.find(impact.key);
   const std::vector<ExposedFace>& bare = planned.edit.loose.exposed;
   const Convex& broken = planned.at_bonds && !bare.empty()
@@ -350,17 +351,17 @@ void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
   }
   const bool only_bends = planned.only_bends();
   if (planned.edit.changed) event.pieces = pieces_after(actor.structure, planned.edit);
-  world.ledger.report.failed += planned.edit.loose.failed;
-  world.ledger.report.failed_m3 += planned.edit.loose.failed_m3;
-  breaker.note_carried_out(planned.edit.loose);
+  world.conservation.report.failed += planned.edit.loose.failed;
+  world.conservation.report.failed_m3 += planned.edit.loose.failed_m3;
+  breaker.on_applied(planned.edit.loose);
   if (planned.edit.changed) {
     const std::uint32_t first_key = world.actors.next_key();
-    event.child_keys = carry_out(world, impact.key, planned.edit);
+    event.child_keys = apply_break(world, impact.key, planned.edit);
     if (!planned.at_bonds) apply_plastic_collision(world, planned, first_key);
   } else {  // cracked, but still in one piece
     actor.structure.apply(planned.edit);
   }
-  if (!only_bends) world.ledger.breaks.push_back(std::move(event));
+  if (!only_bends) world.conservation.breaks.push_back(std::move(event));
 }
 
 }  // namespace sunder

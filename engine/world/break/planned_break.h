@@ -27,19 +27,19 @@ struct SweptPrism {
 
 /// An impact on an actor with the plans of both modes, and the mode chosen of them.
 struct PlannedBreak {
-  Impact impact;
+  ActorImpact impact;
   std::uint32_t load = 0;               ///< Index in the loads of the probe.
   std::uint32_t striker = kNoActorKey;  ///< Key of the body that strikes.
   double speed_m_s = 0;                 ///< Closing speed of the striker; 0: unknown.
   double impulse_Ns = 0;                ///< Sum over the contacts that load the actor.
-  std::vector<Load> impulses;           ///< All impulses on the actor, N·s in place of N.
+  std::vector<AppliedForce> impulses;   ///< All impulses on the actor, N·s in place of N.
   double transmitted_J = 0;             ///< Upper bound of the energy that reaches the rest of the
                                         ///< actor; infinite for blasts, which have no striker.
   bool by_pattern = true;               ///< Strong enough to break the material.
   bool by_stress = false;               ///< Perhaps strong enough to break bonds.
   BreakCommand command;                 ///< Command of the break by pattern.
   SweptPrism swept;                     ///< Prism that the striker sweeps through the solid.
-  StressAnswer stressed;                ///< Result of the plan by stress.
+  StressResult stressed;                ///< Result of the plan by stress.
   BreakEdit edit;                       ///< Edit of the chosen mode.
   /// Bond evaluations that a plan by stress may take before it is deferred.
   std::uint64_t max_bond_evaluations = std::numeric_limits<std::uint64_t>::max();
@@ -58,7 +58,7 @@ struct PlannedBreak {
 /// Returns true if an impact breaks the convex that it strikes by its pattern: if the stress of the
 /// wave or the strain energy of the solid exceeds the convex's limit (docs/decisions/049).
 /// `striker` is null for the ground.
-bool breaks_where_struck(const World& world, const Actor& actor, const ProbeLoad& load,
+bool breaks_where_struck(const World& world, const Actor& actor, const ImpactLoad& load,
                          const Actor* striker);
 
 /// Returns true if an impact at this speed shears the solid at the striker's edge before waves

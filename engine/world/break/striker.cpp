@@ -133,7 +133,7 @@ double confinement(const Structure& structure, const std::vector<Vec3>& section_
   const auto is_filled = [&](const Vec3& corner) {
     const Vec3 point_R = middle_R + kRingScale * (corner - middle_R) + depth_m * direction_R;
     return std::ranges::any_of(structure.within(point_R, 0), [&](ConvexSlot slot) {
-      return distance_outside(*structure.convex(slot), point_R) <= 0;
+      return distance_to(*structure.convex(slot), point_R) <= 0;
     });
   };
   return static_cast<double>(std::ranges::count_if(section_R, is_filled)) /
@@ -188,7 +188,7 @@ void apply_plastic_collision(World& world, const PlannedBreak& planned, std::uin
   if (!striker->is_kinematic)
     gain_J += push_actor(world, *striker, -plug_kg * gain_m_s * axis_W, middle_W);
   const double debris_J = debris_kg * gain_m_s * (at_rest_m_s / plug_kg + 0.5 * gain_m_s);
-  EnergyFlows& energy = world.ledger.report.energy;
+  EnergyFlows& energy = world.conservation.report.energy;
   energy.debris += debris_J;
   energy.contacts -= gain_J + debris_J;
 }

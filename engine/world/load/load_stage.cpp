@@ -9,7 +9,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
 #include "engine/model/work_log.h"
-#include "engine/world/actors/bearing.h"
+#include "engine/world/actors/load_case.h"
 #include "engine/world/actors/replace.h"
 #include "engine/world/load/rejoin.h"
 
@@ -20,7 +20,7 @@ constexpr double kAveragingTime_s = 0.1;  // time constant of the forces' mean
 // Change of the load on a convex, relative to the old load with self-weight, from which on the
 // stress is solved again.
 constexpr double kChangeShare = 0.1;
-// Load relative to the actor's weight below which a change is negligible.
+// AppliedForce relative to the actor's weight below which a change is negligible.
 constexpr double kNegligibleShare = 1e-5;
 // Least ρ ω² r² at which spin is evaluated, as a share of the weakest limit. The largest stress is
 // half of ρ ω² r² in a rod, all of it in a ring, and more only where spin bends hollow or curved
@@ -42,21 +42,21 @@ double weight_N(const World& world, double mass_kg) {
 /// Force on a convex of the actor at an index in World::actors.
 struct ActorForce {
   std::size_t place = 0;
-  ConvexForce force;
+  AppliedForce force;
 };
 
 /// Returns the mean forces on an actor after one more step with the forces `now`.
-std::vector<ConvexForce> averaged(const World& world, const Actor& actor,
-                                  std::span<const ActorForce> now) {
-  if (now.empty() && actor.stress.pressing.empty()) return {};
+std::vector<AppliedForce> averaged(const World& world, const Actor& actor,
+                                   std::span<const ActorForce> now) {
+  if (now.empty() && actor.stress.mean_forces.empty()) return {};
   const double dt = world.clock.dt_s, share = dt / (kAveragingTime_s + dt);
   const double negligible = kNegligibleShare * weight_N(world, actor.weight.mass_kg);
   const double size_m = std::cbrt(actor.volume_m3);
-  std::vector<ConvexForce> mean;
-  auto old = actor.stress.pressing.begin();
-  const auto end = actor.stress.pressing.end();
+  std::vector<AppliedForce> mean;
+  auto old = actor.stress.mean_forces.begin();
+  const auto end = actor.stress.mean_forces.end();
   for (auto it = now.begin(); it != now.end() || old != end;) {
-    ConvexForce force;
+    AppliedForce force;
     force.convex = std::min(it != now.end() ? it->force.convex : kPastLastSlot,
                             old != end ? old->convex : kPastLastSlot);
     if (old != end && old->convex == force.convex) {
@@ -78,11 +78,11 @@ std::vector<ConvexForce> averaged(const World& world, const Actor& actor,
 /// Returns true if the mean forces differ from those of the last stress solve.
 bool load_changed(const World& world, const Actor& actor) {
   const double negligible = kNegligibleShare * weight_N(world, actor.weight.mass_kg);
-  const std::vector<ConvexForce>&x = actor.stress.evaluated_forces, &y = actor.stress.pressing;
+  const std::vector<AppliedForce>&x = actor.stress.evaluated_forces, &y = actor.stress.mean_forces;
   for (std::size_t i = 0, j = 0; i < x.size() || j < y.size();) {
     const ConvexSlot convex = std::min(i < x.size() ? x[i].convex : kPastLastSlot,
                                        j < y.size() ? y[j].convex : kPastLastSlot);
-    ConvexForce before, after;
+    AppliedForce before, after;
     if (i < x.size() && x[i].convex == convex) before = x[i++];
     if (j < y.size() && y[j].convex == convex) after = y[j++];
     const Convex& body = *actor.structure.convex(convex);
@@ -123,20 +123,20 @@ std::vector<ActorForce> find_forces(const World& world) {
   const auto point_R = [&](const Actor& actor, const Vec3& point_W) -> Vec3 {
     return states[actor.body].X_WB.inverse() * point_W + actor.weight.com_R;
   };
-  const auto add = [&](const Actor& actor, const Load& load) {
+  const auto add = [&](const Actor& actor, const AppliedForce& load) {
     const Vec3 arm = load.point_R - actor.structure.convex(load.convex)->solid.centroid;
     all.push_back({world.actors.place_of(actor),
                    {load.convex, load.force_N, arm.cross(load.force_N) + load.torque_Nm}});
   };
-  for (const ContactLoad& contact : world.physics->contact_loads()) {
+  for (const ContactImpulse& contact : world.physics->contact_impulses()) {
     const Actor* actor = world.actors.find(contact.body_tag);
     const ConvexSlot slot(contact.shape_tag);
     if (!actor || !actor->structure.has(slot)) continue;
     const Quat rotation_BW = states[actor->body].X_WB.rotation.conjugate();
     add(*actor, {slot, rotation_BW * contact.impulse_W / dt, point_R(*actor, contact.point_W)});
   }
-  std::vector<Load> pulls;
-  for (const JointLoad& joint : world.physics->joint_loads()) {
+  std::vector<AppliedForce> pulls;
+  for (const JointImpulse& joint : world.physics->joint_impulses()) {
     const Actor* actor = world.actors.find(joint.body_tag);
     if (!actor || actor->structure.empty()) continue;
     const Quat rotation_BW = states[actor->body].X_WB.rotation.conjugate();
@@ -144,7 +144,7 @@ std::vector<ActorForce> find_forces(const World& world) {
     add_joint_load(actor->structure, point_R(*actor, joint.point_W),
                    rotation_BW * joint.impulse_W / dt, rotation_BW * joint.angular_impulse_W / dt,
                    pulls);
-    for (const Load& pull : pulls) add(*actor, pull);
+    for (const AppliedForce& pull : pulls) add(*actor, pull);
   }
   std::stable_sort(all.begin(), all.end(), [](const ActorForce& x, const ActorForce& y) {
     return std::tie(x.place, x.force.convex) < std::tie(y.place, y.force.convex);
@@ -168,10 +168,10 @@ std::vector<std::uint32_t> update_loads(World& world) {
       Actor& actor = world.actors[i];
       StressState& stress = actor.stress;
       if (!stress.breakable) continue;
-      stress.pressing = averaged(world, actor, on_actor);
+      stress.mean_forces = averaged(world, actor, on_actor);
       stress.spin_R = relevant_spin(actor, states[actor.body]);
       // In free fall, only spin causes stress.
-      if (!actor.is_static && stress.pressing.empty() && stress.spin_R.isZero()) continue;
+      if (!actor.is_static && stress.mean_forces.empty() && stress.spin_R.isZero()) continue;
       if (stress.settled && (load_changed(world, actor) || spin_changed(stress))) {
         stress.settled = false;
         stress.since_step = world.clock.step;
@@ -187,15 +187,15 @@ std::vector<std::uint32_t> update_loads(World& world) {
 }
 
 std::vector<std::uint32_t> find_due(World& world) {
-  WorkSpan span(world.ledger.work, Stage::kLoad, "solids due");
+  WorkSpan span(world.conservation.work, Stage::kLoad, "solids due");
   std::vector<std::uint32_t> keys = update_loads(world);
   span.count(keys.size());
   return keys;
 }
 
-StressAnswer find_stress(const World& world, const Breaker& breaker, const Actor& actor,
+StressResult find_stress(const World& world, const Breaker& breaker, const Actor& actor,
                          const Quat& rotation_WB, std::uint64_t most_work) {
-  std::vector<Load> loads;
+  std::vector<AppliedForce> loads;
   LoadCase load = make_load_case(world, actor, rotation_WB, loads);
   load.most_work = most_work;
   return breaker.stress(actor.structure, load);
@@ -204,7 +204,7 @@ StressAnswer find_stress(const World& world, const Breaker& breaker, const Actor
 struct StressTask {
   std::uint32_t key = 0;
   std::uint64_t most_work = 0;
-  StressAnswer answer;
+  StressResult answer;
   double ms = 0;
 };
 
@@ -230,8 +230,8 @@ void find_stresses(const World& world, const Breaker& breaker, std::vector<Stres
 /// Applies the result of a stress solve to its actor.
 void apply(World& world, StressTask& task) {
   Actor& actor = *world.actors.find(task.key);
-  StressAnswer& answer = task.answer;
-  actor.stress.evaluated_forces = actor.stress.pressing;
+  StressResult& answer = task.answer;
+  actor.stress.evaluated_forces = actor.stress.mean_forces;
   actor.stress.evaluated_spin_R = actor.stress.spin_R;
   actor.stress.memory = answer.memory;
   actor.stress.settled = answer.settled;
@@ -242,7 +242,7 @@ void apply(World& world, StressTask& task) {
     return;
   }
   if (!fits_body_limit(world, edit)) {
-    ++world.ledger.report.limits_hit;
+    ++world.conservation.report.limits_hit;
     actor.stress.settled = true;
     return;
   }
@@ -261,8 +261,8 @@ void apply(World& world, StressTask& task) {
   event.pieces = pieces_after(actor.structure, edit);
   const bool only_bends = !edit.hinges.empty() && edit.cut.empty();
   const bool opens_overlap = edit.loose.pieces.empty();
-  event.child_keys = carry_out(world, task.key, edit);
-  if (!only_bends && !opens_overlap) world.ledger.breaks.push_back(std::move(event));
+  event.child_keys = apply_break(world, task.key, edit);
+  if (!only_bends && !opens_overlap) world.conservation.breaks.push_back(std::move(event));
 }
 
 }  // namespace
@@ -298,12 +298,12 @@ void LoadStage::run(World& world, const Breaker& breaker) {
       batch.push_back({keys[next], reserved, {}, 0});
       left -= reserved;
     }
-    WorkSpan span(world.ledger.work, Stage::kLoad, "solids judged");
+    WorkSpan span(world.conservation.work, Stage::kLoad, "solids judged");
     span.count(batch.size());
     find_stresses(world, breaker, batch);
     for (StressTask& task : batch) {
       work_left_ -= static_cast<std::int64_t>(task.answer.work);
-      world.ledger.work.add({Stage::kLoad, "bonds visited", task.answer.work});
+      world.conservation.work.add({Stage::kLoad, "bonds visited", task.answer.work});
       apply(world, task);
     }
   }

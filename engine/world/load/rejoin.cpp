@@ -66,8 +66,8 @@ bool keeps_sides(const Live& joint, std::uint32_t key_a, std::uint32_t key_b,
   return !joint.hinge || (finds(joint.a, joint.hinge->a) && finds(joint.b, joint.hinge->b));
 }
 
-/// Load case of the merged actor: the loads of both, without those on the convexes of the hinges
-/// between the two, which become internal.
+/// AppliedForce case of the merged actor: the loads of both, without those on the convexes of the
+/// hinges between the two, which become internal.
 class MergedLoadCase {
  public:
   MergedLoadCase(const World& world, const Actor& a, const Actor& b, const Rejoined& rejoined,
@@ -87,7 +87,7 @@ class MergedLoadCase {
 
   /// Returns true if the merged actor withstands its loads.
   bool withstands(const Breaker& breaker, std::uint64_t& work) const {
-    const StressAnswer answer = breaker.stress(structure_, load_);
+    const StressResult answer = breaker.stress(structure_, load_);
     work += answer.work;
     return answer.settled && !answer.edit.changed && answer.edit.cut.empty();
   }
@@ -114,7 +114,7 @@ class MergedLoadCase {
         }
       }
     }
-    for (const ConvexForce& force : actor.stress.pressing) {
+    for (const AppliedForce& force : actor.stress.mean_forces) {
       if (std::ranges::find(between, force.convex) != between.end()) continue;
       const Vec3 at = X_AR * actor.structure.convex(force.convex)->solid.centroid;
       ConvexSlot slot = merged_slot_of(actor, force.convex);
@@ -126,7 +126,7 @@ class MergedLoadCase {
   const Rejoined& rejoined_;
   const Actor &a_, &b_;
   Structure structure_;
-  std::vector<Load> loads_;
+  std::vector<AppliedForce> loads_;
   LoadCase load_;
 };
 

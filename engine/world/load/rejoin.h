@@ -11,7 +11,7 @@ namespace sunder {
 /// Merges two actors that hinges hold, if none of the hinges has yielded for a while and the merged
 /// actor withstands the loads of both. One pair a step: the one at rest for longest. A hardened
 /// section may bear more as a joint, and then stays one. Returns the work in bond evaluations, as
-/// StressAnswer does. A merged body under changing loads may part again at once at the same place:
+/// StressResult does. A merged body under changing loads may part again at once at the same place:
 /// each time the delay doubles.
 std::uint64_t rejoin(World& world, const Breaker& breaker);
 

@@ -13,13 +13,13 @@ constexpr std::size_t kBodiesInChunk = 64, kDebrisInChunk = 4096;
 
 /// Returns the emission of a face at its position at the start of the frame, with its current
 /// motion. If the actor with the face is gone, the face moves as the broken solid did.
-Emission emission_of(const World& world, const BodyStates& states, const Exposed::Parent& parent,
-                     const Exposed::Face& face, std::span<const Vec3> corners_R,
-                     std::vector<Vec3>& corners_W) {
+ExposedPolygon emission_of(const World& world, const BodyStates& states,
+                           const Exposed::Parent& parent, const Exposed::Face& face,
+                           std::span<const Vec3> corners_R, std::vector<Vec3>& corners_W) {
   Pose X_WR = parent.motion.X_WR;
-  Emission emission;
+  ExposedPolygon emission;
   emission.motion = parent.motion.field;
-  emission.parting_m_s = 0;
+  emission.opening_speed_m_s = 0;
   emission.material = face.material;
   emission.crumbling = world.material(face.material).crumbling;
   double back_s = parent.since_frame_start_s;
@@ -29,7 +29,7 @@ Emission emission_of(const World& world, const BodyStates& states, const Exposed
     X_WR = now.X_WR;
     emission.motion = now.field;
     const Vec3 velocity_W = emission.motion(X_WR * corners_R[0]);
-    emission.parting_m_s = (velocity_W - parent.motion.field(was_W)).norm();
+    emission.opening_speed_m_s = (velocity_W - parent.motion.field(was_W)).norm();
     back_s = world.clock.frame_s();
   }
   // Rotation is undone too, as the corners of a spinning face must stay together.
@@ -45,7 +45,7 @@ Emission emission_of(const World& world, const BodyStates& states, const Exposed
 
 void emit(const World& world, const Exposed& exposed, Particles& particles) {
   const BodyStates states = world.physics->states();
-  std::vector<Emission> emissions;
+  std::vector<ExposedPolygon> emissions;
   std::vector<Vec3> corners_W;
   corners_W.reserve(exposed.corners_R.size());  // spans into it must stay valid
   std::size_t begin = 0;

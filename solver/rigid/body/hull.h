@@ -65,8 +65,8 @@ class Hull {
   float reach_m() const { return reach_; }
   /// Radius of a ball about the centre that lies within the hull.
   float core_radius_m() const { return core_radius_; }
-  /// Distance from the centre to the nearest face, at least kLeastInner of the reach: the unit of
-  /// tolerances.
+  /// Distance from the centre to the nearest face, at least kMinInnerRadius of the reach: the unit
+  /// of tolerances.
   float inner_radius_m() const { return inner_radius_; }
 
   static Vec3f lane(const Wide3& v, std::uint32_t i) { return {v.x[i], v.y[i], v.z[i]}; }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/rotation.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -42,7 +42,7 @@ Spin rotated_freely(const Bodies& bodies, BodySlot body, double dt_s) {
   Spin spin{bodies.rotation[body],
             bodies.rotation[body].conjugate() * bodies.angular_velocity[body]};
   const double angle = spin.w_B.norm() * dt_s;
-  const int parts = std::max(1, static_cast<int>(std::ceil(angle / kLargestAngle)));
+  const int parts = std::max(1, static_cast<int>(std::ceil(angle / kMaxMidpointAngle)));
   const Mat3& inertia_B = bodies.inertia_B[body];
   const Mat3 inverse_B = inertia_B.inverse();
   for (int i = 0; i < parts; ++i)

@@ -1,7 +1,7 @@
 #include "solver/rigid/body/spins.h"
 
 #include "engine/base/rotation.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {

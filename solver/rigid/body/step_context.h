@@ -5,7 +5,7 @@
 
 #include "engine/base/froude.h"
 #include "engine/base/types.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 
@@ -23,7 +23,7 @@ struct StepContext {
         gravity_dv_W((h_s * gravity).cast<float>()),
         fall_m_s(gravity.norm() * dt),
         fall_m(static_cast<float>(fall_m_s * dt)),
-        still_m_s(froude.still_m_s(dt)) {
+        rest_speed_m_s(froude.rest_speed_m_s(dt)) {
     const double scale = last_h_s > 0 ? h_s / last_h_s : 1;
     impulse_scale = static_cast<float>(scale);
     kept_scale = static_cast<float>(1 / scale);
@@ -31,7 +31,7 @@ struct StepContext {
 
   /// Time that a body must have been at rest to fall asleep, s.
   double rest_s(double reach_m) const {
-    return std::max(kRestTime * froude.time_s(reach_m), kRestSteps * dt_s);
+    return std::max(kMinRestTime * froude.time_s(reach_m), kMinRestSteps * dt_s);
   }
 
   Vec3 gravity_W;
@@ -43,7 +43,7 @@ struct StepContext {
   Vec3f gravity_dv_W;       ///< Change of velocity by gravity in a substep.
   double fall_m_s;          ///< Change of speed by gravity in the step.
   float fall_m;             ///< Distance that gravity moves a body at rest in one step, g·dt².
-  double still_m_s;         ///< Closing speed below which a contact is at rest.
+  double rest_speed_m_s;    ///< Closing speed below which a contact is at rest.
   float impulse_scale = 1;  ///< Factor from stored impulses to those of a substep.
   float kept_scale = 1;     ///< Factor from impulses of a substep to stored ones.
 };

@@ -6,7 +6,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -27,7 +27,7 @@ FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
       least = min(least, along);
       most = max(most, along);
     }
-    low[axis] = least_of(least), high[axis] = most_of(most);
+    low[axis] = min_lane(least), high[axis] = max_lane(most);
   }
   return {low, high};
 }
@@ -218,7 +218,7 @@ std::vector<PairSlot> BroadPhase::pairs_with(std::span<const ShapeSlot> of, cons
 void BroadPhase::drop_pairs(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes,
                             const Bodies& bodies, std::vector<FoundPair>& found,
                             std::size_t first) {
-  const std::uint64_t share = ~std::uint64_t{0} / neighbours * kCrowd;
+  const std::uint64_t share = ~std::uint64_t{0} / neighbours * kMaxNeighbours;
   const auto middle = [&](const Shape& s) {
     return Vec3(bodies.position[s.body] + (bodies.rotation_f[s.body] * s.center).cast<double>());
   };
@@ -263,7 +263,7 @@ void BroadPhase::find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies&
     if (overlaps(pair, fat_)) consider(plane.shape);
   }
   has_skipped_[shape] = 0;
-  if (neighbours > kCrowd) drop_pairs(shape, neighbours, shapes, bodies, found, first);
+  if (neighbours > kMaxNeighbours) drop_pairs(shape, neighbours, shapes, bodies, found, first);
   order();
 }
 

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "solver/rigid/collide/approach.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/collide/speculative_contacts.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
 /// Minimum speed of any impact.
-double slow_m_s(const StepContext& step) { return kLeastImpactSpeed * step.fall_m_s; }
+double slow_m_s(const StepContext& step) { return kMinImpactSpeed * step.fall_m_s; }
 
 constexpr std::size_t kBodies = 1024, kManifolds = 512;  // number in a chunk
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -121,7 +121,8 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
     return;
   }
   const std::span<const ManifoldPoint> before = std::span(old).first(old_count);
-  if (kKeeps && points.size() == 1 && m.reusable) keep_points(before, motion, normal_A, reach_m, m);
+  if (kKeepsPoints && points.size() == 1 && m.reusable)
+    keep_points(before, motion, normal_A, reach_m, m);
   place_points(R_WA, R_WB, m);
   m.drift_W.setZero();
   m.sticking = true;
@@ -129,10 +130,10 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
 }
 
 bool barely_moved(const Manifold& m, const Bodies& bodies, const PairMotion& motion) {
-  const float limit = kReuse * m.size_m;
+  const float limit = kMaxReuseMotion * m.size_m;
   if ((motion.pose.p - m.built_position).squaredNorm() > limit * limit) return false;
   const Quatf rotation = m.built_rotation.conjugate() * relative_rotation(m, bodies);
-  const float half_angle = kReuse / 6;
+  const float half_angle = kMaxReuseMotion / 6;
   return rotation.vec().squaredNorm() < half_angle * half_angle;
 }
 

@@ -7,7 +7,7 @@
 
 #include "solver/base/prefetch.h"
 #include "solver/rigid/collide/facet.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -113,7 +113,7 @@ void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const 
   };
   if (b.kind == Kind::kHull) {
     for (std::uint32_t v = 0; v < b.hull.vertex_count(); ++v) add(b.hull.vertex(v), v);
-    reduce_patch(a.normal, kLayer * m.size_m + reach.spin_m, points);
+    reduce_patch(a.normal, kDepthTolerance * m.size_m + reach.spin_m, points);
   } else {
     add(b.center - b.radius_m * normal_B, 0);
   }
@@ -127,7 +127,7 @@ Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& b
     const auto spin = static_cast<float>(bodies.angular_velocity[body].norm());
     return std::min(1.f, spin * dt) * reach_m;
   };
-  return {kMargin * size_m + step.fall_m,
+  return {kContactMargin * size_m + step.fall_m,
           spin_reach(pair.body_a, a.reach_m) + spin_reach(pair.body_b, b.reach_m),
           dt * motion.velocity_W.norm()};
 }
@@ -178,8 +178,8 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   float time = 0;
   const bool may_touch = axis.separation_m <= axis_reach.along(axis.normal_A);
   // The normal of balls depends on where they touch.
-  const float casting_motion = b.kind == Kind::kSphere ? kBallCastingMotion : kFar;
-  const bool fast = kLooksAhead && may_touch && reach.displacement_m > casting_motion * m.size_m;
+  const float casting_motion = b.kind == Kind::kSphere ? kBallCastingMotion : kCastingMotion;
+  const bool fast = kCastsPairs && may_touch && reach.displacement_m > casting_motion * m.size_m;
   const std::optional<SeparatingAxis> passing =
       fast ? probe.passing(pose, axis, dt * velocity_A) : std::nullopt;
   if (passing) {
@@ -206,7 +206,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   const float limit = axis_reach.along(axis.normal_A);
   scratch.points.clear();
   if (time >= 0 && axis.separation_m <= limit) {
-    probe.points(pose, axis, limit, kLayer * m.size_m + reach.spin_m);
+    probe.points(pose, axis, limit, kDepthTolerance * m.size_m + reach.spin_m);
     if (by_front) keep_on_front(a, m.size_m, time > 0, scratch.points);
   }
   pair.clearance_m = time == 0 && scratch.points.empty() ? axis.separation_m : -1;
@@ -230,10 +230,10 @@ bool still_separated(const Shape& a, const Shape& b, const PairMotion& motion,
 }
 
 /// True if the pair is new, hardly moves and touches only at an edge, as most neighbours in a grid
-/// do: it gets no contact until it has moved by kSliver.
+/// do: it gets no contact until it has moved by kEdgeOverlap.
 bool edges_at_rest(const Shape& a, const Shape& b, const PairMotion& motion, const Reach& reach,
                    float size_m, Pair& pair, NarrowScratch& scratch) {
-  const float sliver_m = kSliver * size_m;
+  const float sliver_m = kEdgeOverlap * size_m;
   if (a.kind != Kind::kHull || b.kind != Kind::kHull ||
       reach.spin_m + reach.displacement_m > sliver_m)
     return false;
@@ -254,7 +254,7 @@ bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, con
   const Vec3f offset_W = (bodies.position[b] - bodies.position[a]).cast<float>();
   const auto turned_m = static_cast<float>(bodies.turned_m[a] + bodies.turned_m[b] - pair.turned_m);
   const float moved_m = (offset_W - pair.offset_W).norm() + turned_m;
-  if (m) return moved_m < kStill * m->size_m;
+  if (m) return moved_m < kStillMotion * m->size_m;
   const Vec3f displacement_W = reach[b].displacement_W - reach[a].displacement_W;
   const float closing_m =
       pair.axis_A.isZero(0)

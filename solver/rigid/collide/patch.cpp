@@ -16,7 +16,7 @@ std::uint32_t incident_face(const Hull& hull, const Vec3f& direction) {
   };
   Wide least = splat(1e30f);
   for (const Hull::PlaneChunk& planes : hull.planes()) least = min(least, along(planes));
-  const Wide best = splat(least_of(least));
+  const Wide best = splat(min_lane(least));
   for (std::uint32_t c = 0; c < hull.planes().size(); ++c)
     if (const std::uint32_t set = bits(along(hull.planes()[c]) == best))
       return c * kLanes + static_cast<std::uint32_t>(__builtin_ctz(set));

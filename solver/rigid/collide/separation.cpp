@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "solver/base/lanes.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -36,7 +36,7 @@ Deepest deepest(const Vec3f& direction, const std::vector<Wide3>& vertices) {
     at = {deeper ? v.x : at.x, deeper ? v.y : at.y, deeper ? v.z : at.z};
     least = min(least, along);
   }
-  const float along_m = least_of(least);
+  const float along_m = min_lane(least);
   const std::uint32_t set = bits(least == splat(along_m));  // empty if it is not a number
   const auto lane = static_cast<std::uint32_t>(set != 0 ? __builtin_ctz(set) : 0);
   return {Hull::lane(at, lane), along_m};
@@ -84,7 +84,7 @@ FaceAnswer best_face(const Hull& hull, const Vec3f& within, const std::vector<Wi
     at_most[c] = ahead_of(planes[c], splat3(within));
     most = max(most, at_most[c]);
   }
-  const std::uint32_t first = first_of(most_of(most), at_most);
+  const std::uint32_t first = first_of(max_lane(most), at_most);
   for (std::uint32_t f = hull.face_count(); f < planes.size() * kLanes; ++f)
     at_most[f / kLanes][f % kLanes] = kTried;
   try_face(first);
@@ -266,7 +266,7 @@ bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, 
         const auto k = static_cast<std::uint32_t>(__builtin_ctz(set));
         const Vec3f normal_A = to_A * Hull::lane(hull.planes()[c].normal, k);
         if (first.isZero(0)) first = normal_A;
-        if (first.dot(normal_A) < kApart) return true;
+        if (first.dot(normal_A) < kMaxEdgeCosine) return true;
       }
     }
     return false;
@@ -314,7 +314,7 @@ float separation_along(const Vec3f& axis_A, const Hull& a, const Hull& b,
   Wide most = splat(-1e30f), least = splat(1e30f);
   for (const Wide3& vertices : a.vertices()) most = max(most, dot(axis_a, vertices));
   for (const Wide3& vertices : b.vertices()) least = min(least, dot(axis_b, vertices));
-  return least_of(least) + axis_A.dot(pose.p) - most_of(most);
+  return min_lane(least) + axis_A.dot(pose.p) - max_lane(most);
 }
 
 }  // namespace sunder::solver

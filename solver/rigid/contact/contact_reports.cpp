@@ -27,12 +27,12 @@ std::vector<Keyed> by_key(const Contacts& contacts, const Fits& fits) {
 
 }  // namespace
 
-std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodies& bodies,
-                                            const Shapes& shapes) {
+std::vector<ContactImpulse> find_contact_impulses(const Contacts& contacts, const Bodies& bodies,
+                                                  const Shapes& shapes) {
   const auto is_reported = [&](const Manifold& m) {
     return bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b];
   };
-  std::vector<ContactLoad> loads;
+  std::vector<ContactImpulse> loads;
   for (const auto& [key, manifold] : by_key(contacts, is_reported)) {
     const Manifold& m = *manifold;
     const Pair& pair = contacts.pairs[m.pair];
@@ -49,9 +49,10 @@ std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodi
   return loads;
 }
 
-std::vector<PressPoint> find_presses(const Contacts& contacts, const Bodies& bodies, double h_s) {
-  std::vector<PressPoint> presses;
-  if (!(h_s > 0)) return presses;
+std::vector<ContactForce> find_contact_forces(const Contacts& contacts, const Bodies& bodies,
+                                              double h_s) {
+  std::vector<ContactForce> contact_forces;
+  if (!(h_s > 0)) return contact_forces;
   const auto is_pressed = [](const Manifold& m) { return m.normal_impulse() > 0; };
   for (const auto& [key, manifold] : by_key(contacts, is_pressed)) {
     const Manifold& m = *manifold;
@@ -61,11 +62,11 @@ std::vector<PressPoint> find_presses(const Contacts& contacts, const Bodies& bod
       const ManifoldPoint& p = m.points[i];
       if (!(p.impulse_Ns > 0)) continue;
       const Vec3 arm_W = bodies.rotation[m.body_a] * p.anchor_A.cast<double>();
-      presses.push_back({bodies.tag[m.body_a], bodies.tag[m.body_b],
-                         bodies.position[m.body_a] + arm_W, double{p.impulse_Ns} * force_W});
+      contact_forces.push_back({bodies.tag[m.body_a], bodies.tag[m.body_b],
+                                bodies.position[m.body_a] + arm_W, double{p.impulse_Ns} * force_W});
     }
   }
-  return presses;
+  return contact_forces;
 }
 
 std::vector<float> find_penetrations(const Contacts& contacts) {

@@ -7,7 +7,7 @@
 #include "engine/base/nncg.h"
 #include "solver/rigid/body/motion.h"
 #include "solver/rigid/body/row_exchange.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -85,7 +85,7 @@ class ContactSolver::Stages {
 
   /// Restitution comes before the sweeps, which remove all closing speed.
   void plan_restitution() {
-    if (!kStrikes || !solver_.order_.bouncy() || !solver_.moving_) return;
+    if (!kAppliesRestitution || !solver_.order_.bouncy() || !solver_.moving_) return;
     for (int round = 0; round < kRestitutionRounds; ++round) {
       once(round == 0 ? &Stages::first_restitution : &Stages::begin_restitution);
       each_color(&Stages::apply_restitution);

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/base/disjoint_sets.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -27,7 +27,7 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
                           std::span<const BodySlot> driven, const Bodies& bodies,
                           const Contacts& contacts) {
   const double slow_m_s = kGuardedSpeed * step.fall_m_s;
-  is_active_ = kGuards && std::ranges::any_of(active, [&](BodySlot body) {
+  is_active_ = kGuardsEnergy && std::ranges::any_of(active, [&](BodySlot body) {
                  return bodies.fastest_m_s(body) > slow_m_s;
                });
   if (!is_active_) return;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -21,7 +21,7 @@ std::vector<Support> find_supports(const Vec3& up, std::span<const ManifoldSlot>
   for (const ManifoldSlot i : manifolds) {
     const Manifold& m = contacts.manifolds[i];
     const float slope = m.normal_W.dot(up.cast<float>());
-    if (std::abs(slope) < kLeastSlope) continue;
+    if (std::abs(slope) < kMinSupportCosine) continue;
     const BodySlot body = slope > 0 ? m.body_b : m.body_a;
     const BodySlot below = slope > 0 ? m.body_a : m.body_b;
     if (bodies.awake(body)) supports.push_back({up.dot(bodies.position[body]), body, below, i});

@@ -7,7 +7,7 @@
 
 #include "solver/base/lanes.h"
 #include "solver/rigid/collide/impacts.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -158,7 +158,7 @@ template <std::uint32_t lanes>
 float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
                      const Manifold& m) {
   const float compliance_s = step.soft.of(m.count).normal.compliance_s,
-              most_m = kMostGive * m.size_m;
+              most_m = kStiffeningDepth * m.size_m;
   float compression_m = 0;
   for (std::uint32_t i = 0; i < c.points; ++i) {
     const float mass = c.point[i].mass[lane], rest_m = std::abs(m.points[i].rest_m);
@@ -167,10 +167,11 @@ float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, s
           std::max(compression_m, compliance_s * c.point[i].impulse[lane] / mass - rest_m);
   }
   const bool a_is_lighter = step.bodies.inverse_mass[m.body_a] > step.bodies.inverse_mass[m.body_b];
-  const bool pinched = step.loaded_contacts[a_is_lighter ? m.body_a : m.body_b] >= kPinched;
-  const float least = compression_m > most_m ? std::max(pinched ? kLeastCompliance : kLeastProp,
-                                                        most_m / compression_m)
-                                             : 1;
+  const bool pinched = step.loaded_contacts[a_is_lighter ? m.body_a : m.body_b] >= kPinchedContacts;
+  const float least =
+      compression_m > most_m
+          ? std::max(pinched ? kMinPinchedCompliance : kMinCompliance, most_m / compression_m)
+          : 1;
   return std::clamp(least, kComplianceStep * m.compliance_scale,
                     std::min(1.f, m.compliance_scale / kComplianceStep));
 }

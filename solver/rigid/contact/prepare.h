@@ -26,7 +26,7 @@ struct ContactStep {
   SoftStep soft;
   float rebound_m_s;  ///< Closing speed below which a contact does not rebound.
   SpanByBody<const std::uint32_t> deep_contacts = {};  ///< By body; empty: there are none.
-  /// Number of loaded manifolds by body, at most kPinched.
+  /// Number of loaded manifolds by body, at most kPinchedContacts.
   SpanByBody<const std::uint8_t> loaded_contacts = {};
   /// Rows of moving kinematic bodies, below 0; 0 for other bodies. Empty: there are none.
   SpanByBody<const std::int32_t> kinematic_rows = {};

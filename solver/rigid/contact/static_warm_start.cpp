@@ -11,7 +11,7 @@
 #include "solver/rigid/contact/kernels/sweep.h"
 #include "solver/rigid/contact/load_path.h"
 #include "solver/rigid/contact/prepare.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -156,7 +156,7 @@ void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies
   std::uint32_t start[kSweepKeys + 1] = {};
   std::vector<std::pair<std::uint32_t, ManifoldSlot>> resting;  // key, manifold
   resting.reserve(contacts.cold.size());
-  const double slow_m_s = kSlowFalls * step.fall_m_s;
+  const double slow_m_s = kRestingSpeed * step.fall_m_s;
   for (const ManifoldSlot i : std::exchange(contacts.cold, {})) {
     Manifold& m = contacts.manifolds[i];
     if (!m.cold) continue;  // removed, or listed twice
@@ -313,7 +313,7 @@ std::size_t StaticWarmStart::find_supported(double gravity_dv_m_s, const Bodies&
     const Vec3f velocity = linear(v), spin = angular(v);  // of unit inertia
     const double energy =
         double{velocity.squaredNorm()} + double{bodies.inverse_mass[body] * spin.squaredNorm()};
-    loads_[body].supported = energy <= kMostLeft * gravity_dv_m_s * gravity_dv_m_s;
+    loads_[body].supported = energy <= kMaxResidualEnergy * gravity_dv_m_s * gravity_dv_m_s;
     supported += loads_[body].supported;
   }
   return supported;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 
@@ -32,7 +32,8 @@ void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Co
     in_contact_[m.body_a] = in_contact_[m.body_b] = 1;
     if (m.normal_impulse() > 0)
       for (const BodySlot body : {m.body_a, m.body_b})
-        loaded_contacts_[body] = std::min<std::uint8_t>(loaded_contacts_[body] + 1, kPinched);
+        loaded_contacts_[body] =
+            std::min<std::uint8_t>(loaded_contacts_[body] + 1, kPinchedContacts);
     points_ += m.count;
     bouncy_ = bouncy_ || m.restitution > 0;
     if (!m.deep) continue;

@@ -39,7 +39,7 @@ class SweepOrder {
   /// True if a manifold has restitution.
   bool bouncy() const { return bouncy_; }
   SpanByBody<std::uint8_t> in_contact() { return in_contact_; }
-  /// Number of loaded manifolds by body, at most kPinched.
+  /// Number of loaded manifolds by body, at most kPinchedContacts.
   SpanByBody<const std::uint8_t> loaded_contacts() const { return loaded_contacts_; }
   /// Number of deep contacts by body; empty if there are none.
   SpanByBody<const std::uint32_t> deep_contacts() const { return deep_contacts_; }

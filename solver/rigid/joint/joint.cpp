@@ -182,8 +182,8 @@ std::vector<JointId> Joints::take_broken() {
   return std::exchange(broken_, {});
 }
 
-std::vector<JointLoad> Joints::loads(const Bodies& bodies) const {
-  std::vector<JointLoad> loads;
+std::vector<JointImpulse> Joints::loads(const Bodies& bodies) const {
+  std::vector<JointImpulse> loads;
   const auto add = [&](BodySlot body, const Vec3& anchor_R, const JointImpulse& impulse) {
     if (body.none() || !bodies.reports_load[body]) return;
     const Vec3 arm = bodies.rotation[body] * (anchor_R - bodies.com_R[body]);
@@ -198,8 +198,8 @@ std::vector<JointLoad> Joints::loads(const Bodies& bodies) const {
   return loads;
 }
 
-std::vector<JointFlow> Joints::flows() const {
-  std::vector<JointFlow> flows;
+std::vector<PlasticFlow> Joints::flows() const {
+  std::vector<PlasticFlow> flows;
   for (std::uint32_t i = 0; i < size(); ++i) {
     if (!items_[i].holds() || !(items_[i].flow.work_J > 0)) continue;
     flows.push_back(items_[i].flow);

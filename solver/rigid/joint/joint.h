@@ -42,7 +42,7 @@ struct Joint {
   bool lost = false;                  ///< The body of an end was removed: the joint has no effect.
   std::array<double, kMostJointRows> impulse = {};  ///< By row, of the last substep.
   JointImpulse total = {};  ///< Over the last step in which the joint was solved.
-  JointFlow flow = {};      ///< Plastic flow in the last solve.
+  PlasticFlow flow = {};    ///< Plastic flow in the last solve.
   PlasticState plastic = {};
 
   bool holds() const { return present && !lost; }
@@ -69,10 +69,10 @@ class Joints {
   /// Removes a joint that broke, and adds it to take_broken().
   void break_off(std::uint32_t joint, Bodies& bodies);
   std::vector<JointId> take_broken();
-  /// See Physics::joint_loads().
-  std::vector<JointLoad> loads(const Bodies& bodies) const;
-  /// See Physics::joint_flows().
-  std::vector<JointFlow> flows() const;
+  /// See Physics::joint_impulses().
+  std::vector<JointImpulse> loads(const Bodies& bodies) const;
+  /// See Physics::plastic_flows().
+  std::vector<PlasticFlow> flows() const;
   /// Clears the flow of all joints.
   void clear_flows();
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "solver/rigid/joint/plastic.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -124,7 +124,7 @@ double bias(const JointWork& work, int i, const StepContext& step, bool biased) 
   if (!biased || i >= work.held_rows) return 0;
   const double ahead = 0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].error_acceleration;
   if (i > 0 && work.plastic.softness > 0) return ahead;  // the flow is no error
-  const double push_m_s = kMaxJointPush * step.froude.speed_m_s(work.reach_m);
+  const double push_m_s = kMaxJointPushSpeed * step.froude.speed_m_s(work.reach_m);
   const double most = i < work.place_rows ? push_m_s : push_m_s / work.reach_m;
   return std::clamp(kJointCorrection / step.h_s * error, -most, most) + ahead;
 }

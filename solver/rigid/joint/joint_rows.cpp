@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/rotation.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -81,8 +81,8 @@ void damp(JointWork& w, double h_s, double pull_Ns, const Vec3& arm_a, const Vec
   double arm_m = 0;
   const double stiffness = tension_stiffness(w, h_s, pull_Ns, arm_a, arm_b, arm_m);
   if (stiffness <= 1 || is_held(w.kind)) return;
-  const double damping =
-      0.5 * h_s * pull_Ns * arm_m * (1 - 1 / stiffness) * std::max(1.0, stiffness / kStiffest);
+  const double damping = 0.5 * h_s * pull_Ns * arm_m * (1 - 1 / stiffness) *
+                         std::max(1.0, stiffness / kMaxTensionStiffness);
   if (w.kind == JointDesc::Kind::kHinge) {
     angular_row(w, axis, 0, 0, 1 / damping);
   } else {

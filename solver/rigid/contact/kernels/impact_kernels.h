@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "solver/rigid/contact/kernels/strike_kernels.h"
+#include "solver/rigid/contact/kernels/restitution_kernels.h"
 #include "solver/rigid/contact/kernels/work_kernels.h"
 
 namespace sunder::solver {

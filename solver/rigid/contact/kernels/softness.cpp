@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "solver/rigid/body/step_context.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -21,10 +21,10 @@ Softness softness(double stiffness, double h) {
 
 SoftStep soft_step(const StepContext& step) {
   SoftStep soft;
-  soft.edge = {softness(kStiffness, step.h_s), softness(kStiffness, step.h_s)};
-  soft.face = {softness(kFaceStiffness, step.h_s), softness(0.5 * kStiffness, step.h_s)};
+  soft.edge = {softness(kPointStiffness, step.h_s), softness(kPointStiffness, step.h_s)};
+  soft.face = {softness(kFaceStiffness, step.h_s), softness(0.5 * kPointStiffness, step.h_s)};
   soft.inverse_h = step.inverse_h;
-  soft.push = static_cast<float>(kPush * step.froude.speed_m_s(1));
+  soft.push = static_cast<float>(kMaxPushSpeed * step.froude.speed_m_s(1));
   return soft;
 }
 
