@@ -100,8 +100,8 @@ void Ten_blows(benchmark::State& state) {
   for (auto _ : state) {
     LoadCase one = load;
     for (const ImpulsiveLoad& blow : blows) {
-      one.blow = blow;
-      worst = break_by_stress(structure, one).blow.worst;
+      one.impulsive_stress = blow;
+      worst = break_by_stress(structure, one).impulsive_stress.worst;
     }
   }
   state.counters["worst"] = worst;

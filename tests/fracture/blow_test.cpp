@@ -37,7 +37,8 @@ StressResult struck(const Compound& compound, double kg, double m_s, double reac
   load.materials = materials;
   load.most_work = most_work;
   load.memory = memory;
-  load.blow = {std::span(&impulse, 1), 0.5 * kg * m_s * m_s, at_R, reach_m, std::uint64_t{1} << 40};
+  load.impulsive_load = {std::span(&impulse, 1), 0.5 * kg * m_s * m_s, at_R, reach_m,
+                         std::uint64_t{1} << 40};
   return break_by_stress(Structure(compound), load);
 }
 
@@ -54,7 +55,7 @@ TEST(ImpulsiveLoad, ACantileverStruckAtItsTipSnapsAtItsRootWhateverStrikesIt) {
       const double m_s = breaking_m_s(kg);
       const StressResult holds = struck(compound, kg, 0.95 * m_s);
       EXPECT_TRUE(holds.edit.cut.empty());
-      EXPECT_NEAR(holds.blow.worst, 0.95, 0.02) << across << " across, " << kg << " kg";
+      EXPECT_NEAR(holds.impulsive_stress.worst, 0.95, 0.02) << across << " across, " << kg << " kg";
       const StressResult breaks = struck(compound, kg, 1.05 * m_s);
       EXPECT_TRUE(breaks.edit.changed);
       EXPECT_NEAR(breaks.edit.loose.new_area_m2, kWide * kWide, 1e-9);
@@ -80,7 +81,8 @@ TEST(ImpulsiveLoad, IsDecidedInSeveralAnswersAsInOne) {
     }
     EXPECT_GE(answers, 2);
     EXPECT_LT(answers, 20);
-    EXPECT_NEAR(answer.blow.worst, once.blow.worst, 0.02 * once.blow.worst);
+    EXPECT_NEAR(answer.impulsive_stress.worst, once.impulsive_stress.worst,
+                0.02 * once.impulsive_stress.worst);
     EXPECT_EQ(answer.edit.cut.empty(), once.edit.cut.empty());
   }
 }
@@ -93,7 +95,7 @@ TEST(ImpulsiveLoad, IsGivenUpAfterItsWork) {
   LoadCase load;
   load.materials = materials;
   load.most_work = once.work / 20;
-  load.blow = {std::span(&impulse, 1), 1, kTip, 0, once.work / 2};
+  load.impulsive_load = {std::span(&impulse, 1), 1, kTip, 0, once.work / 2};
   int answers = 0;
   for (StressResult answer; (answer = break_by_stress(Structure(compound), load)).undecided;) {
     load.memory = answer.memory;
@@ -138,8 +140,8 @@ TEST(ImpulsiveLoad, OnASlabCrushesTheColumnThatBearsMost) {
     load.materials = materials;
     load.loads = std::span(&steady, 1);
     load.most_work = std::uint64_t{1} << 40;
-    load.blow = {std::span(&impulse, 1), 0.5 * kg * m_s * m_s, impulse.point_R, 0};
-    const ImpulsiveStress blow = break_by_stress(Structure(compound), load).blow;
+    load.impulsive_load = {std::span(&impulse, 1), 0.5 * kg * m_s * m_s, impulse.point_R, 0};
+    const ImpulsiveStress blow = break_by_stress(Structure(compound), load).impulsive_stress;
     EXPECT_NEAR(blow.worst_R.x(), loaded + kWide / 2, kWide / 2) << blow.worst;
     EXPECT_LE(blow.worst_R.y(), kHigh + 1e-9);
   }
@@ -149,13 +151,13 @@ TEST(ImpulsiveLoad, StaysWhereItLandsTheMoreTheLighterWhatStrikes) {
   const Compound compound = bar(kLong, kWide, 40, 4);
   for (const double kg : {1.0, 100.0, 1e4}) {
     const StressResult answer = struck(compound, kg, 1e-3);
-    EXPECT_NEAR(answer.blow.local, kSwings_kg / (kSwings_kg + kg), 0.01) << kg;
+    EXPECT_NEAR(answer.impulsive_stress.local, kSwings_kg / (kSwings_kg + kg), 0.01) << kg;
     // What is bent within half a metre of the tip: (l / L)³ of what a cantilever holds, but for
     // where the blow presses.
-    const double near = struck(compound, kg, 1e-3, 0.5).blow.local;
-    EXPECT_GE(near, answer.blow.local);
-    EXPECT_NEAR(near, answer.blow.local, 0.02);
-    EXPECT_NEAR(struck(compound, kg, 1e-3, 100).blow.local, 1, 1e-3);
+    const double near = struck(compound, kg, 1e-3, 0.5).impulsive_stress.local;
+    EXPECT_GE(near, answer.impulsive_stress.local);
+    EXPECT_NEAR(near, answer.impulsive_stress.local, 0.02);
+    EXPECT_NEAR(struck(compound, kg, 1e-3, 100).impulsive_stress.local, 1, 1e-3);
   }
 }
 
@@ -166,7 +168,7 @@ TEST(ImpulsiveLoad, OnWhatFliesBendsItAgainstItsInertiaAlone) {
   const Compound rod = make_compound(std::move(parts));
   const Vec3 middle(kLong / 2 + 0.01, kWide, kWide / 2);
   const StressResult answer = struck(rod, 1e6, 0.01, 0, middle);
-  EXPECT_NEAR(answer.blow.worst_R.x(), kLong / 2, 0.11);
+  EXPECT_NEAR(answer.impulsive_stress.worst_R.x(), kLong / 2, 0.11);
   EXPECT_TRUE(struck(rod, 1e6, 0, 0, middle).edit.cut.empty()) << "no blow";
 }
 
@@ -186,7 +188,7 @@ TEST(ImpulsiveLoad, IsTheSameToTheLastBitForAnyNumberOfThreads) {
   std::vector<ImpulsiveStress> blows;
   for (const int count : {1, 2, 5}) {
     set_threads(count);
-    blows.push_back(struck(compound, 40, 3).blow);
+    blows.push_back(struck(compound, 40, 3).impulsive_stress);
   }
   set_threads(0);
   for (const ImpulsiveStress& blow : blows) {

@@ -155,7 +155,7 @@ TEST(Ghosts, are_bounded_however_many_parts_share_a_place) {
   const Compound heap = compound_of(boxes);
   const double expected = union_volume(boxes);
   EXPECT_NEAR(volume(heap), expected, 1e-4 * expected);  // slivers thinner than 1e-6 m are lost
-  for (const Ghost& ghost : heap.ghosts) EXPECT_LE(ghost.of.size(), kDeepestGhost);
+  for (const Ghost& ghost : heap.ghosts) EXPECT_LE(ghost.of.size(), kMaxConvexesPerGhost);
   EXPECT_LT(heap.ghosts.size(), 20000u);
   std::vector<Box> same(100, Box{Vec3(0, 0, 0), Vec3(1, 1, 1)});
   EXPECT_NEAR(volume(compound_of(same)), 1, 1e-12);

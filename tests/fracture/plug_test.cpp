@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/random.h"
-#include "fracture/pattern/detail.h"
+#include "fracture/pattern/cell_limit.h"
 #include "fracture/pattern_breaker.h"
 #include "tests/fracture/solids.h"
 
@@ -180,7 +180,7 @@ TEST(Detail, is_what_a_tenth_of_the_energy_pays_for) {
     PatternSpec pattern;
     pattern.kind = PatternSpec::Kind::kVoronoi;
     pattern.cells = 512;
-    reduce_to_energy(material, hit, radius_m, 0, pattern);
+    limit_cells_by_energy(material, hit, radius_m, 0, pattern);
     EXPECT_GE(pattern.cells, before);
     before = pattern.cells;
     const double sphere_m3 = 4.0 / 3 * std::numbers::pi;
@@ -204,12 +204,12 @@ TEST(Detail, of_a_web_goes_down_to_three_spokes_and_a_ring) {
   PatternSpec pattern;
   pattern.kind = PatternSpec::Kind::kWeb;
   pattern.rings = 7, pattern.spokes = 14;
-  reduce_to_energy(brick(), hit, 0.7, 0.006, pattern);
+  limit_cells_by_energy(brick(), hit, 0.7, 0.006, pattern);
   EXPECT_EQ(pattern.rings, 1);
   EXPECT_EQ(pattern.spokes, 3);
   PatternSpec bricks;
   bricks.kind = PatternSpec::Kind::kBrick;
-  reduce_to_energy(brick(), hit, 0.7, 0.006, bricks);
+  limit_cells_by_energy(brick(), hit, 0.7, 0.006, bricks);
   EXPECT_EQ(bricks.cells, PatternSpec().cells);  // of a size, not of a number
 }
 

@@ -33,7 +33,7 @@ Outcome loaded(const Compound& compound, const std::vector<Material>& materials,
   Outcome outcome{break_by_stress(
       structure, {materials, loads, kDown, Vec3::Zero(), most_work, std::move(memory)})};
   outcome.cut = outcome.edit.cut.size();
-  if (outcome.edit.changed || outcome.cut > 0) outcome.plan = as_pieces(structure, outcome.edit);
+  if (outcome.edit.changed || outcome.cut > 0) outcome.plan = apply_edit(structure, outcome.edit);
   return outcome;
 }
 

@@ -149,7 +149,7 @@ std::vector<Bond> contacts_by_distance(const Compound& compound, double toleranc
       const Plane &m = p.faces[a.face].plane, &n = q.faces[b.face].plane;
       if ((m.normal + n.normal).norm() > 1e-7 || std::abs(m.d + n.d) > tolerance) continue;
       const double area = face_overlap(p, a.face, q, b.face);
-      if (area > least_overlap(*compound.convexes[a.convex], *compound.convexes[b.convex]))
+      if (area > min_contact_area_m2(*compound.convexes[a.convex], *compound.convexes[b.convex]))
         bonds.push_back({a.convex, b.convex, a.face, b.face, area});
     }
   }

@@ -181,9 +181,9 @@ TEST(Yield, ABarThatIsPulledFlowsOnceAndOneThatIsPressedThrice) {
     const StressResult pulled = judged(compound, load(1.02));
     ASSERT_EQ(pulled.edit.hinges.size(), 1u);
     EXPECT_NEAR(pulled.edit.hinges[0].section.centroid_R.x(), kLong / 2, kLong / 8);
-    const StressResult pressed = judged(compound, load(-1.02));
-    EXPECT_EQ(pressed.edit.hinges.size(), 3u);
-    EXPECT_EQ(pressed.edit.loose.pieces.size(), 3u);
+    const StressResult compressed = judged(compound, load(-1.02));
+    EXPECT_EQ(compressed.edit.hinges.size(), 3u);
+    EXPECT_EQ(compressed.edit.loose.pieces.size(), 3u);
   }
 }
 
@@ -319,9 +319,9 @@ TEST(Yield, ABlowBendsSteelWithoutACrack) {
     LoadCase load;
     load.materials = materials;
     load.most_work = kUnlimited;
-    load.blow = {impulses, 0.5 * kg * std::pow(part * full_m_s, 2), Vec3(kLong, 0, 0), 0};
+    load.impulsive_load = {impulses, 0.5 * kg * std::pow(part * full_m_s, 2), Vec3(kLong, 0, 0), 0};
     const StressResult answer = break_by_stress(Structure(compound), load);
-    EXPECT_NEAR(answer.blow.worst, part, 0.05);
+    EXPECT_NEAR(answer.impulsive_stress.worst, part, 0.05);
     EXPECT_EQ(answer.edit.hinges.size(), part > 1 ? 1u : 0u);
     EXPECT_TRUE(answer.edit.cut.empty());
     expect_conserved(compound, answer.edit);

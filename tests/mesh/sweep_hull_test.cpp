@@ -1,11 +1,12 @@
 // A hull that grows point by point has the volume of its points so far, in closed form.
+#include "fracture/vacd/sweep_hull.h"
+
 #include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "engine/base/random.h"
-#include "fracture/vacd/sweep.h"
 
 namespace sunder::fracture {
 namespace {
