@@ -18,7 +18,7 @@ bool is_finite(const FrameBody& body) {
          body.velocity_W.allFinite() && body.angular_velocity_W.allFinite();
 }
 
-std::string told(const Scene& scene, const Preset& preset) {
+std::string collect_warnings(const Scene& scene, const Preset& preset) {
   std::string all;
   for (const std::string& warning : scenes::run_info(scene, preset.name).warnings)
     all += (all.empty() ? "" : "; ") + warning;
@@ -101,7 +101,7 @@ Truth extreme(int row, const char* what, const char* unit, const char* source, d
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,
               const SceneAt& scene, Measure measure, const Bounds& bounds) {
   Truth one = truth(row, what, unit, source, mark, std::move(measure), bounds);
-  one.told = [scene](const Preset& preset) { return told(scene(preset), preset); };
+  one.told = [scene](const Preset& preset) { return collect_warnings(scene(preset), preset); };
   return one;
 }
 
