@@ -19,18 +19,18 @@ using SceneAt = std::function<Scene(const Preset&)>;
 /// Measurements of a scene that was simulated through the library from first to last frame.
 struct Run {
   FramePtr first, last;
-  double energy_gained = 0;  ///< Largest rise of energy above its start, divided by the start.
-  double deepest_m = 0;      ///< Largest penetration of any frame.
-  double mass_off = 0;       ///< Largest deviation of mass from its start, divided by the start.
-  double momentum_off = 0;   ///< Largest FrameReport::momentum_residual.
+  double energy_gained = 0;   ///< Largest rise of energy above its start, divided by the start.
+  double deepest_m = 0;       ///< Largest penetration of any frame.
+  double mass_error = 0;      ///< Largest deviation of mass from its start, divided by the start.
+  double momentum_error = 0;  ///< Largest FrameReport::momentum_residual.
 
   /// Returns the final speed of a body of the first frame; infinity if the body is gone.
   double speed_m_s(std::uint64_t key) const;
   /// Returns the largest distance of a body of the first frame from its first position at the end;
   /// infinity if a body is gone.
-  double moved_m() const;
+  double largest_displacement_m() const;
   /// Returns the largest penetration of the last frame.
-  double overlap_left_m() const;
+  double final_penetration_m() const;
 };
 /// Simulates a scene. If a body's state is not finite, the run ends and all its measurements are
 /// infinite.

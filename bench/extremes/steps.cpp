@@ -115,7 +115,7 @@ double exit_speed_off(const Preset& preset) {
 }  // namespace
 
 Truths step_extremes() {
-  const auto moves = [](const Run& r) { return 1e3 * r.moved_m(); };
+  const auto moves = [](const Run& r) { return 1e3 * r.largest_displacement_m(); };
   const std::vector<std::string> weightless = {"scene.gravity=[0, 0, 0]"};
   const auto fastest_short = at_longest_step(kWall, 0.5, std::array{10020});
   return {
@@ -142,11 +142,11 @@ Truths step_extremes() {
               1e-3, at_longest_step(kWall, 2, kLowRates_Hz),
               worst_of(kWall, 2, kLowRates_Hz, &Run::energy_gained, weightless),
               {0.0001, 0.0001, 0.0001, 0.0001}),
-      extreme(
-          4, "ball through a wall, dt 1/30 and 1/10: overlap left", "mm", "rigid", 10,
-          at_longest_step(kWall, 2, kLowRates_Hz),
-          worst_of(kWall, 2, kLowRates_Hz, [](const Run& r) { return 1e3 * r.overlap_left_m(); }),
-          {5.9e+02, 3.9e+02, 5.9e+02, 1.5e+02}),
+      extreme(4, "ball through a wall, dt 1/30 and 1/10: overlap left", "mm", "rigid", 10,
+              at_longest_step(kWall, 2, kLowRates_Hz),
+              worst_of(kWall, 2, kLowRates_Hz,
+                       [](const Run& r) { return 1e3 * r.final_penetration_m(); }),
+              {5.9e+02, 3.9e+02, 5.9e+02, 1.5e+02}),
   };
 }
 

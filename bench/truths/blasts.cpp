@@ -25,8 +25,8 @@ double radius_m(double k) {
 
 /// Returns the fraction of a house that falls, with the charge at `distance_m` from its front wall.
 double share_fallen(double distance_m, const Preset& preset) {
-  static std::map<std::pair<double, std::string>, double> known;
-  const auto [place, is_new] = known.try_emplace({distance_m, preset.name});
+  static std::map<std::pair<double, std::string>, double> cache;
+  const auto [place, is_new] = cache.try_emplace({distance_m, preset.name});
   if (!is_new) return place->second;
   const double front_m = -3;
   const std::string text =

@@ -110,8 +110,8 @@ Heap collapse(const Preset& preset) {
 }
 
 const Heap& heap(const Preset& preset) {
-  static std::map<std::string, Heap> known;
-  const auto [place, is_new] = known.try_emplace(preset.name);
+  static std::map<std::string, Heap> cache;
+  const auto [place, is_new] = cache.try_emplace(preset.name);
   if (is_new) place->second = collapse(preset);
   return place->second;
 }

@@ -112,8 +112,8 @@ Measure exit_speed_of_house(double radius_m, double speed_m_s) {
     const double theory = theory_m_s(shot);
     double worst = 0;
     for (int seed = 1; seed <= shot.seeds; ++seed) {
-      const double off = exit_of_house(radius_m, speed_m_s, seed, preset) / theory - 1;
-      if (std::abs(off) > std::abs(worst)) worst = off;
+      const double error = exit_of_house(radius_m, speed_m_s, seed, preset) / theory - 1;
+      if (std::abs(error) > std::abs(worst)) worst = error;
     }
     return worst;
   };

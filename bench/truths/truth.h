@@ -39,11 +39,13 @@ struct Truth {
 };
 using Truths = std::vector<Truth>;
 
+/// Returns a case without warnings.
 inline Truth truth(int row, const char* what, const char* unit, const char* source, double mark,
                    Measure measure, const Bounds& bounds) {
   return {row, what, unit, source, mark, std::move(measure), bounds};
 }
 
+/// Returns the case, marked as dependent on the machine.
 inline Truth timing(Truth truth) {
   truth.is_timing = true;
   return truth;
