@@ -60,7 +60,7 @@ void freeze(Pile& set, double time_s) {
   }
 }
 
-/// Appends the velocities of a body, scaled so that the sum of their squares is twice its kinetic
+/// Appends a body's velocities, scaled so that the sum of their squares is twice its kinetic
 /// energy.
 void add_scaled(const BodyDesc& body, const Quat& rotation_WB, const Vec3& velocity_W,
                 const Vec3& angular_velocity_W, std::vector<double>& all) {

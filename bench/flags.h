@@ -10,8 +10,7 @@
 
 namespace sunder::bench {
 
-/// A command-line option and the variable that receives its value; an option for a bool takes no
-/// value.
+/// An option and the variable that receives its value; an option for a bool takes no value.
 struct Flag {
   std::string_view name;
   std::variant<bool*, int*, double*, std::string*> value;

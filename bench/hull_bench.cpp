@@ -1,6 +1,5 @@
-// Tightness and cost of hulls fitted to points, as in the paper's figure 13: first a table, then
-// times. SUNDER_MESHES names the folder with good/bunny_12k.off; without that file the points are
-// those of a bumpy ball.
+// Tightness and cost of hulls fitted to points, as in the paper's figure 13: a table, then times.
+// SUNDER_MESHES names the folder with good/bunny_12k.off, which a bumpy ball replaces if missing.
 #include <cstdio>
 #include <filesystem>
 

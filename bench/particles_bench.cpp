@@ -18,8 +18,7 @@ namespace {
 
 constexpr double kDt = 1.0 / 60;
 
-/// Rubble of a town block: 800 boxes on and above a ground of 20 × 20 m. The fraction `moving` of
-/// them has a velocity.
+/// Rubble of 800 boxes on and above a ground of 20 × 20 m; the fraction `moving` has a velocity.
 struct Rubble {
   explicit Rubble(double moving) {
     Random random(4);
@@ -72,8 +71,7 @@ std::unique_ptr<Particles> make_particles(benchmark::State& state) {
   return solver::make_debris_and_dust(options);
 }
 
-/// Times steps and keeps their median and minimum, which other load on the processors changes
-/// little.
+/// Times steps and keeps their median and minimum, which other load changes little.
 class Steps {
  public:
   void advance(Particles& particles, const Obstacles& obstacles) {
@@ -103,8 +101,7 @@ void show(benchmark::State& state, Steps& steps, const Particles& particles) {
   state.counters["iterations"] = report.air_iterations;
 }
 
-/// Times the first second of `count` particles in rubble, a quarter of which moves. Emission is not
-/// timed.
+/// Times the first second of `count` particles in rubble, a quarter of which moves, after emission.
 void run_first_second(benchmark::State& state, std::uint32_t count, double debris_ratio) {
   const Rubble rubble(0.25);
   auto particles = make_particles(state);

@@ -104,8 +104,7 @@ Frame make_boulders(int side, std::uint32_t rows) {
   return frame;
 }
 
-/// Times whole pictures. Passes are timed in further pictures, because timing a pass waits for it
-/// to finish.
+/// Times whole pictures, then passes in further pictures, because timing a pass waits for its end.
 void draw(benchmark::State& state, const Frame& frame) {
   std::size_t vertices = 0;
   for (const Instance& instance : frame.instances) {

@@ -2,9 +2,8 @@
 //
 //   build/stress_bench
 //
-// Target: 8,000 convexes to a residual of 1e-3 in 10 ms on two cores after a change of load. Loads
-// that did not change cost nothing, because the world does not solve them again
-// (tests/engine/load_test.cpp).
+// Target: 8,000 convexes to a residual of 1e-3 in 10 ms on two cores after a change of load.
+// Without a change of load the world does not solve (tests/engine/load_test.cpp).
 #include <cmath>
 #include <vector>
 

@@ -37,8 +37,8 @@ constexpr double kDt_s = 1.0 / 60;
 constexpr double kRestDt_s = 1.0 / 480;  // short enough for columns of 46 cubes to stand
 constexpr int kMoreSweeps = 10, kTries = 7, kSteps = 6, kStepSubsteps = 4;
 
-/// Returns the thread's processor time if there is one thread, which other load changes least, and
-/// the steady clock's time otherwise.
+/// Returns the thread's processor time, which other load changes least; wall time with more
+/// threads.
 double now_ms() {
   if (threads() > 1) {
     const auto t = std::chrono::steady_clock::now().time_since_epoch();
@@ -130,8 +130,7 @@ void sweep(const Pile& set, int colors, int lanes, int thread_count) {
   std::fflush(stdout);
 }
 
-/// Nanoseconds per contact point of the two parts of a step, the best of several steps of resting
-/// cubes.
+/// Nanoseconds per contact point of the parts of a step, the best of several, for resting cubes.
 struct StepCost {
   double collide_ns = 1e30, solve_ns = 1e30;
   double points = 0;  ///< Contact points of the last step.
@@ -175,8 +174,7 @@ int growth(const std::vector<int>& sides) {
   return 0;
 }
 
-/// Times the colouring of contacts of a grid of touching bodies, and the removal and insertion of
-/// some of them.
+/// Times colouring of the contacts of a grid of bodies, and removal and insertion of some of them.
 void recolor() {
   constexpr std::uint32_t kSide = 26, kGone = 5000;
   Bodies bodies;

@@ -77,8 +77,8 @@ inline double volume_m3(const std::vector<PolygonMesh>& pieces) {
   return volume;
 }
 
-/// Number of ill-shaped triangles in the triangulated faces: those less than a hundredth as high as
-/// their longest side.
+/// Number of ill-shaped triangles of the faces: less than a hundredth as high as their longest
+/// side.
 inline std::size_t ill_shaped(const std::vector<PolygonMesh>& pieces) {
   constexpr double kMaxFlatness = 0.01;
   std::size_t count = 0;

@@ -26,23 +26,19 @@ struct Run {
 
   /// Returns the final speed of a body of the first frame; infinity if the body is gone.
   double speed_m_s(std::uint64_t key) const;
-  /// Returns the largest distance of a body of the first frame from its first position at the end;
-  /// infinity if a body is gone.
+  /// Returns the largest final displacement of a body of the first frame; infinity if one is gone.
   double largest_displacement_m() const;
   /// Returns the largest penetration of the last frame.
   double final_penetration_m() const;
 };
-/// Simulates a scene. If a body's state is not finite, the run ends and all its measurements are
-/// infinite.
+/// Simulates a scene. All measurements are infinite if the state of a body is not finite.
 Run run(Scene scene);
 
-/// Returns the scene of a text with the given duration; `set` has KEY=VALUE, as --set on the
-/// command line.
+/// Returns the scene of a text with the given duration; `set` has KEY=VALUE, as --set.
 Scene scene_at(const Preset& preset, const std::string& text, double duration_s,
                std::vector<std::string> set = {});
 
-/// Returns the mean of a measurement over runs with seeds 1 to 8. Results of rubble differ much
-/// from seed to seed.
+/// Returns the mean over seeds 1 to 8, because results of rubble differ much from seed to seed.
 double mean_of_seeds(Scene scene, const std::function<double(const Run&)>& figure);
 
 /// Returns a validation case that simulates the scene and measures `figure`.

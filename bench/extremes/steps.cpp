@@ -66,8 +66,7 @@ velocity = [0, 0, -20]
 radius_m = 0.3
 )";
 
-/// Returns the scene with the longest of the steps; warnings about the step are the strictest
-/// there.
+/// Returns the scene with the longest of the steps, which has the strictest warnings.
 template <std::size_t kCount>
 SceneAt at_longest_step(const char* text, double duration_s,
                         const std::array<int, kCount>& rates_Hz) {
@@ -101,8 +100,7 @@ double behind_plates(const Run& run) {
   return double(bodies[2].X_WB.position.z() < 0) + double(bodies[3].X_WB.position.z() < free_m);
 }
 
-/// Measures the relative difference of the ball's exit speed with steps of 1/10,020 s from that
-/// with the preset's step.
+/// Relative error of the ball's exit speed with steps of 1/10,020 s, against the preset's step.
 double exit_speed_off(const Preset& preset) {
   const auto speed = [&](double dt_s) {
     Scene scene = scene_at(preset, kWall, 0.5);

@@ -23,9 +23,8 @@ class Peer {
   virtual BodyState state(std::size_t i) const = 0;
 };
 
-// Each function makes an engine with the bodies, whose shapes are hulls and half-spaces, on one
-// thread without sleeping. Friction is the geometric mean of both shapes. An engine that was not
-// found by CMake has no function.
+// Each function makes an engine with the bodies (hulls and half-spaces), on one thread without
+// sleeping; friction is the geometric mean of both shapes. It is undefined for a missing engine.
 std::unique_ptr<Peer> make_sunder(std::span<const BodyDesc> bodies, const Effort& effort);
 std::unique_ptr<Peer> make_bullet(std::span<const BodyDesc> bodies, const Effort& effort);
 std::unique_ptr<Peer> make_ode(std::span<const BodyDesc> bodies, const Effort& effort);

@@ -19,8 +19,7 @@ namespace {
 
 using Make = std::unique_ptr<Peer> (*)(std::span<const BodyDesc>, const Effort&);
 
-/// An engine with a step rate and an iteration count; the first entry of each engine is its
-/// default.
+/// An engine with a step rate and an iteration count; the first of each engine is its default.
 struct Entry {
   const char* engine;
   const char* how;

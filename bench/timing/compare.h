@@ -12,29 +12,24 @@
 
 namespace sunder::bench {
 
-/// Milliseconds per frame that noise may add to a stage. A stage is slower by a threshold if its
-/// time exceeds that threshold above the older time, or above this value if the older time was
-/// less.
+/// Milliseconds per frame that noise may add to a stage: an older time below this value counts as
+/// this value when slower stages are found.
 inline constexpr double kNoise_ms = 0.2;
 
-/// Returns the fraction for a percentage: 0.1 for "10%" or "10". Throws InputError for any other
-/// text.
+/// Returns the fraction for a percentage, 0.1 for "10%" or "10". Throws InputError for other texts.
 double parse_percent(const std::string& flag, const std::string& text);
 
 /// Times of a stage, or of the "frame" as a whole, in both timings.
 struct Change {
   std::string scene, stage;
   std::string figure;  ///< "mean" or "p50" over frames.
-  bool is_cpu = true;  ///< True for processor time; false for wall time, if one of the files has no
-                       ///< processor time.
+  bool is_cpu = true;  ///< Processor time; wall time if a file lacks processor time.
   double before_ms = 0, after_ms = 0;
   RatioInterval ratio = {};  ///< Ratio of the new time to the old one, by the means of the repeats.
 
-  /// Returns true if the new time is slower by more than the fraction `part`, at the low end of the
-  /// interval as well.
+  /// Returns true if the change and the low end of the interval are slower by more than `part`.
   bool is_slower(double part) const;
-  /// Returns the interval as "-1.2 to +2.1 % (97 % confidence)", or "one run each" if there is
-  /// none.
+  /// Returns "-1.2 to +2.1 % (97 % confidence)", or "one run each" if there is no interval.
   std::string interval() const;
 };
 

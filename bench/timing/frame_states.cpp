@@ -91,8 +91,7 @@ StateHash hash_frames(const GuardedRun& run, const std::string& preset, int last
   return states;
 }
 
-/// Returns the digits to store for a run at a preset. A break before the script's first action does
-/// not end the run.
+/// Returns the digits to store for a run; a break before the script's first action does not end it.
 std::string record_digits(const GuardedRun& run, const std::string& preset) {
   const int after = preset == run.load.preset ? kFramesAfterBreak : kFramesAfterBreakOtherPresets;
   const auto [simulation, last, first_act] = run_of(run, preset);

@@ -1,7 +1,6 @@
 // Comparison of every frame of a run with stored hashes, to find the first frame that differs.
 // Stored hashes (hash_book.h) have the key frames/NAME/PRESET and four hexadecimal digits of the
-// state hash of each frame, from frame 0. Few digits suffice, because a run that has diverged stays
-// different.
+// state hash of each frame. Few digits suffice, because a run that has diverged stays different.
 #pragma once
 
 #include <optional>
@@ -17,8 +16,7 @@ namespace sunder::bench {
 
 /// Returns the stored digits for the state hashes of a run's frames.
 std::string frame_digits(std::span<const std::uint64_t> run);
-/// Returns the first known frame that differs in the run or is missing there; nothing if all are
-/// equal.
+/// Returns the first known frame that the run lacks or that differs; nothing if all are equal.
 std::optional<int> first_difference(const std::string& known, std::span<const std::uint64_t> run);
 
 /// A scene that is simulated and compared with its stored hashes.
@@ -36,8 +34,8 @@ struct GuardedRun {
 std::vector<Verdict> judge_frames(const GuardedRun& run, const HashBook& book,
                                   const std::string& file, bool whole);
 
-/// Stores the hashes of the run at every preset. They end some frames after the first break that is
-/// not before the script's first action: 50 frames at the run's own preset, 8 at the others. Throws
+/// Stores the hashes of the run at every preset, up to 50 frames (at the run's own preset) or 8
+/// frames (at others) after the first break that is not before the script's first action. Throws
 /// InputError.
 void accept_frames(const GuardedRun& run, HashBook& book);
 

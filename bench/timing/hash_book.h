@@ -3,8 +3,7 @@
 //
 // A line is KEY HASH. The key is a path with everything that decides the hash:
 // state/SCENE/PRESET/FRAMES has the state hash over the first frames of an unchanged scene;
-// frames/GOLDEN/PRESET has shortened hashes of every frame until after the first break
-// (frame_states.h).
+// frames/GOLDEN/PRESET has shortened hashes of frames until after the first break (frame_states.h).
 #pragma once
 
 #include <map>
@@ -14,8 +13,8 @@ namespace sunder::bench {
 
 using HashBook = std::map<std::string, std::string>;
 
-/// Parses the text of a file of hashes; `file` is its name in messages. Throws InputError naming
-/// the line.
+/// Parses the text of a file of hashes, named `file` in messages. Throws InputError naming the
+/// line.
 HashBook parse_hashes(const std::string& text, const std::string& file);
 /// Reads a file of hashes; returns none if there is no file.
 HashBook read_hashes(const std::string& file);

@@ -17,9 +17,8 @@ struct RatioInterval {
 inline constexpr double kConfidence = 0.95;
 
 /// Returns the interval of the ratio of times `now` to times `before`, neither of them empty.
-/// `paired`: runs of one number were made at the same time and are compared with each other (sign
-/// test); otherwise every run of `now` is compared with every run of `before` (Mann and Whitney,
-/// Hodges and Lehmann).
+/// `paired`: runs of one number were made at once and are compared with each other (sign test);
+/// otherwise every run is compared with every run before (Mann and Whitney, Hodges and Lehmann).
 RatioInterval ratio_interval(std::span<const double> now, std::span<const double> before,
                              bool paired);
 

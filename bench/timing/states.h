@@ -13,8 +13,8 @@
 namespace sunder::bench {
 
 /// Returns a verdict for each scene. Runs that were changed by --set or are too short have no
-/// stored hash and are skipped; other runs without one fail. `file` is the name of the file of
-/// hashes in messages.
+/// stored hash and are skipped; others without one fail. `file` names the file of hashes in
+/// messages.
 std::vector<Verdict> judge_states(std::span<const Figures> scenes, const HashBook& book,
                                   const std::string& file);
 

@@ -27,8 +27,7 @@ double memory_MB() {
   return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
 }
 
-/// Returns true for the values to keep: all except the work items of single frames, which reports
-/// do not use.
+/// Returns true for values to keep: all except the work items of frames, which reports do not use.
 bool is_kept(const std::string& place) {
   return !place.starts_with("/per_frame/") || place.find("/work/") == std::string::npos;
 }

@@ -13,8 +13,7 @@ namespace sunder::bench {
 
 /// Returns the stages of each scene, in processor and wall time, and its counts, for the terminal.
 std::string timing_table(std::span<const Figures> scenes);
-/// Returns the time that each feature takes that was turned off in a further run; empty if there
-/// was none.
+/// Returns the time of each feature that was turned off in a further run; empty if there was none.
 std::string features_table(std::span<const Figures> scenes);
 /// Returns a line for each failed verdict, or for each other one, without stages that passed.
 std::string verdict_lines(std::span<const Verdict> verdicts, bool failed);
@@ -32,8 +31,7 @@ std::vector<Saving> savings_of(const Figures& scene);
 
 /// Returns the settings of the run: "realtime, 200 frames, 1 thread" and so on.
 std::string run_line(const Figures& scene);
-/// Returns the largest numbers of bodies, awake bodies, debris and dust, the memory, and the number
-/// of breaks and pieces.
+/// Returns peak numbers of bodies and particles, peak memory, and numbers of breaks and pieces.
 std::string counts_line(const Figures& scene);
 
 }  // namespace sunder::bench

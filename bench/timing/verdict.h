@@ -11,15 +11,13 @@ enum class Outcome { kPassed, kFailed, kSkipped };
 /// A check and its result.
 struct Verdict {
   std::string scene;  ///< Scene or golden that was checked.
-  std::string what;   ///< Name of the check, unique within a scene: "state", "stage solve",
-                      ///< "drawing" and so on.
+  std::string what;   ///< Check, unique within a scene: "state", "stage solve" and so on.
   Outcome outcome = Outcome::kPassed;
   std::string text;    ///< Reason, in a sentence.
   double seconds = 0;  ///< Duration of the check; 0 if unknown.
 };
 
-/// Returns the verdicts as JUnit XML with a suite per scene. `command` is the subcommand of
-/// `sunder` that made them.
+/// Returns JUnit XML with a suite per scene. `command` is the subcommand that made the checks.
 std::string junit_xml(const std::string& command, std::span<const Verdict> verdicts);
 
 }  // namespace sunder::bench

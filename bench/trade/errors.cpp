@@ -43,8 +43,7 @@ Samples pooled(std::span<const Samples> runs) {
   return all;
 }
 
-/// Returns the difference of a set of `point` seeds from all seeds of the reference that is due to
-/// chance.
+/// Returns the difference due to chance of `point` seeds from all seeds of the reference.
 double chance_difference(std::vector<Samples> reference, std::size_t point) {
   const std::size_t half = reference.size() / 2;
   if (half == 0) return 0;

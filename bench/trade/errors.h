@@ -1,5 +1,4 @@
-// Errors of the runs at one point of a study, relative to the noise of the reference. Begin at
-// trade_errors().
+// Errors of a point of a study, relative to the noise of the reference. Begin at trade_errors().
 #pragma once
 
 #include <span>
@@ -25,9 +24,9 @@ struct TradeError {
 double distance_between(std::vector<double> a, std::vector<double> b);
 
 /// Returns the least difference that counts: the larger of 1 % of the mean magnitude and a value by
-/// unit, which ends the name: 1 mm (a tenth of a pixel in a picture of ten metres), but 1 cm for
-/// the deepest penetration, which lasts for one frame; 0.01 m/s, rad/s, share or J/kg (all mass 1
-/// mm higher); one piece.
+/// the unit that ends the name: 1 mm (a tenth of a pixel in a picture of ten metres), but 1 cm for
+/// the deepest penetration (of one frame); 0.01 m/s, rad/s, share or J/kg (a rise of 1 mm); one
+/// piece.
 double noise_floor(std::string_view name, std::span<const double> reference);
 
 /// Returns an error for every quantity with samples in both lists: the distance between all samples

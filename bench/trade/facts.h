@@ -11,8 +11,7 @@
 namespace sunder::bench {
 
 /// Samples of a run by name, in SI units. A single value has one sample, "size of pieces m" has one
-/// for each piece. A name ends in its unit. The order is that of names, so that files are equal
-/// everywhere.
+/// for each piece. A name ends in its unit. Sorted by name, so that files are equal everywhere.
 struct Facts {
   std::map<std::string, std::vector<double>> samples;
   std::string state_hash;

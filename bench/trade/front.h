@@ -16,8 +16,8 @@ struct TradePoint {
   double error = 0;
 };
 
-/// Returns the indices of the points that no other beats in both cost and error, cheapest first; of
-/// equal points, the first.
+/// Returns the points that no other beats in both cost and error, cheapest first; of equals, the
+/// first.
 std::vector<std::size_t> pareto_front(std::span<const TradePoint> points);
 
 /// Returns the cost of point i divided by the cost of the front at equal error; 1 on the front. The

@@ -48,8 +48,8 @@ PointTrade evaluate(const PointRuns& found, std::span<const Facts> limit) {
   return trade;
 }
 
-/// Marks the points on the front and computes costs relative to it. Points without a finite error
-/// and the limit are left out.
+/// Finds the front among the points with a finite error, except the limit, and costs relative to
+/// it.
 void find_front(std::vector<PointTrade>& trades) {
   std::vector<TradePoint> points;
   std::vector<PointTrade*> trade_at;

@@ -18,8 +18,7 @@ struct PointTrade {
   double cost_ms = 0;  ///< Processor time per frame, median over seeds.
   double wall_ms = 0;  ///< Wall time per frame, median over seeds.
   std::vector<TradeError> errors;
-  /// Largest error over its noise; infinite if a run failed; nothing without a reference, and for
-  /// the limit itself.
+  /// Largest error over its noise; infinite if a run failed; nothing if there is no reference.
   std::optional<double> error;
   std::string failed;  ///< Reason of the first failure; empty if no run failed.
   bool on_front = false;

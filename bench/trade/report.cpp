@@ -46,8 +46,7 @@ const TradeError* worst_of(const PointTrade& point) {
   return at == point.errors.end() ? nullptr : &*at;
 }
 
-/// Returns the distance with its unit: "drift 0.012 m". The name of an error ends with the unit, or
-/// is the unit itself, as "pieces".
+/// Returns "drift 0.012 m": the name of an error ends with its unit, or is one, as "pieces".
 std::string format_distance(const TradeError& error) {
   const std::size_t space = error.name.rfind(' ');
   const std::string distance = digits(error.distance, 3);

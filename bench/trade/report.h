@@ -7,8 +7,7 @@
 
 namespace sunder::bench {
 
-/// Returns a line per point and scene, with a column for each error over its noise; unknown values
-/// are empty.
+/// Returns a line per point and scene, with a column for each error over its noise.
 std::string trade_csv(const Trade& trade);
 /// Returns all results as JSON, with distances and noise.
 std::string trade_json(const Trade& trade);

@@ -65,8 +65,7 @@ std::string points_table(const SceneTrade& scene) {
                     rows);
 }
 
-/// Returns a table with a column per error, over its noise; the largest error of a point is
-/// highlighted.
+/// Returns a table with a column per error, over its noise; the largest of a point is highlighted.
 std::string errors_table(const SceneTrade& scene) {
   std::vector<std::string> head = {"over its noise"};
   for (const PointTrade& point : scene.points) {

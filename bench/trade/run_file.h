@@ -9,8 +9,7 @@
 
 namespace sunder::bench {
 
-/// Writes both files, each of them atomically; times are written first, so that a result always has
-/// times. Throws FileError.
+/// Writes the file of times, then that of results, each atomically. Throws FileError.
 void write_run(const std::filesystem::path& folder, const StudyRun& run, const Ran& ran);
 
 /// A run as read from its files.

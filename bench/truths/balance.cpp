@@ -4,8 +4,7 @@
 namespace sunder::truths {
 namespace {
 
-/// Returns true if a stack of eight blocks falls whose overhangs are `factor` times those in
-/// balance.
+/// Returns true if a stack of eight blocks with `factor` times the overhangs in balance falls.
 bool overhang_falls(const Preset& preset, double factor) {
   PresetWorld world(preset);
   world.add(W::ground());
@@ -26,8 +25,7 @@ double overhang_error(const Preset& preset) {
   return threshold(0.9, 1.05, 8, [&](double f) { return overhang_falls(preset, f); }) - 1;
 }
 
-/// Returns true if a semicircular arch of `count` voussoirs of radius 1 and this thickness stands
-/// for 4 s.
+/// Returns true if a semicircular arch of `count` voussoirs of radius 1 stands for 4 s.
 bool arch_stands(const Preset& preset, int count, double thickness) {
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), 1));

@@ -166,8 +166,7 @@ double break_energy_J(const Block& block, const Preset& preset, double speed_m_s
   return 0;
 }
 
-/// Measures the breaking speed divided by that whose kinetic energy is the crack energy, less 1:
-/// the worst of three phases.
+/// Relative error of the speed whose kinetic energy is the crack energy; the worst of three phases.
 Measure breaking_speed_error(const Block& block) {
   return [=](const Preset& preset) {
     double worst = 0;

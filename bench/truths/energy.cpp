@@ -8,8 +8,7 @@
 namespace sunder::truths {
 namespace {
 
-/// Returns the largest rise of energy above its start, divided by the start; not finite if a state
-/// is not.
+/// Returns the largest relative rise of energy above its start; not finite if a state is not.
 double energy_gained(PresetWorld& world, double time_s) {
   const auto energy = [&] { return world.kinetic_energy() + world.potential_energy(kG); };
   const double first_J = energy();
@@ -116,8 +115,7 @@ double near_miss(const Preset& preset) {
   return (world.state(id).velocity_W - Vec3(200, 0, 0)).norm();
 }
 
-/// Kinetic energy of boxes that overlap by half, divided by that of the speed limit of overlap
-/// resolution.
+/// Kinetic energy of boxes that overlap by half, divided by its limit in overlap resolution.
 double half_overlaps(const Preset& preset) {
   PresetWorld world(preset, Vec3::Zero());
   const double side_m = 0.2;

@@ -9,8 +9,7 @@
 namespace sunder::truths {
 namespace {
 
-/// Conserved quantities of a world without external forces, relative to their values at
-/// construction.
+/// Conserved quantities of a world without external forces, relative to those at construction.
 class Conserved {
  public:
   explicit Conserved(const RigidWorld& world)
@@ -46,8 +45,7 @@ double parabola_m(const Preset& preset) {
   return (world.state(body).X_WB.position - truth).norm();
 }
 
-/// A box that rotates about its middle axis for a minute, and therefore tumbles (Dzhanibekov
-/// effect).
+/// A box that rotates about its middle axis for a minute and tumbles (Dzhanibekov effect).
 double tumbler(const Preset& preset, double (Conserved::*error)() const) {
   PresetWorld world(preset, Vec3::Zero());
   world.add(W::moving(W::box(Vec3(1, 0.6, 0.2), Vec3::Zero()), Vec3::Zero(), Vec3(0.01, 10, 0.01)));
@@ -85,8 +83,8 @@ double fragments(const Preset& preset) {
   return conserved.angular_momentum();
 }
 
-/// Sixty hulls that fly into each other. Errors are divided by the sum of their momenta, times 1 m
-/// for angular momentum.
+/// Sixty hulls that fly into each other. Errors are relative to the sum of their momenta, times 1
+/// m.
 double implosion(const Preset& preset, double (Conserved::*error)(double) const) {
   PresetWorld world(preset, Vec3::Zero());
   Random random(3);

@@ -15,8 +15,7 @@ Vec3 down_slope(double slope_rad) {
   return kG * Vec3(a.sin, -a.cos, 0);
 }
 
-/// Motion in two seconds of a block on a slope that is `beyond_deg` steeper than its angle of
-/// friction.
+/// Motion in two seconds of a block on a slope `beyond_deg` steeper than its angle of friction.
 struct Slide {
   double distance_m, theory_m;  ///< Travelled, and by theory from the speed at the start.
   double error_deg;  ///< Error of the angle of friction that follows from the acceleration.
@@ -137,8 +136,7 @@ bool cards_slip(const Preset& preset, double friction) {
   return world.state(card).X_WB.position.y() < 0.9 * before_m;
 }
 
-/// Theory from moments about the foot: the ridge pushes with half the weight / tan φ, which
-/// friction at the foot balances.
+/// In theory the ridge pushes with half the weight / tan φ, which friction at the foot balances.
 double cards_friction(const Preset& preset) {
   const double truth = 0.5 * 0.5 / kRidgeHeight_m;
   const double least_friction = threshold(

@@ -49,8 +49,7 @@ double domino_scales(const Preset& preset) {
   return domino_speed(preset, 0.1) / domino_speed(preset, 0.8) - 1;
 }
 
-/// Heap that a column of a thousand grains collapses to; the column is 1.5 times as high as its
-/// radius.
+/// Heap that results from a column of a thousand grains, 1.5 times as high as its radius.
 struct Heap {
   double runout = 0;     ///< Radius of 98 % of the grains over the column's radius, less 1.
   double slope_deg = 0;  ///< Slope of its side.

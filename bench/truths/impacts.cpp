@@ -77,8 +77,7 @@ double momentum_of_all(const Preset& preset) {
   return worst;
 }
 
-/// Largest error of a speed in a cradle of five balls at distances of `gap_m`, `struck` of which
-/// arrive at 1 m/s.
+/// Largest error of a speed in a cradle of five balls, `struck` of which arrive at 1 m/s.
 Measure cradle(double gap_m, int struck) {
   return [=](const Preset& preset) {
     PresetWorld world(preset, Vec3::Zero());
@@ -120,8 +119,7 @@ double energy_of_ten_cubes(const Preset& preset) {
   return most_J / first_J - 1;
 }
 
-/// Largest relative change of angular momentum of twenty pairs of rotating boxes that collide
-/// off-centre at this speed.
+/// Largest relative change of angular momentum of twenty pairs of rotating boxes off-centre.
 Measure hulls_off_centre(double speed_m_s, double restitution) {
   return [=](const Preset& preset) {
     double worst = 0;

@@ -29,15 +29,13 @@ double pendulum_period(const Preset& preset) {
     }
     before = x;
   });
-  // Inertia about the pivot per mass is side²/6 + arm²; the amplitude adds the factor 1 +
-  // angle²/16.
+  // Inertia about the pivot per mass is side²/6 + arm²; the amplitude adds angle²/16.
   const double truth =
       2 * kPi * std::sqrt((side * side / 6 + arm * arm) / (kG * arm)) * (1 + angle * angle / 16);
   return (last_s - first_s) / (crossings - 1) / truth - 1;
 }
 
-/// Largest deviation of the energy of two rods of 1 m that fall from the horizontal, divided by m g
-/// l.
+/// Largest deviation of energy, in m g l, of two rods of 1 m that fall from the horizontal.
 double double_pendulum(const Preset& preset) {
   PresetWorld world(preset);
   const BodyDesc rod = W::box(Vec3(1, 0.1, 0.1), Vec3(0.5, 0, 0));
@@ -53,8 +51,7 @@ double double_pendulum(const Preset& preset) {
   return worst_J / (rod.mass_kg * kG * 1);
 }
 
-/// Changes of energy and angular momentum of two boxes in a fixed joint that rotate freely at 20
-/// rad/s for 10 s.
+/// Errors of two boxes in a fixed joint that rotate freely at 20 rad/s for 10 s.
 struct PairErrors {
   double energy = 0, spin = 0;
 };

@@ -18,8 +18,7 @@ constexpr double kStrength_Pa = 1e6, kWidth_m = 0.2, kLength_m = 2;
 constexpr int kAlong = 20, kAcross = 2;  // convexes of a beam
 constexpr MaterialIndex kBrittle{0}, kSteel{1};
 
-/// Returns a scene with two materials and nothing else: material 0 breaks under load, material 1
-/// does not.
+/// Returns a scene with two materials only: material 0 breaks under load, material 1 does not.
 Scene empty_scene(const Preset& preset, double brittle_kg_m3, double steel_kg_m3) {
   Scene scene;
   Material brittle, steel;
@@ -72,9 +71,9 @@ double least_breaking_load(const std::function<bool(double)>& breaks) {
 
 enum class Attachment { kResting, kRope, kFixed, kRootInJoint };
 
-/// Returns true if a cantilever breaks under `load_factor` times the theoretical load. The stress
-/// at the root is 6 F a/(b h²). A joint at the root holds the first layer of convexes, so the arm
-/// begins at the end of that layer.
+/// Returns true if a cantilever breaks under `load_factor` times the load of theory, whose stress
+/// at the root is 6 F a/(b h²). A joint at the root holds the first convexes, so the root is at
+/// their end.
 bool cantilever_breaks(const Preset& preset, Attachment how, double load_factor) {
   const bool in_joint = how == Attachment::kRootInJoint;
   const double side_m = 0.2, arm_m = kLength_m - 0.5 * side_m;
@@ -112,8 +111,8 @@ Measure cantilever(Attachment how) {
   };
 }
 
-/// Returns true if a bar breaks that hangs in one joint and holds a weight in another. The stress
-/// is F/A throughout.
+/// Returns true if a bar with a joint at each end breaks under a weight; the stress is F/A
+/// throughout.
 bool hanging_bar_tears(const Preset& preset, JointKind kind, double load_factor) {
   const double side_m = 0.3, force_N = load_factor * kStrength_Pa * kWidth_m * kWidth_m;
   Scene scene = empty_scene(preset, 100, force_N / kG / std::pow(side_m, 3));

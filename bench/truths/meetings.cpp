@@ -98,8 +98,7 @@ Measure worst_of(const std::function<Errors(const Preset&)>& errors, double Erro
   };
 }
 
-/// Collision of cubes with enough sweeps for the four corners of a face to share the impulse
-/// evenly.
+/// Collision of cubes with enough sweeps for the corners of a face to share the impulse evenly.
 Errors cubes_with_32_sweeps(const Preset& preset) {
   Preset more_sweeps = preset;
   more_sweeps.sweeps = 32;

@@ -83,8 +83,8 @@ Outcome simulate_shot(const Shot& shot, const Preset& preset, int seed) {
   return outcome;
 }
 
-/// Returns the speed of a steel ball behind the wall of a house that it hits beside a window; 0 if
-/// the ball did not pass.
+/// Returns the speed of a ball behind a house wall that it hits beside a window; 0 if it did not
+/// pass.
 double exit_of_house(double radius_m, double speed_m_s, int seed, const Preset& preset) {
   const double wall_m = 0.3;
   const std::string text =

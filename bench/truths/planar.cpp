@@ -36,8 +36,7 @@ std::vector<BodyState> solid_rest(const Build& build, const Preset& preset) {
   return states_of(world);
 }
 
-/// Measures the largest difference of a body's position from Box2D's, in blocks; a rotation counts
-/// by the motion of its corners.
+/// Largest difference of a pose from Box2D's, in blocks; rotation counts by the motion of corners.
 Measure difference(const Build& build, double block_m) {
   return [=](const Preset& preset) {
     const std::vector<BodyState> a = planar_rest(build, block_m), b = solid_rest(build, preset);
@@ -51,8 +50,7 @@ Measure difference(const Build& build, double block_m) {
   };
 }
 
-/// Number of solvers, of both, that wrongly predict whether the structure falls, that is, loses
-/// height.
+/// Number of solvers, of both, with a wrong prediction whether the structure falls (loses height).
 Measure wrong_predictions(const Build& build, double block_m, double start_m, bool falls) {
   return [=](const Preset& preset) {
     int wrong = 0;

@@ -1,5 +1,4 @@
-// A physics world for validation cases and tests, with short functions that make bodies, and sums
-// of momentum and energy.
+// A physics world for validation cases and tests, with short functions that make bodies.
 #pragma once
 
 #include <algorithm>
@@ -93,8 +92,7 @@ class RigidWorld {
     return desc;
   }
 
-  /// Copies the hull and keeps the copy until the program ends, because a description must not
-  /// outlive its hull.
+  /// Copies the hull and keeps the copy until the program ends; a description needs its hull.
   static const ConvexPolyhedron* keep(const ConvexPolyhedron& convex) {
     static std::vector<std::shared_ptr<ConvexPolyhedron>> kept;
     kept.push_back(std::make_shared<ConvexPolyhedron>(convex));
@@ -206,7 +204,7 @@ class RigidWorld {
   std::vector<Mat3> inertias_;
 };
 
-/// Returns a joint at `at_W` between two bodies at their present poses, or between one body and the
+/// Returns a joint at `at_W` between two bodies at their present poses; a missing body is the
 /// world.
 inline JointDesc joint_at(const RigidWorld& world, JointKind kind, BodyId a, BodyId b,
                           const Vec3& at_W, const Vec3& axis_W = Vec3::UnitZ()) {

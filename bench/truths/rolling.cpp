@@ -45,8 +45,7 @@ double rolls_down(const Preset& preset) {
   return ball.speed_m_s() / (2 * 5.0 / 7 * kG * sin_cos(0.2).sin) - 1;
 }
 
-/// The kinetic energy 7/10 m v² is spent against the force mu_r m g that is equivalent to the
-/// resisting torque.
+/// The energy 7/10 m v² is spent against the force mu_r m g, equivalent to the resisting torque.
 double rolling_distance(const Preset& preset) {
   const double rolling = 0.05, speed_m_s = 2;
   Roller ball(preset, 0, 0.8, Vec3(speed_m_s, 0, 0), speed_m_s / 0.2, rolling);
@@ -65,8 +64,7 @@ double rolled_m(const Preset& preset, double slope_factor) {
   return ball.distance_m() - start_m;
 }
 
-/// Motion of a free-standing block, h = 1 m and b = 0.2 m, that starts at half of its critical
-/// tilt.
+/// Motion of a free-standing block, h = 1 m and b = 0.2 m, from half of its critical tilt.
 struct Rocking {
   double quarter_s = 0;  ///< Time until the block is first upright.
   double tilt_rad = 0;   ///< Largest tilt to the other side.
@@ -155,8 +153,8 @@ double pivoting_distance_m() {
   return pivot_m + R * std::sin(lean_rad - kSlope_rad);
 }
 
-/// Toppling of a column of H/b = 5 that starts slightly beyond its balance: slip of its foot, and
-/// angular velocity at a lean of 55°.
+/// Slip of the foot and angular velocity at 55° of a column of H/b = 5 that topples from its
+/// balance.
 struct Toppling {
   double foot_m = 0, spin_rad_s = 0;
 };
@@ -192,8 +190,7 @@ Toppling topple(const Preset& preset) {
   return toppling;
 }
 
-/// Relative error of the angular velocity; theory is I ω²/2 = m g R (cos(lean − α) at the start −
-/// at 55°) about the corner.
+/// Theory: I ω²/2 = m g R (cos(lean − α) at the start − at 55°) about the corner.
 double toppling_spin(const Preset& preset) {
   const double truth = std::sqrt(
       2 * kP2 * (std::cos(kLean_rad - kAlpha_rad) - std::cos(55 * kPi / 180 - kAlpha_rad)));

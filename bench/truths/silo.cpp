@@ -1,5 +1,4 @@
-// Validation of silo pressure (Janssen 1895): the wall pressure of grain approaches a limit with
-// depth.
+// Validation of silo pressure (Janssen 1895), which approaches a limit with depth.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,4 @@
-// Validation of stacks, towers and walls: they stand and do not sink, and the ground bears their
-// weight.
+// Validation of stacks, towers and walls: they stand, do not sink, and load the ground.
 #include <algorithm>
 #include <cmath>
 
@@ -83,7 +82,7 @@ double growing_weights_sink(const Preset& preset) {
 }
 
 /// Adds twenty courses of bricks in a running bond, with half bricks at the ends of every other
-/// course.
+/// one.
 BodyId add_wall(RigidWorld& world) {
   const Vec3 whole(0.4, 0.2, 0.2), half(0.2, 0.2, 0.2);
   BodyId middle;

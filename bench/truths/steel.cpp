@@ -1,5 +1,4 @@
-// Validation of steel by the theory of plasticity: yield load, work of bending, permanent
-// deformation and tearing.
+// Validation of steel by the theory of plasticity: yield load, work, recovery and tearing.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -155,8 +154,7 @@ Measure elastic_recovery() {
   };
 }
 
-/// Rotation at tearing, divided by that at which the outermost fibre reaches the elongation, less
-/// 1.
+/// Relative error of the rotation at which the outermost fibre reaches the elongation and tears.
 Measure tearing_rotation() {
   return [](const Preset& preset) {
     const Trial trial{2, 1.3, 0, 0.02};

@@ -83,8 +83,7 @@ void print_markdown(const Line& line) {
 void print_warnings(const std::vector<Line>& lines) {
   std::set<std::string> seen;
   for (const Line& line : lines) {
-    // Only the first warned preset of a case counts: finer ones have the same warnings with other
-    // numbers.
+    // Finer presets have the same warnings with other numbers, so only the first preset counts.
     const auto first =
         std::ranges::find_if(line.figures, std::not_fn(&std::string::empty), &Figure::told);
     if (first == line.figures.end() || !seen.insert(first->told).second) continue;

@@ -1,5 +1,4 @@
-// Table of validation cases measured at every preset, which marks missed targets and exceeded
-// bounds.
+// Table of validation cases at every preset, which marks missed targets and exceeded bounds.
 #pragma once
 
 #include "bench/truths/truth.h"

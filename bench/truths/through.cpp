@@ -1,5 +1,4 @@
-// Validation of a steel ball of 20 m/s through breakable targets: exit speed, number of pieces, and
-// deepest penetration.
+// Validation of a steel ball of 20 m/s through breakable targets: exit speed, pieces, penetration.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -75,8 +75,7 @@ Truths blast_truths();
 /// Returns all cases of these lists, sorted by row.
 Truths all_truths();
 
-/// Returns the x in [low, high] at which yes(x) turns from false to true, by bisection in `rounds`
-/// steps.
+/// Returns the x in [low, high] where yes(x) turns from false to true, after `rounds` bisections.
 double threshold(double low, double high, int rounds, const std::function<bool(double)>& yes);
 
 }  // namespace sunder::truths
