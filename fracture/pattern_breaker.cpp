@@ -102,7 +102,7 @@ BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
   for (const ConvexSlot slot : structure.within(command.X_RP.position, command.radius_m)) {
     const Convex& convex = *structure.convex(slot);
     if (structure.anchored(slot) != 0 ||
-        std::ranges::find(command.spared, convex.material) == command.spared.end())
+        std::ranges::find(command.unbreakable, convex.material) == command.unbreakable.end())
       continue;
     if (share_in(plug, transformed(convex.polyhedron, X_PR)) > kInPlug) loose.push_back(slot);
   }
@@ -122,7 +122,7 @@ BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
 }
 
 /// Replaces the pattern by a plug, if the striker drives one out.
-void add_plug(const Convex& convex, const Material& material, const Hit& hit,
+void add_plug(const Convex& convex, const Material& material, const StructureImpact& hit,
               BreakCommand& command) {
   Pose X_RP;
   command.plug = make_plug(material, hit, axis_across(convex, hit.direction_R), X_RP);
@@ -136,8 +136,9 @@ class PatternBreaker final : public Breaker {
  public:
   explicit PatternBreaker(std::shared_ptr<FailureLog> log) : log_(std::move(log)) {}
 
-  BreakCommand command(const Convex& convex, std::span<const Material> materials, const Hit& hit,
-                       std::uint64_t event, std::uint64_t seed) const override {
+  BreakCommand command(const Convex& convex, std::span<const Material> materials,
+                       const StructureImpact& hit, std::uint64_t event,
+                       std::uint64_t seed) const override {
     const Material& material = materials[convex.material.value];
     Random random(seed, 3);
     BreakCommand command;
@@ -146,8 +147,8 @@ class PatternBreaker final : public Breaker {
     command.pattern = material.pattern;
     command.radius_m = material.impact_radius_m;
     command.fit = material.fit;
-    command.smallest_m3 = material.smallest_broken_m3();
-    for (const StrongerImpact& stronger : material.stronger) {
+    command.smallest_m3 = material.min_breakable_volume_m3();
+    for (const ImpactResponse& stronger : material.stronger) {
       if (hit.energy_J < stronger.energy_J) break;
       command.pattern = stronger.pattern;
       command.radius_m = stronger.impact_radius_m;
@@ -155,7 +156,7 @@ class PatternBreaker final : public Breaker {
     const double thickness_m = is_thin(convex) ? mean_thickness_m(convex) : 0;
     reduce_to_energy(material, hit, command.radius_m, thickness_m, command.pattern);
     for (std::size_t m = 0; m < materials.size(); ++m) {
-      if (!materials[m].breakable()) command.spared.emplace_back(m);
+      if (!materials[m].breakable()) command.unbreakable.emplace_back(m);
     }
     command.X_RP = {hit.point_R,
                     orientation(command.pattern.kind, convex, hit.direction_R, random)};
@@ -177,10 +178,10 @@ class PatternBreaker final : public Breaker {
     return edit;
   }
 
-  void note_carried_out(const BreakPlan& plan) const override {
+  void on_applied(const BreakPlan& plan) const override {
     if (log_) log_->count(plan.failed, plan.failed_m3);
   }
-  StressAnswer stress(const Structure& structure, const LoadCase& load) const override {
+  StressResult stress(const Structure& structure, const LoadCase& load) const override {
     return break_by_stress(structure, load);
   }
   std::vector<float> utilisation(const Structure& structure, const LoadCase& load) const override {
@@ -202,7 +203,8 @@ double reach(const Box& box, const Vec3& from) {
 
 ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library) {
   ReadyBreak ready;
-  ready.sphere = {command.X_RP.position, command.radius_m, command.spared, command.smallest_m3};
+  ready.sphere = {command.X_RP.position, command.radius_m, command.unbreakable,
+                  command.smallest_m3};
   const bool whole = ready.sphere.is_endless();
   const double unit = whole ? reach(bounds_R, ready.sphere.center_R) : ready.sphere.radius_m;
   ready.pattern =

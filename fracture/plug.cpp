@@ -62,7 +62,7 @@ double crack_length_m(const Plug& plug, double radius_m, int rings) {
 
 /// Adds the rings that the energy left can pay for: of a web, as far as cracks run while the
 /// striker passes; of other patterns, one in which the far face spalls.
-void add_rings(const Material& material, const Hit& hit, double radius_m, Plug& plug) {
+void add_rings(const Material& material, const StructureImpact& hit, double radius_m, Plug& plug) {
   const double left_J = kCrackShare * (hit.energy_J - plug.energy_J);
   const double affordable_m = left_J / (material.toughness_J_m2 * plug.depth_m);
   const PatternSpec::Kind kind = material.pattern.kind;
@@ -80,7 +80,7 @@ void add_rings(const Material& material, const Hit& hit, double radius_m, Plug& 
 /// Shortens a plug that the energy does not carry through to a crater of that energy, and narrows
 /// its section as that of a round nose; `width_m` and `area_m2` go with it. Returns false if the
 /// solid is too narrow there, and breaks as a whole.
-bool become_crater(const Hit& hit, double& width_m, double& area_m2, Plug& plug) {
+bool become_crater(const StructureImpact& hit, double& width_m, double& area_m2, Plug& plug) {
   const double share = kMostTaken * hit.energy_J / plug.energy_J;
   plug.energy_J *= share;
   plug.depth_m *= std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // E goes by e^(8/3)
@@ -105,8 +105,8 @@ double perforation_energy_J(const Material& material, double width_m, double thi
   return 0.5 * mass_kg * squared_m2_s2;
 }
 
-std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Vec3& axis_R,
-                              Pose& X_RP) {
+std::optional<Plug> make_plug(const Material& material, const StructureImpact& hit,
+                              const Vec3& axis_R, Pose& X_RP) {
   Plug plug;
   plug.depth_m = hit.thickness_m * hit.direction_R.dot(axis_R);
   if (hit.section_R.empty() || !hit.narrow || !(plug.depth_m > 0)) return {};
@@ -133,7 +133,7 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
   plug.sides_m2 = perimeter_m(plug.section_m) * plug.depth_m;
   const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);
   if (!plug.through) {  // one piece: several would be wedged in the crater
-    if (smaller_m3 < material.smallest_broken_m3()) plug.section_m.clear();
+    if (smaller_m3 < material.min_breakable_volume_m3()) plug.section_m.clear();
     return plug;
   }
   const auto parts = static_cast<double>(plug.section_m.size() + 1);

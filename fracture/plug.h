@@ -21,7 +21,7 @@ double perforation_energy_J(const Material& material, double width_m, double thi
 /// than a break by pattern, or the solid so narrow that it breaks as a whole. A crater smaller than
 /// the material's smallest break has no section: the striker dents the solid, and nothing comes
 /// off.
-std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Vec3& axis_R,
-                              Pose& X_RP);
+std::optional<Plug> make_plug(const Material& material, const StructureImpact& hit,
+                              const Vec3& axis_R, Pose& X_RP);
 
 }  // namespace sunder::fracture

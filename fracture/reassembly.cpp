@@ -29,7 +29,7 @@ void Reassembly::find_neighbours() {
   };
   for (const ConvexSlot slot : touched_) {
     for (const Link& link : structure_.links(slot)) add(link.other);
-    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
+    for (const std::uint32_t number : structure_.ghost_indices(slot)) {
       for (const std::uint32_t other : structure_.ghost(number).of) add(ConvexSlot(other));
     }
   }
@@ -58,14 +58,14 @@ void Reassembly::add_neighbours(std::vector<ConvexPtr>& convexes,
   faces.erase(std::unique(faces.begin(), faces.end(), same), faces.end());
 }
 
-/// Ghosts that weigh, by nodes: those that were cut, and those among neighbours, of which only the
-/// faces count that are in the planes given.
+/// Ghosts that mass_of, by nodes: those that were cut, and those among neighbours, of which only
+/// the faces count that are in the planes given.
 std::vector<Ghost> Reassembly::add_ghosts(std::vector<ConvexPtr>& convexes,
                                           std::vector<FaceEntry>& faces) const {
   std::vector<Ghost> ghosts = ghosts_;
   std::vector<std::uint32_t> known;
   for (const ConvexSlot slot : neighbours_) {
-    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
+    for (const std::uint32_t number : structure_.ghost_indices(slot)) {
       if (!is_any_touched(structure_.ghost(number))) known.push_back(number);
     }
   }
@@ -175,7 +175,7 @@ void Reassembly::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) 
     for (const Link& link : structure_.links(slot)) {
       if (!is_touched(link.other)) visit(link.other.value);
     }
-    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
+    for (const std::uint32_t number : structure_.ghost_indices(slot)) {
       for (const std::uint32_t other : structure_.ghost(number).of) {
         if (!is_touched(ConvexSlot(other))) visit(other);
       }
@@ -231,7 +231,7 @@ Compound Reassembly::make_piece(const std::vector<std::uint32_t>& nodes) const {
       piece.bonds.push_back(
           {i, place(link.other.value).second, link.face, link.other_face, link.area_m2});
     }
-    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
+    for (const std::uint32_t number : structure_.ghost_indices(slot)) {
       Ghost ghost = structure_.ghost(number);
       if (ghost.of[0] != node || is_any_touched(ghost)) continue;
       for (std::uint32_t& of : ghost.of) of = place(of).second;

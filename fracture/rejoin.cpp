@@ -11,7 +11,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/geometry/polygon_mesh.h"
-#include "engine/model/bend.h"
+#include "engine/model/bent_section.h"
 #include "fracture/adjacency/adjacency.h"
 
 namespace sunder::fracture {
@@ -75,7 +75,7 @@ class Rejoining {
     return !twice_ && std::ranges::all_of(ended_[side], [&](const auto& one) {
       const auto& [slot, convex] = one;
       const bool held = structure.anchored(slot) == 0 || anchors(structure, slot, convex) != 0;
-      return held && structure.ghosts_of(slot).empty();
+      return held && structure.ghost_indices(slot).empty();
     });
   }
 
@@ -254,7 +254,7 @@ class Rejoining {
   void keep_ghosts_of_b() {
     std::set<std::uint32_t> numbers;
     bent_.b.for_each([&](ConvexSlot slot, const Convex&) {
-      for (const std::uint32_t number : bent_.b.ghosts_of(slot)) numbers.insert(number);
+      for (const std::uint32_t number : bent_.b.ghost_indices(slot)) numbers.insert(number);
     });
     for (const std::uint32_t number : numbers) {
       Ghost ghost = bent_.b.ghost(number);

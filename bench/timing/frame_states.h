@@ -31,12 +31,12 @@ struct GuardedRun {
 /// "simulation at realtime" and so on. Without any stored hashes the only verdict is a failure.
 /// `whole`: the state hashes of `sunder bench` are checked as well, if the scene was not changed by
 /// --set. `file` is the name of the file of hashes in messages. Throws InputError.
-std::vector<Verdict> judge_frames(const GuardedRun& run, const HashBook& book,
-                                  const std::string& file, bool whole);
+std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& book,
+                                    const std::string& file, bool whole);
 
 /// Stores the hashes of the run at every preset, up to 50 frames (at the run's own preset) or 8
 /// frames (at others) after the first break that is not before the script's first action. Throws
 /// InputError.
-void accept_frames(const GuardedRun& run, HashBook& book);
+void accept_frames(const GuardedRun& run, StateHashes& book);
 
 }  // namespace sunder::bench

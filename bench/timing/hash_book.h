@@ -11,14 +11,14 @@
 
 namespace sunder::bench {
 
-using HashBook = std::map<std::string, std::string>;
+using StateHashes = std::map<std::string, std::string>;
 
 /// Parses the text of a file of hashes, named `file` in messages. Throws InputError naming the
 /// line.
-HashBook parse_hashes(const std::string& text, const std::string& file);
+StateHashes parse_hashes(const std::string& text, const std::string& file);
 /// Reads a file of hashes; returns none if there is no file.
-HashBook read_hashes(const std::string& file);
+StateHashes read_hashes(const std::string& file);
 /// Returns the text of a file of hashes.
-std::string format_hashes(const HashBook& book);
+std::string format_hashes(const StateHashes& book);
 
 }  // namespace sunder::bench

@@ -15,11 +15,11 @@ namespace sunder::bench {
 /// Returns a verdict for each scene. Runs that were changed by --set or are too short have no
 /// stored hash and are skipped; others without one fail. `file` names the file of hashes in
 /// messages.
-std::vector<Verdict> judge_states(std::span<const Figures> scenes, const HashBook& book,
-                                  const std::string& file);
+std::vector<Verdict> compare_states(std::span<const Figures> scenes, const StateHashes& book,
+                                    const std::string& file);
 
-/// Stores the state hash of every scene. Throws InputError for a run that judge_states() skips, and
-/// for one whose repeats differ.
-void accept_states(std::span<const Figures> scenes, HashBook& book);
+/// Stores the state hash of every scene. Throws InputError for a run that compare_states() skips,
+/// and for one whose repeats differ.
+void accept_states(std::span<const Figures> scenes, StateHashes& book);
 
 }  // namespace sunder::bench

@@ -102,7 +102,7 @@ class RigidWorld {
   BodyId add(const BodyDesc& desc) {
     ids_.push_back(physics_->replace({}, std::span(&desc, 1)).front());
     masses_.push_back(desc.is_static ? 0 : desc.mass_kg);
-    inertias_.push_back(spinnable(desc.inertia_B));
+    inertias_.push_back(bounded_inertia(desc.inertia_B));
     return ids_.back();
   }
   void remove(BodyId id) {
@@ -118,7 +118,7 @@ class RigidWorld {
     for (std::size_t i = 0; i < add.size(); ++i) {
       ids_.push_back(ids[i]);
       masses_.push_back(add[i].is_static ? 0 : add[i].mass_kg);
-      inertias_.push_back(spinnable(add[i].inertia_B));
+      inertias_.push_back(bounded_inertia(add[i].inertia_B));
     }
     return ids;
   }

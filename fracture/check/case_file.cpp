@@ -279,9 +279,9 @@ void write_command(Writer& out, const BreakCommand& command) {
   out.put(pattern.jitter);
   out.put(pattern.brick_m);
   out.put(std::quoted(pattern.file));
-  out.word("spared");
-  out.put(command.spared.size());
-  for (const MaterialIndex material : command.spared) out.put(material.value);
+  out.word("unbreakable");
+  out.put(command.unbreakable.size());
+  for (const MaterialIndex material : command.unbreakable) out.put(material.value);
   out.put(command.smallest_m3);
   write_plug(out, command.plug.value_or(Plug{}));
   out.end_line();
@@ -349,9 +349,9 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   pattern.jitter = in.number();
   pattern.brick_m = in.matrix<Vec3>();
   if (!(stream >> std::quoted(pattern.file))) in.fail("the pattern's file is missing");
-  in.expect("spared");
+  in.expect("unbreakable");
   for (std::uint64_t left = in.integer(kMost); left > 0; --left) {
-    command.spared.emplace_back(in.integer(kMost));
+    command.unbreakable.emplace_back(in.integer(kMost));
   }
   command.smallest_m3 = in.number();
   command.plug = read_plug(in, stream);
@@ -402,7 +402,7 @@ BreakCase read_case(std::istream& stream, const std::string& name) {
   for (std::uint64_t i = 0; i < convexes; ++i) {
     in.expect("convex");
     const MaterialIndex material(in.integer(kMost));
-    compound.anchored.push_back(static_cast<std::uint8_t>(in.integer(kAnchoredAllRound)));
+    compound.anchored.push_back(static_cast<std::uint8_t>(in.integer(kAnchoredAllSides)));
     const std::uint64_t vertices = in.integer(kMost), faces = in.integer(kMost);
     ConvexPolyhedron polyhedron = read_polyhedron(in, vertices, faces);
     compound.convexes.push_back(make_convex(std::move(polyhedron), material, read_visual(in)));

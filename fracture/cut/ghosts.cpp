@@ -146,7 +146,7 @@ std::vector<Ghost> cut_ghosts(const Structure& structure, const std::vector<Conv
                               double& debris_volume_m3) {
   std::vector<std::uint32_t> old;
   for (const ConvexSlot slot : touched) {
-    const std::span<const std::uint32_t> of_slot = structure.ghosts_of(slot);
+    const std::span<const std::uint32_t> of_slot = structure.ghost_indices(slot);
     old.insert(old.end(), of_slot.begin(), of_slot.end());
   }
   std::sort(old.begin(), old.end());

@@ -13,7 +13,7 @@ bool ImpactSphere::is_endless() const {
 }
 
 bool ImpactSphere::spares(MaterialIndex material) const {
-  return std::find(spared.begin(), spared.end(), material) != spared.end();
+  return std::find(unbreakable.begin(), unbreakable.end(), material) != unbreakable.end();
 }
 
 bool ImpactSphere::touches(const Convex& convex) const {
@@ -25,7 +25,7 @@ bool ImpactSphere::touches(const Convex& convex) const {
 
 bool ImpactSphere::is_lump(const Structure& structure, ConvexSlot slot) const {
   if (!(structure.convex(slot)->solid.volume_m3 < smallest_m3)) return false;
-  return std::ranges::any_of(structure.ghosts_of(slot), [&](std::uint32_t ghost) {
+  return std::ranges::any_of(structure.ghost_indices(slot), [&](std::uint32_t ghost) {
     return std::ranges::any_of(structure.ghost(ghost).of, [&](std::uint32_t of) {
       return spares(structure.convex(ConvexSlot(of))->material);
     });

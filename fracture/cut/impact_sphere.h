@@ -11,8 +11,8 @@ namespace sunder::fracture {
 /// not break.
 struct ImpactSphere {
   Vec3 center_R = Vec3::Zero();
-  double radius_m = 1;                     ///< Infinity: everything breaks that may.
-  std::vector<MaterialIndex> spared = {};  ///< Materials that do not break.
+  double radius_m = 1;                          ///< Infinity: everything breaks that may.
+  std::vector<MaterialIndex> unbreakable = {};  ///< Materials that do not break.
   double smallest_m3 = 0;  ///< Nor does what is smaller and overlaps one that does not.
 
   /// Whether everything breaks that may.

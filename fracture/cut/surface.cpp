@@ -134,7 +134,7 @@ class SurfaceCutter {
     return parts;
   }
 
-  /// An island's convex; make_convex() would weigh the island again.
+  /// An island's convex; make_convex() would mass_of the island again.
   ConvexPtr surface_convex(const Draft& draft, PolygonMesh mesh,
                            const MassProperties& solid) const {
     auto convex = std::make_shared<Convex>();

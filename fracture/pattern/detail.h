@@ -13,7 +13,7 @@ inline constexpr double kCrackShare = 0.1;
 /// there are as few as can be. Cells of a given size, as bricks and those of a file, stay; so do
 /// those of materials without a limit of stress, which the crack energy of the pattern decides.
 /// `radius_m` is that of the impact sphere; `thickness_m` that of a plate, 0 for other convexes.
-void reduce_to_energy(const Material& material, const Hit& hit, double radius_m, double thickness_m,
-                      PatternSpec& pattern);
+void reduce_to_energy(const Material& material, const StructureImpact& hit, double radius_m,
+                      double thickness_m, PatternSpec& pattern);
 
 }  // namespace sunder::fracture

@@ -1,4 +1,4 @@
-// What the convexes of a compound weigh, and the forces that a load puts on them. Islands that
+// What the convexes of a compound mass_of, and the forces that a load puts on them. Islands that
 // nothing anchors are balanced by their own inertia, as free-flying structures are in finite
 // elements (inertia relief).
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace sunder::fracture {
 
-/// As a Load, on a convex of a compound.
+/// As a AppliedForce, on a convex of a compound.
 struct ConvexLoad {
   std::uint32_t convex = 0;  ///< Index.
   Vec3 force_N = Vec3::Zero();

@@ -43,7 +43,7 @@ EmbeddedSurface surface_on(const Convex& overlap, const Convex& side) {
 /// Convexes that overlap a convex, and whether the overlap weighs; ascending.
 std::vector<std::pair<ConvexSlot, bool>> partners(const Structure& structure, ConvexSlot slot) {
   std::vector<std::pair<ConvexSlot, bool>> found;
-  for (const std::uint32_t number : structure.ghosts_of(slot)) {
+  for (const std::uint32_t number : structure.ghost_indices(slot)) {
     const Ghost& ghost = structure.ghost(number);
     if (ghost.of.size() != 2) continue;
     const std::uint32_t other = ghost.of[0] == slot.value ? ghost.of[1] : ghost.of[0];

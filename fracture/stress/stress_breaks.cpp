@@ -74,8 +74,8 @@ class StressBreaks {
       hinged_[c] = std::ranges::binary_search(load.hinged, slots_[c]) ? 1 : 0;
   }
 
-  StressAnswer run() {
-    StressAnswer answer;
+  StressResult run() {
+    StressResult answer;
     answer.work = kAnswerWork * (compound_.bonds.size() + kAnswerSprings);
     memory_ = recall(load_.memory.get(), compound_, slots_, load_.materials, answer.work);
     most_work_ =
@@ -123,7 +123,7 @@ class StressBreaks {
   }
 
   std::vector<float> utilisation(std::size_t slots) {
-    StressAnswer answer;
+    StressResult answer;
     memory_ = recall(load_.memory.get(), compound_, slots_, load_.materials, answer.work);
     most_work_ = std::numeric_limits<std::uint64_t>::max();
     solve(answer);
@@ -147,9 +147,9 @@ class StressBreaks {
            (material_of(bond.a).breaks_by_load() || material_of(bond.b).breaks_by_load());
   }
 
-  std::vector<ConvexLoad> by_convex(std::span<const Load> loads) const {
+  std::vector<ConvexLoad> by_convex(std::span<const AppliedForce> loads) const {
     std::vector<ConvexLoad> all;
-    for (const Load& one : loads) {
+    for (const AppliedForce& one : loads) {
       const auto at = std::lower_bound(slots_.begin(), slots_.end(), one.convex);
       const auto convex = static_cast<std::uint32_t>(at - slots_.begin());
       all.push_back({convex, one.force_N, one.point_R, one.torque_Nm});
@@ -160,7 +160,7 @@ class StressBreaks {
   /// False if there is no work left, or it is given up.
   bool improve(std::span<const ConvexLoad> loads, const Vec3& gravity_R, const Vec3& spin_R,
                double tolerance, std::vector<Displacement>& displacements, Nodal<double>& way,
-               int& iterations, StressAnswer& answer) {
+               int& iterations, StressResult& answer) {
     const std::uint64_t each = std::max<std::uint64_t>(1, memory_->system->work());
     if (answer.work >= most_work_) return false;
     const auto left = static_cast<int>(
@@ -173,7 +173,7 @@ class StressBreaks {
   }
 
   /// False if the stress of the steady load is not known by now.
-  bool solve(StressAnswer& answer) {
+  bool solve(StressResult& answer) {
     const bool known = improve(loads_, load_.gravity_R, load_.spin_R, kTolerance,
                                memory_->displacements, memory_->way, memory_->iterations, answer);
     answer.settled = memory_->iterations >= kMostIterations;
@@ -189,7 +189,7 @@ class StressBreaks {
   /// all of that energy is in the bending: λ² = 2U / (m + M). The rest, a share M / (m + M) of W,
   /// stays where the blow lands, and so does what is bent there. Where nothing strikes,
   /// as of a blast, m is 0.
-  bool strike(StressAnswer& answer) {
+  bool strike(StressResult& answer) {
     if (impulses_.empty()) return true;
     std::vector<Displacement>& swing = memory_->swing.displacements;
     int iterations = 0;
@@ -216,7 +216,7 @@ class StressBreaks {
     KnownSwing& swing = memory_->swing;
     std::vector<ConvexSlot> struck;
     double impulse_Ns = 0;
-    for (const Load& impulse : load_.blow.impulses) {
+    for (const AppliedForce& impulse : load_.blow.impulses) {
       struck.push_back(impulse.convex);
       impulse_Ns += impulse.force_N.norm();
     }
@@ -233,7 +233,7 @@ class StressBreaks {
     }
   }
 
-  void note_work(bool is_known, StressAnswer& answer) {
+  void note_work(bool is_known, StressResult& answer) {
     std::uint64_t& work = memory_->swing.work;
     const bool ran_out = !is_known && cut_.empty() && answer.work >= most_work_;
     work = ran_out ? work + answer.work : 0;
@@ -245,14 +245,14 @@ class StressBreaks {
     return impulses_.empty() ? memory_->displacements : bent_;
   }
 
-  void note_blow(StressAnswer& answer) const {
+  void note_blow(StressResult& answer) const {
     if (impulses_.empty()) return;
     answer.blow.local = local_;
     answer.blow.worst = answer.worst;
     if (worst_ != kNoBond) answer.blow.worst_R = memory_->system->geometry()[worst_].centroid_R;
   }
 
-  Yielding judge(StressAnswer& answer) {
+  Yielding judge(StressResult& answer) {
     std::vector<double> parts(compound_.bonds.size(), 0);
     for_chunks(parts.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) parts[i] = part_of_limit(i);
@@ -335,7 +335,7 @@ class StressBreaks {
   }
 
   double crack_J(const Bond& bond) const {
-    return bond.area_m2 * crack_J_m2(material_of(bond.a), material_of(bond.b));
+    return bond.area_m2 * crack_energy_J_m2(material_of(bond.a), material_of(bond.b));
   }
 
   double part_of_limit(std::size_t i) const {
@@ -401,7 +401,7 @@ class StressBreaks {
 
 }  // namespace
 
-StressAnswer break_by_stress(const Structure& structure, const LoadCase& load) {
+StressResult break_by_stress(const Structure& structure, const LoadCase& load) {
   SUNDER_CHECK(!structure.empty());
   return StressBreaks(structure, load).run();
 }

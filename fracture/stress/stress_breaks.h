@@ -14,7 +14,7 @@ namespace sunder::fracture {
 
 /// What Breaker::stress() answers: cuts the bonds that the load is too much for, and what comes
 /// off.
-StressAnswer break_by_stress(const Structure& structure, const LoadCase& load);
+StressResult break_by_stress(const Structure& structure, const LoadCase& load);
 
 /// What Breaker::utilisation() answers, however much work it takes.
 std::vector<float> utilisation_by_stress(const Structure& structure, const LoadCase& load);

@@ -139,7 +139,7 @@ class Recollection {
 
 }  // namespace
 
-std::shared_ptr<KnownStress> recall(const StressMemory* memory, const Compound& compound,
+std::shared_ptr<KnownStress> recall(const StressCache* memory, const Compound& compound,
                                     const std::vector<ConvexSlot>& slots,
                                     std::span<const Material> materials, std::uint64_t& work) {
   const auto* old = dynamic_cast<const KnownStress*>(memory);

@@ -21,7 +21,7 @@ struct KnownSwing {
 };
 
 /// What is handed back to the next solve.
-struct KnownStress final : StressMemory {
+struct KnownStress final : StressCache {
   std::vector<ConvexSlot> slots;  ///< Per convex.
   std::vector<ConvexPtr> convexes;
   std::vector<std::uint8_t> anchored;
@@ -41,7 +41,7 @@ struct KnownStress final : StressMemory {
 
 /// The system of a compound, and a guess of its displacements, from the memory of it or of what it
 /// was a part of; null: of nothing. Adds to `work` what that took, in visits of springs.
-std::shared_ptr<KnownStress> recall(const StressMemory* memory, const Compound& compound,
+std::shared_ptr<KnownStress> recall(const StressCache* memory, const Compound& compound,
                                     const std::vector<ConvexSlot>& slots,
                                     std::span<const Material> materials, std::uint64_t& work);
 

@@ -112,7 +112,7 @@ std::vector<std::uint32_t> Yielding::decisive(double least) const {
     const std::uint32_t worst = *std::ranges::max_element(
         region, {}, [&](std::uint32_t s) { return found_[s].utilisation; });
     const Section& deciding = found_[worst];
-    const double axial = in_parts(deciding.strength, deciding.wrench_R).axial;
+    const double axial = relative_load(deciding.strength, deciding.wrench_R).axial;
     if (axial * axial <= 0.5) {
       result.push_back(worst);
       continue;

@@ -1,5 +1,5 @@
 // What the range coder promises: numbers come back, what repeats costs little, no bytes harm it.
-#include "engine/io/take/bit_coder.h"
+#include "engine/io/recording/bit_coder.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::vector<std::byte> written(std::span<const std::uint32_t> all) {
   BitWriter bits;
   for (const std::uint32_t number : all) {
     model.put(bits, number);
-    bits.put_plain(number, 5);
+    bits.put_uniform(number, 5);
   }
   ByteWriter out;
   bits.finish(out);
@@ -41,7 +41,7 @@ TEST(BitCoder, NumbersOfEveryLengthComeBack) {
     NumberModel model;
     for (std::size_t i = 0; i < all.size(); ++i) {
       ASSERT_EQ(model.take(bits), all[i]) << i;
-      ASSERT_EQ(bits.take_plain(5), all[i] & 31) << i;
+      ASSERT_EQ(bits.take_uniform(5), all[i] & 31) << i;
     }
   }
 }
@@ -83,7 +83,7 @@ TEST(BitCoder, ReadsWhateverTheBytesAreAndZerosBehindTheirEnd) {
     bool differs = false;
     for (const std::uint32_t number : all) {
       differs |= model.take(bits) != number;
-      differs |= bits.take_plain(5) != (number & 31);
+      differs |= bits.take_uniform(5) != (number & 31);
     }
     EXPECT_TRUE(differs) << at;
     for (int more = 0; more < 10000; ++more) model.take(bits);

@@ -35,17 +35,17 @@ Scene scene_of(const Compound& compound) {
 
 /// A run whose breaker answers what the test says, and counts how often it is asked.
 struct LoadRun {
-  using Answer = std::function<StressAnswer(const Structure&, const LoadCase&)>;
+  using Answer = std::function<StressResult(const Structure&, const LoadCase&)>;
 
   ScriptedPhysics* physics = nullptr;
   int asked = 0;
   Vec3 asked_force = Vec3::Zero(), asked_spin_R = Vec3::Zero();
-  std::vector<Load> asked_loads;
+  std::vector<AppliedForce> asked_loads;
   std::unique_ptr<Simulation> simulation;
 
   LoadRun(Scene scene, Answer answer) {
     auto owned = std::make_unique<ScriptedPhysics>(
-        [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
+        [](const ScriptedPhysics&, int) { return std::vector<SpeculativeContact>{}; });
     physics = owned.get();
     auto breaker = std::make_unique<ScriptedBreaker>(1.0);
     breaker->stressed = [this, answer](const Structure& structure, const LoadCase& load) {
@@ -53,7 +53,7 @@ struct LoadRun {
       asked_force.setZero();
       asked_spin_R = load.spin_R;
       asked_loads.assign(load.loads.begin(), load.loads.end());
-      for (const Load& one : load.loads) asked_force += one.force_N;
+      for (const AppliedForce& one : load.loads) asked_force += one.force_N;
       return answer(structure, load);
     };
     simulation =
@@ -69,14 +69,14 @@ struct LoadRun {
   }
 };
 
-StressAnswer holds(const Structure&, const LoadCase&) {
-  StressAnswer answer;
+StressResult holds(const Structure&, const LoadCase&) {
+  StressResult answer;
   answer.settled = true;
   return answer;
 }
 
-StressAnswer parts(const Structure& structure, const LoadCase&) {
-  StressAnswer answer;
+StressResult parts(const Structure& structure, const LoadCase&) {
+  StressResult answer;
   answer.settled = true;
   answer.edit = ScriptedBreaker::part(structure);
   return answer;
@@ -112,8 +112,8 @@ TEST(LoadStage, ABlowIsSpreadOverTheTimeOfTheAverageWhateverTheStep) {
     scene.accuracy.dt_s = 1.0 / (60 * steps);
     double highest = 0;
     LoadRun run(scene, [&](const Structure&, const LoadCase& load) {
-      for (const Load& one : load.loads) highest = std::max(highest, one.force_N.norm());
-      StressAnswer answer;
+      for (const AppliedForce& one : load.loads) highest = std::max(highest, one.force_N.norm());
+      StressResult answer;
       answer.settled = true;
       return answer;
     });
@@ -146,7 +146,7 @@ TEST(LoadStage, WhatLosesItsNeighbourShowsTheFaceThatItCovered) {
     return sum;
   };
   LoadRun run(scene_of(two_boxes(true)), [](const Structure& structure, const LoadCase&) {
-    StressAnswer answer;
+    StressResult answer;
     answer.settled = true;
     answer.edit.changed = structure.has(ConvexSlot(1));
     if (!answer.edit.changed) return answer;
@@ -166,7 +166,7 @@ TEST(LoadStage, AJointLoadsTheConvexThatIsNearestToItsAnchor) {
     run.physics->pulls = {{0, pull / 60, Vec3(0.25, y, 0.5), turn / 60}};
     run.frames(120);
     ASSERT_EQ(run.asked_loads.size(), 1u);
-    const Load& load = run.asked_loads[0];
+    const AppliedForce& load = run.asked_loads[0];
     EXPECT_EQ(load.convex, ConvexSlot(1));
     EXPECT_LT((load.force_N - pull).norm(), 0.1 * pull.norm());
     const Vec3 about = (Vec3(0.25, y, 0.5) - load.point_R).cross(pull) + turn;
@@ -212,7 +212,7 @@ TEST(LoadStage, OfSmallFragmentsOnlySpinIsLookedAt) {
   compound.anchored.push_back(0);
   compound.bonds.push_back({1, 2, 3, 2, 1});
   LoadRun run(scene_of(compound), [](const Structure& structure, const LoadCase&) {
-    StressAnswer answer;
+    StressResult answer;
     answer.settled = true;
     answer.edit.changed = structure.size() == 3;
     if (!answer.edit.changed) return answer;
@@ -252,7 +252,7 @@ TEST(LoadStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   std::vector<std::uint64_t> allowed;
   LoadRun run(scene, [&](const Structure& structure, const LoadCase& load) {
     allowed.push_back(load.most_work);
-    StressAnswer answer = parts(structure, load);
+    StressResult answer = parts(structure, load);
     answer.work = load.most_work;
     return answer;
   });
@@ -271,7 +271,7 @@ TEST(LoadStage, AFrameMaySpendWhatTheOneBeforeSaved) {
   std::vector<std::uint64_t> allowed;
   LoadRun run(scene, [&](const Structure&, const LoadCase& load) {
     allowed.push_back(load.most_work);
-    StressAnswer answer;
+    StressResult answer;
     answer.settled = true;
     answer.work = load.most_work;
     return answer;
@@ -283,12 +283,12 @@ TEST(LoadStage, AFrameMaySpendWhatTheOneBeforeSaved) {
 }
 
 TEST(LoadStage, GivesTheMemoryBack) {
-  struct Marked final : StressMemory {};
+  struct Marked final : StressCache {};
   const auto memory = std::make_shared<const Marked>();
-  StressMemoryPtr seen;
+  StressCachePtr seen;
   LoadRun run(scene_of(two_boxes(true)), [&](const Structure&, const LoadCase& load) {
     seen = load.memory;
-    StressAnswer answer;
+    StressResult answer;
     answer.settled = seen != nullptr;
     answer.memory = memory;
     return answer;

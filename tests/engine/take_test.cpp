@@ -1,7 +1,5 @@
 // Takes: what is recorded is played, from anywhere; damage is met with a word and the readable
 // part; a run that differs is told where.
-#include "engine/io/take/take.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -10,8 +8,9 @@
 
 #include "engine/base/random.h"
 #include "engine/io/bytes.h"
+#include "engine/io/recording/recording.h"
+#include "engine/io/recording/recording_verifier.h"
 #include "engine/io/state_hash.h"
-#include "engine/io/take/take_verifier.h"
 #include "engine/model/piece_mesh.h"
 
 namespace sunder {
@@ -53,7 +52,7 @@ class Take : public ::testing::Test {
         event.parent_key = index_;
         event.child_keys = {index_ + 1, index_ + 2};
         event.material = MaterialIndex(index_ % 3);
-        event.before_key = index_ / 2;
+        event.previous_key = index_ / 2;
         event.name = 2;
         event.pieces = 6;
       }
@@ -76,8 +75,8 @@ class Take : public ::testing::Test {
         body.com_R = Vec3(0.5, k, 0.25);
         body.asleep = key % 5 == 0;
         body.is_static = key % 9 == 0;
-        body.before_key = index_ == key ? key - key % 3 : key;
-        body.name = key % 4 == 0 ? kUnnamed : static_cast<std::uint32_t>(key % 4);
+        body.previous_key = index_ == key ? key - key % 3 : key;
+        body.name = key % 4 == 0 ? kNoName : static_cast<std::uint32_t>(key % 4);
         for (std::size_t mesh = 0; mesh < 1 + key % 3; ++mesh) {
           frame.instances.push_back({MeshIndex((key + mesh) % frame.meshes->size()),
                                      static_cast<std::uint32_t>(frame.bodies.size())});
@@ -110,7 +109,7 @@ class Take : public ::testing::Test {
 
   void record(int frames) {
     Run run(frames);
-    TakeWriter writer(path_);
+    RecordingWriter writer(path_);
     FrameSink* const sinks[] = {&writer};
     pump(run, sinks);
   }
@@ -136,7 +135,7 @@ void expect_shown_alike(const Frame& played, const Frame& run, const std::string
     ASSERT_EQ(a.com_R, c.com_R);
     ASSERT_EQ(a.asleep, c.asleep);
     ASSERT_EQ(a.is_static, c.is_static);
-    ASSERT_EQ(a.before_key, c.before_key);
+    ASSERT_EQ(a.previous_key, c.previous_key);
     ASSERT_EQ(a.name, c.name);
   }
   ASSERT_EQ(played.instances.size(), run.instances.size()) << what;
@@ -162,7 +161,7 @@ void expect_shown_alike(const Frame& played, const Frame& run, const std::string
     EXPECT_EQ(a.parent_key, b.parent_key) << what;
     EXPECT_EQ(a.child_keys, b.child_keys) << what;
     EXPECT_EQ(a.material.value, b.material.value) << what;
-    EXPECT_EQ(a.before_key, b.before_key) << what;
+    EXPECT_EQ(a.previous_key, b.previous_key) << what;
     EXPECT_EQ(a.name, b.name) << what;
     EXPECT_EQ(a.pieces, b.pieces) << what;
   }
@@ -172,7 +171,7 @@ void expect_shown_alike(const Frame& played, const Frame& run, const std::string
 
 TEST_F(Take, PlaysWhatWasRecorded) {
   record(150);
-  TakeReader take(path_);
+  RecordingReader take(path_);
   EXPECT_EQ(take.frames(), 150u);
   EXPECT_TRUE(take.is_complete());
   Run run(150);
@@ -187,7 +186,7 @@ TEST_F(Take, PlaysWhatWasRecorded) {
 
 TEST_F(Take, PlaysFromAnyFrameOn) {
   record(300);
-  TakeReader take(path_);
+  RecordingReader take(path_);
   std::vector<FramePtr> run;
   Run source(300);
   while (FramePtr frame = source.next()) run.push_back(std::move(frame));
@@ -214,10 +213,10 @@ TEST_F(Take, TheSameFramesGiveTheSameBytes) {
 TEST_F(Take, OfARunThatWasKilledPlaysUpToThere) {
   Run run(90);
   {
-    TakeWriter writer(path_);
+    RecordingWriter writer(path_);
     while (const FramePtr frame = run.next()) writer.take(frame);
   }  // and no finish()
-  TakeReader take(path_);
+  RecordingReader take(path_);
   EXPECT_FALSE(take.is_complete());
   EXPECT_EQ(take.frames(), 90u);
   take.seek(89);
@@ -228,7 +227,7 @@ TEST_F(Take, OfARunThatWasKilledPlaysUpToThere) {
 /// Plays what can be played; the number of frames, or −1 if the take was refused.
 int playable(const fs::path& path, std::string& word) {
   try {
-    TakeReader take(path);
+    RecordingReader take(path);
     int frames = 0;
     while (const FramePtr frame = take.next()) {
       EXPECT_EQ(frame->index, static_cast<std::uint64_t>(frames));
@@ -286,11 +285,11 @@ TEST_F(Take, CorruptAnywherePlaysWhatIsReadableAndSaysSo) {
 }
 
 TEST_F(Take, OfAnotherKindOrNoneIsRefused) {
-  EXPECT_THROW(TakeReader("/nowhere/at/all.take"), InputError);
-  EXPECT_THROW(TakeReader{fs::temp_directory_path()}, InputError);
+  EXPECT_THROW(RecordingReader("/nowhere/at/all.take"), InputError);
+  EXPECT_THROW(RecordingReader{fs::temp_directory_path()}, InputError);
   write_file(path_, std::vector<std::byte>(100));
-  EXPECT_THROW(TakeReader{path_}, InputError);
-  EXPECT_THROW(TakeWriter("/proc/no/such.take"), FileError);
+  EXPECT_THROW(RecordingReader{path_}, InputError);
+  EXPECT_THROW(RecordingWriter("/proc/no/such.take"), FileError);
 }
 
 TEST_F(Take, OfAnotherVersionIsRefusedAndToldSo) {
@@ -306,13 +305,13 @@ TEST_F(Take, OfAnotherVersionIsRefusedAndToldSo) {
 
 // Version 5 is as 6 without what a frame's bodies came off; this one is of a stack, with a shot.
 TEST_F(Take, OfTheVersionBeforeIsPlayedWithoutNames) {
-  TakeReader take(SUNDER_TAKES_FOLDER "/whole");
+  RecordingReader take(SUNDER_TAKES_FOLDER "/whole");
   std::size_t frames = 0;
   while (const FramePtr frame = take.next()) {
     EXPECT_EQ(frame->names, nullptr);
     for (const FrameBody& body : frame->bodies) {
-      ASSERT_EQ(body.before_key, body.key);
-      ASSERT_EQ(body.name, kUnnamed);
+      ASSERT_EQ(body.previous_key, body.key);
+      ASSERT_EQ(body.name, kNoName);
     }
     ++frames;
   }
@@ -322,7 +321,7 @@ TEST_F(Take, OfTheVersionBeforeIsPlayedWithoutNames) {
 }
 
 TEST_F(Take, OfTheVersionBeforeIsReadWithTheLightThatThereWas) {
-  TakeReader take(fs::path(SUNDER_FRAMES_FOLDER) / "version_5.take");
+  RecordingReader take(fs::path(SUNDER_FRAMES_FOLDER) / "version_5.take");
   EXPECT_TRUE(take.is_complete());
   std::uint64_t frames = 0;
   while (const FramePtr frame = take.next()) {
@@ -337,8 +336,8 @@ TEST_F(Take, OfTheVersionBeforeIsReadWithTheLightThatThereWas) {
 
 TEST_F(Take, ARunThatIsTheSameIsFoundTheSame) {
   record(40);
-  TakeReader take(path_);
-  TakeVerifier verifier(take);
+  RecordingReader take(path_);
+  RecordingVerifier verifier(take);
   FrameSink* const sinks[] = {&verifier};
   Run run(40);
   pump(run, sinks);
@@ -348,8 +347,8 @@ TEST_F(Take, ARunThatIsTheSameIsFoundTheSame) {
 
 TEST_F(Take, ARunThatDiffersIsToldTheFirstFrameAndBody) {
   record(40);
-  TakeReader take(path_);
-  TakeVerifier verifier(take);
+  RecordingReader take(path_);
+  RecordingVerifier verifier(take);
   FrameSink* const sinks[] = {&verifier};
   Run run(40, 1e-13, 31);
   pump(run, sinks);
@@ -359,8 +358,8 @@ TEST_F(Take, ARunThatDiffersIsToldTheFirstFrameAndBody) {
 
 TEST_F(Take, ALongerRunIsToldThatTheTakeHasEnded) {
   record(10);
-  TakeReader take(path_);
-  TakeVerifier verifier(take);
+  RecordingReader take(path_);
+  RecordingVerifier verifier(take);
   FrameSink* const sinks[] = {&verifier};
   Run run(12);
   pump(run, sinks);

@@ -51,7 +51,7 @@ TEST(Slivers, OfAPaneUnderFireStayWithinWhatWasPutIn) {
   for (const auto pattern : {PatternSpec::Kind::kVoronoi, PatternSpec::Kind::kWeb}) {
     Trial run(pane_under_fire(5, pattern));
     const double mass_kg = run.frame->report.mass_kg;
-    // What comes off the pane begins to weigh.
+    // What comes off the pane begins to mass_of.
     const double put_in_J = run.kinetic_J() + run.frame->report.potential_J + mass_kg * 9.81;
     std::size_t most = 0;
     while (run.frame->time_s < 0.8) {
