@@ -19,9 +19,9 @@ namespace sunder::fracture {
 namespace {
 
 // A convex is a pane if its least width is below this share of the cube root of its volume.
-constexpr double kPane = 0.3;
+constexpr double kMaxPaneThickness = 0.3;
 
-/// The rotation that takes y to `axis`, after a rotation about y.
+/// Returns the rotation that takes y to `axis`, after a rotation about y.
 Quat rotation_onto(const Vec3& axis, double about_y_rad) {
   const Vec3 y = axis.normalized();
   Vec3 x = y.cross(std::abs(y.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ()).normalized();
@@ -32,7 +32,7 @@ Quat rotation_onto(const Vec3& axis, double about_y_rad) {
   return Quat(rotation).normalized();
 }
 
-/// The direction across a pane; otherwise that of the impact.
+/// Returns the direction across a pane, and that of the impact for other convexes.
 Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
   double least = std::numeric_limits<double>::infinity();
   Vec3 thin = direction_R;
@@ -46,12 +46,13 @@ Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
       thin = face.plane.normal;
     }
   }
-  if (least > kPane * std::cbrt(convex.solid.volume_m3)) return direction_R;
+  if (least > kMaxPaneThickness * std::cbrt(convex.solid.volume_m3)) return direction_R;
   return thin.dot(direction_R) < 0 ? Vec3(-thin) : thin;
 }
 
-/// How a pattern lies: Voronoi cells any way round, masonry as it was built, wood along the
-/// longest side of the convex, webs across a pane or the impact.
+/// Returns the orientation of a pattern: random for Voronoi cells, that of the rest frame for
+/// bricks, along the longest side of the convex for wood, across the pane or along the impact for
+/// webs.
 Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direction_R,
                  Random& random) {
   const double about_y_rad = random.uniform(0, 2 * std::numbers::pi);
@@ -73,10 +74,10 @@ Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direc
   }
 }
 
-// A convex of which less than this share is in a plug stays.
-constexpr double kInPlug = 0.05;
+// A convex of which less than this share lies in a plug is not separated.
+constexpr double kMinShareInPlug = 0.05;
 
-/// Share of a convex, given in the pattern's frame, that lies in the prism of a plug.
+/// Returns the share of a convex, given in the pattern's frame, that lies in the prism of a plug.
 double share_in(const Plug& plug, ConvexPolyhedron part_P) {
   const double volume_m3 = mass_properties(part_P).volume_m3;
   ConvexPolyhedron cut;
@@ -89,13 +90,13 @@ double share_in(const Plug& plug, ConvexPolyhedron part_P) {
   };
   const std::vector<Vec2>& section = plug.section_m;
   for (std::size_t i = 0; i < section.size(); ++i)
-    if (!keep(upright_plane(section[i], section[(i + 1) % section.size()]))) return 0;
+    if (!keep(plane_parallel_to_y(section[i], section[(i + 1) % section.size()]))) return 0;
   if (!plug.through && !keep(Plane::through(Vec3(0, plug.depth_m, 0), Vec3::UnitY()))) return 0;
   return mass_properties(part_P).volume_m3 / volume_m3;
 }
 
-/// Parts the convexes that reach into a plug from all others, and from each other.
-BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
+/// Separates the convexes that reach into a plug from all others, and from each other.
+BreakEdit separate_plug(const Structure& structure, const BreakCommand& command) {
   const Pose X_PR = command.X_RP.inverse();
   const Plug& plug = *command.plug;
   std::vector<ConvexSlot> loose;
@@ -104,7 +105,8 @@ BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
     if (structure.anchored(slot) != 0 ||
         std::ranges::find(command.unbreakable, convex.material) == command.unbreakable.end())
       continue;
-    if (share_in(plug, transformed(convex.polyhedron, X_PR)) > kInPlug) loose.push_back(slot);
+    if (share_in(plug, transformed(convex.polyhedron, X_PR)) > kMinShareInPlug)
+      loose.push_back(slot);
   }
   if (loose.empty()) return {};
   Compound compound = structure.compound();
@@ -118,10 +120,10 @@ BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
     if (parts) cut.push_back(bond);
     return parts;
   });
-  return part(compound, slots, cut, {});
+  return separate_islands(compound, slots, cut, {});
 }
 
-/// Replaces the pattern by a plug, if the striker drives one out.
+/// Replaces the pattern by a plug if the striker drives one out of the solid.
 void add_plug(const Convex& convex, const Material& material, const StructureImpact& hit,
               BreakCommand& command) {
   Pose X_RP;
@@ -167,7 +169,7 @@ class PatternBreaker final : public Breaker {
   BreakEdit plan(const Structure& structure, const BreakCommand& command) const override {
     if (command.plug && command.plug->section_m.empty()) return {};
     if (command.pattern.kind == PatternSpec::Kind::kNone)
-      return command.plug ? part_around(structure, command) : BreakEdit{};
+      return command.plug ? separate_plug(structure, command) : BreakEdit{};
     const bool whole = command.radius_m == std::numeric_limits<double>::infinity();
     const ReadyBreak ready = make_ready(command, whole ? bounds(structure) : Box(), library_);
     BreakEdit edit = break_structure(structure, *ready.pattern, ready.placement, ready.sphere,
@@ -194,7 +196,7 @@ class PatternBreaker final : public Breaker {
   mutable PatternLibrary library_;
 };
 
-/// How far the farthest corner of a box is.
+/// Returns the distance from `from` to the farthest corner of a box.
 double reach(const Box& box, const Vec3& from) {
   return (box.max - from).cwiseAbs().cwiseMax((box.min - from).cwiseAbs()).norm();
 }
@@ -205,7 +207,7 @@ ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternL
   ReadyBreak ready;
   ready.sphere = {command.X_RP.position, command.radius_m, command.unbreakable,
                   command.smallest_m3};
-  const bool whole = ready.sphere.is_endless();
+  const bool whole = ready.sphere.is_infinite();
   const double unit = whole ? reach(bounds_R, ready.sphere.center_R) : ready.sphere.radius_m;
   ready.pattern =
       command.plug
