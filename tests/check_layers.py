@@ -17,7 +17,7 @@ LAYERS = {
                ("world/actors",), ("world/break", "world/load", "world/act", "world/particles"), ("world",), ("io",),
                ("io/mesh", "io/recording")),
     "fracture": (("pattern",), ("adjacency",), ("cut",), ("stress", "vacd", "check"), ("",)),
-    "solver": (("base",), ("impact", "rigid/tolerances.h"), ("rigid/body",), ("rigid/collide",),
+    "solver": (("base",), ("impact", "rigid/tuning.h"), ("rigid/body",), ("rigid/collide",),
                ("rigid/joint",), ("rigid/contact/kernels",), ("rigid/contact",),
                ("rigid", "planar", "particles")),
     "render": (("gl", "shaders"), ("image",), ("passes",), ("",)),
