@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails where the rigid solver has a tuned number outside its book, or one without a comment.
 
-Usage: check_tolerances.py [ROOT]. Read first: check_tree().
+Usage: check_tuning.py [ROOT]. Read first: check_tree().
 """
 import re
 import sys
@@ -68,7 +68,7 @@ def check_source(path, text):
     named = [name for names in NAMED.findall(code) for name in NAME.findall(names)]
     rest = LITERAL.findall(NAMED.sub("", code))
     return [f"solver/rigid/{path}: {number} belongs in {BOOK}, or is mathematics or rounding and "
-            "belongs in the list of check_tolerances.py"
+            "belongs in the list of check_tuning.py"
             for number in named + [literal for literal in rest if not plain(literal)]
             if number not in allowed]
 
@@ -79,7 +79,7 @@ def check_tree(root):
     messages = check_book((Path(root) / BOOK).read_text(encoding="utf-8"))
     for file in sorted(folder.rglob("*")):
         path = file.relative_to(folder).as_posix()
-        if file.suffix in (".h", ".cpp") and path != "tolerances.h":
+        if file.suffix in (".h", ".cpp") and path != "tuning.h":
             messages += check_source(path, file.read_text(encoding="utf-8"))
     return messages
 

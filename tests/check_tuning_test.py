@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""check_tolerances.py must find each violation, and nothing in what is right."""
+"""check_tuning.py must find each violation, and nothing in what is right."""
 import unittest
 
-from check_tolerances import check_book, check_source
+from check_tuning import check_book, check_source
 
 GOOD = "/// Of it.\nSUNDER_TUNED double kPush = 4;\nSUNDER_TUNED float kSlow = 1, kFast = 2;  ///< Both.\n"
 

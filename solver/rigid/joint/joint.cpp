@@ -184,7 +184,7 @@ std::vector<JointId> Joints::take_broken() {
 
 std::vector<JointImpulse> Joints::loads(const Bodies& bodies) const {
   std::vector<JointImpulse> loads;
-  const auto add = [&](BodySlot body, const Vec3& anchor_R, const JointImpulse& impulse) {
+  const auto add = [&](BodySlot body, const Vec3& anchor_R, const AnchorImpulse& impulse) {
     if (body.none() || !bodies.reports_load[body]) return;
     const Vec3 arm = bodies.rotation[body] * (anchor_R - bodies.com_R[body]);
     loads.push_back(

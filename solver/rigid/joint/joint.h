@@ -17,15 +17,15 @@ namespace sunder::solver {
 inline constexpr int kMostJointRows = 6;
 
 /// Impulse of a joint on b, and its opposite on a.
-struct JointImpulse {
+struct AnchorImpulse {
   Vec3 linear_W = Vec3::Zero();   ///< At the anchors.
   Vec3 angular_W = Vec3::Zero();  ///< Besides the moment of the linear impulse.
 
-  JointImpulse& operator+=(const JointImpulse& o) {
+  AnchorImpulse& operator+=(const AnchorImpulse& o) {
     linear_W += o.linear_W, angular_W += o.angular_W;
     return *this;
   }
-  JointImpulse operator-() const { return {-linear_W, -angular_W}; }
+  AnchorImpulse operator-() const { return {-linear_W, -angular_W}; }
 };
 
 /// State of a plastic joint from substep to substep: see plastic.h.
@@ -41,7 +41,7 @@ struct Joint {
   BodySlot body_a = {}, body_b = {};  ///< None: the world, or a lost end.
   bool lost = false;                  ///< The body of an end was removed: the joint has no effect.
   std::array<double, kMostJointRows> impulse = {};  ///< By row, of the last substep.
-  JointImpulse total = {};  ///< Over the last step in which the joint was solved.
+  AnchorImpulse total = {};  ///< Over the last step in which the joint was solved.
   PlasticFlow flow = {};    ///< Plastic flow in the last solve.
   PlasticState plastic = {};
 

@@ -130,8 +130,8 @@ double bias(const JointWork& work, int i, const StepContext& step, bool biased) 
 }
 
 /// Returns the impulse of this substep.
-JointImpulse impulse_of(const JointWork& work) {
-  JointImpulse sum;
+AnchorImpulse impulse_of(const JointWork& work) {
+  AnchorImpulse sum;
   for (std::size_t i = 0; i < static_cast<std::size_t>(work.rows); ++i) {
     sum.linear_W += work.impulse[i] * work.row[i].push.cast<double>();
     sum.angular_W += work.impulse[i] * work.row[i].turn.cast<double>();
@@ -293,7 +293,7 @@ void break_overloaded_joints(JointGroup& group, std::span<JointWork> works, cons
   for_plastic(works, [&](JointWork& work) { record_axial(work, step.h_s); });
   for (JointWork& work : works) {
     if (work.broken) continue;
-    const JointImpulse impulse = impulse_of(work);
+    const AnchorImpulse impulse = impulse_of(work);
     double square = 0;
     for (int i = work.place_rows; i < work.held_rows; ++i) {
       const double along = work.impulse[static_cast<std::size_t>(i)];

@@ -77,7 +77,7 @@ struct JointWork {
   std::array<double, kMostJointRows> impulse = {};  ///< By row, of this substep.
   /// Stored while the end of the step is solved.
   std::array<double, kMostJointRows> kept_impulse = {};
-  JointImpulse total;  ///< Over the step.
+  AnchorImpulse total;  ///< Over the step.
 
   /// Effect of the substep's impulses along the current rows less that along the old ones; applied
   /// in the next substep, which starts with these impulses.
