@@ -149,11 +149,10 @@ Compound make_solid(const std::string& name) {
   if (is("hall", 1) && whole(0) && sizes[0] <= kMostColumns) {
     return hall_compound(static_cast<int>(sizes[0]));
   }
-  throw InputError(
-      "'" + name +
-      "' is no built-in solid; these are box:X,Y,Z column:R,H torus:R,r (r < R) "
-      "grid:NX,NY,NZ (a million in all) voronoi:N (to 100,000) hall:N (to 5,000), with "
-      "sizes above 0");
+  throw InputError("'" + name +
+                   "' is not a built-in solid; expected box:X,Y,Z, column:R,H, torus:R,r (r < R), "
+                   "grid:NX,NY,NZ (at most 1,000,000 boxes), voronoi:N (at most 100,000) or hall:N "
+                   "(at most 5,000), with sizes above 0 and at most 1,000,000");
 }
 
 }  // namespace sunder::fracture

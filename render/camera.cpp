@@ -54,8 +54,8 @@ double parse_period(const std::string& spec, const std::string& text) {
   if (error != std::errc() || stop != text.data() + text.size() ||
       !(std::abs(period_s) >= kShortest_s && std::abs(period_s) <= kLongest_s)) {
     throw InputError("--view " + spec +
-                     ": expected orbit:SECONDS, a number from 0.01 to 1e6 of seconds that once "
-                     "round takes; less than 0: the other way round");
+                     ": expected orbit:SECONDS, the duration of one revolution from 0.01 to 1e6 s; "
+                     "negative for the opposite direction");
   }
   return period_s;
 }
@@ -81,7 +81,7 @@ std::unique_ptr<Camera> make_camera(const std::string& spec) {
   }
   if (kind == "follow" && !rest.empty()) return std::make_unique<FollowCamera>(rest);
   if (spec == "auto") return std::make_unique<FramingCamera>();
-  throw InputError("--view " + spec + ": expected " + kCameras + " | FILE.toml, a path by keys");
+  throw InputError("--view " + spec + ": expected " + kCameras + " | FILE.toml, a camera path");
 }
 
 std::unique_ptr<Camera> make_camera(std::vector<ViewKey> keys) {

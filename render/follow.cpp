@@ -22,11 +22,11 @@ void FollowCamera::find_names(const Frame& frame) {
     if (i < 20 && !names[i].empty()) there += (there.empty() ? "" : ", ") + names[i];
   }
   if (!names_.empty()) return;
-  throw InputError("--view follow:" + name_ +
-                   (there.empty() ? ": nothing has a name here; record the take again, or give the "
-                                    "solids of the scene names"
-                                  : ": nothing is named so; there are: " + there +
-                                        (names.size() > 20 ? " and more" : "")));
+  throw InputError(
+      "--view follow:" + name_ +
+      (there.empty()
+           ? ": no body has a name; give the solids of the scene names, and record the run again"
+           : ": no body has this name; names: " + there + (names.size() > 20 ? " and more" : "")));
 }
 
 /// Returns the largest body with a matching name or, with `of_followed`, the largest that came off

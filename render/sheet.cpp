@@ -85,19 +85,21 @@ std::unique_ptr<FrameSink> make_sheet_sink(const std::filesystem::path& path, Re
                                            const SheetFrames& frames, bool captions) {
   const std::string asked = "--sheet " + std::to_string(frames.count) + ": ";
   if (path.extension() != ".png") {
-    throw InputError(asked + path.string() + " is no picture; a sheet is written to X.png");
+    throw InputError(asked + path.string() + " does not end in .png; a sheet is one PNG image");
   }
   const std::uint64_t available = frames.last - frames.first + 1;
   if (static_cast<std::uint64_t>(frames.count) > available) {
-    throw InputError(asked + "there are " + std::to_string(available) +
-                     " frames to draw; ask for no more, or draw more by --frames or --fps");
+    throw InputError(
+        asked + "there are only " + std::to_string(available) +
+        " frames to draw; use a smaller number, or draw more frames by --frames or --fps");
   }
   const int columns = columns_of(frames.count);
   const int rows = (frames.count + columns - 1) / columns;
   const int wide = side_of(columns, renderer.width()), tall = side_of(rows, renderer.height());
   if (wide > kMaxSheetSide || tall > kMaxSheetSide) {
-    throw InputError(asked + "it would have " + std::to_string(wide) + "x" + std::to_string(tall) +
-                     " pixels, and at most 32768 a side can be; lessen --size, that of a picture");
+    throw InputError(
+        asked + "the sheet would have " + std::to_string(wide) + "x" + std::to_string(tall) +
+        " pixels, more than 32768 along a side; use a smaller --size, which is that of each image");
   }
   check_output_path(path);
   return std::make_unique<SheetSink>(path, renderer, frames, captions);

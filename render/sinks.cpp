@@ -18,9 +18,10 @@ namespace {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(folder.string() + ": cannot be made: " + error.message());
+  if (error)
+    throw FileError(folder.string() + ": the folder cannot be created: " + error.message());
   if (!folder.empty() && ::access(folder.c_str(), W_OK) != 0) {
-    throw FileError(folder.string() + ": cannot be written");
+    throw FileError(folder.string() + ": the folder cannot be written to; check its permissions");
   }
 }
 
@@ -122,7 +123,7 @@ class RenderingSink final : public FrameSink {
 
 void check_output_path(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) {
-    throw InputError(path.string() + ": is a folder; name a file");
+    throw InputError(path.string() + ": is a folder; give a file name");
   }
   make_folder(path.parent_path());
 }
@@ -137,12 +138,12 @@ std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, 
   const std::string extension = path.extension().string();
   const bool is_video = extension == ".mp4" || extension == ".webm";
   if (is_video || extension == ".png") {
-    if (resume)
-      throw InputError(path.string() + ": only pictures in a folder (DIR/) can be resumed");
+    if (resume) throw InputError(path.string() + ": only images in a folder (DIR/) can be resumed");
     const RenderOptions& options = renderer.options();
     if (is_video && (options.transparent || !options.layers.empty())) {
-      throw InputError(path.string() +
-                       ": a video has neither transparency nor layers; make it images, in DIR/");
+      throw InputError(
+          path.string() +
+          ": a video cannot have transparency or layers; write images to a folder (DIR/)");
     }
     check_output_path(path);
     if (is_video) return std::make_unique<VideoSink>(path, renderer, frames_per_s);
@@ -150,7 +151,8 @@ std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, 
   }
   const std::filesystem::path folder = path.has_filename() ? path : path.parent_path();
   if (!extension.empty() && !std::filesystem::is_directory(folder)) {
-    throw InputError(path.string() + ": make it .mp4, .webm, .png, or a folder (ending in /)");
+    throw InputError(path.string() +
+                     ": unknown kind of output; use .mp4, .webm, .png, or a folder (ending in /)");
   }
   return std::make_unique<ImagesSink>(folder, renderer, resume);
 }

@@ -102,8 +102,8 @@ const Frame& ViewMode::shown(const Frame& frame) {
   if (needs_inspection()) {
     if (!frame.inspection) {
       throw InputError("--view-mode " + name_ + ": frame " + std::to_string(frame.index) +
-                       " does not say what happens inside, as takes and older frame files do not; "
-                       "render the scene itself");
+                       " has no inspection data, which recordings and older frame files do not "
+                       "have; render the scene itself");
     }
     shown_.debris.clear();
     add_marks(frame);

@@ -43,9 +43,9 @@ fs::path scenes_folder(const fs::path& folder) {
   const fs::path installed = program.parent_path().parent_path() / "share/sunder/scenes";
   if (fs::is_directory(installed)) return installed;
   if (fs::is_directory(folder)) return folder;
-  throw InputError("no catalogue of scenes is here: neither " + installed.string() +
+  throw InputError("no catalogue of scenes found: neither " + installed.string() +
                    (folder.empty() ? "" : " nor " + folder.string()) +
-                   " is a folder; name a scene by its file");
+                   " is a folder; give the path of a scene file");
 }
 
 fs::path scene_file(const std::string& file_or_name, const fs::path& folder) {
@@ -60,9 +60,9 @@ fs::path scene_file(const std::string& file_or_name, const fs::path& folder) {
     throw InputError(file_or_name + ": no such file, and " + error.what());
   }
   if (fs::is_directory(file_or_name))
-    throw InputError(file_or_name + ": is a folder; name a scene file in it");
+    throw InputError(file_or_name + ": is a folder; give a scene file in it");
   const std::vector<std::string_view> views(names.begin(), names.end());
-  throw InputError(file_or_name + ": no such file, and no scene of that name" +
+  throw InputError(file_or_name + ": no such file, and no scene of this name" +
                    did_you_mean(file_or_name, views) + "; scenes: " + join(views));
 }
 

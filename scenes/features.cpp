@@ -74,7 +74,7 @@ bool may_break(const Scene& scene) {
 }
 
 std::string fracture_state(const Scene& scene) {
-  return on_or(breaks_by_pattern(scene), "nothing here is breakable");
+  return on_or(breaks_by_pattern(scene), "no solid is breakable");
 }
 void without_fracture(Scene& scene) {
   for (Material& material : scene.materials) {
@@ -84,12 +84,14 @@ void without_fracture(Scene& scene) {
 }
 
 std::string impact_probe_state(const Scene& scene) {
-  return on_or(may_break(scene), "nothing here is breakable");
+  return on_or(may_break(scene), "no solid is breakable");
 }
 
 std::string self_weight_state(const Scene& scene) {
-  if (!breaks_by_load(scene)) return "off: nothing here has a stress that breaks its bonds";
-  return on_or(!scene.gravity_W.isZero(), "gravity = [0, 0, 0]; what presses and spin still break");
+  if (!breaks_by_load(scene))
+    return "off: no breakable solid has tensile_Pa, shear_Pa or compressive_Pa above 0";
+  return on_or(!scene.gravity_W.isZero(),
+               "gravity = [0, 0, 0]; contact forces and spin still break bonds");
 }
 void without_self_weight(Scene& scene) {
   for (Material& material : scene.materials) {
@@ -102,7 +104,7 @@ std::string yielding_state(const Scene& scene) {
     return may_break_by_stress(scene, solid) &&
            is_made_of(scene, solid, [](const Material& m) { return m.yields(); });
   });
-  return on_or(any, "nothing here has a yield_Pa");
+  return on_or(any, "yield_Pa = 0 in every material of the solids");
 }
 void without_yielding(Scene& scene) {
   for (Material& material : scene.materials) material.yield_Pa = 0;
@@ -114,13 +116,14 @@ void without_yielding(Scene& scene) {
 std::string particles_state(const Scene& scene, std::uint32_t limit, const char* reason_for_none,
                             bool (*makes_particles)(const DebrisEmission&)) {
   if (limit == 0) return std::string("off: ") + reason_for_none;
-  if (!may_break(scene)) return "off: nothing here is breakable";
+  if (!may_break(scene)) return "off: no solid is breakable";
   const bool any = any_solid(scene, [&](const Solid& solid) {
     return may_break(scene, solid) && is_made_of(scene, solid, [&](const Material& material) {
              return material.crumbling.particles_per_m2 > 0 && makes_particles(material.crumbling);
            });
   });
-  return on_or(any, "nothing here crumbles into it");
+  return on_or(any,
+               "no material of a breakable solid emits these particles ([material.crumbling])");
 }
 std::string debris_state(const Scene& scene) {
   return particles_state(scene, scene.limits.debris, "debris = 0 in [limits]",
@@ -134,7 +137,7 @@ void without_debris(Scene& scene) { scene.limits.debris = 0; }
 void without_dust(Scene& scene) { scene.limits.dust = 0; }
 
 std::string ageing_state(const Scene& scene) {
-  return on_or(scene.limits.ageing > 0, "ageing = 0 in [limits], so only where room is short");
+  return on_or(scene.limits.ageing > 0, "ageing = 0 in [limits], so only at the limit of bodies");
 }
 void without_ageing(Scene& scene) { scene.limits.ageing = 0; }
 
@@ -142,7 +145,7 @@ std::string joints_state(const Scene& scene) {
   if (scene.planar) return "off: planar = true, and planar scenes have none";
   const bool hangs = std::ranges::any_of(
       scene.shots, [](const Shot& shot) { return shot.hangs_from_W.has_value(); });
-  return on_or(hangs || !scene.joints.empty(), "there is no [[joint]], and no ball hangs");
+  return on_or(hangs || !scene.joints.empty(), "there is no [[joint]] and no wrecking ball");
 }
 void without_joints(Scene& scene) {
   scene.joints.clear();
@@ -156,8 +159,7 @@ std::string sleeping_state(const Scene& scene) { return scene.solver.sleeping ? 
 void without_sleeping(Scene& scene) { scene.solver.sleeping = false; }
 
 std::string continuous_state(const Scene& scene) {
-  return on_or(!scene.planar,
-               "planar = true, where steps are short enough to pass through nothing");
+  return on_or(!scene.planar, "planar = true, where steps are short enough to prevent tunnelling");
 }
 
 std::string friction_state(const Scene& scene) {
@@ -167,9 +169,9 @@ std::string friction_state(const Scene& scene) {
 }
 
 std::string rolling_state(const Scene& scene) {
-  if (scene.planar) return "off: planar = true, and Box2D has none";
+  if (scene.planar) return "off: planar = true, and Box2D has no rolling resistance";
   return on_or(any_material(scene, [](const Material& m) { return m.rolling > 0; }),
-               "rolling = 0 in every material here");
+               "rolling = 0 in every material of the scene's bodies");
 }
 void without_rolling(Scene& scene) {
   for (Material& material : scene.materials) material.rolling = 0;
@@ -178,7 +180,7 @@ void without_rolling(Scene& scene) {
 std::string restitution_state(const Scene& scene) {
   return on_or(scene.ground.restitution > 0 ||
                    any_material(scene, [](const Material& m) { return m.restitution > 0; }),
-               "restitution = 0 of the ground and in every material here");
+               "restitution = 0 in [ground] and in every material of the scene's bodies");
 }
 void without_restitution(Scene& scene) {
   scene.ground.restitution = 0;
@@ -205,11 +207,11 @@ std::string visual_state(const Scene& scene) {
 std::string script_state(const Scene& scene) {
   return on_or(!scene.shots.empty() || !scene.blasts.empty() || !scene.removals.empty() ||
                    !scene.drives.empty() || !scene.moves.empty(),
-               "nothing happens");
+               "[script] is empty or disabled");
 }
 
 std::string third_dimension_state(const Scene& scene) {
-  return on_or(!scene.planar, "planar = true, so Box2D moves it");
+  return on_or(!scene.planar, "planar = true, so Box2D simulates it");
 }
 
 constexpr Feature kFeatures[] = {

@@ -69,7 +69,7 @@ std::string row(const Key& key, void* fresh) {
 }
 
 std::string rows(std::span<const Key> keys, void* fresh) {
-  std::string text = "| key | what | unit | default | allowed |\n|---|---|---|---|---|\n";
+  std::string text = "| key | meaning | unit | default | allowed |\n|---|---|---|---|---|\n";
   for (const Key& key : keys) text += row(key, fresh);
   return text + "\n";
 }
@@ -81,7 +81,7 @@ std::string section(const Keys<T>& keys) {
 }
 
 std::string preset_list() {
-  std::string text = "Without [accuracy], the preset decides:";
+  std::string text = "Defaults of [accuracy] by preset:";
   for (const Preset& preset : presets()) {
     text += "\n`" + std::string(preset.name) + "` (" + std::string(preset.help) + "): dt 1/" +
             format(1 / preset.accuracy.dt_s) + " s, " + std::to_string(preset.accuracy.substeps) +

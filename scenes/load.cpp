@@ -127,7 +127,7 @@ void Loader::read_accuracy() {
   if (scene_.accuracy.error_target_m <= 0) return;
   if (const Value* substeps = find(*table, "substeps")) {
     throw InputError(substeps->where +
-                     ": substeps in [accuracy] is given beside error_target_m; keep one");
+                     ": substeps and error_target_m in [accuracy] exclude each other; remove one");
   }
 }
 
@@ -158,7 +158,7 @@ void Loader::add_materials(const Value& document, const std::filesystem::path& f
     MaterialHead head;
     read_keys(*table, s.material.table, s.material_head.keys, {}, &head);
     if (!seen.insert(head.name).second) {
-      throw InputError(table->where + ": a second [[material]] named '" + head.name + "'");
+      throw InputError(table->where + ": duplicate [[material]] '" + head.name + "'");
     }
     std::vector<Material>& all = scene_.materials;
     const auto named = [&](const std::string& name) {

@@ -36,8 +36,8 @@ std::shared_ptr<fracture::FailureLog> failure_log(const Scene& scene,
     if (log->failed() > 0 && warn) {
       std::string text = uncut_convexes_warning(log->failed(), log->failed_m3(), volume_m3);
       if (log->files() > 0) {
-        text += "; " + std::to_string(log->files()) + " breaks are kept in " + folder +
-                "/, to look into by `sunder fracture`";
+        text += "; " + std::to_string(log->files()) + " breaks are stored in " + folder +
+                "/; repeat one by `sunder fracture X.case`";
       }
       warn(text);
     }
@@ -76,7 +76,8 @@ std::unique_ptr<Particles> make_particles(const Scene& scene) {
 
 /// Returns a warning of solids under the ground plane, or of an empty scene; empty if neither.
 std::string placement_warning(const Scene& scene) {
-  if (scene.solids.empty() && scene.balls.empty() && scene.shots.empty()) return "nothing is in it";
+  if (scene.solids.empty() && scene.balls.empty() && scene.shots.empty())
+    return "the scene is empty: it has no [[solid]], [[body]], [[ball]] or [[script.shot]]";
   if (!scene.ground.meshes.empty()) return "";
   std::size_t under = 0;
   std::string first;
@@ -91,7 +92,7 @@ std::string placement_warning(const Scene& scene) {
   }
   if (under == 0) return "";
   return "'" + first + "'" + (under > 1 ? " and " + std::to_string(under - 1) + " more" : "") +
-         (under > 1 ? " lie" : " lies") + " under the ground";
+         (under > 1 ? " are" : " is") + " below the ground; raise position";
 }
 
 /// Returns a warning that names the materials with obsolete keys; empty if there are none.
@@ -103,8 +104,8 @@ std::string obsolete_warning(const Scene& scene) {
   }
   if (names.empty()) return "";
   return "strength_Ns and smallest_break_m3 of " + names +
-         " are obsolete: what breaks follows from tensile_Pa, compressive_Pa, youngs_Pa and "
-         "smallest_piece_m3; leave them out";
+         " are obsolete; remove them, as tensile_Pa, compressive_Pa, youngs_Pa and "
+         "smallest_piece_m3 determine what breaks";
 }
 
 std::vector<std::string> warnings_of(const Scene& scene) {
@@ -125,7 +126,7 @@ std::vector<std::string> warnings_of(const Scene& scene) {
 std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOptions& options) {
   if (options.threads < 0)
     throw InputError("options.threads is " + std::to_string(options.threads) +
-                     "; expected a count, or 0 for one a processor");
+                     "; expected a number of threads, or 0 to leave it unchanged");
   if (options.threads > 0) set_threads(options.threads);
   check_scene(scene);
   const std::string name = scene.name.empty() ? "the scene" : scene.name;

@@ -34,8 +34,8 @@ std::string incomparable_reason(const Figures& now, const Figures& old,
     if (!old.contains(place)) continue;  // file of an older version
     const std::string after = figure_text(now, place), before = figure_text(old, place);
     if (after == before) continue;
-    return "not comparable: " + place.substr(1) + " is " + before + " in " + old_file +
-           " and now " + after + "; run it as that was";
+    return "not comparable: " + place.substr(1) + " is " + before + " in " + old_file + " and " +
+           after + " now; run with the same settings";
   }
   return {};
 }
@@ -47,12 +47,12 @@ Verdict check_same_state(const Figures& now, const Figures& old, const std::stri
   if (after != before) {
     verdict.outcome = Outcome::kFailed;
     verdict.text = "the state differs: " + before + " in " + old_file + ", " + after + " now" +
-                   "; something else is simulated, and times of it say nothing of this";
+                   "; the motion has changed, so that times cannot be compared";
     return verdict;
   }
   const std::string cpu = text_at(old, "/cpu");
   verdict.text = "same state as in " + old_file;
-  if (cpu != text_at(now, "/cpu")) verdict.text += ", which is of another processor: " + cpu;
+  if (cpu != text_at(now, "/cpu")) verdict.text += ", which was timed on another processor: " + cpu;
   return verdict;
 }
 
@@ -108,7 +108,7 @@ void compare_stages(const Figures& now, const Figures& old, std::optional<double
     }
     if (!change) {
       comparison.verdicts.push_back({text_at(now, "/scene"), "stage " + stage, Outcome::kFailed,
-                                     "the older file has no time of it"});
+                                     "the older file has no time of this stage"});
       return;
     }
     comparison.verdicts.push_back(check_stage(*change, fail_slower));
@@ -126,7 +126,7 @@ double parse_percent(const std::string& flag, const std::string& text) {
   const char* const end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, percent);
   if (error != std::errc() || stop != end || !(percent >= 0) || !std::isfinite(percent)) {
-    throw InputError(flag + " " + text + ": not a percentage; give one from 0 up, such as 10%");
+    throw InputError(flag + " " + text + ": expected a percentage of at least 0, such as 10%");
   }
   return percent / 100;
 }
@@ -136,7 +136,7 @@ bool Change::is_slower(double part) const {
 }
 
 std::string Change::interval() const {
-  if (!(ratio.confidence > 0)) return "one run each";
+  if (!(ratio.confidence > 0)) return "one run each, no interval";
   return printed("%+.1f to %+.1f %% (%.0f %% confidence)", 100 * (ratio.low - 1),
                  100 * (ratio.high - 1), 100 * ratio.confidence);
 }
@@ -147,8 +147,9 @@ Comparison compare(std::span<const Figures> now, std::span<const Figures> old,
   for (const Figures& scene : now) {
     const std::string name = text_at(scene, "/scene");
     const Figures* before = find_scene(old, name);
-    const std::string why = before ? incomparable_reason(scene, *before, old_file)
-                                   : "not in " + old_file + ": time it with the older program too";
+    const std::string why =
+        before ? incomparable_reason(scene, *before, old_file)
+               : "not in " + old_file + "; time this scene with the older program, too";
     if (!why.empty()) {
       comparison.verdicts.push_back({name, "same run", Outcome::kFailed, why});
       continue;
@@ -163,7 +164,7 @@ Comparison compare(std::span<const Figures> now, std::span<const Figures> old,
 std::string changes_table(std::span<const Change> changes) {
   if (changes.empty()) return {};
   std::string text =
-      "scene          stage      ms a frame       before       now   change  interval\n";
+      "scene          stage      ms per frame     before       now   change  interval\n";
   for (const Change& change : changes) {
     const double part = change.before_ms > 0 ? change.after_ms / change.before_ms - 1 : 0;
     text +=

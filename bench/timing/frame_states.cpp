@@ -51,7 +51,8 @@ std::optional<StoredState> find_stored_state(const StateHashes& book, const std:
   StoredState state{0, what, found->second};
   const auto [stop, error] = std::from_chars(what.data() + place.size(), end, state.frames);
   if (error != std::errc() || stop != end || state.frames < 0) {
-    throw InputError(file + ": " + what + ": after " + place + " stands a number of frames");
+    throw InputError(file + ": key '" + what + "': expected a number of frames after '" + place +
+                     "'");
   }
   return state;
 }
@@ -114,9 +115,9 @@ Verdict check_digits(const GuardedRun& run, const std::string& preset, const std
   Verdict verdict{run.name, "simulation at " + preset, Outcome::kPassed, {}};
   if (const std::optional<int> frame = first_difference(known, states)) {
     verdict.outcome = Outcome::kFailed;
-    verdict.text = "differs from frame " + std::to_string(*frame) + " on";
+    verdict.text = "the state differs from frame " + std::to_string(*frame) + " on";
   } else {
-    verdict.text = std::to_string(known.size() / kDigits) + " frames are as stored";
+    verdict.text = std::to_string(known.size() / kDigits) + " frames are equal to the stored ones";
   }
   return verdict;
 }
@@ -126,7 +127,8 @@ Verdict check_state(const GuardedRun& run, const std::string& preset, const Stor
   const std::string hash = states.hex(static_cast<std::size_t>(known.frames) + 1);
   const bool same = hash == known.hash;
   return {run.name, "whole simulation at " + preset, same ? Outcome::kPassed : Outcome::kFailed,
-          known.what + " is " + hash + (same ? ", as stored" : ", and " + known.hash + " stored")};
+          known.what + " is " + hash +
+              (same ? ", equal to the stored state" : "; the stored state is " + known.hash)};
 }
 
 }  // namespace
@@ -163,8 +165,9 @@ std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& bo
     if (all) verdicts.push_back(check_state(run, preset, *all, states));
   }
   if (verdicts.empty()) {
-    verdicts.push_back({run.name, "simulation", Outcome::kFailed,
-                        "has no states in " + file + "; accepting stores them"});
+    verdicts.push_back(
+        {run.name, "simulation", Outcome::kFailed,
+         "has no stored states in " + file + "; store them by `sunder golden accept`"});
   }
   return verdicts;
 }

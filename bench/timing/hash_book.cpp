@@ -28,12 +28,12 @@ StateHashes parse_hashes(const std::string& text, const std::string& file) {
     if (!(words >> what)) continue;
     const std::string at = file + ":" + std::to_string(number) + ": ";
     if (!(words >> hash) || !is_hash(what, hash) || words >> more) {
-      throw InputError(at + "a line is WHAT and 16 hexadecimal digits (0-9, a-f), as in " +
-                       "state/house/realtime/200 0123456789abcdef, or four a frame where WHAT "
+      throw InputError(at + "expected KEY and 16 hexadecimal digits (0-9, a-f), as in " +
+                       "state/house/realtime/200 0123456789abcdef, or 4 digits per frame if KEY "
                        "begins with frames/");
     }
     if (!book.emplace(what, hash).second) {
-      throw InputError(at + what + " is there twice; remove the line that is wrong");
+      throw InputError(at + what + " is a duplicate key; remove the wrong line");
     }
   }
   return book;
@@ -46,9 +46,8 @@ StateHashes read_hashes(const std::string& file) {
 
 std::string format_hashes(const StateHashes& book) {
   std::string text =
-      "# What is known to be right. Changed by `sunder bench --accept` and `sunder golden accept`\n"
-      "# alone: a line that differs says that something else is simulated, and should say why in\n"
-      "# its commit.\n";
+      "# Stored state hashes. Only `sunder bench --accept` and `sunder golden accept` change this\n"
+      "# file. A changed line means that the simulated motion has changed; the commit says why.\n";
   std::size_t widest = 0;
   for (const auto& [what, hash] : book) widest = std::max(widest, what.size());
   for (const auto& [what, hash] : book)

@@ -16,14 +16,16 @@ bool differs(const Figures& scene) {
 }
 
 constexpr const char* kDiffers =
-    "its repeats come to different states; `sunder simulate --take` and --verify find the frame";
+    "the states of its repeats differ; find the first frame by `sunder simulate --take FILE` and "
+    "`--verify FILE`";
 
 /// Returns the reason why a run has no stored hash to be compared with; empty if it has one.
 std::string reason_not_checked(const Figures& scene) {
-  if (scene.contains("/set/0")) return "changed by --set, so not held against a stored state";
+  if (scene.contains("/set/0"))
+    return "not compared with a stored state, because --set changes the scene";
   if (scene.contains("/state/hash")) return {};
-  return "a stored state is of " + std::to_string(kStateFrames) + " frames, this run has " +
-         std::to_string(static_cast<int>(number_at(scene, "/frames")));
+  return "not compared with a stored state, which is that after " + std::to_string(kStateFrames) +
+         " frames; this run has " + std::to_string(static_cast<int>(number_at(scene, "/frames")));
 }
 
 std::string state_key(const Figures& scene) {
@@ -40,14 +42,14 @@ Verdict check_state(const Figures& scene, const StateHashes& book, const std::st
   } else if (verdict.text = reason_not_checked(scene); !verdict.text.empty()) {
     verdict.outcome = Outcome::kSkipped;
   } else if (const auto known = book.find(state_key(scene)); known == book.end()) {
-    verdict.text = file + " has no " + state_key(scene) + "; --accept stores it";
+    verdict.text = file + " has no " + state_key(scene) + "; store it by --accept";
   } else if (known->second != text_at(scene, "/state/hash")) {
-    verdict.text = state_key(scene) + " is " + text_at(scene, "/state/hash") + ", and " +
-                   known->second + " in " + file +
-                   ": something else is simulated; if that is right, --accept stores it";
+    verdict.text = state_key(scene) + " is " + text_at(scene, "/state/hash") +
+                   "; the stored state is " + known->second + " in " + file +
+                   ": the simulated motion has changed; if that is intended, store it by --accept";
   } else {
     verdict.outcome = Outcome::kPassed;
-    verdict.text = state_key(scene) + " is " + known->second + ", as stored";
+    verdict.text = state_key(scene) + " is " + known->second + ", equal to the stored state";
   }
   return verdict;
 }

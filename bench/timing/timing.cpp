@@ -181,9 +181,9 @@ std::vector<Figures> scenes_of(const Figures& document, const std::string& file)
   const bool named = std::ranges::all_of(
       scenes, [](const Figures& scene) { return !text_at(scene, "/scene").empty(); });
   if (scenes.empty() || !named) {
-    throw InputError(file +
-                     ": holds no timings; give a file of sunder bench --json or of sunder simulate "
-                     "--json");
+    throw InputError(
+        file +
+        ": has no timings; give a file of `sunder bench --json` or `sunder simulate --json`");
   }
   return scenes;
 }

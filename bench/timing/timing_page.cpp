@@ -41,11 +41,11 @@ std::string histogram(const Curve& frames) {
   for (const PlotPoint& frame : frames.points) {
     ++bars[std::min(kBins - 1, static_cast<std::size_t>(frame.y / width))].value;
   }
-  return svg_bars({"", {"processor ms a frame"}, {"frames"}}, bars);
+  return svg_bars({"", {"processor ms per frame"}, {"frames"}}, bars);
 }
 
 std::string stages_table(const Figures& scene) {
-  std::vector<std::string> head = {"ms a frame"};
+  std::vector<std::string> head = {"ms per frame"};
   std::vector<std::vector<Cell>> rows(kStages + 1);
   for (std::size_t row = 0; row <= kStages; ++row) {
     const std::string name = row < kStages ? kStageNames[row] : "frame";
@@ -75,7 +75,8 @@ std::string modelled_table(const Figures& scene) {
       row[3] = {rounded(saving.with_ms - saving.without_ms)};
     }
   }
-  return html_table({"modelled", "here", "processor ms a frame without it", "that saves"}, rows);
+  return html_table({"feature", "in this scene", "processor ms per frame without it", "saving"},
+                    rows);
 }
 
 std::string verdicts_table(const std::string& scene, std::span<const Verdict> verdicts) {
@@ -91,7 +92,7 @@ std::string verdicts_table(const std::string& scene, std::span<const Verdict> ve
                      failed},
                     {verdict.text}});
   }
-  return html_table({"looked at", "", ""}, rows);
+  return html_table({"check", "", ""}, rows);
 }
 
 std::string changes_table(const std::string& scene, std::span<const Change> changes) {
@@ -100,14 +101,15 @@ std::string changes_table(const std::string& scene, std::span<const Change> chan
     if (change.scene != scene) continue;
     const double part = change.before_ms > 0 ? change.after_ms / change.before_ms - 1 : 0;
     rows.push_back({{change.stage},
-                    {change.figure + (change.is_cpu ? " of the processor" : " by the clock")},
+                    {change.figure + (change.is_cpu ? ", processor time" : ", wall time")},
                     {rounded(change.before_ms)},
                     {rounded(change.after_ms)},
                     {rounded(100 * part) + " %", change.is_slower(0)},
                     {change.interval()}});
   }
-  return rows.empty() ? ""
-                      : html_table({"ms a frame", "", "before", "now", "change", "interval"}, rows);
+  return rows.empty()
+             ? ""
+             : html_table({"ms per frame", "", "before", "now", "change", "interval"}, rows);
 }
 
 std::string section(const Figures& scene, std::span<const Verdict> verdicts,
@@ -118,16 +120,16 @@ std::string section(const Figures& scene, std::span<const Verdict> verdicts,
   return "<section>\n<h2>" + escaped(name) + "</h2>\n<p>" + escaped(run_line(scene)) + "<br>" +
          escaped(counts_line(scene)) + "<br>" + escaped(text_at(scene, "/cpu")) + "</p>\n" +
          verdicts_table(name, verdicts) + changes_table(name, changes) + stages_table(scene) +
-         svg_curves({"processor time", {"simulated time, s"}, {"ms a frame"}}, cpu) +
-         svg_curves({"wall time", {"simulated time, s"}, {"ms a frame"}}, wall) +
+         svg_curves({"processor time", {"simulated time, s"}, {"ms per frame"}}, cpu) +
+         svg_curves({"wall time", {"simulated time, s"}, {"ms per frame"}}, wall) +
          histogram(cpu[0]) + modelled_table(scene) + "</section>\n";
 }
 
 constexpr const char* kIntroduction =
     "<h1>Frame timing</h1>\n"
     "<p>A frame is 1/60 s of simulated time. Every figure is the median over the repeats of a run; "
-    "p50 to max are over its frames. Processor time is that of all threads, and waits for nobody; "
-    "wall time is what a watch shows.</p>\n";
+    "p50 to max are over its frames. Processor time is summed over all threads; wall time is "
+    "elapsed time.</p>\n";
 
 }  // namespace
 

@@ -42,11 +42,10 @@ std::string run_line(const Figures& scene) {
 }
 
 std::string counts_line(const Figures& scene) {
-  return "at most: " + count_of(scene, "/peak/bodies") + " bodies, " +
-         count_of(scene, "/peak/awake") + " awake, " + count_of(scene, "/peak/debris") +
-         " chips, " + count_of(scene, "/peak/dust") + " puffs, " +
-         rounded(number_at(scene, "/memory_MB")) +
-         " MB; in all: " + count_of(scene, "/fractures/events") + " breaks into " +
+  return "peak: " + count_of(scene, "/peak/bodies") + " bodies, " + count_of(scene, "/peak/awake") +
+         " awake, " + count_of(scene, "/peak/debris") + " debris, " +
+         count_of(scene, "/peak/dust") + " dust, " + rounded(number_at(scene, "/memory_MB")) +
+         " MB; total: " + count_of(scene, "/fractures/events") + " breaks into " +
          count_of(scene, "/fractures/pieces") + " pieces";
 }
 
@@ -84,7 +83,7 @@ std::string features_table(std::span<const Figures> scenes) {
     }
   }
   if (text.empty()) return text;
-  return "processor ms a frame, mean                with   without     saves\n" + text;
+  return "processor ms per frame, mean              with   without     saves\n" + text;
 }
 
 std::string verdict_lines(std::span<const Verdict> verdicts, bool failed) {

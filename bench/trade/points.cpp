@@ -19,7 +19,7 @@ bool may_be_in_name(char c) {
 void check_name(const std::string& name, const std::string& where) {
   if (!std::all_of(name.begin(), name.end(), may_be_in_name) || name.front() == '.') {
     throw InputError(where + ": '" + name +
-                     "' cannot name a point; allowed: letters, digits and . _ + = -");
+                     "' is not a valid name of a point; allowed: letters, digits and . _ + = -");
   }
 }
 
@@ -62,7 +62,7 @@ std::vector<StudyPoint> parse_lines(const std::string& text, const std::string& 
     StudyPoint point = parse_line(line, where);
     if (point.name.empty()) continue;
     if (!seen.insert(point.name).second) {
-      throw InputError(where + ": a second point named '" + point.name + "'");
+      throw InputError(where + ": duplicate point '" + point.name + "'");
     }
     points.push_back(std::move(point));
   }
@@ -76,7 +76,7 @@ std::vector<StudyPoint> parse_lines(const std::string& text, const std::string& 
 std::vector<StudyPoint> parse_points(const std::string& text, const std::string& file) {
   std::vector<StudyPoint> points = parse_lines(text, file);
   if (points.empty() || points.front().is_limit()) {
-    throw InputError(file + ": names no point to hold against the limit");
+    throw InputError(file + ": has no point besides the limit; add at least one");
   }
   if (!points.back().is_limit()) points.push_back(default_points().back());
   return points;

@@ -138,7 +138,7 @@ std::string trade_json(const Trade& trade) {
 
 std::string trade_table(const Trade& trade) {
   std::string text =
-      "scene              point        ms a frame  error/noise  cost/front  largest error\n";
+      "scene              point      ms per frame  error/noise  cost/front  largest error\n";
   for (const SceneTrade& scene : trade.scenes) {
     for (const PointTrade& point : scene.points) {
       char line[200];

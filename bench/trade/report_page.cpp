@@ -33,7 +33,7 @@ PlotPoint plotted(const PointTrade& point) {
 
 /// Returns a table of each preset's cost relative to the front, by scene.
 std::string presets_table(const Trade& trade) {
-  std::vector<std::string> head = {"cost over the front"};
+  std::vector<std::string> head = {"cost / front"};
   std::vector<std::vector<Cell>> rows;
   for (const SceneTrade& scene : trade.scenes) {
     std::vector<Cell>& row = rows.emplace_back(std::vector<Cell>{{scene.scene}});
@@ -53,21 +53,21 @@ std::string presets_table(const Trade& trade) {
 std::string points_table(const SceneTrade& scene) {
   std::vector<std::vector<Cell>> rows;
   for (const PointTrade& point : scene.points) {
-    rows.push_back(
-        {{point.point.name, false, options_of(point.point)},
-         {format_number(point.cost_ms)},
-         {format_number(point.wall_ms)},
-         {format_number(point.error), !point.failed.empty(), point.failed},
-         {point.on_front ? "on it" : format_number(point.over_front), exceeds_cost_ratio(point)},
-         {std::to_string(point.runs)}});
+    rows.push_back({{point.point.name, false, options_of(point.point)},
+                    {format_number(point.cost_ms)},
+                    {format_number(point.wall_ms)},
+                    {format_number(point.error), !point.failed.empty(), point.failed},
+                    {point.on_front ? "on the front" : format_number(point.over_front),
+                     exceeds_cost_ratio(point)},
+                    {std::to_string(point.runs)}});
   }
-  return html_table({"point", "processor ms a frame", "wall ms", "error", "over the front", "runs"},
+  return html_table({"point", "processor ms per frame", "wall ms", "error", "cost / front", "runs"},
                     rows);
 }
 
 /// Returns a table with a column per error, over its noise; the largest of a point is highlighted.
 std::string errors_table(const SceneTrade& scene) {
-  std::vector<std::string> head = {"over its noise"};
+  std::vector<std::string> head = {"error / noise"};
   for (const PointTrade& point : scene.points) {
     for (const TradeError& error : point.errors) {
       if (std::find(head.begin() + 1, head.end(), error.name) == head.end()) {
@@ -84,7 +84,7 @@ std::string errors_table(const SceneTrade& scene) {
       const auto column = std::find(head.begin() + 1, head.end(), error.name) - head.begin();
       row[static_cast<std::size_t>(column)] = {
           format_number(error.over_noise), error.over_noise == worst(point.errors),
-          format_number(error.distance) + " over " + format_number(error.noise)};
+          format_number(error.distance) + " / " + format_number(error.noise)};
     }
   }
   return rows.empty() ? "" : html_table(head, rows);
@@ -109,11 +109,12 @@ std::string section(const SceneTrade& scene) {
 
 constexpr const char* kIntroduction =
     "<h1>What accuracy costs</h1>\n"
-    "<p>Every scene is run at every point with several seeds. A point's <b>error</b> is the "
-    "largest of its distances from the limit, a run far beyond the finest point, each over its "
-    "noise: at 1 it is not to be told from another seed of the limit. Its <b>cost</b> is what a "
-    "frame takes of the processor, the median over seeds. On the <b>front</b> are the points that "
-    "none beats in both. Point at a cell for what is behind it.</p>\n";
+    "<p>Every scene is run at every point with several seeds. The <b>error</b> of a point is the "
+    "largest of its distances from the limit, a run far finer than the finest point, each divided "
+    "by its noise: an error of up to 1 cannot be distinguished from another seed of the limit. The "
+    "<b>cost</b> is the processor time of a frame, the median over seeds. Points on the "
+    "<b>front</b> are beaten by no other in both error and cost. Move the pointer over a cell for "
+    "details.</p>\n";
 
 }  // namespace
 
@@ -128,7 +129,7 @@ std::string trade_svg(const SceneTrade& scene) {
   std::sort(front.points.begin(), front.points.end(),
             [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
   const Curve curves[] = {front, presets, others};
-  return svg_curves({scene.scene, {"processor ms a frame", true}, {"error over noise", true}},
+  return svg_curves({scene.scene, {"processor ms per frame", true}, {"error / noise", true}},
                     curves);
 }
 

@@ -129,10 +129,10 @@ void write_run(const fs::path& folder, const StudyRun& run, const Ran& ran) {
 StoredRun read_run(const fs::path& folder, const StudyRun& run) {
   StoredRun stored;
   const fs::path file = file_in(folder, "runs", run), times = file_in(folder, "times", run);
-  if (!fs::exists(file)) return {{}, "not done"};
+  if (!fs::exists(file)) return {{}, "not run yet"};
   try {
     const Figures figures = read_figures(file);
-    if (!has_settings(figures, run)) return {{}, "of another study", true};
+    if (!has_settings(figures, run)) return {{}, "belongs to another study", true};
     const Figures time = read_figures(times);
     stored.ran.result = result_of(figures);
     stored.ran.time = {number_at(time, "/cpu_ms"), number_at(time, "/wall_ms"),

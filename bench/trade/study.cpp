@@ -77,7 +77,8 @@ std::vector<StudyRun> study_runs(const Study& study) {
     run.scene_file = scenes::scene_file(scene);
     run.scene = run.scene_file.stem().string();
     if (!names.insert(run.scene).second) {
-      throw InputError(scene + ": a second scene named " + run.scene + "; files are named by it");
+      throw InputError(scene + ": duplicate scene name " + run.scene +
+                       "; rename the file, because results are stored by name");
     }
     char hash[17];
     std::snprintf(hash, sizeof hash, "%016llx",

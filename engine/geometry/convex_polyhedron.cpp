@@ -69,7 +69,7 @@ MassProperties mass_properties(const ConvexPolyhedron& convex) {
 
 ConvexPolyhedron make_box(const Vec3& min, const Vec3& max) {
   if (!(min.array() < max.array()).all() || !min.allFinite() || !max.allFinite())
-    throw InputError("a box ends before it begins, or nowhere; expected finite min < max");
+    throw InputError("box: min must be less than max along each axis, and both must be finite");
   ConvexPolyhedron box;
   for (int i = 0; i < 8; ++i) {  // bit k of the index is set for max along axis k
     box.vertices.emplace_back(i & 1 ? max.x() : min.x(), i & 2 ? max.y() : min.y(),
@@ -89,7 +89,8 @@ ConvexPolyhedron make_box(const Vec3& min, const Vec3& max) {
 ConvexPolyhedron make_prism(std::span<const Vec2> polygon_xz, double bottom, double top,
                             bool smooth) {
   if (polygon_xz.size() < 3 || !(bottom < top))
-    throw InputError("a prism has fewer than three corners, or ends before it begins");
+    throw InputError(
+        "prism: the polygon must have at least three corners, and bottom must be less than top");
   const auto n = static_cast<std::uint32_t>(polygon_xz.size());
   ConvexPolyhedron prism;
   for (const double y : {bottom, top}) {
@@ -99,7 +100,7 @@ ConvexPolyhedron make_prism(std::span<const Vec2> polygon_xz, double bottom, dou
   std::iota(cap.begin(), cap.end(), n);
   add_face(prism, cap);
   if (!(prism.faces[0].plane.normal.y() > 0))
-    throw InputError("the polygon of a prism runs clockwise; expected the other way, seen from +y");
+    throw InputError("prism: the polygon is clockwise as seen from +y; reverse its corners");
   for (std::uint32_t i = 0; i < n; ++i) cap[i] = n - 1 - i;
   add_face(prism, cap);
   for (std::uint32_t i = 0; i < n; ++i) {

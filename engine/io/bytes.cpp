@@ -16,7 +16,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
   std::vector<std::byte> bytes(static_cast<std::size_t>(in.tellg()));
   in.seekg(0);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) throw InputError(path.string() + ": cannot be read to its end");
+  if (!in) throw InputError(path.string() + ": cannot be read completely");
   return bytes;
 }
 

@@ -106,7 +106,7 @@ class ByteReader {
     for (Scalar& number : vector) number = take<Scalar>();
   }
   void need(std::size_t size) const {
-    if (bytes_.size() - at_ < size) throw InputError(file_ + ": the file is cut short or corrupt");
+    if (bytes_.size() - at_ < size) throw InputError(file_ + ": the file is truncated or corrupt");
   }
   const std::vector<std::byte>& bytes_;
   std::string file_;

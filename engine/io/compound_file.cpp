@@ -30,7 +30,8 @@ void take_plane(ByteReader& in, Face& face) {
 }
 
 void check(bool good, const std::string& file) {
-  if (!good) throw InputError(file + ": corrupt: a surface does not add up");
+  if (!good)
+    throw InputError(file + ": corrupt: the counts of a surface do not match; delete the file");
 }
 
 void put(ByteWriter& out, const ConvexPolyhedron& shape) {

@@ -16,7 +16,8 @@ constexpr int kMaxDepth = 100;
 Figures parse_figures(const std::string& text, const std::string& file) {
   using Json = nlohmann::json;
   const auto is_shallow = [&](int depth, Json::parse_event_t, const Json&) {
-    if (depth > kMaxDepth) throw InputError(file + ": lists in lists, deeper than any of ours");
+    if (depth > kMaxDepth)
+      throw InputError(file + ": JSON is nested too deeply; it is not a file of this program");
     return true;
   };
   const Json document = Json::parse(text, is_shallow, false);

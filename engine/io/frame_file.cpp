@@ -52,7 +52,7 @@ std::vector<Particle> take_codes(ByteReader& in, const std::string& file, std::s
   for (Particle& particle : particles) {
     particle = decode(in.take<ParticleCode>());
     if (particle.material.value >= materials) {
-      throw InputError(file + ": corrupt: a particle has no material");
+      throw InputError(file + ": corrupt: a particle has an invalid material");
     }
   }
   return particles;
@@ -85,7 +85,7 @@ std::shared_ptr<const Inspection> take_inspection(ByteReader& in, const std::str
       inspection->stresses.size() != frame.instances.size() ||
       !std::ranges::all_of(inspection->islands, is_body) ||
       !std::ranges::all_of(inspection->boxes, is_body, &FrameBox::body)) {
-    throw InputError(file + ": corrupt: what happens inside is of other bodies");
+    throw InputError(file + ": corrupt: the inspection data does not match the bodies");
   }
   return inspection;
 }
@@ -142,7 +142,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
   for (Instance& instance : frame->instances) {
     in.take_to(instance.mesh, instance.body);
     if (instance.mesh.value >= meshes.size() || instance.body >= frame->bodies.size()) {
-      throw InputError(file + ": corrupt: an instance names no mesh or body");
+      throw InputError(file + ": corrupt: an instance has an invalid mesh or body");
     }
   }
   if (version >= 2) {
@@ -158,7 +158,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
   if (version >= 5 && in.take<std::uint8_t>() != 0) {
     frame->inspection = take_inspection(in, file, *frame, version >= 6);
   }
-  if (!in.at_end()) throw InputError(file + ": corrupt: bytes are left over");
+  if (!in.at_end()) throw InputError(file + ": corrupt: unexpected bytes at the end");
   frame->materials = std::make_shared<const std::vector<Material>>(std::move(materials));
   if (!paints.empty())
     frame->paints = std::make_shared<const std::vector<Appearance>>(std::move(paints));
@@ -204,12 +204,13 @@ FramePtr read_frame(const std::filesystem::path& path) {
     throw InputError(name + ": corrupt: the checksum does not match; record it again");
   }
   const auto size = header.take<std::uint64_t>();
-  if (size > kMaxContentBytes) throw InputError(name + ": corrupt: it claims to be too large");
+  if (size > kMaxContentBytes) throw InputError(name + ": corrupt: the stored size is too large");
   std::vector<std::byte> content(size);
   const std::size_t got =
       ZSTD_decompress(content.data(), content.size(), file.data() + kHeaderBytes + 8,
                       file.size() - kHeaderBytes - 8);
-  if (ZSTD_isError(got) || got != size) throw InputError(name + ": corrupt: cannot be unpacked");
+  if (ZSTD_isError(got) || got != size)
+    throw InputError(name + ": corrupt: cannot be decompressed");
   return frame_of(content, name, version);
 }
 

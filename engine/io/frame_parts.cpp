@@ -49,10 +49,10 @@ Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials, b
   mesh.indices = in.take_list<std::uint32_t>();
   for (const std::uint32_t index : mesh.indices) {
     if (index >= mesh.vertices.size())
-      throw InputError(file + ": corrupt: a triangle has no corner");
+      throw InputError(file + ": corrupt: a triangle has an invalid vertex");
   }
   if (mesh.material.value >= materials)
-    throw InputError(file + ": corrupt: a mesh has no material");
+    throw InputError(file + ": corrupt: a mesh has an invalid material");
   return mesh;
 }
 
@@ -67,7 +67,8 @@ void put_uvs(ByteWriter& out, std::span<const std::shared_ptr<const Mesh>> meshe
 
 void take_uvs(ByteReader& in, const std::string& file, std::span<Mesh> meshes) {
   for (std::uint32_t m; (m = in.take<std::uint32_t>()) != ~std::uint32_t{0};) {
-    if (m >= meshes.size()) throw InputError(file + ": corrupt: texture coordinates of no mesh");
+    if (m >= meshes.size())
+      throw InputError(file + ": corrupt: texture coordinates have an invalid mesh");
     meshes[m].uvs = in.take_list<Eigen::Vector2f>();
     if (meshes[m].uvs.size() != meshes[m].vertices.size())
       throw InputError(file + ": corrupt: a vertex has no texture coordinates");
@@ -77,7 +78,7 @@ void take_uvs(ByteReader& in, const std::string& file, std::span<Mesh> meshes) {
 void check_appearances(const Mesh& mesh, const std::string& file, std::size_t paints) {
   for (const Mesh::Vertex& vertex : mesh.vertices) {
     if (vertex.look >= Mesh::kFirstPaint + paints)
-      throw InputError(file + ": corrupt: a mesh has no paint");
+      throw InputError(file + ": corrupt: a mesh has an invalid appearance");
   }
 }
 
@@ -112,7 +113,8 @@ std::vector<Appearance> take_paints(ByteReader& in, const std::string& file) {
   const auto take_picture = [&]() -> EncodedImage {
     const auto number = in.take<std::uint32_t>();
     if (number == kNoPicture) return nullptr;
-    if (number > pictures.size()) throw InputError(file + ": corrupt: a paint has no picture");
+    if (number > pictures.size())
+      throw InputError(file + ": corrupt: an appearance has an invalid texture");
     if (number == pictures.size()) {
       pictures.push_back(std::make_shared<const std::vector<std::byte>>(in.take_list<std::byte>()));
     }

@@ -181,8 +181,9 @@ Json frame_json(const FrameReport& report, double ms, std::span<const double> fr
 
 std::string uncut_convexes_warning(std::uint64_t convexes, double volume_m3, double of_m3) {
   return std::to_string(convexes) + (convexes == 1 ? " convex was" : " convexes were") +
-         printed(" left whole, %.3g %% of the volume, because ", 100 * ratio(volume_m3, of_m3)) +
-         (convexes == 1 ? "its" : "their") + " parts did not add up";
+         printed(" not cut, %.3g %% of the volume, because the volumes of ",
+                 100 * ratio(volume_m3, of_m3)) +
+         (convexes == 1 ? "its" : "their") + " parts did not match";
 }
 
 std::string cpu_name() {
@@ -229,8 +230,8 @@ std::string Statistics::limits_warning() const {
 
 std::string limits_warning(std::uint32_t hits) {
   if (hits == 0) return "";
-  return "what the scene allows was reached " + std::to_string(hits) +
-         " times, and solids did not break or no particles flew; raise limits.bodies, "
+  return "[limits] of the scene were reached " + std::to_string(hits) +
+         " times: solids did not break, or particles were not emitted; raise limits.bodies, "
          "limits.debris or limits.dust";
 }
 

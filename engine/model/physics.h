@@ -245,7 +245,7 @@ class Physics {
   /// Adds a joint and wakes its bodies. When a body is removed, its joints hold nothing until
   /// attach() or cut().
   virtual JointId join(const JointDesc&) {
-    throw InputError("this physics has no joints: take [[joint]] out of the scene");
+    throw InputError("this solver does not support joints; remove [[joint]] from the scene");
   }
   /// Moves an end of a joint (a, or else b) to another body with the same rest frame. `quiet_tags`
   /// replace the tags in JointDesc::quiet_a or quiet_b of a plastic joint.

@@ -119,7 +119,8 @@ std::vector<ConvexPolyhedron> subtract(const ConvexPolyhedron& solid,
     }
     std::swap(left, next);
     if (left.size() > kMostPartsOfOne) {
-      throw InputError("a part overlaps too many others at once; join them into fewer parts");
+      throw InputError(
+          "a part overlaps too many others at once; use fewer parts, or move them apart");
     }
   }
   return left;
@@ -213,7 +214,8 @@ std::vector<Ghost> find_ghosts(std::span<const ConvexPtr> convexes, const PartPa
       ghosts.push_back(make_ghost(convexes, std::move(common), std::move(of)));
     }
     if (ghosts.size() > kMostGhosts) {
-      throw InputError("over a million overlaps of parts; join them into fewer parts");
+      throw InputError(
+          "parts overlap in more than 1,000,000 places; use fewer parts, or move them apart");
     }
   }
   sort_ghosts(ghosts);

@@ -69,7 +69,7 @@ class Reader {
     char* end = nullptr;
     // Streams do not read hexadecimal numbers.
     const double value = std::strtod(text.c_str(), &end);
-    if (*end != 0 || std::isnan(value)) fail("'" + text + "' is no number");
+    if (*end != 0 || std::isnan(value)) fail("'" + text + "' is not a number");
     return value;
   }
   std::uint64_t integer(std::uint64_t most) {
@@ -77,11 +77,11 @@ class Reader {
     char* end = nullptr;
     const std::uint64_t value = std::strtoull(text.c_str(), &end, 10);
     if (*end != 0 || value > most)
-      fail("'" + text + "' is no number up to " + std::to_string(most));
+      fail("'" + text + "' is not a whole number from 0 to " + std::to_string(most));
     return value;
   }
   std::uint32_t index(std::size_t count) {
-    if (count == 0) fail("an index into nothing");
+    if (count == 0) fail("an index refers to an empty list");
     return static_cast<std::uint32_t>(integer(count - 1));
   }
   template <class Matrix>
@@ -93,7 +93,8 @@ class Reader {
     return result;
   }
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(name_ + ": " + what + "; this is no break case");
+    throw InputError(name_ + ": " + what +
+                     "; the file is not a valid case of a break; write it again");
   }
 
  private:
@@ -177,7 +178,8 @@ void write_mesh(Writer& out, const PolygonMesh& mesh) {
 PolygonMesh read_mesh(Reader& in, std::uint64_t vertices) {
   const std::uint64_t faces = in.integer(kMost), contours = in.integer(kMost);
   const std::uint64_t corners = in.integer(kMost), uvs = in.integer(kMost);
-  if (uvs != 0 && uvs != corners) in.fail("a mesh has some texture coordinates only");
+  if (uvs != 0 && uvs != corners)
+    in.fail("a mesh has texture coordinates for only some of its corners");
   PolygonMesh mesh;
   for (std::uint64_t i = 0; i < vertices; ++i) mesh.vertices.push_back(in.matrix<Vec3>());
   std::uint64_t next = 0;
@@ -185,19 +187,19 @@ PolygonMesh read_mesh(Reader& in, std::uint64_t vertices) {
     auto face = read_plane<PolygonMesh::Face>(in);
     face.first_contour = static_cast<std::uint32_t>(next);
     face.contour_count = static_cast<std::uint32_t>(in.integer(contours - next));
-    if (face.contour_count == 0) in.fail("a face without a contour");
+    if (face.contour_count == 0) in.fail("a face has no contour");
     next += face.contour_count;
     mesh.faces.push_back(face);
   }
-  if (next != contours) in.fail("a mesh has contours of no face");
+  if (next != contours) in.fail("a mesh has contours that belong to no face");
   next = 0;
   for (std::uint64_t i = 0; i < contours; ++i) {
     const auto count = static_cast<std::uint32_t>(in.integer(corners - next));
-    if (count < 3) in.fail("a contour has less than three corners");
+    if (count < 3) in.fail("a contour has fewer than three corners");
     mesh.contours.push_back({static_cast<std::uint32_t>(next), count});
     next += count;
   }
-  if (next != corners) in.fail("a mesh has corners of no contour");
+  if (next != corners) in.fail("a mesh has corners that belong to no contour");
   for (std::uint64_t i = 0; i < corners; ++i) {
     mesh.corners.push_back(in.index(vertices));
     mesh.corner_normals.push_back(in.matrix<Vec3f>());
@@ -235,7 +237,7 @@ Ghost read_ghost(Reader& in, std::uint64_t convexes) {
     ghost.of.push_back(in.index(convexes));
     if (i > 0 && ghost.of[i] <= ghost.of[i - 1]) in.fail("a ghost's convexes are out of order");
   }
-  if (count == 0) in.fail("a ghost of no convex");
+  if (count == 0) in.fail("a ghost refers to no convex");
   const MaterialIndex material(in.integer(kMost));
   const std::uint64_t vertices = in.integer(kMost), faces = in.integer(kMost);
   ghost.convex = make_convex(read_polyhedron(in, vertices, faces), material);
@@ -310,7 +312,7 @@ std::optional<Plug> read_plug(Reader& in, std::istream& stream) {
   if (plug.section_m.size() < 3 || !is_finite || !(plug.depth_m > 0) || !(plug.slice_m >= 0) ||
       !(plug.depth_m < kMostSlices * plug.slice_m || plug.slice_m == 0) ||
       !std::isfinite(plug.reach_m))
-    in.fail("a plug has no section or no depth");
+    in.fail("the section or the depth of the plug is invalid");
   return plug;
 }
 
@@ -327,10 +329,10 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   if (!(command.radius_m > 0) || !command.X_RP.position.allFinite() ||
       !(std::abs(command.X_RP.rotation.norm() - 1) < 1e-6) || !command.stretch_P.allFinite() ||
       !(command.stretch_P.determinant() > 0)) {
-    in.fail("a pattern is placed nowhere");
+    in.fail("the placement of the pattern is invalid");
   }
   const std::optional<Fit> fit = parse_fit(in.word());
-  if (!fit) in.fail("a fit is one of " + std::string(kFitNames));
+  if (!fit) in.fail("unknown fit; allowed: " + std::string(kFitNames));
   command.fit = *fit;
   in.expect("pattern");
   PatternSpec& pattern = command.pattern;
@@ -339,7 +341,7 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   const bool grid = pattern.kind == PatternSpec::Kind::kGrid;
   const auto count = [&](int least, std::uint64_t most) {
     const auto number = static_cast<int>(in.integer(most));
-    if (number < least) in.fail("a pattern of no cells");
+    if (number < least) in.fail("the pattern has no cells");
     return number;
   };
   pattern.cells = count(1, grid ? 30 : 5000);  // Limits as for scenes.
@@ -413,7 +415,7 @@ BreakCase read_case(std::istream& stream, const std::string& name) {
     Bond bond;
     bond.a = in.index(convexes);
     bond.b = in.index(convexes);
-    if (bond.a == bond.b) in.fail("a bond of a convex with itself");
+    if (bond.a == bond.b) in.fail("a bond joins a convex to itself");
     bond.face_a = in.index(compound.convexes[bond.a]->polyhedron.faces.size());
     bond.face_b = in.index(compound.convexes[bond.b]->polyhedron.faces.size());
     bond.area_m2 = in.number();

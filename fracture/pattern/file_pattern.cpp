@@ -35,7 +35,8 @@ class ObjReader {
     std::string line;
     for (line_ = 1; std::getline(in_, line); ++line_) read_line(line);
     std::erase_if(cells_.groups, [](const Group& group) { return group.faces.empty(); });
-    if (cells_.groups.empty()) fail("has no cells; each group (g or o) of faces is one");
+    if (cells_.groups.empty())
+      fail("the file has no cells; each group (g or o) of faces is one cell");
     return std::move(cells_);
   }
 
@@ -51,7 +52,7 @@ class ObjReader {
     if (key == "v") {
       read_vertex(words);
     } else if (key == "g" || key == "o") {
-      if (cells_.groups.size() > 4 * kMostCells) fail("has too many groups");
+      if (cells_.groups.size() > 4 * kMostCells) fail("too many groups");
       cells_.groups.emplace_back();
     } else if (key == "usemtl") {
       if (cells_.groups.empty()) cells_.groups.emplace_back();
@@ -66,21 +67,21 @@ class ObjReader {
     if (!(words >> vertex.x() >> vertex.y() >> vertex.z()) || !vertex.allFinite()) {
       fail("a vertex needs three numbers");
     }
-    if (cells_.vertices.size() == kMostVertices) fail("has too many vertices");
+    if (cells_.vertices.size() == kMostVertices) fail("too many vertices");
     cells_.vertices.push_back(vertex);
   }
 
   void read_face(std::istream& words) {
     if (cells_.groups.empty()) cells_.groups.emplace_back();
-    if (++faces_ > kMostFaces) fail("has too many faces");
+    if (++faces_ > kMostFaces) fail("too many faces");
     std::vector<std::size_t> face;
     const auto count = static_cast<long long>(cells_.vertices.size());
     for (std::string word; words >> word;) {
       long long index = 0;
       std::istringstream number(word.substr(0, word.find('/')));
-      if (!(number >> index)) fail("'" + word + "' is no vertex");
+      if (!(number >> index)) fail("'" + word + "' is not the number of a vertex");
       if (index < 0) index += count + 1;
-      if (index < 1 || index > count) fail("vertex " + word + " is not among those above");
+      if (index < 1 || index > count) fail("vertex " + word + " is not defined above this line");
       face.push_back(static_cast<std::size_t>(index - 1));
     }
     if (face.size() < 3) fail("a face needs three vertices");
@@ -108,7 +109,7 @@ class Rebuilder {
 
   Pattern run() {
     if ((box_.min.array() >= 0).any() || (box_.max.array() <= 0).any()) {
-      fail("the origin, where the impact is, must lie inside the cells' box");
+      fail("the bounding box of the cells must enclose the origin, where the impact is");
     }
     if (box_.min.cwiseAbs().cwiseMax(box_.max).maxCoeff() >= Pattern::kHalfExtent) {
       fail("cells must lie within 16 units (radii of the impact) of the origin");

@@ -161,12 +161,12 @@ std::vector<Vec3> read_nodes(std::istream& in, const std::string& name) {
     words.seekg(0);
     Vec3 node;
     if (!(words >> node.x() >> node.y() >> node.z()) || !node.allFinite() || words >> word) {
-      fail("a node is three numbers: x y z");
+      fail("expected a node, three finite numbers: x y z");
     }
     if (nodes.size() == kMostNodes) fail("has more than " + std::to_string(kMostNodes) + " nodes");
     nodes.push_back(node);
   }
-  if (nodes.empty()) fail("has no nodes; each is a line x y z");
+  if (nodes.empty()) fail("the file has no nodes; expected lines of three numbers: x y z");
   return nodes;
 }
 

@@ -21,11 +21,11 @@ namespace {
 void check_options(const VacdOptions& options) {
   if (options.nodes.size() > kMostNodes || options.node_count.value_or(0) > kMostNodes ||
       options.convexes > kMostNodes) {
-    throw InputError("a decomposition has at most " + std::to_string(kMostNodes) +
-                     " nodes and convexes");
+    throw InputError("a decomposition may have at most " + std::to_string(kMostNodes) +
+                     " nodes and as many convexes; reduce their number");
   }
   for (const Vec3& node : options.nodes) {
-    if (!node.allFinite()) throw InputError("nodes have finite coordinates");
+    if (!node.allFinite()) throw InputError("a node has a coordinate that is not finite");
   }
 }
 
@@ -72,8 +72,8 @@ std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& o
       return refine(std::move(pieces), {limit, options.polygons, options.progress}, ids);
     }
     if (!options.nodes.empty()) {
-      throw InputError("the nodes make " + std::to_string(made) + " convexes, more than the " +
-                       std::to_string(limit) + " allowed; give fewer nodes or allow more");
+      throw InputError("the nodes give " + std::to_string(made) + " convexes, more than the " +
+                       std::to_string(limit) + " allowed; use fewer nodes, or allow more convexes");
     }
     count -= std::min(count - shells, made - limit);
   }

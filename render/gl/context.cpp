@@ -68,8 +68,7 @@ void GlContext::check_and_describe(const char* missing) {
 std::unique_ptr<GlContext> make_context(const std::string& wanted) {
   const std::vector<Maker> list = makers(wanted);
   if (list.empty()) {
-    throw InputError("--gl " + wanted +
-                     ": unknown; allowed are auto, egl-device:N, egl-surfaceless, osmesa");
+    throw InputError("--gl " + wanted + ": expected auto, egl-device:N, egl-surfaceless or osmesa");
   }
   std::string reasons;
   for (const Maker& make : list) {
@@ -80,7 +79,7 @@ std::unique_ptr<GlContext> make_context(const std::string& wanted) {
       reasons += error.what();
     }
   }
-  throw InputError("--gl " + wanted + ": no OpenGL context to be had; tried:" + reasons +
+  throw InputError("--gl " + wanted + ": no OpenGL context could be created; tried:" + reasons +
                    "\nOn Debian or Ubuntu: apt-get install libegl1 libgl1-mesa-dri");
 }
 

@@ -56,7 +56,7 @@ class EglContext final : public GlContext {
     EGLConfig config = nullptr;
     EGLint configs = 0;
     if (!api_.choose_config(display_, config_wanted, &config, 1, &configs) || configs == 0) {
-      throw InputError(kind + ": no configuration for OpenGL");
+      throw InputError(kind + ": EGL has no configuration for OpenGL");
     }
     const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
                              3,
@@ -86,15 +86,16 @@ class EglContext final : public GlContext {
 
  private:
   EGLDisplay initialized_display(const std::string& kind, EGLenum platform, void* native) const {
-    if (api_.platform_display == nullptr) throw InputError(kind + ": EGL knows no platforms");
+    if (api_.platform_display == nullptr)
+      throw InputError(kind + ": EGL lacks the extension EGL_EXT_platform_base");
     const EGLDisplay display = api_.platform_display(platform, native, nullptr);
-    if (display == EGL_NO_DISPLAY) throw InputError(kind + ": no such display");
+    if (display == EGL_NO_DISPLAY) throw InputError(kind + ": EGL found no display");
     if (!api_.initialize(display, nullptr, nullptr)) {
-      throw InputError(kind + ": the display does not initialize");
+      throw InputError(kind + ": eglInitialize failed");
     }
     const char* extensions = api_.query_string(display, EGL_EXTENSIONS);
     if (extensions == nullptr || !std::strstr(extensions, "EGL_KHR_surfaceless_context")) {
-      throw InputError(kind + ": cannot draw without a surface");
+      throw InputError(kind + ": EGL lacks the extension EGL_KHR_surfaceless_context");
     }
     return display;
   }
@@ -126,7 +127,8 @@ std::unique_ptr<GlContext> make_egl_device(int index) {
   const std::string kind = "egl-device:" + std::to_string(index);
   const std::vector<EGLDeviceEXT> devices = api.devices();
   if (static_cast<std::size_t>(index) >= devices.size()) {
-    throw InputError(kind + ": there are " + std::to_string(devices.size()) + " devices");
+    throw InputError(kind + ": no such device; there are " + std::to_string(devices.size()) +
+                     " EGL devices, numbered from 0");
   }
   return std::make_unique<EglContext>(api, kind, EGL_PLATFORM_DEVICE_EXT,
                                       devices[static_cast<std::size_t>(index)]);

@@ -19,7 +19,7 @@ GLuint compile(const GlTable& gl, const char* name, GLenum stage,
   if (done != 0) return shader;
   char log[2000] = {};
   gl.GetShaderInfoLog(shader, sizeof log - 1, nullptr, log);
-  throw InputError(std::string("the OpenGL driver refuses shader ") + name + ": " + log);
+  throw InputError(std::string("the OpenGL driver could not compile shader ") + name + ": " + log);
 }
 
 /// Makes a new 2D texture with the given filter, clamped to its edges, and leaves it bound.
@@ -51,7 +51,7 @@ GLuint make_program(const GlTable& gl, const char* name,
   if (done == 0) {
     char log[2000] = {};
     gl.GetProgramInfoLog(program, sizeof log - 1, nullptr, log);
-    throw InputError(std::string("the OpenGL driver refuses program ") + name + ": " + log);
+    throw InputError(std::string("the OpenGL driver could not link program ") + name + ": " + log);
   }
   const GLuint block = gl.GetUniformBlockIndex(program, "Frame");
   if (block != GL_INVALID_INDEX) gl.UniformBlockBinding(program, block, 0);
@@ -76,7 +76,7 @@ GLuint make_texture(const GlTable& gl, GLenum format, int width, int height) {
   GLint most = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   if (std::max(width, height) > most) {
-    throw InputError(size + ": the largest picture that this device draws is " +
+    throw InputError(size + ": too large; this device draws images of at most " +
                      std::to_string(most) + "x" + std::to_string(most));
   }
   const GLuint texture = new_texture(gl, GL_NEAREST);
@@ -85,8 +85,7 @@ GLuint make_texture(const GlTable& gl, GLenum format, int width, int height) {
                 depth ? GL_DEPTH_COMPONENT : GL_RGBA, depth ? GL_UNSIGNED_INT : GL_UNSIGNED_BYTE,
                 nullptr);
   if (gl.GetError() != GL_NO_ERROR) {
-    throw InputError(size + ": this device has not enough memory for pictures so large; give a " +
-                     "smaller size");
+    throw InputError(size + ": out of memory of the device; use a " + "smaller size");
   }
   return texture;
 }
@@ -119,7 +118,7 @@ GLuint make_framebuffer(const GlTable& gl, GLuint color, GLuint depth) {
   gl.DrawBuffers(1, &buffer);
   gl.ReadBuffer(buffer);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw InputError("the OpenGL driver refuses a framebuffer that version 3.3 promises");
+    throw InputError("the OpenGL driver rejects a framebuffer format that OpenGL 3.3 requires");
   }
   return framebuffer;
 }

@@ -36,7 +36,8 @@ struct OsmesaApi {
 class OsmesaGlContext final : public GlContext {
  public:
   OsmesaGlContext() {
-    if (api_.create == nullptr) throw InputError("osmesa: too old, it has no core profile");
+    if (api_.create == nullptr)
+      throw InputError("osmesa: too old, OSMesaCreateContextAttribs is missing");
     const int wanted[] = {kFormat,       GL_RGBA, kDepthBits,    0, kProfile, kCoreProfile,
                           kMajorVersion, 3,       kMinorVersion, 3, 0};
     context_ = api_.create(wanted, nullptr);

@@ -84,20 +84,20 @@ Encoder::Encoder(const std::filesystem::path& path, int width, int height, int f
   if (width % 2 != 0 || height % 2 != 0) {
     const auto size = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
     throw InputError(path.string() + ": a video needs an even width and height, not " +
-                     size(width, height) + "; make it " +
+                     size(width, height) + "; use --size " +
                      size(width + width % 2, height + height % 2));
   }
   if (is_device(path)) {
     throw InputError(path.string() +
-                     ": a video is written to and fro, which a pipe or a device "
-                     "does not allow; name a file, or a folder for images");
+                     ": a video cannot be written to a pipe or a device, because the encoder seeks "
+                     "in the file; give a file, or a folder for images");
   }
   int ends[2] = {-1, -1};
   log_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
   if (log_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
     const std::string reason = std::strerror(errno);
     close_once(log_);
-    throw InputError(path.string() + ": no connection to ffmpeg: " + reason);
+    throw InputError(path.string() + ": no socket to ffmpeg could be created: " + reason);
   }
   input_ = ends[0];
   const int error =
@@ -163,7 +163,7 @@ void Encoder::fail() {
   std::array<char, 2000> words = {};
   const ssize_t size = ::pread(log_, words.data(), words.size() - 1, 0);
   throw FileError(path_.string() + ": the program ffmpeg (package ffmpeg) failed: " +
-                  (size > 0 ? words.data() : "it said nothing"));
+                  (size > 0 ? words.data() : "no error message"));
 }
 
 }  // namespace sunder::render

@@ -150,8 +150,8 @@ Image read_png(const std::filesystem::path& path) {
 
 Image decode_picture(std::span<const std::byte> bytes) {
   const auto refuse = [](const std::string& why) {
-    throw InputError("a mesh's picture is no PNG or JPEG that can be shown (" + why +
-                     "): save it anew, or say look = \"material\"");
+    throw InputError("a texture of a mesh cannot be decoded as PNG or JPEG (" + why +
+                     "); save it again, or set look = \"material\"");
   };
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), 1u << 30));

@@ -31,7 +31,8 @@ constexpr std::array<Kind, 4> kKinds = {{
 const Kind& kind_of(const std::string& name) {
   const auto found = std::ranges::find(kKinds, name, &Kind::name);
   if (found == kKinds.end())
-    throw InputError("--also " + name + ": expected " + kLayers + ", or several, with commas");
+    throw InputError("--also " + name + ": expected " + kLayers +
+                     ", or several, separated by commas");
   return *found;
 }
 

@@ -116,17 +116,17 @@ void check_files(const std::vector<NamedFile>& writes, const std::vector<NamedFi
     if (is_none(output.path)) continue;
     const std::string name = output.option + " " + output.path;
     if (output.option != "-o" && std::filesystem::is_directory(output.path))
-      throw InputError(name + ": is a folder; name a file in it");
+      throw InputError(name + ": is a folder; give a file in it");
     for (const NamedFile& input : reads) {
       const bool is_there = !is_none(input.path) && std::filesystem::exists(input.path);
       if (!is_there || !is_overwritten(input.path, output)) continue;
-      throw InputError(name + ": would overwrite what " + input.option +
-                       " is read from; name another " +
+      throw InputError(name + ": would overwrite the input of " + input.option + "; give another " +
                        (output.replaces_folder ? "place" : "file"));
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (is_none(writes[j].path) || !is_overwritten(writes[j].path, output)) continue;
-      throw InputError(name + ": is what " + writes[j].option + " writes, too; name another file");
+      throw InputError(name + ": is also the output of " + writes[j].option +
+                       "; give another file");
     }
   }
 }
@@ -144,7 +144,7 @@ void parse_size(const std::string& text, render::RenderOptions& options) {
   if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 ||
       options.width < 16 || options.height < 16 || options.width > 8192 || options.height > 8192) {
     throw InputError("--size " + text +
-                     ": expected WIDTHxHEIGHT, numbers from 16 to 8192; of a video, even ones");
+                     ": expected WIDTHxHEIGHT, each from 16 to 8192, and even for a video");
   }
 }
 

@@ -29,7 +29,7 @@ void check_files(const std::vector<NamedFile>& writes, const std::vector<NamedFi
 /// The syntax of parse_pattern().
 inline constexpr const char* kPatternHelp =
     "voronoi:N[,FALLOFF] | web:RINGSxSPOKES | radial:N | brick:X,Y,Z | slabs:N | grid:N (N^3 "
-    "cells) | an .obj file of convex cells, one a group";
+    "cells) | an .obj file of convex cells, one per group";
 /// Parses the pattern of --pattern. Throws InputError with the syntax for anything else.
 PatternSpec parse_pattern(const std::string& text);
 

@@ -53,8 +53,7 @@ std::vector<Timed> timed_runs(const BenchOptions& options) {
     const Scene scene = bench::load_scene(run);
     run.frames = std::min(run.frames, bench::last_frame(scene));
     if (!names.insert(scene.name).second) {
-      throw InputError(asked + ": a second scene named " + scene.name +
-                       "; time it in a run of its own");
+      throw InputError(asked + ": duplicate scene " + scene.name + "; time it in a separate run");
     }
     all.push_back({run, ""});
     if (!options.against.empty()) all.push_back({run, options.against});
@@ -133,7 +132,8 @@ std::vector<std::string> run_once(const BenchOptions& options, std::span<const T
   for (const Timed& timed : runs) {
     files.emplace_back(std::tmpfile(), &std::fclose);
     std::FILE* const file = files.back().get();
-    if (!file) throw FileError("no temporary file can be made: set TMPDIR to where there is room");
+    if (!file)
+      throw FileError("no temporary file can be created; set TMPDIR to a folder with free space");
     works.emplace_back([&options, &timed, warn, file, processor] {
       if (processor >= 0) pin_to(processor);
       return timed.program.empty() ? run_here(options, timed, warn, file)
@@ -145,7 +145,7 @@ std::vector<std::string> run_once(const BenchOptions& options, std::span<const T
   std::vector<std::string> figures;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (ended[i].signal != 0 || ended[i].exit_code != 0) {
-      throw std::runtime_error(title_of(runs[i]) + " has no timing: " + ended[i].description());
+      throw std::runtime_error(title_of(runs[i]) + " was not timed: " + ended[i].description());
     }
     figures.push_back(text_of(files[i].get()));
   }
@@ -218,8 +218,7 @@ std::vector<Figures> read_timings(const std::string& file) {
 std::optional<double> fail_slower_of(const BenchOptions& options) {
   if (options.fail_slower.empty()) return std::nullopt;
   if (options.compare.empty() && options.against.empty()) {
-    throw InputError(
-        "--fail-slower needs --compare OLD.json or --against PROGRAM: slower than what?");
+    throw InputError("--fail-slower needs --compare OLD.json or --against PROGRAM");
   }
   return bench::parse_percent("--fail-slower", options.fail_slower);
 }
@@ -229,7 +228,7 @@ void check_program(const std::string& program) {
       (std::filesystem::is_regular_file(program) && access(program.c_str(), X_OK) == 0))
     return;
   throw InputError("--against " + program +
-                   ": no program; give the path of an older sunder, such as old/build/sunder");
+                   ": is not a program; give the path of another sunder, such as old/build/sunder");
 }
 
 }  // namespace
@@ -250,8 +249,8 @@ int bench(const BenchOptions& options) {
   const int stopped = stop_signal();
   const std::vector<Figures>& scenes = measured.scenes;
   if (stopped != 0) {
-    options.print(scenes.empty() ? "stopped before anything was timed; nothing is written\n"
-                                 : "stopped; this is what was timed before:\n");
+    options.print(scenes.empty() ? "stopped before the first scene was timed; nothing is written\n"
+                                 : "stopped; results of the runs that were timed:\n");
     if (scenes.empty()) return 128 + stopped;
   }
   const std::string old_name = options.against.empty() ? options.compare : options.against;

@@ -32,10 +32,11 @@ void add_simulate(CLI::App& program, Command& chosen) {
                                       chosen);
   command.app->add_option("SCENE", command.options->scene, "File or name of a scene")->required();
   command.app->add_option("--take", command.options->take, "Record the run to this file");
-  command.app->add_option("--verify", command.options->verify,
-                          "A take of the same run: fails where the state differs first");
+  command.app->add_option(
+      "--verify", command.options->verify,
+      "A recording of the same run; fail at the first frame whose state differs");
   command.app->add_option("--trace", command.options->trace,
-                          "Write what every thread did when, for ui.perfetto.dev");
+                          "Write a trace of all threads, for ui.perfetto.dev");
   command.reads("SCENE", command.options->scene);
   command.reads("--verify", command.options->verify);
   command.writes("--take", command.options->take);
@@ -61,7 +62,7 @@ void add_render(CLI::App& program, Command& chosen) {
       ->required();
   command.app
       ->add_option("-o,--output", options.output,
-                   "X.mp4, X.webm: video; X.png: the last frame; DIR/: a PNG a frame")
+                   "X.mp4, X.webm: video; X.png: the last frame; DIR/: a PNG per frame")
       ->required();
   command.app
       ->add_option("--frames", options.frames,
@@ -69,42 +70,43 @@ void add_render(CLI::App& program, Command& chosen) {
       ->type_name("A:B");
   command.app
       ->add_option("--view", options.view,
-                   std::string("Where it is seen from: ") + render::kCameras +
-                       " | FILE.toml, a path by keys")
+                   std::string("Camera: ") + render::kCameras + " | FILE.toml, a camera path")
       ->type_name("SPEC")
       ->capture_default_str();
   command.app
       ->add_option("--speed", options.speed,
-                   "Of the film: 0.1 is ten times slower, with pictures between the frames")
+                   "Speed of the video; 0.1 is ten times slower, with interpolated frames")
       ->check(from_to(0.001, 1000.0))
       ->capture_default_str();
-  command.app->add_option("--fps", options.render.frames_per_s, "Pictures a second of the film")
+  command.app->add_option("--fps", options.render.frames_per_s, "Images per second of the video")
       ->check(from_to(1, 1000))
       ->capture_default_str();
   command.app
-      ->add_option("--sheet", options.sheet,
-                   "Into X.png: so many pictures side by side, evenly over the run, with times")
+      ->add_option(
+          "--sheet", options.sheet,
+          "Contact sheet: that many images of the run, at even intervals and with times, in X.png")
       ->type_name("N")
       ->check(from_to(1, 1000));
   command.app->add_flag("--resume", options.resume,
-                        "Into DIR/: keep pictures that are there, draw the others");
-  command.app->add_option("--size", options.size, "Pixels; 1280x720, of a sheet's pictures 480x270")
+                        "Keep the images that DIR/ has, and draw the missing ones");
+  command.app
+      ->add_option("--size", options.size,
+                   "Pixels; by default 1280x720, and 480x270 for images of a sheet")
       ->type_name("WxH");
   command.app
       ->add_option("--samples", options.render.samples,
-                   "Pictures that each is the mean of: smoother edges, and blur while view.shutter "
-                   "is open")
+                   "Samples per image: antialiasing, and motion blur by view.shutter")
       ->check(from_to(1, 1024))
       ->capture_default_str();
   command.app
       ->add_option("--also", options.render.layers,
-                   std::string("Images beside each, of 16 bits, depth_m of 32-bit floats: ") +
+                   std::string("Additional images, of 16 bits, depth_m of 32-bit floats: ") +
                        render::kLayers)
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.app->add_flag("--transparent", options.render.transparent,
-                        "Images without ground and sky, through which what is behind them shows");
+                        "Images with a transparent background instead of ground and sky");
   command.app
       ->add_option("--gl", options.render.gl, "auto | egl-device:N | egl-surfaceless | osmesa")
       ->capture_default_str();
@@ -127,36 +129,36 @@ void add_bench(CLI::App& program, Command& chosen) {
   command.app->add_option("--repeats", options.repeats, "Runs of each scene, in turns")
       ->check(from_to(1, 1000))
       ->capture_default_str();
-  command.app->add_option("--warm-up", options.warm_up, "Turns before them that do not count")
+  command.app->add_option("--warm-up", options.warm_up, "Turns before the first that counts")
       ->check(from_to(0, 1000))
       ->capture_default_str();
   auto* features = command.app->add_flag("--features", options.features,
                                          "Also run each scene without each feature it has");
-  auto* compare =
-      command.app->add_option("--compare", options.compare,
-                              "An earlier --json file, of simulate too: what is slower; fails if "
-                              "the state differs or it lacks a scene");
-  auto* against =
-      command.app
-          ->add_option("--against", options.against,
-                       "Another sunder, timed at the same time: compares as --compare does")
-          ->type_name("PROGRAM")
-          ->excludes(compare);
+  auto* compare = command.app->add_option("--compare", options.compare,
+                                          "Compare with an earlier --json file, also of simulate; "
+                                          "fail if a state differs or a scene is missing in it");
+  auto* against = command.app
+                      ->add_option("--against", options.against,
+                                   "Compare with another sunder program, timed at the same time")
+                      ->type_name("PROGRAM")
+                      ->excludes(compare);
   command.app
       ->add_option("--fail-slower", options.fail_slower,
-                   "With these two: fail if a stage is slower by more than this, and the low "
-                   "end of its confidence interval is, too")
+                   "With --compare or --against: fail if a stage is slower by more than this, as "
+                   "is the low end of its confidence interval")
       ->type_name("PERCENT");
   auto* accept = command.app->add_flag("--accept", options.accept,
-                                       "Store the states that the scenes come to as right");
+                                       "Store the states of this run as the expected ones");
   command.app->add_option("--hashes", options.hashes, "File of stored states")
       ->capture_default_str();
-  command.app->add_option("--from", options.from, "Run nothing: report on an earlier --json file")
+  command.app
+      ->add_option("--from", options.from,
+                   "Report on an earlier --json file without running scenes")
       ->excludes(scenes)
       ->excludes(against)
       ->excludes(features)
       ->excludes(accept);
-  command.app->add_option("--junit", options.junit, "Write what passed and failed as JUnit XML");
+  command.app->add_option("--junit", options.junit, "Write passed and failed tests as JUnit XML");
   command.app->add_option("--page", options.page,
                           "Write an HTML page with every stage of every frame plotted");
   command.reads("SCENE", options.scenes);
@@ -172,29 +174,30 @@ void add_bench(CLI::App& program, Command& chosen) {
 
 void add_trade(CLI::App& program, Command& chosen) {
   Subcommand<TradeOptions> command(
-      program, "trade", "What accuracy costs: runs scenes from coarse to fine", trade, chosen);
+      program, "trade", "Cost of accuracy: runs scenes with settings from coarse to fine", trade,
+      chosen);
   TradeOptions& options = *command.options;
   command.app->add_option("SCENE", options.scenes, "Files or names of scenes")->required();
   command.app->add_option("-o,--output", options.output, "Folder of results and reports")
       ->type_name("DIR");
   command.app
       ->add_option("--points", options.points,
-                   "File of points, NAME PRESET KEY=VALUE... a line; a grid of 12 by default")
+                   "File of points, NAME PRESET KEY=VALUE... on each line; a grid of 12 by default")
       ->type_name("FILE");
   command.app
       ->add_option("--switch", options.switches,
-                   "Every preset also with this key of the scene, as often as wanted")
+                   "Run every preset also with this key of the scene set; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.app->add_option("--seeds", options.seeds, "Runs of each scene at each point")
       ->check(from_to(1, 10000))
       ->capture_default_str();
-  command.app->add_flag("--list", options.list, "Print the runs, one a line, and do none");
+  command.app->add_flag("--list", options.list, "Print the runs, one per line, without doing them");
   auto* shard =
       command.app
           ->add_option("--shard", options.shard, "Do share I of N of the runs, and make no reports")
           ->type_name("I/N");
-  command.app->add_flag("--merge", options.merge, "Make the reports of the runs that are there")
+  command.app->add_flag("--merge", options.merge, "Make the reports of the finished runs")
       ->excludes(shard);
   command.reads("SCENE", options.scenes);
   command.reads("--points", options.points);
@@ -203,20 +206,22 @@ void add_trade(CLI::App& program, Command& chosen) {
 }
 
 constexpr const char* kMeshHelp =
-    "A file (.obj .ply .stl .off .gltf .glb), or a built-in solid: box:X,Y,Z column:R,H torus:R,r "
-    "grid:NX,NY,NZ voronoi:N hall:N, or the built-in mesh statue:N, of N triangles";
+    "A file (.obj .ply .stl .off .gltf .glb), a built-in solid (box:X,Y,Z column:R,H torus:R,r "
+    "grid:NX,NY,NZ voronoi:N hall:N), or the built-in mesh statue:N, of N triangles";
 
 /// Adds the options of the decomposition of a mesh.
 void add_decomposition(CLI::App* app, scenes::MeshOptions& options) {
-  app->add_option("--nodes", options.nodes,
-                  "Of a file's decomposition: how many, or a file of x y z a line")
+  app->add_option(
+         "--nodes", options.nodes,
+         "Nodes of the decomposition of a file: their number, or a file with x y z on each line")
       ->type_name("N|FILE");
-  app->add_option("--convexes", options.convexes, "At most so many convexes")
+  app->add_option("--convexes", options.convexes, "Maximum number of convexes")
       ->check(from_to(1u, fracture::kMostNodes));
-  app->add_option("--fit", options.fit, "How convexes are fitted: aabb | 14dop | 26dop | hull:N")
+  app->add_option("--fit", options.fit,
+                  "Shape that encloses each convex: aabb | 14dop | 26dop | hull:N")
       ->capture_default_str();
   app->add_option("--repair", options.repair,
-                  "auto: what is wrong with a mesh is mended and named; off: it is refused")
+                  "auto: repair the mesh and list the repairs; off: fail if the mesh needs repair")
       ->capture_default_str();
 }
 
@@ -229,31 +234,32 @@ void add_solids_output(Subcommand<Options>& command) {
   command.reads("--nodes", options.solid.nodes);
   command.writes("-o", options.output, true);
   app->add_option("-o,--output", options.output,
-                  "X.glb: glTF, a node a piece; X.png: a picture; DIR/: an .obj a piece");
+                  "X.glb: glTF, one node per piece; X.png: an image; DIR/: one .obj per piece");
   app->add_option("--explode", options.explode,
-                  "Move the pieces of -o apart by this times their distance from the middle; 0 but "
-                  "for a picture, where it is 0.3")
+                  "Move the pieces of -o apart by this times their distance from the middle; by "
+                  "default 0.3 for an image, else 0")
       ->check(from_to(0.0, 1000.0));
 }
 
 void add_fracture(CLI::App& program, Command& chosen) {
   Subcommand<FractureOptions> command(program, "fracture",
-                                      "One break of one solid, with every invariant measured",
+                                      "Breaks one solid once, and measures every invariant",
                                       fracture_mesh, chosen);
   FractureOptions& options = *command.options;
   command.app
-      ->add_option("MESH", options.mesh,
-                   std::string(kMeshHelp) + "; or X.case, a break written to a file")
+      ->add_option("MESH", options.mesh, std::string(kMeshHelp) + "; or X.case, a file of a break")
       ->required();
   command.app->add_option("--pattern", options.pattern, kPatternHelp)->type_name("SPEC");
-  command.app->add_option("--at", options.at, "The impact; the middle of the box by default")
+  command.app
+      ->add_option("--at", options.at,
+                   "Position of the impact; the middle of the bounding box by default")
       ->type_name("X,Y,Z");
   command.app
       ->add_option("--radius", options.radius_m,
-                   "Only what is nearer to the impact breaks; everything by default")
+                   "Radius around the impact within which the solid breaks; unlimited by default")
       ->type_name("METRES")
       ->check(from_to(1e-9, 1e9));
-  command.app->add_option("--seed", options.seed, "Another seed, another break")
+  command.app->add_option("--seed", options.seed, "Seed of the pattern")
       ->check(from_to<std::uint64_t>(0, std::numeric_limits<std::int64_t>::max()))
       ->capture_default_str();
   command.app
@@ -276,8 +282,9 @@ void add_vacd(CLI::App& program, Command& chosen) {
                    "A file (.obj .ply .stl .off .gltf .glb), or statue:N, of N triangles")
       ->required();
   add_decomposition(command.app, options.solid);
-  command.app->add_flag("--watch", options.watch,
-                        "Again whenever the file of --nodes changes; redraws -o, until stopped");
+  command.app->add_flag(
+      "--watch", options.watch,
+      "Repeat, and redraw -o, whenever the file of --nodes changes, until stopped");
   add_solids_output(command);
 }
 
@@ -286,7 +293,9 @@ void add_hull(CLI::App& program, Command& chosen) {
                                   chosen);
   command.app->add_option("MESH", command.options->mesh, kMeshHelp)->required();
   command.reads("MESH", command.options->mesh);
-  command.app->add_option("--vertices", command.options->vertices, "Vertices that it is made from")
+  command.app
+      ->add_option("--vertices", command.options->vertices,
+                   "Number of vertices that the hull is made from")
       ->required()
       ->check(from_to(4, 10000));
 }
@@ -294,7 +303,7 @@ void add_hull(CLI::App& program, Command& chosen) {
 Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const char* name,
                                      const char* help, int (*work)(const GoldenOptions&)) {
   Subcommand<GoldenOptions> command(golden, name, help, work, chosen);
-  command.app->add_option("--folder", command.options->folder, "Where goldens lie")
+  command.app->add_option("--folder", command.options->folder, "Folder of goldens")
       ->capture_default_str();
   command.app->add_option("--gl", command.options->gl, "As in sunder render")
       ->capture_default_str();
@@ -302,39 +311,39 @@ Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const ch
 }
 
 void add_golden(CLI::App& program, Command& chosen) {
-  CLI::App* golden =
-      program.add_subcommand("golden", "Guards drawing and simulation against change");
+  CLI::App* golden = program.add_subcommand("golden", "Regression tests of drawing and simulation");
   golden->require_subcommand(1);
   const auto add = [&](const char* name, const char* help, int (*work)(const GoldenOptions&)) {
     return add_golden(*golden, chosen, name, help, work);
   };
   for (auto& command :
-       {add("test", "Draw the stored frames and simulate their scenes: both must be as they were",
+       {add("test",
+            "Draw the stored frames, simulate their scenes, and compare both with what is stored",
             golden_test),
         add("report", "As test, and write report.html with all pictures", golden_report)}) {
     command.app->add_option("NAME", command.options->names, "Goldens; all by default");
     command.app->add_flag("--full", command.options->full,
-                          "Also whole simulations, of which sunder bench knows the state");
+                          "Also simulate whole scenes whose states sunder bench has stored");
     command.app->add_option("--junit", command.options->junit,
-                            "Write what passed and failed as JUnit XML");
+                            "Write passed and failed tests as JUnit XML");
     command.writes("--junit", command.options->junit);
-    command.app->add_option("--out", command.options->out, "Where new files go")
+    command.app->add_option("--out", command.options->out, "Folder of new files")
         ->capture_default_str();
   }
   const auto accept =
-      add("accept", "Make what is drawn and simulated now what is right", golden_accept);
+      add("accept", "Store the current images and states as the expected ones", golden_accept);
   accept.app->add_option("NAME", accept.options->names, "Goldens")->required();
   auto record = add("record", "Store a frame of a scene as a golden's subject", golden_record);
   record.app
       ->add_option_function<std::string>(
           "NAME", [given = record.options](const std::string& name) { given->names = {name}; },
-          "What to call it")
+          "Name of the golden")
       ->required();
   record.app
       ->add_option("SCENE", record.options->scene,
                    "File or name of a scene, or X.frame: a golden that draws the frame of another")
       ->required();
-  record.app->add_option("FRAME", record.options->frame, "Which frame of a scene")
+  record.app->add_option("FRAME", record.options->frame, "Index of the frame in the scene")
       ->check(from_to(0, kMaxFrames));
   record.app->add_option("--size", record.options->size, "Pixels")
       ->type_name("WxH")

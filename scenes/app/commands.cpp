@@ -15,7 +15,7 @@ void CommonOptions::apply() const {
   const int processors = sunder::threads();
   set_threads(threads);
   if (threads > kMaxThreadsPerProcessor * processors) {
-    std::fprintf(stderr, "warning: --threads %d on %d processors: they wait for each other\n",
+    std::fprintf(stderr, "warning: --threads %d is more than %d processors, which is slower\n",
                  threads, processors);
   }
 }

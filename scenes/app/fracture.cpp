@@ -62,7 +62,7 @@ void check_bricks(const FractureOptions& options, const Vec3& brick_m, const Com
     largest_m3 = std::max(largest_m3, convex->solid.volume_m3);
   }
   if (brick_m.prod() >= kMinBrickFraction * largest_m3) return;
-  throw InputError("--pattern " + options.pattern + ": such bricks are dust beside this solid; " +
+  throw InputError("--pattern " + options.pattern + ": the bricks are too small for this solid; " +
                    "give larger ones");
 }
 
@@ -249,8 +249,7 @@ fracture::BreakCase case_of(const FractureOptions& options, const scenes::MeshOp
   }
   if (!options.pattern.empty() || !options.at.empty() || options.radius_m) {
     throw InputError(options.mesh +
-                     ": a case says itself what breaks it; leave out --pattern, "
-                     "--at and --radius");
+                     ": a case file contains the break; remove --pattern, --at and --radius");
   }
   std::istringstream text(scenes::read_text(options.mesh));
   fracture::BreakCase example = fracture::read_case(text, options.mesh);
@@ -307,9 +306,9 @@ int fracture_mesh(const FractureOptions& options) {
                      options.walls == "keep" ? Walls::kKeep : Walls::kRemove);
     options.print("wrote " + options.output + "\n");
     if (walled > 0) {
-      solid.warnings.push_back("inner walls are kept in " + std::to_string(walled) +
-                               " pieces, whose surfaces would not close without them; other "
-                               "--nodes may help");
+      solid.warnings.push_back(
+          "inner walls are kept in " + std::to_string(walled) +
+          " pieces, whose surfaces would be open without them; other --nodes may help");
     }
   }
   print_warnings(solid);

@@ -78,14 +78,14 @@ Verdict check_drawing(Drawer& drawer, GoldenResult& result) {
   result.actual = drawer.draw(golden);
   result.renderer = drawer.description(golden);
   if (!fs::exists(golden.picture_file())) {
-    verdict.text = "has no baseline: look at the picture, then run: " + golden.accept_command();
+    verdict.text = "has no baseline; check the picture, then run: " + golden.accept_command();
     return verdict;
   }
   result.baseline = render::read_png(golden.picture_file());
   if (result.baseline.width != result.actual.width ||
       result.baseline.height != result.actual.height) {
     verdict.text = "the baseline " + golden.picture_file().string() +
-                   " is of another size: " + size_of(result.baseline) + ", drawn are " +
+                   " has another size: " + size_of(result.baseline) + ", the picture " +
                    size_of(result.actual);
     return verdict;
   }
@@ -106,10 +106,10 @@ Verdict check_view(const Golden& golden) {
   const Stopwatch watch;
   const std::string other = view_differences(*read_frame(golden.frame_file()),
                                              scenes::load_scene(golden.scene_file(), golden.load));
-  Verdict verdict{golden.name, "view", Outcome::kPassed, "as in the stored frame"};
+  Verdict verdict{golden.name, "view", Outcome::kPassed, "equal to the stored frame"};
   if (!other.empty()) {
     verdict.outcome = Outcome::kFailed;
-    verdict.text = "of the scene differs from the stored frame, which is what is drawn: " + other;
+    verdict.text = "of the scene differs from the stored frame that is drawn: " + other;
   }
   verdict.seconds = 1e-3 * watch.ms();
   return verdict;
@@ -144,7 +144,7 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
     }
   }
   if (!failed.empty()) {
-    options.print("If this is right: " + accept_command(options.folder, failed) + "\n");
+    options.print("To accept these results: " + accept_command(options.folder, failed) + "\n");
   }
   if (!options.junit.empty()) {
     std::vector<Verdict> verdicts;
@@ -166,7 +166,7 @@ int exit_code(const std::vector<GoldenResult>& results) {
 void check_name(const std::string& name) {
   const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
   if (!name.empty() && std::ranges::all_of(name, fits)) return;
-  throw InputError("golden record \"" + name + "\": a name is of letters, digits, _ and -");
+  throw InputError("golden record \"" + name + "\": a name may have only letters, digits, _ and -");
 }
 
 /// Simulates the scene of a golden and returns its frame.
@@ -216,7 +216,7 @@ int golden_accept(const GoldenOptions& options) {
     GoldenResult result;
     result.golden = read_golden(options.folder, name);
     Golden& golden = result.golden;
-    std::string message = "drawing as before";
+    std::string message = "drawing unchanged";
     const bool has_other_view =
         golden.is_simulated() && check_view(golden).outcome != Outcome::kPassed;
     if (has_other_view) write_frame(golden.frame_file(), simulated_frame(golden, options.quiet));
@@ -228,14 +228,14 @@ int golden_accept(const GoldenOptions& options) {
       write_golden(golden);
       message = "drawing " + golden.hash;
     }
-    if (has_other_view) message += ", frame anew";
+    if (has_other_view) message += ", new frame";
     if (golden.is_simulated()) {
       const std::string file = golden.hashes_file().string();
       const bench::StateHashes before = bench::read_hashes(file);
       bench::StateHashes book = before;
       bench::accept_frames(golden.run(), book);
       if (book != before) write_text(file, bench::format_hashes(book));
-      message += book == before ? ", simulation as before" : ", simulation anew";
+      message += book == before ? ", simulation unchanged" : ", new simulation";
     }
     options.print("accepted " + name + ": " + message + "\n");
   }
@@ -265,18 +265,18 @@ int golden_record(const GoldenOptions& options) {
   if (golden.is_simulated()) {
     if (options.frame < 0)
       throw InputError("golden record " + golden.name + " " + options.scene +
-                       ": which FRAME of it? Give its number");
+                       ": FRAME is missing; give the index of a frame of the scene");
     golden.frame = options.frame;
     write_frame(golden.frame_file(), simulated_frame(golden, options.quiet));
   } else {
     if (options.frame >= 0)
       throw InputError("golden record " + golden.name + " " + options.scene +
-                       ": a stored frame is one frame; leave out FRAME");
+                       ": a stored frame has no other frames; remove FRAME");
     Drawer(options.gl).draw(golden);  // throws if the frame cannot be drawn
   }
   write_golden(golden);
   options.print("recorded " + golden.file(".json").string() +
-                "; look at it, then: " + golden.accept_command() + "\n");
+                "; check it, then run: " + golden.accept_command() + "\n");
   return 0;
 }
 

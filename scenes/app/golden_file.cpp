@@ -90,7 +90,7 @@ std::vector<std::string> golden_names(const fs::path& folder) {
   }
   if (names.empty())
     throw InputError(folder.string() +
-                     ": no goldens (NAME.json) here; name their folder with --folder");
+                     ": no goldens (NAME.json) in this folder; give their folder by --folder");
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -130,7 +130,7 @@ Golden read_golden(const fs::path& folder, const std::string& name) {
   if (!fs::exists(file)) {
     std::string known;
     for (const std::string& other : golden_names(folder)) known += " " + other;
-    throw InputError(name + ": no such golden; there are:" + known);
+    throw InputError(name + ": no such golden; goldens:" + known);
   }
   const Figures figures = parse_figures(scenes::read_text(file), file.string());
   golden.scene = value<std::string>(figures, "/scene", file);

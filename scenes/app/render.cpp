@@ -155,9 +155,9 @@ struct RenderInput {
 /// Throws InputError if options would change the simulation of a recording or stored frame.
 void check_recorded(const RenderOptions& options) {
   if (options.preset_given) {
-    throw InputError("--preset " + options.load.preset + ": " + options.scene +
-                     " has been simulated; only how it is looked at can change, by --view and by "
-                     "--set view.KEY");
+    throw InputError(
+        "--preset " + options.load.preset + ": " + options.scene +
+        " has been simulated; only its view can be changed, by --view and --set view.KEY");
   }
 }
 
@@ -167,7 +167,7 @@ RenderInput open_frame(const RenderOptions& options) {
                                        {options.sheet > 1, "--sheet"},
                                        {options.speed != 1, "--speed"},
                                        {options.render.frames_per_s != 60, "--fps"}}) {
-    if (is_given) throw InputError(options.scene + " is one frame; leave out " + flag);
+    if (is_given) throw InputError(options.scene + " is a single frame; remove " + flag);
   }
   auto frame = std::make_unique<StoredFrame>(options.scene);
   const int number = frame->number();
@@ -210,7 +210,7 @@ std::unique_ptr<FrameSink> make_sink(const RenderOptions& options, render::Rende
     return render::make_picture_sink(options.output, renderer, options.resume,
                                      options.render.frames_per_s);
   }
-  if (options.resume) throw InputError("--resume: a sheet is drawn anew; leave it out");
+  if (options.resume) throw InputError("--resume: a sheet cannot be resumed; remove the option");
   return render::make_sheet_sink(options.output, renderer, {first, last, options.sheet},
                                  !options.render.hud);
 }
@@ -233,8 +233,7 @@ int render_scene(const RenderOptions& options) {
   const std::uint64_t last = pace.last_picture(static_cast<std::uint64_t>(input.drawn.last));
   if (first > last) {
     throw InputError("--frames " + options.frames +
-                     ": no picture falls on them at this --speed "
-                     "and --fps; take more of them");
+                     ": they contain no image at this --speed and --fps; give more frames");
   }
   render::Renderer renderer(render_options);
   options.print(renderer.description() + "\n");
@@ -256,10 +255,10 @@ int render_scene(const RenderOptions& options) {
   if (const std::string warning = record.warning(); !warning.empty())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   if (counter.taken() == 0) {
-    options.print("stopped before anything was drawn; nothing is written\n");
+    options.print("stopped before the first image; nothing is written\n");
   } else {
-    options.print((stopped == 0 ? "wrote " : "stopped; kept what was drawn: ") + options.output +
-                  "\n");
+    options.print((stopped == 0 ? "wrote " : "stopped; wrote the images drawn so far: ") +
+                  options.output + "\n");
   }
   options.write_json(format_figures({{"/output", options.output},
                                      {"/gl", renderer.description()},
@@ -270,7 +269,8 @@ int render_scene(const RenderOptions& options) {
                                      {"/pictures", counter.taken()},
                                      {"/state_hash", record.hash()}}));
   if (input.take && !input.take->damage().empty()) {
-    throw InputError(options.scene + ": " + input.take->damage() + "; what was before is drawn");
+    throw InputError(options.scene + ": " + input.take->damage() +
+                     "; the frames before were drawn");
   }
   return stopped;
 }

@@ -49,7 +49,7 @@ int simulate(const SimulateOptions& options) {
   options.write_json(statistics.json(hash.hex(), true));
   if (writer) options.print("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
   if (stopped != 0 || !verifier) return stopped;
-  const std::string same = std::to_string(verifier->same()) + " frames are those of the take\n";
+  const std::string same = std::to_string(verifier->same()) + " frames match the recording\n";
   if (verifier->difference().empty()) {
     options.print(same);
     return 0;

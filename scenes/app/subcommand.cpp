@@ -43,8 +43,8 @@ void check_words(const CLI::App& program, std::span<char*> words, const std::str
     const CLI::App& command = *commands[static_cast<std::size_t>(found - names.begin())];
     return check_words(command, words.subspan(1), of + word + " ");
   }
-  const std::string wrong =
-      word.empty() ? of + "is not all of a command" : "unknown command '" + of + word + "'";
+  const std::string wrong = word.empty() ? of + "is incomplete: a command is missing"
+                                         : "unknown command '" + of + word + "'";
   const std::vector<std::string_view> known(names.begin(), names.end());
   throw InputError(unknown(wrong, word, names) + "; commands: " + scenes::join(known));
 }

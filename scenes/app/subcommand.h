@@ -106,13 +106,14 @@ struct Subcommand {
   /// Adds the options that change a scene without editing its file.
   void add_changes() {
     app->add_option("--preset", options->load.preset,
-                    "Speed against accuracy: draft | realtime | accurate | reference")
+                    "Accuracy, from the fastest to the most accurate: draft | realtime | accurate "
+                    "| reference")
         ->capture_default_str();
     add_set();
   }
   void add_set() {
     app->add_option("--set", options->load.set,
-                    "Change a key of the scene: key=value, as often as wanted")
+                    "Set a key of the scene, key=value; may be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
   }

@@ -36,7 +36,7 @@ bench::Study study_of(const TradeOptions& options) {
   for (const std::string& assignment : options.load.set) {
     if (assignment.starts_with("scene.seed=")) {
       throw InputError("--set " + assignment +
-                       ": every run of a study has a seed of its own; leave it out");
+                       ": every run of a study has its own seed; remove the option");
     }
   }
   study.set = options.load.set;
@@ -75,7 +75,7 @@ std::vector<PendingRun> pending_runs(const std::vector<StudyRun>& runs, const fs
     const bench::StoredRun stored = bench::read_run(folder, run);
     if (stored.missing.empty()) continue;
     if (stored.damaged) {
-      std::fprintf(stderr, "%s: %s, done again\n", run.name().c_str(), stored.missing.c_str());
+      std::fprintf(stderr, "%s: %s; run again\n", run.name().c_str(), stored.missing.c_str());
     }
     pending.push_back({run, at->second});
   }
@@ -108,7 +108,7 @@ bool carry_out_in_child(const TradeOptions& options, const StudyRun& run) {
     std::fprintf(stderr, "%s: %s\n", run.name().c_str(), ended.description().c_str());
     return false;
   }
-  if (ended.exit_code != 0) throw FileError(run.name() + " has no file: nothing more is run");
+  if (ended.exit_code != 0) throw FileError(run.name() + " wrote no file; stopped");
   return true;
 }
 
@@ -143,7 +143,8 @@ int report(const TradeOptions& options, const std::vector<StudyRun>& runs) {
   options.write_json(json);
   if (found.missing.empty()) return 0;
   for (const std::string& name : found.missing) std::fprintf(stderr, "missing: %s\n", name.c_str());
-  std::fprintf(stderr, "failed: %zu of %zu runs are missing; the same command does them\n",
+  std::fprintf(stderr,
+               "failed: %zu of %zu runs are missing; run the same command again to complete them\n",
                found.missing.size(), found.runs);
   return 1;
 }
@@ -156,7 +157,7 @@ int trade(const TradeOptions& options) {
   const std::vector<StudyRun> share =
       shared ? bench::share_of(all, bench::parse_shard(options.shard)) : all;
   if (options.list) return list_runs(options, share);
-  if (options.output.empty()) throw InputError("-o DIR is missing: where the results go");
+  if (options.output.empty()) throw InputError("-o DIR is missing: the folder of the results");
   if (options.merge) return report(options, all);
   const bool complete = carry_out(options, share);
   return shared ? (complete ? 0 : 1) : report(options, all);

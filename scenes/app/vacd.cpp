@@ -96,7 +96,8 @@ void decompose_once(const VacdOptions& options) {
 int vacd(const VacdOptions& options) {
   options.apply();
   if (scenes::is_built_in_solid(options.mesh)) {
-    throw InputError(options.mesh + ": is made of convexes already; name a file of a mesh");
+    throw InputError(options.mesh +
+                     ": a built-in solid is made of convexes already; give a mesh file");
   }
   check_output(options.output);
   scenes::vacd_options(options.solid);

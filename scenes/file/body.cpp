@@ -20,36 +20,40 @@ constexpr double kBottomFraction = 0.01;
 Keys<MeshTable> make_mesh_keys() {
   return {"[[body]]",
           {key<&MeshTable::mesh>("mesh",
-                                 "A file (.obj .ply .stl .off .gltf .glb) from the scene's folder "
-                                 "on, a built-in solid, such as torus:1,0.3, or a built-in "
-                                 "mesh, statue:80000, of so many triangles.")
+                                 "A file (.obj .ply .stl .off .gltf .glb), relative to the folder "
+                                 "of the scene; a built-in solid, such as torus:1,0.3; or a "
+                                 "built-in mesh, statue:80000 with this number of triangles.")
                .must(),
-           key<&MeshTable::scale>("scale", "", Range{1e-6, 1e6}, "Of a file: one unit of it."),
+           key<&MeshTable::scale>("scale", "", Range{1e-6, 1e6}, "Length of one unit of the file."),
            key<&MeshTable::size_m>("size_m", "m", Range{1e-3, 1e4},
-                                   "Of a file, in place of scale: its longest side."),
-           key<&MeshTable::nodes>("nodes", "Of its decomposition."),
-           key<&MeshTable::convexes>("convexes", "", Range{0, 10000},
-                                     "Most convexes of its decomposition; 0: what nodes make."),
-           key<&MeshTable::fit>("fit", "Of its convexes: aabb, 14dop, 26dop or hull:N."),
-           choice<&MeshTable::repair>("repair", kRepairs, "off: a mesh that needs it is refused."),
-           key<&MeshTable::material>("material", "What it is made of."),
+                                   "Longest side of the bounding box of a file; replaces scale."),
+           key<&MeshTable::nodes>("nodes", "Nodes of the decomposition of a file."),
+           key<&MeshTable::convexes>(
+               "convexes", "", Range{0, 10000},
+               "Most convexes of the decomposition; 0: as many as the nodes give."),
+           key<&MeshTable::fit>("fit",
+                                "Shape that encloses each convex: aabb, 14dop, 26dop or hull:N."),
+           choice<&MeshTable::repair>("repair", kRepairs,
+                                      "auto: repair the mesh; off: fail if the mesh needs repair."),
+           key<&MeshTable::material>("material", "Material."),
            table_key("materials",
-                     "Of a file: what those parts are made of that it has a name for, an object, a "
-                     "group or a material: { roof = \"wood\", \"Wall.001\" = \"brick\" }."),
+                     "Materials of parts of a file by the name of their object, group or material: "
+                     "{ roof = \"wood\", \"Wall.001\" = \"brick\" }."),
            choice<&MeshTable::look>("look", kLooks,
-                                    "file: outside it keeps the colours and pictures that the file "
-                                    "gives it, where it does.")}};
+                                    "file: the outside has the colours and textures of the file, "
+                                    "where it has any; material: those of the material.")}};
 }
 
 Keys<BodyTable> make_body_keys() {
   constexpr Range kSpeed{-1e4, 1e4};
   return {"[[body]]",
-          {key<&BodyTable::name>("name", "Shown in messages; the mesh's name by default."),
-           key<&BodyTable::velocity>("velocity", "m/s", kSpeed, "At the start."),
-           key<&BodyTable::angular_velocity>("angular_velocity", "rad/s", kSpeed, "At the start."),
+          {key<&BodyTable::name>("name", "Name in messages; that of the mesh by default."),
+           key<&BodyTable::velocity>("velocity", "m/s", kSpeed, "Initial velocity."),
+           key<&BodyTable::angular_velocity>("angular_velocity", "rad/s", kSpeed,
+                                             "Initial angular velocity."),
            choice<&BodyTable::anchored>("anchored", anchored_names(),
-                                        "bottom: the world holds its lowest parts; all: every "
-                                        "part, on all sides.")}};
+                                        "bottom: the lowest parts are fixed to the world; all: all "
+                                        "parts are fixed on all sides; none: the body is free.")}};
 }
 
 MeshOptions options_of(const MeshTable& given, const std::filesystem::path& folder) {

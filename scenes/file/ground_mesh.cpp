@@ -25,32 +25,34 @@ Keys<GroundMeshTable> make_keys() {
   return {
       "[[ground.mesh]]",
       {key<&GroundMeshTable::mesh>("mesh",
-                                   "A file (.obj .ply .stl .off .gltf .glb) from the scene's "
-                                   "folder on, in its own coordinates; or:"),
-       key<&GroundMeshTable::scale>("scale", "", Range{1e-6, 1e6}, "Of a file: one unit of it."),
-       key<&GroundMeshTable::heights_m>(
-           "heights_m", "m", Range{-10000, 10000},
-           "Rows along z, in each the heights along x, about the middle; or:"),
+                                   "A file (.obj .ply .stl .off .gltf .glb), relative to the "
+                                   "folder of the scene, in its own coordinates; or:"),
+       key<&GroundMeshTable::scale>("scale", "", Range{1e-6, 1e6},
+                                    "Length of one unit of the file."),
+       key<&GroundMeshTable::heights_m>("heights_m", "m", Range{-10000, 10000},
+                                        "Rows along z of heights along x, about the middle; or:"),
        key<&GroundMeshTable::hills_m>(
            "hills_m", "m", Range{0, 1000},
-           "Hills that are made up: from the lowest valley to the highest top, about."),
+           "Generated hills: approximate height of the highest top above the lowest valley."),
        key<&GroundMeshTable::hill_length_m>("hill_length_m", "m", Range{0.01, 10000},
-                                            "Of hills: from top to top, about."),
-       key<&GroundMeshTable::width_m>("width_m", "m", Range{0.01, 10000}, "Of hills: along x."),
-       key<&GroundMeshTable::depth_m>("depth_m", "m", Range{0.01, 10000}, "Of hills: along z."),
-       key<&GroundMeshTable::seed>("seed", "", Range{0, 9e15}, "Of hills: which they are."),
+                                            "hills_m: approximate distance between tops."),
+       key<&GroundMeshTable::width_m>("width_m", "m", Range{0.01, 10000},
+                                      "hills_m: extent along x."),
+       key<&GroundMeshTable::depth_m>("depth_m", "m", Range{0.01, 10000},
+                                      "hills_m: extent along z."),
+       key<&GroundMeshTable::seed>("seed", "", Range{0, 9e15}, "hills_m: seed of the shape."),
        key<&GroundMeshTable::spacing_m>("spacing_m", "m", Range{0.01, 1000},
-                                        "Of heights and hills: from height to height."),
-       key<&GroundMeshTable::material>(
-           "material",
-           "Whose friction, bounce and look it has; else those of [ground] and [view].")}};
+                                        "heights_m, hills_m: distance between heights."),
+       key<&GroundMeshTable::material>("material",
+                                       "Material of friction, restitution and appearance; by "
+                                       "default those of [ground] and [view].")}};
 }
 
 void check_count(double triangles, const Value& table) {
   if (triangles <= static_cast<double>(kMostTriangles)) return;
   throw InputError(table.where + ": [[ground.mesh]] has " + format(std::round(triangles)) +
-                   " triangles, more than " + std::to_string(kMostTriangles) +
-                   "; make it coarser, or smaller");
+                   " triangles; allowed: at most " + std::to_string(kMostTriangles) +
+                   "; increase spacing_m, reduce its size, or simplify the mesh");
 }
 
 /// Returns a mesh of a height grid, each cell of which is split along the lower diagonal.
@@ -138,10 +140,10 @@ void check_orientation(const GroundMesh& mesh, const Value& table) {
   for (const auto& [edge, uses] : edges) {
     if (uses[0] + uses[1] != 2 || uses[0] == uses[1]) continue;
     const Vec3 at = 0.5 * (mesh.vertices_W[edge.first] + mesh.vertices_W[edge.second]);
-    throw InputError(table.where + ": two triangles of [[ground.mesh]] that meet at [" +
+    throw InputError(table.where + ": two neighbouring triangles of [[ground.mesh]] at [" +
                      format(at.x()) + ", " + format(at.y()) + ", " + format(at.z()) +
-                     "] face opposite sides; turn one round: they are met from the side from "
-                     "which they run counter-clockwise");
+                     "] have opposite orientations; reverse one of them: bodies collide with the "
+                     "side from which the vertices are counter-clockwise");
   }
 }
 
@@ -151,7 +153,7 @@ GroundMesh make_mesh(const GroundMeshTable& given, const Value& table,
   if (sources != 1) {
     throw InputError(table.where + ": [[ground.mesh]] has " +
                      (sources == 0 ? "none" : "more than one") +
-                     " of mesh, heights_m and hills_m; give one");
+                     " of mesh, heights_m and hills_m; give exactly one");
   }
   if (given.heights_m) return mesh_of(*given.heights_m, given.spacing_m);
   if (given.hills_m) return mesh_of(hills_of(given, table), given.spacing_m);
@@ -194,7 +196,7 @@ void read_ground_mesh(const Value& table, const std::filesystem::path& folder, S
   GroundMesh model = make_mesh(given, table, folder);
   drop_degenerate_triangles(model);
   if (model.triangles.empty())
-    throw InputError(table.where + ": [[ground.mesh]] has no triangle with an area");
+    throw InputError(table.where + ": [[ground.mesh]] has no triangle with an area above 0");
   check_orientation(model, table);
   check_count(static_cast<double>(model.triangles.size() * copies.size()), table);
   const Value* material = find(table, "material");
@@ -206,8 +208,8 @@ void read_ground_mesh(const Value& table, const std::filesystem::path& folder, S
       if (copy.mirrored) vertex.x() = -vertex.x();
       vertex = copy.X_FM * vertex;
       if (vertex.cwiseAbs().maxCoeff() <= kMaxCoordinate_m) continue;
-      throw InputError(table.where + ": [[ground.mesh]] reaches farther than " +
-                       format(kMaxCoordinate_m) + " m; make its scale smaller");
+      throw InputError(table.where + ": [[ground.mesh]] has a coordinate beyond " +
+                       format(kMaxCoordinate_m) + " m; reduce its scale, or move it");
     }
     if (copy.mirrored)
       for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);

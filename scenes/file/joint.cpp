@@ -18,21 +18,24 @@ Keys<JointTable> make_keys() {
       "[[joint]]",
       {choice<&Given::kind>(
            "kind", kKinds,
-           "ball: turns freely; hinge: about one axis; fixed: not at all; distance: "
-           "a rod from at to to; rope: one that only pulls.")
+           "ball: free rotation; hinge: rotation about one axis; fixed: no rotation; distance: a "
+           "rod from `at` to `to`; rope: a distance that may shrink.")
            .must(),
-       key<&Given::a>("a",
-                      "The solid, body or ball that is joined; of several by that name, the one "
-                      "nearest to the place.")
+       key<&Given::a>(
+           "a",
+           "Solid, body or ball of the joint; of several with this name, the one nearest to `at`.")
            .must(),
-       key<&Given::b>("b", "What it is joined to; without it, the world."),
-       key<&Given::at>("at", "m", kPlace, "Where; of distance and rope, on a.").must(),
-       key<&Given::to>("to", "m", kPlace, "distance, rope: where on b; it stays as long as it is."),
-       key<&Given::axis>("axis", "", Range{-1, 1}, "hinge: its direction."),
-       key<&Given::breaking_N>("breaking_N", "N", kLoad, "It breaks when it would bear more."),
+       key<&Given::b>("b", "Other solid, body or ball; the world by default."),
+       key<&Given::at>("at", "m", kPlace,
+                       "Position of the joint; for distance and rope, the end on a.")
+           .must(),
+       key<&Given::to>("to", "m", kPlace,
+                       "distance, rope: the end on b; the initial length is kept."),
+       key<&Given::axis>("axis", "", Range{-1, 1}, "hinge: direction of the axis."),
+       key<&Given::breaking_N>("breaking_N", "N", kLoad, "Force at which the joint breaks."),
        key<&Given::breaking_Nm>("breaking_Nm", "N·m", kLoad,
-                                "hinge, fixed: it breaks when it would bear more."),
-       key<&Given::collide>("collide", "Whether the two touch each other.")}};
+                                "hinge, fixed: torque at which the joint breaks."),
+       key<&Given::collide>("collide", "true: the two bodies collide with each other.")}};
 }
 
 [[noreturn]] void fail(const Value& table, std::string_view key, const std::string& what) {
@@ -66,7 +69,7 @@ void check(const Value& table, const JointTable& given) {
   const std::string kind(kKinds[static_cast<std::size_t>(given.kind)]);
   if (has_length != given.to.has_value()) {
     fail(table, "to",
-         has_length ? "missing key 'to' in [[joint]] of kind " + kind + ": where on b it ends"
+         has_length ? "missing key 'to' in [[joint]] of kind " + kind + ", its end point on b"
                     : "to in [[joint]] is for kinds distance and rope; this one is " + kind);
   }
   if (has_length && *given.to == given.at)
@@ -96,9 +99,9 @@ Joint read_joint(const Value& table, const Scene& scene) {
   joint.to_W = given.to.value_or(given.at);
   joint.a = nearest_root(scene, given.a, *find(table, "a"), given.at);
   if (given.b) joint.b = nearest_root(scene, *given.b, *find(table, "b"), joint.to_W);
-  if (joint.a == joint.b) fail(table, "b", "a and b in [[joint]] are the same thing");
+  if (joint.a == joint.b) fail(table, "b", "a and b in [[joint]] are the same body");
   if (is_fixed(scene, joint.a) && is_fixed(scene, joint.b)) {
-    fail(table, "a", "neither end of this [[joint]] can move: the world holds both");
+    fail(table, "a", "neither end of this [[joint]] can move: both are anchored to the world");
   }
   joint.axis_W = given.axis;
   joint.breaking_N = given.breaking_N;

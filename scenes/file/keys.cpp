@@ -165,7 +165,7 @@ MaterialIndex find_material(std::string_view name, const std::string& where,
                             std::span<const Material> materials) {
   const Material& found =
       find_named(materials, name, where + ": unknown material '" + std::string(name) + "'",
-                 "; there are: ", ", ");
+                 "; materials: ", ", ");
   return MaterialIndex(static_cast<std::size_t>(&found - materials.data()));
 }
 
@@ -224,11 +224,11 @@ std::string allowed(const Key& key) {
       return "[[h, h, ...], ...], two rows or more of equal length, two or more, each a number" +
              bounds(key.range) + unit;
     case Kind::kText:
-      return "a text that is not empty";
+      return "a non-empty string";
     case Kind::kMaterial:
       return "the name of a material";
     case Kind::kCountOrFile:
-      return "a whole number" + bounds(key.range) + ", or a file that lists them";
+      return "a whole number" + bounds(key.range) + ", or the path of a file that lists them";
     case Kind::kFit:
       return std::string(kFitNames);
     case Kind::kChoice:
@@ -270,8 +270,8 @@ void check_known(const Value& table, std::string_view name,
     const auto is_it = [&](const Key& known) { return known.name == entry.key; };
     if (entry.key.size() <= kShort || std::ranges::any_of(keys, is_it)) continue;
     if (did_you_mean(entry.key, std::span(&key.name, 1)).empty()) continue;
-    throw InputError(entry.value.where + missing + "; did you mean it by '" + entry.key +
-                     "'? It is " + allowed(key));
+    throw InputError(entry.value.where + missing + "; did you misspell it as '" + entry.key +
+                     "'? Allowed: " + allowed(key));
   }
   throw InputError(table.where + missing + ": " + allowed(key));
 }
@@ -284,8 +284,8 @@ void read_keys(const Value& table, std::string_view name, std::span<const Key> k
     const Value* value = find(entries, key.name);
     const Value* degrees = degrees_key.empty() ? nullptr : find(entries, degrees_key);
     if (value && degrees) {
-      throw InputError(degrees->where + ": " + degrees_key + " in " + std::string(name) +
-                       " is given beside " + std::string(key.name) + "; keep one");
+      throw InputError(degrees->where + ": " + degrees_key + " and " + std::string(key.name) +
+                       " in " + std::string(name) + " exclude each other; remove one");
     }
     if (!value && !degrees && key.required) refuse_missing(table, name, key, keys);
     if (value) store({*value, key, name, 1}, object);

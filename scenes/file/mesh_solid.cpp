@@ -76,11 +76,10 @@ std::vector<MaterialIndex> materials_of(const RawMesh& mesh, const std::string& 
     const std::size_t more = names.size() - std::min(names.size(), kNamesShown);
     const std::string nearest = did_you_mean(name, names);
     names.resize(names.size() - more);
-    throw InputError(file + ": nothing in it is called '" + name + "'" + nearest +
-                     (names.empty()
-                          ? "; OBJ and glTF files have names, of objects, groups and materials"
-                          : "; there are: " + join(names)) +
-                     (more > 0 ? " and " + std::to_string(more) + " more" : ""));
+    throw InputError(
+        file + ": no object, group or material in it is named '" + name + "'" + nearest +
+        (names.empty() ? "; only OBJ and glTF files have such names" : "; names: " + join(names)) +
+        (more > 0 ? " and " + std::to_string(more) + " more" : ""));
   }
   for (std::size_t g = 0; g < marked.size(); ++g) {
     for (const std::string& name : mesh.groups[g].names) {
@@ -117,8 +116,8 @@ fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const Me
   if (vacd.figures.inside_out_m3 <= kMaxInsideOutFraction * vacd.figures.mesh_volume_m3)
     return vacd;
   if (!repair.repair) {
-    throw InputError(file + ": repairs are off, and the mesh passes through itself; mend it, or " +
-                     "allow repairs");
+    throw InputError(file + ": the mesh intersects itself, but repair is off; fix the mesh, or " +
+                     "set repair to auto");
   }
   repair.enclose_all = true;
   repair.shell_cells *= 2;
@@ -175,8 +174,8 @@ std::string missing_warning(const std::string& file, const std::vector<std::stri
   if (missing.size() > kNamesShown) {
     names += " and " + std::to_string(missing.size() - kNamesShown) + " more";
   }
-  return file + ": names pictures or materials that cannot be read: " + names +
-         "; put them beside it, or export it as .glb with its pictures";
+  return file + ": files of textures or materials cannot be read: " + names +
+         "; put them into the folder of the mesh, or export it as .glb with textures";
 }
 
 /// Reads, repairs and decomposes a file or a built-in mesh, or loads the result from the cache.
@@ -234,7 +233,8 @@ RawMesh make_raw_mesh(const std::string& mesh) {
   const std::string_view count = std::string_view(mesh).substr(std::min(colon + 1, mesh.size()));
   if (const auto triangles = whole_number(count, kFewestTriangles, kMostTriangles))
     return make_statue(*triangles);
-  throw InputError("'" + mesh + "' is no built-in mesh; expected statue:N, of N triangles from " +
+  throw InputError("'" + mesh +
+                   "' is not a built-in mesh; expected statue:N with N triangles, from " +
                    std::to_string(kFewestTriangles) + " to " + std::to_string(kMostTriangles));
 }
 
@@ -247,7 +247,8 @@ fracture::VacdOptions vacd_options(const MeshOptions& options) {
     vacd.node_count = whole_number(options.nodes, 1, fracture::kMostNodes);
     if (!vacd.node_count) {
       throw InputError("nodes " + options.nodes + ": expected a whole number from 1 to " +
-                       std::to_string(fracture::kMostNodes) + ", or a file of x y z a line");
+                       std::to_string(fracture::kMostNodes) +
+                       ", or a file with x y z on each line");
     }
   } else if (!options.nodes.empty()) {
     std::istringstream text(read_text(options.nodes));
@@ -276,10 +277,11 @@ MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options) {
   if (is_built_in_solid(mesh)) {
     vacd_options(options);
     if (options.scale != 1 || options.size_m) {
-      throw InputError(mesh + ": is built in; give it its size there, in place of a scale");
+      throw InputError(mesh + ": a built-in solid has no scale; give its size in its name");
     }
     if (!options.materials.empty()) {
-      throw InputError(mesh + ": is built in, and has no names; say of which one material it is");
+      throw InputError(
+          mesh + ": a built-in solid has no named parts; remove `materials`, and give `material`");
     }
     solid = as_mesh_solid(mesh, fracture::make_solid(mesh));
   } else {

@@ -10,8 +10,8 @@ namespace sunder::scenes {
 void Names::reserve(const std::string& name, const std::string& where) {
   const auto [other, is_new] = where_.emplace(name, where);
   if (is_new) return;
-  throw InputError(where + ": two things are named '" + name + "', the other at " + other->second +
-                   "; give each a name of its own");
+  throw InputError(where + ": duplicate name '" + name + "', also at " + other->second +
+                   "; give each its own name");
 }
 
 std::string Names::reserve_default(const std::string& default_name, const std::string& where) {
@@ -27,8 +27,8 @@ void Names::check_reference(const Value& value) const {
   const std::string* name = std::get_if<std::string>(&value.data);
   const auto other = name ? ambiguous_.find(*name) : ambiguous_.end();
   if (other == ambiguous_.end()) return;
-  throw InputError(value.where + ": '" + *name + "' may be the one at " + where_.at(*name) +
-                   " or the one at " + other->second + "; give them names of their own");
+  throw InputError(value.where + ": '" + *name + "' is ambiguous: it is the default name at " +
+                   where_.at(*name) + " and at " + other->second + "; give each its own name");
 }
 
 std::vector<std::uint32_t> roots_named(const Scene& scene, const std::string& name,

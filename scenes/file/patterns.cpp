@@ -76,7 +76,7 @@ void read_stronger(const Value& table, const std::filesystem::path& folder, Mate
     if (!material.stronger.empty() && impact.energy_J <= material.stronger.back().energy_J) {
       throw InputError(entry->where + ": energy_J in [[material.stronger]] is " +
                        format(impact.energy_J) +
-                       ", no more than in the entry before it; let them ascend");
+                       ", not more than in the previous entry; sort the entries by energy_J");
     }
     material.stronger.push_back(std::move(impact));
   }

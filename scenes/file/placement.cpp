@@ -16,29 +16,31 @@ Keys<PlacementTable> make_placement_keys() {
   constexpr Range kPlace{-1e6, 1e6}, kTurn{-6.2832, 6.2832};
   return {
       "[[solid]], [[solid.part]], [[body]]",
-      {key<&PlacementTable::position>("position", "m", kPlace, "Where the middle of its foot is."),
-       key<&PlacementTable::rotation_rad>("rotation_rad", "rad", kTurn,
-                                          "About the axes x, then y, then z, through its foot."),
-       table_key("repeat", "How often it is there; of several, each repeats all before it."),
-       choice<&PlacementTable::mirror>(
-           "mirror", kMirrors,
-           "It and all its copies stand there a second time, mirrored along that axis; xz: "
-           "along x, and both along z."),
+      {key<&PlacementTable::position>("position", "m", kPlace,
+                                      "Position of the middle of the foot."),
+       key<&PlacementTable::rotation_rad>(
+           "rotation_rad", "rad", kTurn,
+           "Rotation about the axes x, then y, then z, through the middle of the foot."),
+       table_key("repeat", "Copies; each of several tables repeats all copies of those before it."),
+       choice<&PlacementTable::mirror>("mirror", kMirrors,
+                                       "Adds mirror images of all copies along this axis; xz: "
+                                       "along x, then all of them along z."),
        key<&PlacementTable::mirror_at_m>("mirror_at_m", "m", kPlace,
-                                         "Where the mirror is, or where the two meet.")}};
+                                         "Point of the mirror plane, or of both.")}};
 }
 
 Keys<RepeatTable> make_repeat_keys() {
   constexpr Range kPlace{-1e6, 1e6}, kTurn{-6.2832, 6.2832};
-  return {"[solid.repeat], [solid.part.repeat], [body.repeat]",
-          {key<&RepeatTable::count>("count", "", Range{1, kMaxCopies},
-                                    "How often it is there, the first included.")
-               .must(),
-           key<&RepeatTable::step_m>("step_m", "m", kPlace, "From each to the next."),
-           key<&RepeatTable::turn_rad>("turn_rad", "rad", kTurn,
-                                       "By which each is turned against the one before, about the "
-                                       "vertical through center_m."),
-           key<&RepeatTable::center_m>("center_m", "m", kPlace, "The middle of the ring.")}};
+  return {
+      "[solid.repeat], [solid.part.repeat], [body.repeat]",
+      {key<&RepeatTable::count>("count", "", Range{1, kMaxCopies},
+                                "Number of copies, including the first.")
+           .must(),
+       key<&RepeatTable::step_m>("step_m", "m", kPlace, "Displacement from each copy to the next."),
+       key<&RepeatTable::turn_rad>(
+           "turn_rad", "rad", kTurn,
+           "Rotation from each copy to the next, about the vertical axis through center_m."),
+       key<&RepeatTable::center_m>("center_m", "m", kPlace, "Centre of the ring.")}};
 }
 
 /// Appends the copies of one `repeat` table.
@@ -47,7 +49,7 @@ void repeat(const Value& table, std::vector<Copy>& copies) {
   read(repeat_keys(), table, {}, given);
   const std::size_t before = copies.size();
   if (given.count > 1 && given.step_m.isZero() && given.turn_rad == 0) {
-    throw InputError(table.where + ": repeat puts all copies in one place; give it step_m, " +
+    throw InputError(table.where + ": repeat puts all copies at one place; add step_m, " +
                      "turn_rad or turn_deg");
   }
   if (before * given.count > kMaxCopies) {

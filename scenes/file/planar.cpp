@@ -20,7 +20,7 @@ struct Checker {
     if (!planar) throw InputError(where + ": planar = true in [scene], but " + what);
   }
   void in_plane(const Vec3& vector, const std::string& what) const {
-    require(std::abs(vector.z()) <= kPlaneTolerance, what + " has a z of its own; make it 0");
+    require(std::abs(vector.z()) <= kPlaneTolerance, what + " has a z component; set it to 0");
   }
   void check(const Solid& solid) const;
   void check(const Ball& ball, const std::string& name) const;
@@ -30,25 +30,24 @@ void Checker::check(const Solid& solid) const {
   const std::string name = "solid '" + solid.name + "' ";
   in_plane(solid.velocity_W, name + "has a velocity that");
   require(solid.angular_velocity_W.head<2>().norm() <= kPlaneTolerance,
-          name + "turns about another axis than z");
+          name + "rotates about an axis other than z");
   for (const ConvexPtr& convex : solid.compound.convexes) {
     const Material& material = scene.materials[convex->material.value];
-    require(!convex->visual, name + "is a mesh; build it of boxes and prisms");
+    require(!convex->visual, name + "is a mesh; build it from boxes and prisms");
     const std::optional<ZPrism> prism = prism_along_z(convex->polyhedron, solid.X_WR);
-    require(prism.has_value(), name + "is no prism along z; turn it, or build it of boxes");
+    require(prism.has_value(), name + "is not a prism along z; rotate it, or build it from boxes");
     require(prism->low < -kPlaneTolerance && prism->high > kPlaneTolerance,
             name +
-                "has parts that do not reach through the plane z = 0; move it there, or make "
-                "its blocks larger");
-    require(!material.breakable(),
-            name + "is made of " + material.name +
-                ", whose pattern would break it along z; say pattern = { kind = \"none\" } in a "
-                "[[material]] of that name");
+                "has parts that do not cross the plane z = 0; move it there, or make its blocks "
+                "larger");
+    require(!material.breakable(), name + "has the material " + material.name +
+                                       ", whose pattern would break it along z; set pattern = { "
+                                       "kind = \"none\" } in a [[material]] of this name");
   }
 }
 
 void Checker::check(const Ball& ball, const std::string& name) const {
-  in_plane(ball.center_W, name + "is at a place that");
+  in_plane(ball.center_W, name + "has a position that");
   in_plane(ball.velocity_W, name + "has a velocity that");
 }
 
@@ -63,28 +62,29 @@ double extent_m(const Convex& convex, const Quat& rotation) {
 void check_planar(const Scene& scene, const std::string& where) {
   const Checker checker{scene, where};
   checker.in_plane(scene.gravity_W, "gravity");
-  checker.require(scene.ground.meshes.empty(),
-                  "it has a [[ground.mesh]], which planar scenes do not have; build it of prisms");
+  checker.require(
+      scene.ground.meshes.empty(),
+      "it has a [[ground.mesh]], which planar scenes do not support; build it from prisms");
   for (const Solid& solid : scene.solids) checker.check(solid);
   for (const Ball& ball : scene.balls) checker.check(ball, "ball '" + ball.name + "' ");
-  checker.require(scene.joints.empty(), "it has a [[joint]], which planar scenes do not have");
+  checker.require(scene.joints.empty(), "it has a [[joint]], which planar scenes do not support");
   for (const Shot& shot : scene.shots) {
     checker.check(shot.ball, "a ball of [script] ");
     checker.require(!shot.hangs_from_W,
-                    "a ball of [script] hangs in joints, which planar scenes do not have");
+                    "[script] has a wrecking ball, which planar scenes do not support");
   }
   for (const Blast& blast : scene.blasts) checker.in_plane(blast.center_W, "a blast's centre");
   for (const Drive& drive : scene.drives) {
     if (drive.velocity_W) checker.in_plane(*drive.velocity_W, "a drive's velocity");
     checker.require(
         !drive.angular_velocity_W || drive.angular_velocity_W->head<2>().norm() <= kPlaneTolerance,
-        "a drive's spin is about another axis than z");
+        "a drive's angular_velocity is about an axis other than z");
   }
   for (const Move& move : scene.moves) {
     for (const PathKey& key : move.path.keys) {
       checker.in_plane(key.shift_W, "a move's shift");
       checker.require(key.turn_W.head<2>().norm() <= kPlaneTolerance,
-                      "a move turns about another axis than z");
+                      "a move rotates about an axis other than z");
     }
   }
 }

@@ -20,8 +20,8 @@ void add_wrecking_ball(const Value& table, Scene& scene) {
             given.hangs_from};
   if ((given.from - given.hangs_from).norm() <= given.radius_m) {
     throw InputError(table.where +
-                     ": hangs_from in [[script.wrecking_ball]] is within the ball; move it out, or "
-                     "lessen radius_m");
+                     ": hangs_from in [[script.wrecking_ball]] is inside the ball; move it "
+                     "outside, or reduce radius_m");
   }
   shot.links = make_chain(shot, given.links);
   scene.shots.push_back(std::move(shot));
@@ -34,11 +34,11 @@ void add_blast(const Value& table, Scene& scene) {
     const Value* value = find(table, key);
     if (!value || !blast.tnt_kg) continue;
     throw InputError(value->where + ": " + key +
-                     " in [[script.blast]] is given beside tnt_kg, which decides it; keep one");
+                     " and tnt_kg in [[script.blast]] exclude each other; remove one");
   }
   if (const Value* burst = find(table, "burst"); burst && !blast.tnt_kg) {
     throw InputError(burst->where +
-                     ": burst in [[script.blast]] is for a charge; give tnt_kg, or take it away");
+                     ": burst in [[script.blast]] needs tnt_kg; add tnt_kg, or remove burst");
   }
 }
 
@@ -73,10 +73,9 @@ void add_drive(const Value& table, Scene& scene) {
   const Value& name = *find(table, "name");
   std::vector<std::uint32_t> roots = roots_named(scene, given.name, name);
   if (std::ranges::all_of(roots, [&](std::uint32_t root) { return is_anchored(scene, root); })) {
-    throw InputError(
-        name.where + ": '" + given.name +
-        "' in [[script.drive]] is anchored to the world, which no force moves; take its "
-        "anchored away");
+    throw InputError(name.where + ": '" + given.name +
+                     "' in [[script.drive]] is anchored to the world and cannot be moved; remove "
+                     "its key 'anchored'");
   }
   scene.drives.push_back({given.time_s, given.until_s, std::move(roots), given.velocity,
                           given.force_N, given.angular_velocity, given.torque_Nm});
@@ -93,14 +92,14 @@ PathKey read_path_key(const Value& table, const PathKey& before) {
   if (duration_s <= 0) {
     throw InputError(find(table, "time_s")->where + ": time_s in [[script.move.key]] is " +
                      format(given.time_s) + ", not after " + format(before.time_s) +
-                     (before.time_s > 0 ? " of the key before; keys go by time"
-                                        : ", when it stands where it stood"));
+                     (before.time_s > 0 ? " of the previous key; sort the keys by time_s"
+                                        : ", the time of the initial pose"));
   }
   const auto check = [&](double distance, double max_rate, const std::string& unit) {
     if (distance <= max_rate * duration_s) return;
-    throw InputError(table.where + ": the way to this [[script.move.key]] takes " +
+    throw InputError(table.where + ": the motion to this [[script.move.key]] needs " +
                      format(distance / duration_s) + " " + unit + "; allowed: at most " +
-                     format(max_rate) + "; give it more time");
+                     format(max_rate) + "; increase time_s");
   };
   check((given.shift - before.shift_W).norm(), kMaxPathSpeed_m_s, "m/s");
   check((given.turn_rad - before.rotation_W).norm(), kMaxPathSpin_rad_s, "rad/s");
@@ -113,7 +112,7 @@ Path read_path(const Value& table, const MoveTable& given) {
   for (const Value* key : tables(table, "key"))
     path.keys.push_back(read_path_key(*key, path.keys.empty() ? PathKey{} : path.keys.back()));
   if (path.keys.empty()) {
-    throw InputError(table.where + ": [[script.move]] needs a [[script.move.key]] or more");
+    throw InputError(table.where + ": [[script.move]] needs at least one [[script.move.key]]");
   }
   constexpr double kReturnTolerance = 1e-6;  // m; half an angle in rad
   const PathKey& last = path.keys.back();
@@ -121,8 +120,8 @@ Path read_path(const Value& table, const MoveTable& given) {
                        rotation_by(last.rotation_W).vec().norm() < kReturnTolerance;
   if (given.loop && !returns) {
     throw InputError(tables(table, "key").back()->where +
-                     ": the last key of a [[script.move]] with loop = true has to be where it "
-                     "stood: shift = [0, 0, 0], and no turn or whole ones");
+                     ": the last key of a [[script.move]] with loop = true must be the initial "
+                     "pose: shift = [0, 0, 0], and a turn of 0 or of whole revolutions");
   }
   return path;
 }
@@ -138,11 +137,12 @@ void add_move(const Value& table, Scene& scene) {
   for (const std::uint32_t root : move.roots) {
     const auto holds = [&](const Joint& joint) { return joint.a == root || joint.b == root; };
     const auto moves = [&](const Move& other) { return std::ranges::count(other.roots, root) > 0; };
-    if (root >= scene.solids.size()) refuse("is a ball; a [[body]] or [[solid]] can be moved");
+    if (root >= scene.solids.size()) refuse("is a ball; only a [[body]] or [[solid]] can be moved");
     if (is_anchored(scene, root)) {
-      refuse("is anchored to the world, which does not let go of it; take its anchored away");
+      refuse("is anchored to the world and cannot be moved; remove its key 'anchored'");
     }
-    if (std::ranges::any_of(scene.moves, moves)) refuse("is moved by another one already");
+    if (std::ranges::any_of(scene.moves, moves))
+      refuse("is moved by another [[script.move]] already");
     const auto stays = [&](std::optional<std::uint32_t> end) {
       const auto moved = [&](const Move& other) {
         return std::ranges::count(other.roots, *end) > 0;
@@ -153,8 +153,8 @@ void add_move(const Value& table, Scene& scene) {
     for (const Joint& joint : scene.joints) {
       if (!holds(joint) || !stays(joint.a == root ? joint.b : joint.a)) continue;
       refuse(
-          "is held by a [[joint]] to the world, or to what is anchored or moved as well; of the "
-          "two ends of a joint one has to be free");
+          "has a [[joint]] to the world, or to a body that is anchored or moved, too; one of the "
+          "two bodies of a joint must be free");
     }
   }
   if (given.release_s) move.release_s = *given.release_s;

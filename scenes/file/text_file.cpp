@@ -14,7 +14,7 @@ std::string read_text(const fs::path& file) {
   std::stringstream text;
   if (!fs::is_regular_file(file) || !in || !(text << in.rdbuf())) {
     throw InputError(file.string() + ": cannot be read" +
-                     (fs::exists(file) ? " (or is empty)" : ": there is no such file"));
+                     (fs::exists(file) ? ", or is empty" : ": there is no such file"));
   }
   return text.str();
 }

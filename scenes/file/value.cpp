@@ -35,7 +35,7 @@ class Converter {
       case toml::node_type::table:
         return {where, table(*node.as_table())};
       default:
-        throw InputError(where + ": scenes have no use for dates and times");
+        throw InputError(where + ": dates and times are not allowed in scene files");
     }
   }
 
@@ -184,7 +184,7 @@ void set_value(Value& document, const std::string& assignment) {
     } else if (Table* table = std::get_if<Table>(&place->data)) {
       place = &member(*table, step, flag);
     } else {
-      throw InputError(flag + ": '" + step + "' is sought inside " + describe(*place));
+      throw InputError(flag + ": there is no key '" + step + "' in " + describe(*place));
     }
   }
   *place = parse_flag_value(assignment.substr(equals + 1), flag);

@@ -10,8 +10,8 @@ namespace {
 
 void check_view(const View& view, const std::string& where) {
   if (!view.to_sun_W.isZero() && view.eye_W != view.target_W) return;
-  throw InputError(where +
-                   ": [view] needs a sun that is not zero, and an eye that is not at its target");
+  throw InputError(
+      where + ": [view] needs a sun that is not zero, and different points for eye and target");
 }
 
 std::vector<ViewKey> read_view_keys(const Value& parent, const Keys<ViewKey>& keys) {
@@ -22,7 +22,7 @@ std::vector<ViewKey> read_view_keys(const Value& parent, const Keys<ViewKey>& ke
     if (!path.empty() && key.time_s <= path.back().time_s) {
       throw InputError(find(*table, "time_s")->where + ": time_s in " + std::string(keys.table) +
                        " is " + format(key.time_s) + ", not after " + format(path.back().time_s) +
-                       " of the key before; keys go by time");
+                       " of the previous key; sort the keys by time_s");
     }
     if (key.eye_W && key.target_W && *key.eye_W == *key.target_W) {
       throw InputError(table->where + ": eye and target in " + std::string(keys.table) +
@@ -46,14 +46,14 @@ void read_view(const Value& document, Scene& scene) {
 std::vector<ViewKey> load_view_keys(const std::filesystem::path& file) {
   const Value document = parse_toml(read_text(file), file.string());
   const Key only = table_key("key", "");
-  check_known(document, "a camera's path", {std::span(&only, 1)});
+  check_known(document, "a camera path", {std::span(&only, 1)});
   Keys<ViewKey> keys = schema().view_key;
   keys.table = "[[key]]";
   std::vector<ViewKey> path = read_view_keys(document, keys);
   if (path.empty()) {
     throw InputError(
         file.string() +
-        ": a camera's path needs a [[key]] or more, with time_s, eye, target, fov_deg");
+        ": a camera path needs at least one [[key]], with time_s, eye, target, fov_deg");
   }
   return path;
 }
@@ -63,11 +63,11 @@ void change_view(View& view, const std::vector<std::string>& set, const std::str
   for (const std::string& assignment : set) {
     if (!assignment.starts_with("view.")) {
       throw InputError("--set " + assignment + ": " + what +
-                       " has been simulated; keys of [view] alone can be set, as view.fov_deg=30");
+                       " has been simulated; only keys of [view] can be set, as view.fov_deg=30");
     }
     if (assignment.starts_with("view.key")) {
       throw InputError("--set " + assignment + ": " + what +
-                       " has been simulated; its camera goes another path by --view FILE.toml");
+                       " has been simulated; give another camera path by --view FILE.toml");
     }
     set_value(document, assignment);
   }

@@ -52,7 +52,7 @@ std::vector<Piece> build_prism(const Prism& prism) {
   if (piece.parts[0].polyhedron.vertices.size() != 2 * prism.outline_m.size()) {
     throw InputError(
         "prism: outline_m is not convex, or has a corner twice or within a side; allowed: the "
-        "corners of a convex polygon, in any order. Split it into parts of a compound");
+        "corners of a convex polygon, in any order. Split other outlines into parts of a compound");
   }
   return {piece};
 }
@@ -76,24 +76,24 @@ void add_slices(std::vector<fracture::Part>& parts, std::span<const Vec2> corner
 StructureType arch_structure() {
   const Range length{0.01, 1000};
   return make_structure<Arch, build_arch>(
-      "arch", "A round arch of voussoirs along x, on its two feet.",
+      "arch", "A round arch of voussoirs along x, on two feet.",
       {key<&Arch::span_m>("span_m", "m", length, "Clear width."),
-       key<&Arch::ring_m>("ring_m", "m", length, "Thickness of the ring; each foot is as wide."),
-       key<&Arch::depth_m>("depth_m", "m", length, "Along z."),
-       key<&Arch::voussoirs>("voussoirs", "", Range{3, 101}, "Stones of the ring."),
-       key<&Arch::block_m>("block_m", "m", Range{0.05, 1000}, "Most depth of a stone."),
-       key<&Arch::material>("material", "What it is made of.")});
+       key<&Arch::ring_m>("ring_m", "m", length, "Thickness of the ring, and width of each foot."),
+       key<&Arch::depth_m>("depth_m", "m", length, "Extent along z."),
+       key<&Arch::voussoirs>("voussoirs", "", Range{3, 101}, "Number of voussoirs."),
+       key<&Arch::block_m>("block_m", "m", Range{0.05, 1000}, "Maximum depth of a block."),
+       key<&Arch::material>("material", "Material.")});
 }
 
 StructureType prism_structure() {
   const Range length{0.001, 1000};
   return make_structure<Prism, build_prism>(
-      "prism", "A convex outline in x and y, as it is given, drawn out along z to both sides.",
-      {key<&Prism::outline_m>("outline_m", "m", Range{-1000, 1000}, "Its corners.").must(),
-       key<&Prism::depth_m>("depth_m", "m", length, "Along z."),
-       key<&Prism::block_m>("block_m", "m", Range{0.05, 1000},
-                            "Most depth of the slices it is made of."),
-       key<&Prism::material>("material", "What it is made of.")});
+      "prism", "A convex outline in x and y, extruded along z to both sides.",
+      {key<&Prism::outline_m>("outline_m", "m", Range{-1000, 1000}, "Corners of the outline.")
+           .must(),
+       key<&Prism::depth_m>("depth_m", "m", length, "Extent along z."),
+       key<&Prism::block_m>("block_m", "m", Range{0.05, 1000}, "Maximum depth of a block."),
+       key<&Prism::material>("material", "Material.")});
 }
 
 }  // namespace sunder::scenes

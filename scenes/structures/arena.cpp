@@ -15,7 +15,7 @@ namespace {
 
 void check_arena(const Arena& arena, const WedgePlan& end) {
   if (arena.ends > 2 * arena.sides) {
-    throw InputError("arena: ends = " + format(arena.ends) + " would be flatter than sides = " +
+    throw InputError("arena: ends = " + format(arena.ends) + " would be less curved than sides = " +
                      format(arena.sides) + "; allowed: ends up to twice the sides");
   }
   if (end.springing < 1) {
@@ -26,14 +26,14 @@ void check_arena(const Arena& arena, const WedgePlan& end) {
   const double seats = kPodium + arena.tiers * kRise;
   const double floor = std::max(1, arena.storeys - 1) * arena.storey_m;
   if (seats > floor) {
-    throw InputError("arena: tiers = " + format(arena.tiers) + " reach up to " + format(seats) +
-                     " m, above the gallery at " + format(floor) +
-                     " m; ask for fewer, or for higher storeys");
+    throw InputError("arena: tiers = " + format(arena.tiers) + " reach a height of " +
+                     format(seats) + " m, above the gallery at " + format(floor) +
+                     " m; use fewer tiers, or higher storeys");
   }
   if (end.seats < 2) {
     throw InputError("arena: tiers = " + format(arena.tiers) + " leave " + format(end.seats) +
-                     " m from the middle of an end to the podium; allowed: 2 m or more. Ask for "
-                     "fewer, or for more bays");
+                     " m from the middle of an end to the podium; allowed: at least 2 m. Use fewer "
+                     "tiers, or more bays");
   }
 }
 
@@ -73,18 +73,20 @@ std::vector<Piece> build_arena(const Arena& arena) {
 StructureType arena_structure() {
   return make_structure<Arena, build_arena>(
       "arena",
-      "A Roman arena: arcades around tiers of seats, and a round temple; its long axis along x.",
-      {key<&Arena::ends>("ends", "", Range{1, 20}, "Wedges at either end, each a solid."),
-       key<&Arena::sides>("sides", "", Range{1, 20}, "Wedges at either side."),
-       key<&Arena::bays>("bays", "", Range{1, 20}, "Bays of a wedge."),
-       key<&Arena::bay_m>("bay_m", "m", Range{3, 8}, "Width of a bay, outside."),
-       key<&Arena::storeys>("storeys", "", Range{1, 6}, "Storeys of the outer wall."),
+      "A Roman arena: arcades around tiers of seats, and a round temple; the long axis is x.",
+      {key<&Arena::ends>("ends", "", Range{1, 20},
+                         "Number of wedges at each end; each is a solid."),
+       key<&Arena::sides>("sides", "", Range{1, 20}, "Number of wedges at each side."),
+       key<&Arena::bays>("bays", "", Range{1, 20}, "Number of bays in a wedge."),
+       key<&Arena::bay_m>("bay_m", "m", Range{3, 8}, "Outer width of a bay."),
+       key<&Arena::storeys>("storeys", "", Range{1, 6}, "Number of storeys of the outer wall."),
        key<&Arena::storey_m>("storey_m", "m", Range{3, 12}, "Height of a storey."),
-       key<&Arena::tiers>("tiers", "", Range{1, 60}, "Tiers of seats."),
-       key<&Arena::detail>("detail", "", Range{8, 160}, "Sides of what is drawn round."),
-       key<&Arena::stand>("stand", "Whether a temple stands in the middle, where there is room."),
-       key<&Arena::stone>("stone", "What is carved: columns, arches, seats."),
-       key<&Arena::wall>("wall", "What walls and floors are made of.")});
+       key<&Arena::tiers>("tiers", "", Range{1, 60}, "Number of tiers of seats."),
+       key<&Arena::detail>("detail", "", Range{8, 160},
+                           "Number of sides of round parts that are drawn."),
+       key<&Arena::stand>("stand", "true: a temple in the middle, where there is room."),
+       key<&Arena::stone>("stone", "Material of columns, arches and seats."),
+       key<&Arena::wall>("wall", "Material of walls and floors.")});
 }
 
 }  // namespace sunder::scenes

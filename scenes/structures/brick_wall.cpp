@@ -46,11 +46,12 @@ StructureType brick_wall_structure() {
       "brick_wall", "A dry wall along x in running bond; every brick is a body.",
       {key<&BrickWall::brick_m>("brick_m", "m", Range{0.01, 10}, "Edge lengths of a brick."),
        key<&BrickWall::bricks>("bricks", "", Range{2, 1000},
-                               "Bricks in a course, one of them a half."),
-       key<&BrickWall::courses>("courses", "", Range{1, 1000}, "Courses."),
-       key<&BrickWall::material>("material", "What the bricks are made of."),
-       key<&BrickWall::second>("second", "What some bricks are made of instead."),
-       key<&BrickWall::second_share>("second_share", "", Range{0, 1}, "How many of them.")});
+                               "Number of bricks in a course, one of them a half."),
+       key<&BrickWall::courses>("courses", "", Range{1, 1000}, "Number of courses."),
+       key<&BrickWall::material>("material", "Material of the bricks."),
+       key<&BrickWall::second>("second", "Material of some of the bricks."),
+       key<&BrickWall::second_share>("second_share", "", Range{0, 1},
+                                     "Fraction of the bricks of the material `second`.")});
 }
 
 }  // namespace sunder::scenes

@@ -109,18 +109,18 @@ StructureType bridge_structure() {
   const Range length{0.2, 100};
   return make_structure<Bridge, build_bridge>(
       "bridge", "A stone bridge of round arches along x, on piers between two abutments.",
-      {key<&Bridge::spans>("spans", "", Range{1, 20}, "Arches."),
+      {key<&Bridge::spans>("spans", "", Range{1, 20}, "Number of arches."),
        key<&Bridge::span_m>("span_m", "m", length, "Clear width of an arch."),
-       key<&Bridge::ring_m>("ring_m", "m", length, "Thickness of an arch; a pier is twice that."),
-       key<&Bridge::voussoirs>("voussoirs", "", Range{3, 101}, "Stones of an arch."),
+       key<&Bridge::ring_m>("ring_m", "m", length,
+                            "Thickness of an arch; a pier is twice as thick."),
+       key<&Bridge::voussoirs>("voussoirs", "", Range{3, 101}, "Number of voussoirs in an arch."),
        key<&Bridge::pier_m>("pier_m", "m", length, "Height of the piers."),
-       key<&Bridge::width_m>("width_m", "m", length, "Along z."),
+       key<&Bridge::width_m>("width_m", "m", length, "Extent along z."),
        key<&Bridge::deck_m>("deck_m", "m", Range{0.05, 10}, "Thickness of the deck."),
-       key<&Bridge::abutment_m>("abutment_m", "m", length, "Length of the ends."),
-       key<&Bridge::block_m>("block_m", "m", Range{0.2, 100},
-                             "Longest edge of the boxes that it is made of."),
-       key<&Bridge::stone>("stone", "What arches, piers and ends are made of."),
-       key<&Bridge::deck>("deck", "What the deck is made of.")});
+       key<&Bridge::abutment_m>("abutment_m", "m", length, "Length of the abutments."),
+       key<&Bridge::block_m>("block_m", "m", Range{0.2, 100}, "Longest edge of its boxes."),
+       key<&Bridge::stone>("stone", "Material of arches, piers and abutments."),
+       key<&Bridge::deck>("deck", "Material of the deck.")});
 }
 
 }  // namespace sunder::scenes

@@ -87,10 +87,10 @@ void check_connected(const Compound& whole, const std::vector<Member>& members) 
                        [&](const Part& part) { return contains(part.polyhedron, middle); });
   });
   throw InputError((owner == members.end() ? members[0] : *owner).table->where +
-                   ": [[solid.part]] does not hold on to the others: it touches none of them with "
-                   "a face, nor overlaps any" +
+                   ": [[solid.part]] is not connected to the others: it shares no face with "
+                   "another part, and overlaps none" +
                    (gap_m > 0 ? "; the nearest is " + format(gap_m) + " m away" : "") +
-                   "; move it, or make it a [[solid]] of its own");
+                   "; move it, or make it a separate [[solid]]");
 }
 
 std::vector<Piece> build_compound(const void*, const Value& table, const BuildContext& context) {
@@ -112,11 +112,12 @@ std::vector<Piece> build_compound(const void*, const Value& table, const BuildCo
 }  // namespace
 
 StructureType compound_structure() {
-  return {"compound",
-          "Parts that touch or overlap, as one solid. Where they overlap, the first weighs.",
-          {table_key("part", "What it is made of.")},
-          []() -> std::shared_ptr<void> { return std::make_shared<NoParameters>(); },
-          build_compound};
+  return {
+      "compound",
+      "Parts that touch or overlap, as one solid. An overlap has the material of the first part.",
+      {table_key("part", "Parts.")},
+      []() -> std::shared_ptr<void> { return std::make_shared<NoParameters>(); },
+      build_compound};
 }
 
 }  // namespace sunder::scenes

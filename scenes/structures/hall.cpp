@@ -136,23 +136,24 @@ std::vector<Piece> build_hall(const Hall& hall) {
 StructureType hall_structure() {
   const Range length{0.2, 100};
   return make_structure<Hall, build_hall>(
-      "hall",
-      "A hall of steel along z: portal frames on feet that the world holds, purlins, loose slabs.",
-      {key<&Hall::bays>("bays", "", Range{1, 50}, "From frame to frame; one frame more."),
-       key<&Hall::bay_m>("bay_m", "m", length, "From frame to frame."),
-       key<&Hall::span_m>("span_m", "m", length, "Along x, from column to column."),
-       key<&Hall::height_m>("height_m", "m", length, "Of the columns."),
-       key<&Hall::depth_m>("depth_m", "m", Range{0.05, 5}, "Of columns and girders, I-sections."),
-       key<&Hall::flange_m>("flange_m", "m", Range{0.02, 5}, "Width of their flanges."),
-       key<&Hall::plate_m>("plate_m", "m", Range{0.002, 1}, "Thickness of their plates."),
-       key<&Hall::purlins>("purlins", "", Range{2, 100}, "Bars on the girders, along z."),
-       key<&Hall::purlin_m>("purlin_m", "m", Range{0.02, 2}, "Their edge; they are square."),
+      "hall", "A hall of steel along z: portal frames on anchored feet, purlins, and loose slabs.",
+      {key<&Hall::bays>("bays", "", Range{1, 50}, "Number of bays; there is one more frame."),
+       key<&Hall::bay_m>("bay_m", "m", length, "Distance between frames."),
+       key<&Hall::span_m>("span_m", "m", length, "Distance between columns, along x."),
+       key<&Hall::height_m>("height_m", "m", length, "Height of the columns."),
+       key<&Hall::depth_m>("depth_m", "m", Range{0.05, 5},
+                           "Depth of columns and girders, which are I-sections."),
+       key<&Hall::flange_m>("flange_m", "m", Range{0.02, 5}, "Width of the flanges."),
+       key<&Hall::plate_m>("plate_m", "m", Range{0.002, 1}, "Thickness of flanges and webs."),
+       key<&Hall::purlins>("purlins", "", Range{2, 100},
+                           "Number of purlins, the bars along z on the girders."),
+       key<&Hall::purlin_m>("purlin_m", "m", Range{0.02, 2},
+                            "Edge of the square section of a purlin."),
        key<&Hall::roof_m>("roof_m", "m", Range{0, 2},
-                          "Thickness of the slabs that lie on them; 0 for none."),
-       key<&Hall::block_m>("block_m", "m", Range{0.05, 100},
-                           "Length of the slices that members are made of."),
-       key<&Hall::steel>("steel", "What frames and purlins are made of."),
-       key<&Hall::roof>("roof", "What the slabs are made of.")});
+                          "Thickness of the slabs on the purlins; 0: no slabs."),
+       key<&Hall::block_m>("block_m", "m", Range{0.05, 100}, "Length of the slices of members."),
+       key<&Hall::steel>("steel", "Material of frames and purlins."),
+       key<&Hall::roof>("roof", "Material of the slabs.")});
 }
 
 }  // namespace sunder::scenes

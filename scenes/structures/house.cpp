@@ -148,7 +148,7 @@ void check_sizes(const House& house) {
   const double front = (house.width_m - 2 * house.column_m) / (house.windows + 1);
   const double side = (house.depth_m - 2 * house.column_m) / std::max(1, house.windows - 1);
   require(std::min(front, side) > house.window_m + 0.1,
-          "windows of window_m do not fit side by side; take fewer, or a larger house");
+          "windows of window_m do not fit side by side; use fewer, or a larger house");
 }
 
 std::vector<Piece> build_house(const House& house) {
@@ -162,23 +162,23 @@ StructureType house_structure() {
   const Range thickness{0.05, 5};
   return make_structure<House, build_house>(
       "house",
-      "A house with windows, a door, floors and a flat roof; one compound, its front at +z.",
-      {key<&House::width_m>("width_m", "m", Range{3, 200}, "Along x."),
-       key<&House::depth_m>("depth_m", "m", Range{3, 200}, "Along z."),
-       key<&House::storeys>("storeys", "", Range{1, 50}, "Storeys."),
+      "A house with windows, a door, floors and a flat roof; one compound, with the front at +z.",
+      {key<&House::width_m>("width_m", "m", Range{3, 200}, "Extent along x."),
+       key<&House::depth_m>("depth_m", "m", Range{3, 200}, "Extent along z."),
+       key<&House::storeys>("storeys", "", Range{1, 50}, "Number of storeys."),
        key<&House::storey_m>("storey_m", "m", Range{2, 10}, "Clear height of a storey."),
        key<&House::wall_m>("wall_m", "m", thickness, "Thickness of the outer walls."),
        key<&House::slab_m>("slab_m", "m", thickness, "Thickness of floors and roof."),
-       key<&House::overhang_m>("overhang_m", "m", Range{0, 5}, "How far the roof stands out."),
+       key<&House::overhang_m>("overhang_m", "m", Range{0, 5}, "Overhang of the roof."),
        key<&House::column_m>("column_m", "m", thickness, "Edge of the corner columns."),
-       key<&House::windows>("windows", "", Range{0, 50},
-                            "In front and back of each storey; one fewer at the sides."),
+       key<&House::windows>(
+           "windows", "", Range{0, 50},
+           "Number of windows in front and back of each storey; one fewer at the sides."),
        key<&House::window_m>("window_m", "m", Range{0.2, 10}, "Width of a window."),
-       key<&House::block_m>("block_m", "m", Range{0.2, 100},
-                            "Longest edge of the convexes it is made of."),
-       key<&House::inner_wall>("inner_wall", "Whether a wall along z divides each storey."),
-       key<&House::wall>("wall", "What the walls are made of."),
-       key<&House::frame>("frame", "What columns, lintels, floors and roof are made of.")});
+       key<&House::block_m>("block_m", "m", Range{0.2, 100}, "Longest edge of its convexes."),
+       key<&House::inner_wall>("inner_wall", "true: a wall along z divides each storey."),
+       key<&House::wall>("wall", "Material of the walls."),
+       key<&House::frame>("frame", "Material of columns, lintels, floors and roof.")});
 }
 
 }  // namespace sunder::scenes

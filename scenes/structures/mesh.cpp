@@ -25,7 +25,7 @@ std::vector<Piece> build_mesh(const void* parameters, const Value& table,
 }  // namespace
 
 StructureType mesh_structure() {
-  return {"mesh", "A mesh, decomposed into convexes; on its own, rather a [[body]].",
+  return {"mesh", "A mesh, decomposed into convexes; for one mesh, a [[body]] is simpler.",
           mesh_keys().keys, []() -> std::shared_ptr<void> { return std::make_shared<MeshTable>(); },
           build_mesh};
 }

@@ -73,17 +73,20 @@ std::vector<Piece> build_reinforced(const Reinforced& box) {
 StructureType reinforced_structure() {
   const Range length{0.001, 1000};
   return make_structure<Reinforced, build_reinforced>(
-      "reinforced", "A box with bars in it, along its longest edge.",
+      "reinforced", "A box with reinforcing bars along its longest edge.",
       {key<&Reinforced::size_m>("size_m", "m", length, "Edge lengths."),
        key<&Reinforced::block_m>(
            "block_m", "m", Range{0.05, 1000},
-           "Most length of its blocks, which go through its section, and of a bar's."),
-       key<&Reinforced::bars>("bars", "", Range{0, 20},
-                              "Along each side of its section, from corner to corner."),
-       key<&Reinforced::bar_m>("bar_m", "m", Range{0.001, 10}, "Edge of a bar, which is square."),
-       key<&Reinforced::cover_m>("cover_m", "m", Range{0, 100}, "From a bar to the surface."),
-       key<&Reinforced::material>("material", "What it is made of."),
-       key<&Reinforced::steel>("steel", "What the bars are made of; yield_Pa makes them bend.")});
+           "Maximum length of a block, which has the whole section, and of a piece of a bar."),
+       key<&Reinforced::bars>(
+           "bars", "", Range{0, 20},
+           "Number of bars along each side of the section, from corner to corner."),
+       key<&Reinforced::bar_m>("bar_m", "m", Range{0.001, 10},
+                               "Edge of the square section of a bar."),
+       key<&Reinforced::cover_m>("cover_m", "m", Range{0, 100},
+                                 "Distance from a bar to the surface."),
+       key<&Reinforced::material>("material", "Material of the box."),
+       key<&Reinforced::steel>("steel", "Material of the bars, which bend if it has a yield_Pa.")});
 }
 
 }  // namespace sunder::scenes

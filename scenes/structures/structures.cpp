@@ -127,7 +127,8 @@ void check_parts(double parts) {
   constexpr double kMaxParts = 200000;  // as the highest limits.bodies
   if (parts <= kMaxParts) return;
   char text[100];
-  std::snprintf(text, sizeof text, "%.3g parts, more than %.0f; make them larger, or fewer", parts,
+  std::snprintf(text, sizeof text,
+                "%.3g parts; allowed: at most %.0f; make them larger, or use fewer", parts,
                 kMaxParts);
   throw InputError(text);
 }
@@ -169,49 +170,48 @@ StructureType box_structure() {
   return make_structure<BoxShape, build_box>(
       "box", "One box.",
       {key<&BoxShape::size_m>("size_m", "m", kLength, "Edge lengths."),
-       key<&BoxShape::block_m>("block_m", "m", Range{0.05, 1000},
-                               "Longest edge of the convexes it is made of."),
-       key<&BoxShape::material>("material", "What it is made of.")});
+       key<&BoxShape::block_m>("block_m", "m", Range{0.05, 1000}, "Longest edge of its convexes."),
+       key<&BoxShape::material>("material", "Material.")});
 }
 
 StructureType stack_structure() {
   return make_structure<Stack, build_stack>(
       "stack", "Boxes on top of each other, each a body.",
       {key<&Stack::size_m>("size_m", "m", kLength, "Edge lengths of one box."),
-       key<&Stack::count>("count", "", Range{1, 1000}, "How many boxes."),
-       key<&Stack::material>("material", "What they are made of.")});
+       key<&Stack::count>("count", "", Range{1, 1000}, "Number of boxes."),
+       key<&Stack::material>("material", "Material.")});
 }
 
 StructureType column_structure() {
   return make_structure<Column, build_column>(
-      "column", "An upright prism, shaded round.",
+      "column", "An upright prism with the shading of a cylinder.",
       {key<&Column::radius_m>("radius_m", "m", kLength, "Radius."),
        key<&Column::height_m>("height_m", "m", kLength, "Height."),
        key<&Column::sides>("sides", "", Range{3, 64}, "Sides of the prism."),
-       key<&Column::material>("material", "What it is made of.")});
+       key<&Column::material>("material", "Material.")});
 }
 
 StructureType pane_structure() {
   return make_structure<Pane, build_pane>(
-      "pane", "An upright pane facing z, in a frame whose foot the world holds.",
+      "pane", "An upright pane facing z, in a frame whose foot is anchored.",
       {key<&Pane::width_m>("width_m", "m", kLength, "Width of the glass."),
        key<&Pane::height_m>("height_m", "m", kLength, "Height of the glass."),
        key<&Pane::thickness_m>("thickness_m", "m", kLength, "Thickness of the glass."),
-       key<&Pane::frame_m>("frame_m", "m", Range{0, 10}, "Width of the frame; 0 for no frame."),
-       key<&Pane::material>("material", "What the pane is made of."),
-       key<&Pane::frame>("frame", "What the frame is made of.")});
+       key<&Pane::frame_m>("frame_m", "m", Range{0, 10}, "Width of the frame; 0: no frame."),
+       key<&Pane::material>("material", "Material of the pane."),
+       key<&Pane::frame>("frame", "Material of the frame.")});
 }
 
 StructureType wheel_structure() {
   return make_structure<Wheel, build_wheel>(
-      "wheel", "A disc on edge, facing z, of wedges about a hub.",
+      "wheel", "An upright disc facing z, made of wedges around a hub.",
       {key<&Wheel::radius_m>("radius_m", "m", kLength, "Radius."),
        key<&Wheel::hub_m>("hub_m", "m", kLength, "Radius of the hub."),
        key<&Wheel::width_m>("width_m", "m", kLength, "Width."),
-       key<&Wheel::rings>("rings", "", Range{1, 30}, "Rings of wedges."),
-       key<&Wheel::sectors>("sectors", "", Range{3, 64}, "Wedges of a ring."),
-       key<&Wheel::material>("material", "What it is made of."),
-       key<&Wheel::hub>("hub", "What the hub is made of.")});
+       key<&Wheel::rings>("rings", "", Range{1, 30}, "Number of rings of wedges."),
+       key<&Wheel::sectors>("sectors", "", Range{3, 64}, "Number of wedges in a ring."),
+       key<&Wheel::material>("material", "Material of the wedges."),
+       key<&Wheel::hub>("hub", "Material of the hub.")});
 }
 
 std::vector<Piece> read_structure(const Value& table, std::string_view name,

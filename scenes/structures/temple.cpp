@@ -139,18 +139,20 @@ std::vector<Piece> build_temple(const Temple& temple) {
 
 StructureType temple_structure() {
   return make_structure<Temple, build_temple>(
-      "temple", "A temple with columns of drums all round under a gabled roof, its front at +z.",
-      {key<&Temple::columns_x>("columns_x", "", Range{2, 40}, "Columns in front and back."),
-       key<&Temple::columns_z>("columns_z", "", Range{2, 40}, "Columns at the sides."),
-       key<&Temple::spacing_m>("spacing_m", "m", Range{1, 10}, "From column to column."),
-       key<&Temple::radius_m>("radius_m", "m", Range{0.1, 0.38}, "Of a column."),
-       key<&Temple::height_m>("height_m", "m", Range{1, 20}, "Of a column."),
-       key<&Temple::drums>("drums", "", Range{1, 20}, "Drums of a column."),
-       key<&Temple::steps>("steps", "", Range{1, 20}, "Steps all round."),
+      "temple",
+      "A temple with columns of drums on all sides under a gabled roof; the front is at +z.",
+      {key<&Temple::columns_x>("columns_x", "", Range{2, 40},
+                               "Number of columns in front and back."),
+       key<&Temple::columns_z>("columns_z", "", Range{2, 40}, "Number of columns at the sides."),
+       key<&Temple::spacing_m>("spacing_m", "m", Range{1, 10}, "Distance between columns."),
+       key<&Temple::radius_m>("radius_m", "m", Range{0.1, 0.38}, "Radius of a column."),
+       key<&Temple::height_m>("height_m", "m", Range{1, 20}, "Height of a column."),
+       key<&Temple::drums>("drums", "", Range{1, 20}, "Number of drums in a column."),
+       key<&Temple::steps>("steps", "", Range{1, 20}, "Number of steps on all sides."),
        key<&Temple::rise_m>("rise_m", "m", Range{0.1, 10}, "Height of the gable."),
        key<&Temple::block_m>("block_m", "m", Range{0.2, 100},
-                             "Longest edge of what steps and roof are made of."),
-       key<&Temple::stone>("stone", "What it is made of.")});
+                             "Longest edge of the convexes of steps and roof."),
+       key<&Temple::stone>("stone", "Material.")});
 }
 
 }  // namespace sunder::scenes

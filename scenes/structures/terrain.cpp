@@ -63,15 +63,15 @@ std::vector<Piece> build_terrain(const Terrain& terrain) {
 
 StructureType terrain_structure() {
   return make_structure<Terrain, build_terrain>(
-      "terrain", "Ground by heights on a square grid; let anchored be all.",
+      "terrain", "Ground by heights on a square grid; set anchored to all.",
       {key<&Terrain::heights_m>("heights_m", "m", Range{-1000, 1000},
-                                "Rows along z, in each the heights along x.")
+                                "Rows along z of heights along x.")
            .must(),
-       key<&Terrain::spacing_m>("spacing_m", "m", Range{0.01, 1000}, "From height to height."),
+       key<&Terrain::spacing_m>("spacing_m", "m", Range{0.01, 1000}, "Distance between heights."),
        key<&Terrain::floor_m>("floor_m", "m", Range{0.01, 1000},
-                              "Thickness under the lowest height: it stands on its foot, as all "
-                              "structures."),
-       key<&Terrain::material>("material", "What it is made of.")});
+                              "Thickness below the lowest height; position is that of the foot, as "
+                              "for all structures."),
+       key<&Terrain::material>("material", "Material.")});
 }
 
 }  // namespace sunder::scenes

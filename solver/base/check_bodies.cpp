@@ -22,7 +22,8 @@ bool finite(const Vec3& v) { return v.cwiseAbs().maxCoeff() < kMaxQuantity && v.
 void check_shape(const ShapeDesc& shape, const Subject& subject) {
   const auto coefficient = [](double x) { return x >= 0 && x < kMaxQuantity; };
   subject.require(coefficient(shape.friction), "has a friction that is negative or not finite");
-  subject.require(coefficient(shape.restitution), "has a restitution that is no number from 0 on");
+  subject.require(coefficient(shape.restitution),
+                  "has a restitution that is negative or not finite");
   subject.require(finite(shape.center_R), "has a centre that is not finite");
   switch (shape.kind) {
     case ShapeDesc::Kind::kSphere:
@@ -31,7 +32,7 @@ void check_shape(const ShapeDesc& shape, const Subject& subject) {
       break;
     case ShapeDesc::Kind::kHalfSpace:
       subject.require(finite(shape.normal_R) && shape.normal_R.norm() > 0,
-                      "is a half-space without a direction");
+                      "is a half-space whose normal is zero or not finite");
       break;
     case ShapeDesc::Kind::kHull:
       subject.require(shape.hull != nullptr && shape.hull->vertices.size() >= 4 &&
@@ -39,23 +40,27 @@ void check_shape(const ShapeDesc& shape, const Subject& subject) {
                       "is a hull without volume");
       subject.require(std::all_of(shape.hull->vertices.begin(), shape.hull->vertices.end(), finite),
                       "is a hull with a corner that is not finite");
-      subject.require((bounds(*shape.hull).extent().array() > 0).all(), "is a hull without size");
+      subject.require((bounds(*shape.hull).extent().array() > 0).all(),
+                      "is a hull without extent along an axis");
       subject.require(!shape.bends || shape.hull->faces.size() == 5,
-                      "is a facet, but no prism on a triangle");
+                      "is a facet, but not a triangular prism");
       break;
   }
 }
 
 void check_body(const BodyDesc& body) {
   const Subject subject{"body " + std::to_string(body.tag)};
-  subject.require(finite(body.X_WB.position) && finite(body.com_R), "is at a place not finite");
+  subject.require(finite(body.X_WB.position) && finite(body.com_R),
+                  "has a position or centre of mass that is not finite");
   const Eigen::Vector4d rotation = body.X_WB.rotation.coeffs();
-  subject.require(rotation.allFinite() && rotation.norm() > 0, "has a rotation that is none");
+  subject.require(rotation.allFinite() && rotation.norm() > 0,
+                  "has a rotation that is zero or not finite");
   if (!body.is_static) {
     subject.require(finite(body.velocity_W) && finite(body.angular_velocity_W),
                     "has a velocity that is not finite");
-    subject.require(body.mass_kg > 0 && body.mass_kg < kMaxQuantity,
-                    "has a mass that is not positive; make it static if it is not to move");
+    subject.require(
+        body.mass_kg > 0 && body.mass_kg < kMaxQuantity,
+        "has a mass that is not positive and finite; make the body static if it must not move");
     subject.require(body.inertia_B.allFinite() && body.inertia_B.trace() > 0,
                     "has an inertia that is not positive");
   }

@@ -16,8 +16,8 @@ ConvertedShapes PlanarBodies::convert_shapes(std::span<const ShapeDesc> descs, s
     } catch (const InputError& error) {
       throw InputError("shape " + std::to_string(shape.tag) + " of body " + std::to_string(tag) +
                        " " + error.what() +
-                       ": a planar scene takes prisms along z that reach through z = 0, spheres "
-                       "about a point of that plane, and half-spaces bounded along z");
+                       ": a planar scene allows prisms along z that cross z = 0, spheres centred "
+                       "on z = 0, and half-spaces whose normal has z = 0");
     }
   }
   return converted;

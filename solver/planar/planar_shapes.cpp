@@ -46,9 +46,9 @@ ShapeList make_polygons(const ConvexPolyhedron& hull, const Vec3& com_R, const P
                         const Plane2& plane) {
   const std::optional<ZPrism> prism =
       prism_along_z(hull, {X_WB.rotation * Vec3(-com_R), X_WB.rotation});
-  if (!prism) throw InputError("is no prism along z");
+  if (!prism) throw InputError("is not a prism along z");
   if (prism->low + X_WB.position.z() >= 0 || prism->high + X_WB.position.z() <= 0) {
-    throw InputError("does not reach through the plane z = 0");
+    throw InputError("does not cross the plane z = 0");
   }
   std::vector<b2Vec2> corners;
   for (const Vec2& corner : prism->outline) {
@@ -83,7 +83,7 @@ ShapeList make_edge(const ShapeDesc& shape, const Vec3& com_R, const Pose& X_WB,
                     const Plane2& plane) {
   const Vec3 normal = X_WB.rotation * shape.normal_R.normalized();
   if (std::abs(normal.z()) > kPlanarTolerance)
-    throw InputError("is a half-space that leans out of the plane");
+    throw InputError("is a half-space whose normal has a z component");
   const b2Vec2 out(static_cast<float>(normal.x()), static_cast<float>(normal.y()));
   const Vec3 center = X_WB.rotation * (shape.center_R - com_R);
   const b2Vec2 foot = plane.units(normal.dot(center) * normal);

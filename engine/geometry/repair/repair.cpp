@@ -34,8 +34,8 @@ class Repairs {
 
 std::size_t drop_degenerate_and_duplicate(RawMesh& mesh, Repairs& repairs) {
   const std::size_t degenerate = drop_degenerate(mesh), duplicate = drop_duplicates(mesh);
-  repairs.record("degenerate faces dropped", degenerate);
-  repairs.record("duplicate faces dropped", duplicate);
+  repairs.record("degenerate faces removed", degenerate);
+  repairs.record("duplicate faces removed", duplicate);
   return degenerate + duplicate;
 }
 
@@ -58,16 +58,17 @@ void clean(RawMesh& mesh, double size, Repairs& repairs) {
   if (joined > 0) drop_degenerate_and_duplicate(mesh, repairs);
   const std::vector<std::uint32_t> open = pair_edges(mesh).open_half_edges();
   const std::size_t inserted = join_t_junctions(mesh, open, kJoinTolerance * size);
-  repairs.record("vertices put into the edges they lie on", inserted);
+  repairs.record("T-junctions fixed (vertices inserted into edges)", inserted);
   if (inserted > 0) drop_degenerate_and_duplicate(mesh, repairs);
 }
 
 /// Tier 2: orients neighbours consistently and separates solids that touch.
 Surface orient_and_split(RawMesh mesh, Repairs& repairs) {
-  repairs.record("faces turned to agree with their neighbours", orient(mesh));
-  repairs.record("edges of more than two faces parted", edge_faults(mesh).non_manifold);
+  repairs.record("faces flipped to match their neighbours", orient(mesh));
+  repairs.record("non-manifold edges (of more than two faces) split",
+                 edge_faults(mesh).non_manifold);
   Surface surface = pair_edges(std::move(mesh));
-  repairs.record("vertices parted where surfaces only touch", split_vertices(surface), true);
+  repairs.record("non-manifold vertices split", split_vertices(surface), true);
   return surface;
 }
 
@@ -138,7 +139,7 @@ RawMesh enclose(const Surface& surface, std::size_t given_count, const RepairOpt
       return result;
     }
   }
-  repairs.record("faces that enclose nothing dropped", count);
+  repairs.record("open faces removed (too few to enclose a volume)", count);
   return result;
 }
 
@@ -150,8 +151,8 @@ void refuse_repairs(const Repairs& repairs, const std::string& name) {
         (needed.empty() ? "" : ", ") + repair.name + " (" + std::to_string(repair.count) + ")";
   }
   if (needed.empty()) return;
-  throw InputError(name + ": repairs are off, and the mesh needs them: " + needed +
-                   "; mend it, or allow repairs");
+  throw InputError(name + ": the mesh needs repairs, but repair is off: " + needed +
+                   "; fix the mesh, or set repair to auto");
 }
 
 }  // namespace
@@ -171,17 +172,17 @@ RepairedMesh repair_mesh(RawMesh mesh, const std::string& name, const RepairOpti
   surface = close(std::move(surface), repairs);
   mesh = enclose(surface, given_count, options, repairs);
   if (mesh.polygons.empty()) {
-    throw InputError(name + ": the mesh encloses no volume: give it thickness, or close it");
+    throw InputError(name + ": the mesh encloses no volume; close its holes, or give it thickness");
   }
 
   repairs.record("faces triangulated because they are not planar", triangulate_curved(mesh), true);
   surface = pair_edges(std::move(mesh));
   split_vertices(surface);
-  repairs.record("vertices put into edges that a surface passes twice",
+  repairs.record("vertices inserted into edges that a surface has twice",
                  divide_repeated_edges(surface));
   std::vector<std::uint32_t> solid;
   std::uint32_t count = 0;
-  repairs.record("shells turned outward", orient_outward(surface, solid, count));
+  repairs.record("inverted shells flipped outward", orient_outward(surface, solid, count));
   if (!options.repair) refuse_repairs(repairs, name);
   result.shells = polygon_meshes(surface, solid, count, options.crease_cosine);
   result.repairs = std::move(repairs.list);

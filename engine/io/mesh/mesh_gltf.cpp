@@ -26,7 +26,7 @@ Eigen::Matrix4d local_matrix(const json& node, const GltfData& data) {
   const auto r = data.numbers(node, "rotation", {0, 0, 0, 1});
   const auto s = data.numbers(node, "scale", {1, 1, 1});
   const Quat rotation(r[3], r[0], r[1], r[2]);
-  if (!(rotation.norm() > 0)) data.fail("a node's rotation is zero: export the mesh again");
+  if (!(rotation.norm() > 0)) data.fail("a node's rotation is zero; export the mesh again");
   matrix.topLeftCorner<3, 3>() =
       rotation.normalized().toRotationMatrix() * Vec3(s[0], s[1], s[2]).asDiagonal();
   matrix.topRightCorner<3, 1>() = Vec3(t[0], t[1], t[2]);
@@ -62,7 +62,8 @@ class GltfScene {
   void add_node(const json& node_index, const Eigen::Matrix4d& parent, std::size_t depth) {
     const json& nodes = data_.array(data_.document(), "nodes");
     if (depth > kMaxNodeDepth || ++nodes_visited_ > nodes.size()) {
-      data_.fail("nodes contain one another: export the mesh again");
+      data_.fail("nodes refer to each other in a cycle, or are nested deeper than " +
+                 std::to_string(kMaxNodeDepth) + " levels; export the mesh with fewer levels");
     }
     const json& node = nodes[data_.to_index(node_index, nodes.size())];
     const Eigen::Matrix4d matrix = parent * local_matrix(node, data_);

@@ -121,10 +121,12 @@ Component component_of(std::size_t type) {
 
 GltfData::GltfData(const MeshSource& source) : source_(source) {
   document_ = json::parse(json_chunk(), nullptr, false);
-  if (!document_.is_object()) fail("not a glTF file: its JSON cannot be parsed; export it again");
+  if (!document_.is_object())
+    fail("not a glTF file: the JSON cannot be parsed; export the mesh again");
   for (const json& extension : array(document_, "extensionsRequired")) {
     if (!extension.is_string() || changes_geometry(extension.get<std::string>())) {
-      fail("it needs the extension " + brief(extension) + ": export it without (no compression)");
+      fail("the file requires the extension " + brief(extension) +
+           ", which is not supported; export it without the extension or compression");
     }
   }
   load_buffers();
@@ -133,10 +135,11 @@ GltfData::GltfData(const MeshSource& source) : source_(source) {
 std::string_view GltfData::json_chunk() {
   const std::string_view bytes = source_.bytes;
   if (!bytes.starts_with("glTF")) return bytes;
-  if (bytes.size() < 20 || word_at(bytes, 4) != 2) fail("only version 2 of GLB is read");
+  if (bytes.size() < 20 || word_at(bytes, 4) != 2)
+    fail("only version 2 of GLB is supported; export the mesh as glTF 2.0");
   const std::size_t json_size = word_at(bytes, 12);
   if (word_at(bytes, 16) != 0x4e4f534a || bytes.size() - 20 < json_size) {
-    fail("the file is cut short or corrupt: export it again");
+    fail("the file is truncated or corrupt; export the mesh again");
   }
   const std::string_view rest = bytes.substr(20 + json_size);
   if (rest.size() >= 8 && word_at(rest, 4) == 0x004e4942) {
@@ -151,11 +154,12 @@ void GltfData::load_buffers() {
   std::size_t total = 0;
   for (const json& buffer : buffers) {
     if (buffer.is_object() && buffer.contains("uri")) {
-      if (!buffer["uri"].is_string()) fail("a buffer's uri is no text: export it again");
+      if (!buffer["uri"].is_string())
+        fail("a buffer's uri must be a string; export the mesh again");
       loaded_.push_back(load_uri(buffer["uri"].get<std::string>()));
       buffers_.push_back(loaded_.back());
       total += loaded_.back().size();
-      if (total > source_.limits.bytes) fail("its buffers are too large: decimate the mesh");
+      if (total > source_.limits.bytes) fail("the buffers are too large; simplify the mesh");
     } else {
       buffers_.push_back(binary_chunk_);
     }
@@ -165,21 +169,24 @@ void GltfData::load_buffers() {
 std::string GltfData::load_uri(const std::string& reference) const {
   if (reference.starts_with("data:")) {
     const std::size_t comma = reference.find(";base64,");
-    if (comma == std::string::npos) fail("a buffer is not in base 64: export it again");
+    if (comma == std::string::npos) fail("a buffer is not in base64; export the mesh again");
     return decode_base64(std::string_view(reference).substr(comma + 8));
   }
   const std::string uri = unescaped(reference);
-  if (uri.find('\0') != std::string::npos) fail("a buffer's uri is no text: export it again");
+  if (uri.find('\0') != std::string::npos)
+    fail("a buffer's uri must be a string; export the mesh again");
   // Security: a file from elsewhere must not make the program read other files.
   const std::filesystem::path path(uri);
   if (path.is_absolute() || uri.find("..") != std::string::npos || uri.find(':') < uri.size()) {
-    fail("its buffers must lie in the same folder: export it as .glb");
+    fail("buffers must be files in the folder of the mesh; export it as .glb");
   }
   const std::filesystem::path file = source_.file.parent_path() / path;
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) fail("its buffer " + uri + " is missing");
+  if (!std::filesystem::is_regular_file(file, error))
+    fail("the buffer " + uri +
+         " is missing; put it into the folder of the mesh, or export as .glb");
   if (std::filesystem::file_size(file, error) > source_.limits.bytes) {
-    fail("its buffers are too large: decimate the mesh");
+    fail("the buffers are too large; simplify the mesh");
   }
   const std::vector<std::byte> bytes = read_file(file);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -188,21 +195,23 @@ std::string GltfData::load_uri(const std::string& reference) const {
 const json& GltfData::array(const json& parent, const char* name) const {
   static const json kEmpty = json::array();
   if (!parent.is_object() || !parent.contains(name)) return kEmpty;
-  if (!parent[name].is_array()) fail(std::string(name) + " is no list: export it again");
+  if (!parent[name].is_array())
+    fail(std::string(name) + " must be an array; export the mesh again");
   return parent[name];
 }
 
 const json& GltfData::object(const json& parent, const char* name) const {
   static const json kEmpty = json::object();
   if (!parent.is_object() || !parent.contains(name)) return kEmpty;
-  if (!parent[name].is_object()) fail(std::string(name) + " is no object: export it again");
+  if (!parent[name].is_object())
+    fail(std::string(name) + " must be an object; export the mesh again");
   return parent[name];
 }
 
 std::size_t GltfData::to_index(const json& value, std::size_t count) const {
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count) {
     fail("the index " + brief(value) + " is not below " + std::to_string(count) +
-         ": export it again");
+         "; export the mesh again");
   }
   return value.get<std::size_t>();
 }
@@ -210,7 +219,7 @@ std::size_t GltfData::to_index(const json& value, std::size_t count) const {
 std::size_t GltfData::index(const json& parent, const char* name, std::size_t count,
                             std::size_t fallback) const {
   if (parent.is_object() && parent.contains(name)) return to_index(parent[name], count);
-  if (fallback >= count) fail(std::string(name) + " is missing: export it again");
+  if (fallback >= count) fail(std::string(name) + " is missing; export the mesh again");
   return fallback;
 }
 
@@ -223,7 +232,7 @@ std::vector<double> GltfData::numbers(const json& parent, const char* name,
   }
   std::vector<double> numbers;
   for (const json& value : list) {
-    if (!value.is_number()) fail(std::string(name) + " must be numbers: export it again");
+    if (!value.is_number()) fail(std::string(name) + " must be numbers; export the mesh again");
     numbers.push_back(value.get<double>());
   }
   return numbers;
@@ -231,7 +240,8 @@ std::vector<double> GltfData::numbers(const json& parent, const char* name,
 
 double GltfData::number(const json& parent, const char* name, double fallback) const {
   if (!parent.is_object() || !parent.contains(name)) return fallback;
-  if (!parent[name].is_number()) fail(std::string(name) + " must be a number: export it again");
+  if (!parent[name].is_number())
+    fail(std::string(name) + " must be a number; export the mesh again");
   return parent[name].get<double>();
 }
 
@@ -241,14 +251,15 @@ std::string GltfData::view(const json& thing) const {
   const std::string_view buffer = buffers_[index(view, "buffer", buffers_.size())];
   const std::size_t start = index(view, "byteOffset", kMaxBytes, 0);
   const std::size_t size = index(view, "byteLength", kMaxBytes);
-  if (start + size > buffer.size()) fail("a buffer view leaves its buffer: the file is cut short");
+  if (start + size > buffer.size())
+    fail("a buffer view exceeds its buffer; the file is truncated, export the mesh again");
   return std::string(buffer.substr(start, size));
 }
 
 std::vector<double> GltfData::items(const json& where, std::size_t count, std::size_t width,
                                     std::size_t type) const {
   const Component component = component_of(type);
-  if (component.size == 0) fail("an accessor is of an unexpected type: export it again");
+  if (component.size == 0) fail("an accessor has an unexpected type; export the mesh again");
   const json& views = array(document_, "bufferViews");
   const json& view = views[index(where, "bufferView", views.size())];
   const std::string_view buffer = buffers_[index(view, "buffer", buffers_.size())];
@@ -258,7 +269,7 @@ std::vector<double> GltfData::items(const json& where, std::size_t count, std::s
   const std::size_t stride = index(view, "byteStride", 253, component.size * width);
   if (view_start + view_size > buffer.size() || stride < component.size * width ||
       (count > 0 && start + stride * (count - 1) + component.size * width > view_size)) {
-    fail("an accessor leaves its buffer: the file is cut short or corrupt");
+    fail("an accessor exceeds its buffer; the file is truncated or corrupt, export the mesh again");
   }
   std::vector<double> values;
   values.reserve(count * width);
@@ -275,12 +286,13 @@ std::vector<double> GltfData::values(std::size_t accessor_index, std::size_t wid
   const json& accessor = array(document_, "accessors")[accessor_index];
   const char* const types[] = {"SCALAR", "VEC2", "VEC3"};
   if (!accessor.is_object() || !accessor.contains("type") || accessor["type"] != types[width - 1]) {
-    fail("an accessor is of an unexpected type: export it again");
+    fail("an accessor has an unexpected type; export the mesh again");
   }
   const std::size_t type = index(accessor, "componentType", kMaxBytes);
   const std::size_t count = index(accessor, "count", source_.limits.corners + 1);
   const bool zero = !accessor.contains("bufferView");
-  if (zero && count > source_.bytes.size()) fail("an accessor has more items than the file bytes");
+  if (zero && count > source_.bytes.size())
+    fail("an accessor has more elements than the file has bytes; export the mesh again");
   std::vector<double> values =
       zero ? std::vector<double>(count * width) : items(accessor, count, width, type);
   if (accessor.contains("sparse")) {  // some items replaced
@@ -292,7 +304,7 @@ std::vector<double> GltfData::values(std::size_t accessor_index, std::size_t wid
     const std::vector<double> by = items(object(sparse, "values"), changed, width, type);
     for (std::size_t i = 0; i < changed; ++i) {
       if (!(at[i] >= 0 && at[i] < static_cast<double>(count))) {
-        fail("a sparse accessor changes what it does not have: export it again");
+        fail("a sparse accessor has an index out of range; export the mesh again");
       }
       std::copy_n(
           by.begin() + static_cast<std::ptrdiff_t>(i * width), width,
@@ -321,7 +333,7 @@ std::vector<std::uint32_t> GltfData::indices(const json& primitive,
   const std::size_t accessor = index(primitive, "indices", array(document_, "accessors").size());
   for (const double v : values(accessor, 1)) {
     if (!(v >= 0 && v < static_cast<double>(vertex_count))) {
-      fail("a triangle has a corner at no vertex: export it again");
+      fail("a triangle refers to a vertex that does not exist; export the mesh again");
     }
     order.push_back(static_cast<std::uint32_t>(v));
   }

@@ -35,7 +35,7 @@ class ObjReader {
       if (list.highest_index <= list.count) continue;
       text_.fail_at(list.highest_line, "there is no " + std::string(list.name) + " " +
                                            std::to_string(list.highest_index) + ", the file has " +
-                                           std::to_string(list.count) + ": export the mesh again");
+                                           std::to_string(list.count) + "; export the mesh again");
     }
     set_corner_attributes();
     return std::move(mesh_);
@@ -97,7 +97,7 @@ class ObjReader {
         if (slash > 0) corner[k] = resolve(lists_[k], text_.to_integer(word.substr(0, slash)));
         word.remove_prefix(std::min(slash + 1, word.size()));
       }
-      if (corner[0] == 0) text_.fail("a corner names no vertex: export the mesh again");
+      if (corner[0] == 0) text_.fail("a corner of a face has no vertex; export the mesh again");
       polygon_.push_back(corner[0] - 1);
       corner_uvs_.push_back(corner[1]);
       corner_normals_.push_back(corner[2]);
@@ -112,7 +112,7 @@ class ObjReader {
     const auto count = static_cast<std::int64_t>(list.count);
     if (index == 0 || index < -count || index > std::int64_t{0x7fffffff}) {
       text_.fail("there is no " + std::string(list.name) + " " + std::to_string(index) + " among " +
-                 std::to_string(count) + ": export the mesh again");
+                 std::to_string(count) + "; export the mesh again");
     }
     const auto from_one = static_cast<std::size_t>(index > 0 ? index : count + index + 1);
     if (from_one > list.highest_index) {

@@ -28,7 +28,7 @@ OffLayout layout_of(std::string_view word, const MeshText& text) {
   layout.normal = take("N");
   layout.color = layout.color || take("C");  // in either order
   if (keyword != "OFF") {
-    text.fail("not an OFF file of points in space: it must begin with OFF, COFF, NOFF or STOFF");
+    text.fail("not an OFF file in three dimensions; it must begin with OFF, COFF, NOFF or STOFF");
   }
   return layout;
 }
@@ -38,7 +38,7 @@ std::size_t to_count(std::string_view word, const MeshText& text, const MeshSour
   // A vertex, face or corner takes at least two characters.
   if (count < 0 || static_cast<std::size_t>(count) > source.bytes.size() / 2) {
     text.fail("a count of " + std::to_string(count) +
-              " is more than the file can hold: it is cut short or corrupt");
+              " exceeds the size of the file; it is truncated or corrupt, export the mesh again");
   }
   return static_cast<std::size_t>(count);
 }
@@ -54,7 +54,8 @@ RawMesh read_off(const MeshSource& source) {
     layout = layout_of(first, text);
     first = text.word();
   }
-  if (first == "BINARY") text.fail("binary OFF is not read: save it as text, or as PLY");
+  if (first == "BINARY")
+    text.fail("binary OFF is not supported; export the mesh as text, or as PLY");
   if (first.empty()) {
     text.require_line("counts");
     first = text.word();
@@ -77,7 +78,7 @@ RawMesh read_off(const MeshSource& source) {
       const std::int64_t v = text.integer();
       if (v < 0 || static_cast<std::size_t>(v) >= vertex_count) {
         text.fail("there is no vertex " + std::to_string(v) + " among " +
-                  std::to_string(vertex_count) + ": export the mesh again");
+                  std::to_string(vertex_count) + "; export the mesh again");
       }
       polygon.push_back(static_cast<std::uint32_t>(v));
     }

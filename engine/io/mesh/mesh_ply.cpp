@@ -56,7 +56,7 @@ PlyType to_type(std::string_view name, const MeshText& text) {
   for (const auto& [known, type] : kTypes) {
     if (known == name) return type;
   }
-  text.fail("unknown type of a property: export the mesh again");
+  text.fail("unknown type of a property; export the mesh again");
 }
 
 PlyRole role_of(std::string_view element, std::string_view name, bool list) {
@@ -91,7 +91,7 @@ PlyFormat to_format(std::string_view name, const MeshText& text) {
   if (name == "ascii") return PlyFormat::kText;
   if (name == "binary_little_endian") return PlyFormat::kLittleEndian;
   if (name == "binary_big_endian") return PlyFormat::kBigEndian;
-  text.fail("the format is neither ascii nor binary_little_endian nor binary_big_endian");
+  text.fail("unknown format; expected ascii, binary_little_endian or binary_big_endian");
 }
 
 PlyProperty read_property(MeshText& text, const std::string& element) {
@@ -110,9 +110,10 @@ PlyProperty read_property(MeshText& text, const std::string& element) {
 PlyHeader read_header(MeshText& text) {
   PlyHeader header;
   if (!text.next_line() || text.word() != "ply")
-    text.fail("not a PLY file: it must begin with ply");
+    text.fail("not a PLY file; it must begin with ply");
   for (;;) {
-    if (!text.next_line()) text.fail("the header has no end_header: the file is cut short");
+    if (!text.next_line())
+      text.fail("the header has no end_header; the file is truncated, export the mesh again");
     const std::string_view keyword = text.word();
     if (keyword == "end_header") return header;
     if (keyword == "format") {
@@ -120,10 +121,11 @@ PlyHeader read_header(MeshText& text) {
     } else if (keyword == "element") {
       const std::string name(text.word());
       const std::int64_t count = text.integer();
-      if (count < 0) text.fail("a count may not be negative: export the mesh again");
+      if (count < 0) text.fail("a count is negative; export the mesh again");
       header.elements.push_back({name, static_cast<std::size_t>(count), {}});
     } else if (keyword == "property") {
-      if (header.elements.empty()) text.fail("a property of no element: export the mesh again");
+      if (header.elements.empty())
+        text.fail("a property comes before the first element; export the mesh again");
       header.elements.back().properties.push_back(read_property(text, header.elements.back().name));
     }
   }
@@ -186,7 +188,9 @@ class BinaryValues {
     return std::bit_cast<T>(value);
   }
   [[noreturn]] void cut_short() const {
-    source_.fail("the file ends before its last vertex or face: it is cut short or corrupt");
+    source_.fail(
+        "the file ends before its last vertex or face; it is truncated or corrupt, export the mesh "
+        "again");
   }
 
   const MeshSource& source_;
@@ -209,7 +213,7 @@ class PlyBody {
     for (const std::uint32_t v : mesh_.corners) {
       if (v >= n) {
         source_.fail("a face has a corner at vertex " + std::to_string(v) + " of " +
-                     std::to_string(n) + ", counted from 0: export the mesh again");
+                     std::to_string(n) + ", counted from 0; export the mesh again");
       }
     }
     spread_to_corners(mesh_, normals_, uvs_);
@@ -237,7 +241,7 @@ class PlyBody {
   void list(const PlyProperty& property) {
     const double count = values_.next(property.count_type);
     if (!(count >= 0 && count <= 0x7fffffff && count == std::floor(count))) {
-      values_.fail("a list has no whole number of items: export the mesh again");
+      values_.fail("the length of a list is not a whole number; export the mesh again");
     }
     const auto n = static_cast<std::size_t>(count);
     values_.need(n, property.type);
@@ -251,7 +255,7 @@ class PlyBody {
         continue;
       }
       if (!(v >= 0 && v <= 0x7fffffff)) {
-        values_.fail("a face has a corner at no vertex: export the mesh again");
+        values_.fail("a face refers to a vertex that does not exist; export the mesh again");
       }
       polygon_.push_back(static_cast<std::uint32_t>(v));
     }

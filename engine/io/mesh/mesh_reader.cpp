@@ -27,7 +27,7 @@ MeshFormat format_of(const std::filesystem::path& file) {
   const auto found = formats().find(extension);
   if (found == formats().end()) {
     throw InputError(file.string() +
-                     ": not a mesh that can be read: use .obj, .ply, .stl, .off, .gltf or .glb");
+                     ": unsupported mesh format; use .obj, .ply, .stl, .off, .gltf or .glb");
   }
   return found->second;
 }
@@ -60,13 +60,13 @@ void drop_if_zero(std::vector<Attribute>& attributes) {
 void check(RawMesh& mesh, const MeshSource& source) {
   source.check_size(mesh);
   if (mesh.polygons.empty()) {
-    source.fail("there are no faces in it: export polygons, not points or curves");
+    source.fail("the file has no faces; export polygons, not points or curves");
   }
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     // maxCoeff() could ignore NaN.
     if (!(mesh.vertices[v].array().abs() <= kMaxCoordinate_m).all()) {
       source.fail("vertex " + std::to_string(v + 1) +
-                  " is not within 1e9 m of the origin: export the mesh again, or scale it");
+                  " is not within 1e9 m of the origin; scale the mesh, or move it");
     }
   }
   for (std::size_t p = 0; p < mesh.polygons.size(); ++p) {
@@ -74,7 +74,7 @@ void check(RawMesh& mesh, const MeshSource& source) {
       if (v < mesh.vertices.size()) continue;
       source.fail("face " + std::to_string(p + 1) + " has a corner at vertex " +
                   std::to_string(v + 1) + " of " + std::to_string(mesh.vertices.size()) +
-                  ": export the mesh again");
+                  "; export the mesh again");
     }
   }
   for (Vec3f& n : mesh.corner_normals) {
@@ -94,7 +94,8 @@ RawMesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format,
   const MeshSource source{
       {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, limits};
   if (bytes.size() > limits.bytes) {
-    source.fail("the file is larger than " + std::to_string(limits.bytes) + " bytes: decimate it");
+    source.fail("the file is larger than " + std::to_string(limits.bytes) +
+                " bytes; simplify the mesh");
   }
   RawMesh mesh = read_as(format, source);
   check(mesh, source);
@@ -109,7 +110,7 @@ RawMesh read_mesh(const std::filesystem::path& file, const MeshLimits& limits) {
   }
   if (std::filesystem::file_size(file, error) > limits.bytes) {
     throw InputError(file.string() + ": the file is larger than " + std::to_string(limits.bytes) +
-                     " bytes: decimate it");
+                     " bytes; simplify the mesh");
   }
   return parse_mesh(read_file(file), format, file, limits);
 }

@@ -66,8 +66,9 @@ RawMesh read_text(const MeshSource& source) {
       polygon.clear();
     }
   }
-  if (!any_keyword) source.fail("not an STL file, or cut short: export the mesh again");
-  if (!polygon.empty()) text.fail("the file ends within a facet: it is cut short");
+  if (!any_keyword) source.fail("not an STL file, or truncated; export the mesh again");
+  if (!polygon.empty())
+    text.fail("the file ends within a facet; it is truncated, export the mesh again");
   return mesh;
 }
 

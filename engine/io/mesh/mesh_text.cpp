@@ -22,7 +22,7 @@ std::string quoted(std::string_view word) {
 void MeshSource::check_size(const RawMesh& mesh) const {
   if (mesh.vertices.size() > limits.vertices || mesh.corners.size() > limits.corners) {
     fail("the mesh is larger than " + std::to_string(limits.vertices) + " vertices or " +
-         std::to_string(limits.corners) + " corners: decimate it");
+         std::to_string(limits.corners) + " corners; simplify the mesh");
   }
 }
 
@@ -76,7 +76,7 @@ void MeshText::require_line(const std::string& what) {
       return;
     }
   }
-  fail("the file ends before its " + what + ": it is cut short, copy or export it again");
+  fail("the file ends before its " + what + "; it is truncated, copy or export it again");
 }
 
 std::string_view MeshText::word() {
@@ -114,8 +114,8 @@ double MeshText::to_number(std::string_view word) const {
     return value;  // out of range: from_chars() leaves `value` 0
   }
   if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
-    fail(word.empty() ? "a number is missing: export the mesh again"
-                      : quoted(word) + " is not a number: export the mesh again");
+    fail(word.empty() ? "a number is missing; export the mesh again"
+                      : quoted(word) + " is not a number; export the mesh again");
   }
   return value;
 }
@@ -134,8 +134,8 @@ std::int64_t MeshText::to_integer(std::string_view word) const {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) {
-    fail(word.empty() ? "a whole number is missing: export the mesh again"
-                      : quoted(word) + " is not a whole number: export the mesh again");
+    fail(word.empty() ? "a whole number is missing; export the mesh again"
+                      : quoted(word) + " is not a whole number; export the mesh again");
   }
   return value;
 }

@@ -98,8 +98,9 @@ void check_replaceable(const fs::path& folder) {
     }
   }
   if (!is_export) {
-    throw InputError(folder.string() +
-                     ": holds other files than an earlier export; name another folder");
+    throw InputError(
+        folder.string() +
+        ": the folder has files that are not of an earlier export; choose another folder");
   }
 }
 

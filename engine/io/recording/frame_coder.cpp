@@ -285,7 +285,7 @@ RecordedFrame FrameCoder::read(const std::vector<std::byte>& bytes, const std::s
   read_instances(in, file, before, take);
   frame.debris = read_particles(in, file, debris_, decode_debris);
   frame.dust = read_particles(in, file, dust_, decode_dust);
-  if (!in.at_end()) throw InputError(file + ": corrupt: bytes are left over");
+  if (!in.at_end()) throw InputError(file + ": corrupt: unexpected bytes at the end");
   return take;
 }
 
@@ -298,15 +298,15 @@ void FrameCoder::read_instances(ByteReader& in, const std::string& file,
   const std::uint32_t changed = in.take_count(8);
   for (std::uint32_t i = 0; i < changed; ++i) {
     const auto b = in.take<std::uint32_t>();
-    if (b >= meshes.size()) throw InputError(file + ": corrupt: meshes of no body");
+    if (b >= meshes.size()) throw InputError(file + ": corrupt: meshes have an invalid body");
     meshes[b] = in.take_list<std::uint32_t>();
     for (const std::uint32_t mesh : meshes[b]) {
-      if (mesh >= take.meshes) throw InputError(file + ": corrupt: a body shows no mesh");
+      if (mesh >= take.meshes) throw InputError(file + ": corrupt: a body has an invalid mesh");
     }
   }
   for (std::size_t b = 0; b < meshes.size(); ++b) {
     if (take.frame.instances.size() + meshes[b].size() > kMaxInstances) {
-      throw InputError(file + ": corrupt: more to draw than a frame can hold");
+      throw InputError(file + ": corrupt: a frame has too many instances");
     }
     for (const std::uint32_t mesh : meshes[b]) {
       take.frame.instances.push_back({MeshIndex(mesh), static_cast<std::uint32_t>(b)});

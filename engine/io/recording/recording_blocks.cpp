@@ -87,7 +87,7 @@ std::vector<std::byte> Unpacker::unpack(const std::vector<std::byte>& packed,
     if (ZSTD_isError(ZSTD_decompressStream(stream_.get(), &out, &in)) || out.pos == before) break;
   }
   if (in.pos != in.size || out.pos != out.size) {
-    throw InputError(file + ": corrupt: cannot be unpacked");
+    throw InputError(file + ": corrupt: cannot be decompressed");
   }
   return content;
 }

@@ -70,15 +70,16 @@ RecordingReader::Playback::Playback(const std::filesystem::path& path) : file_(p
   const char version = magic[kRecordingMagicLength];
   if (!is_take || version < kOldestVersion || version > kRecordingMagic[kRecordingMagicLength]) {
     const bool other = is_take;
-    throw InputError(file_ +
-                     (other ? ": a take of another version of sunder (" + std::string(1, version) +
-                                  ", this one reads up to " +
-                                  kRecordingMagic[kRecordingMagicLength] + "); record it again"
-                            : std::string(": not a take; sunder simulate --take makes one")));
+    throw InputError(
+        file_ +
+        (other ? ": a recording by another version of sunder (version " + std::string(1, version) +
+                     ", this program reads up to " + kRecordingMagic[kRecordingMagicLength] +
+                     "); record it again"
+               : std::string(": not a recording; make one by `sunder simulate --take FILE`")));
   }
   if (!read_index()) scan();
   if (!materials_block_ || frame_blocks_.empty()) {
-    throw InputError(file_ + ": " + (damage_.empty() ? "the take is cut short" : damage_) +
+    throw InputError(file_ + ": " + (damage_.empty() ? "the recording is truncated" : damage_) +
                      "; no frame can be read");
   }
   const auto content = content_at(*materials_block_, other_unpacker_);
@@ -94,7 +95,7 @@ RecordingReader::Playback::Playback(const std::filesystem::path& path) : file_(p
 /// Registers a block. Blocks are in the order of the run, each with its frame or mesh index.
 void RecordingReader::Playback::register_block(const BlockPlace& place) {
   const auto fail_order = [&] {
-    throw InputError(file_ + ": corrupt: its blocks are out of order");
+    throw InputError(file_ + ": corrupt: the blocks are out of order");
   };
   switch (place.kind) {
     case BlockKind::kMaterials:
@@ -154,9 +155,10 @@ void RecordingReader::Playback::scan() {
     const std::optional<Block> block = block_at(at);
     if (!block) {
       const std::string frame = frame_blocks_.empty()
-                                    ? "before its first frame"
-                                    : "behind frame " + std::to_string(frame_blocks_.size() - 1);
-      damage_ = "the take is cut short or corrupt " + frame + " (byte " + std::to_string(at) + ")";
+                                    ? "before the first frame"
+                                    : "after frame " + std::to_string(frame_blocks_.size() - 1);
+      damage_ =
+          "the recording is truncated or corrupt " + frame + " (byte " + std::to_string(at) + ")";
       return;
     }
     register_block({at, block->header.kind, block->header.first});
@@ -210,8 +212,8 @@ FramePtr RecordingReader::Playback::next() {
   } catch (const InputError& error) {
     damage_ = error.what();
     if (damage_.starts_with(file_ + ": ")) damage_.erase(0, file_.size() + 2);
-    damage_ += at == 0 ? "; no frame of it can be played"
-                       : "; it can be played up to frame " + std::to_string(at - 1);
+    damage_ += at == 0 ? "; no frame can be read"
+                       : "; frames can be read up to frame " + std::to_string(at - 1);
     frame_blocks_.resize(at);
     return nullptr;
   }
@@ -229,11 +231,11 @@ FramePtr RecordingReader::Playback::decode(std::uint32_t frame) {
     return std::ranges::all_of(particles, [&](const auto& p) { return fits(p.material); });
   };
   if (!all_fit(take.frame.debris) || !all_fit(take.frame.dust)) {
-    throw InputError(file_ + ": corrupt: a particle has no material");
+    throw InputError(file_ + ": corrupt: a particle has an invalid material");
   }
   for (const BreakEvent& event : take.frame.breaks) {
     if (!event.material.none() && !fits(event.material))
-      throw InputError(file_ + ": corrupt: a break has no material");
+      throw InputError(file_ + ": corrupt: a break has an invalid material");
   }
   auto result = std::make_shared<Frame>(std::move(take.frame));
   result->materials = materials_;

@@ -152,7 +152,8 @@ NumberTable TableCoder::read(ByteReader& in, const std::string& file,
     if (moved != 1) {
       const std::int32_t distance = moved > 1 ? zigzag_decode(moved - 1) : 0;
       before[r] = expected + static_cast<std::uint32_t>(distance);
-      if (before[r] >= last_.rows()) throw InputError(file + ": corrupt: a row was nowhere before");
+      if (before[r] >= last_.rows())
+        throw InputError(file + ": corrupt: a row refers to an invalid previous row");
       expected = before[r] + 1;
     }
     const auto row = std::span(table.numbers).subspan(r * columns, columns);

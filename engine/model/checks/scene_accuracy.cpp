@@ -159,10 +159,11 @@ std::string long_step_warning(const Scene& scene) {
   const double dt_s = scene.accuracy.dt_s;
   if (dt_s < 1.001 * kFrame_s) return {};
   char text[200];
-  std::snprintf(text, sizeof text,
-                "a step of %.4g s is longer than a frame of 1/60 s and than that of any preset: "
-                "stacks may fall, and rubble overlap; set accuracy.dt_s to 1/60 or less",
-                dt_s);
+  std::snprintf(
+      text, sizeof text,
+      "dt_s = %.4g s is longer than a frame (1/60 s) and than the step of any preset: stacks may "
+      "collapse, and bodies penetrate each other; set accuracy.dt_s to 1/60 or less",
+      dt_s);
   return text;
 }
 
@@ -179,9 +180,9 @@ std::string far_warning(const Scene& scene) {
   if (!name) return {};
   char text[300];
   std::snprintf(text, sizeof text,
-                "'%s' is %.4g m from the origin: bodies move as anywhere, but debris and dust are "
-                "placed to no better than %.1g m, and takes hold debris up to %.4g m only; set "
-                "every position nearer to the origin",
+                "'%s' is %.4g m from the origin: bodies are not affected, but positions of debris "
+                "and dust have a precision of only %.1g m, and recordings store debris only up to "
+                "%.4g m; move the scene closer to the origin",
                 name->c_str(), farthest_m, farthest_m * kFloatEpsilon, kMaxDebrisDistance_m);
   return text;
 }
@@ -204,12 +205,12 @@ std::string crush_warning(const Scene& scene, int max_substeps) {
       max_substeps);
   char text[400];
   std::snprintf(text, sizeof text,
-                "'%s' weighs %.4g times what '%s' does, which would give way if it came to lie "
-                "under it: %d substeps of dt 1/%.4g s would bear it, there are %d of 1/%.4g s; set "
+                "'%s' weighs %.4g times as much as '%s', and would sink into it if it came to rest "
+                "on it: this needs %d substeps of dt 1/%.4g s, the scene has %d of 1/%.4g s; raise "
                 "accuracy.substeps%s, or make the lighter one heavier",
                 heavy.name.c_str(), ratio, light.name.c_str(), sufficient.substeps,
                 1 / sufficient.dt_s, accuracy.substeps, 1 / accuracy.dt_s,
-                sufficient.dt_s < accuracy.dt_s ? " and accuracy.dt_s" : "");
+                sufficient.dt_s < accuracy.dt_s ? " and reduce accuracy.dt_s" : "");
   return text;
 }
 
@@ -221,20 +222,20 @@ std::string accuracy_warning(const Scene& scene, int max_substeps) {
   if (substeps_against_buckling(stacks.weakest, g, accuracy.dt_s) > accuracy.substeps) {
     const Accuracy sufficient = accuracy_against_buckling(scene, max_substeps);
     std::snprintf(text, sizeof text,
-                  "%u bodies on top of each other, the lowest under %.4g times its own weight, may "
-                  "sink in and buckle: %d substeps of dt 1/%.4g s would hold them, there are %d "
-                  "of 1/%.4g s; set accuracy.substeps%s, or a finer preset",
+                  "a stack of %u bodies, the lowest under %.4g times its own weight, may sink in "
+                  "and buckle: it needs %d substeps of dt 1/%.4g s, the scene has %d of 1/%.4g s; "
+                  "raise accuracy.substeps%s, or use a more accurate preset",
                   stacks.weakest.bodies, stacks.weakest.load, sufficient.substeps,
                   1 / sufficient.dt_s, accuracy.substeps, 1 / accuracy.dt_s,
-                  sufficient.dt_s < accuracy.dt_s ? " and accuracy.dt_s" : "");
+                  sufficient.dt_s < accuracy.dt_s ? " and reduce accuracy.dt_s" : "");
     return text;
   }
   const double sink_m =
       expected_penetration_m(stacks.deepest, g, accuracy.dt_s / accuracy.substeps);
   if (accuracy.error_target_m > 0 && sink_m > accuracy.error_target_m) {
     std::snprintf(text, sizeof text,
-                  "error_target_m = %g is out of reach with dt 1/%.4g s and %d substeps, the most "
-                  "there may be: about %.2g m are to be expected; lessen accuracy.dt_s",
+                  "error_target_m = %g cannot be reached with dt 1/%.4g s and %d substeps, the "
+                  "maximum: expect a penetration of about %.2g m; reduce accuracy.dt_s",
                   accuracy.error_target_m, 1 / accuracy.dt_s, accuracy.substeps, sink_m);
     return text;
   }

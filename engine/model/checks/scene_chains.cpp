@@ -163,13 +163,13 @@ std::vector<std::string> chain_warnings(const Scene& scene, int max_substeps) {
     if (link.substeps <= scene.accuracy.substeps) continue;
     const Accuracy hold = divide_step(scene.accuracy, link.substeps, max_substeps);
     char text[400];
-    std::snprintf(
-        text, sizeof text,
-        "the chain of '%s', which bears %.4g times its own weight, may tear: %d substeps "
-        "of dt 1/%.4g s would hold it, there are %d of 1/%.4g s; set accuracy.substeps%s, "
-        "or make the links heavier",
-        link.name.c_str(), link.load, hold.substeps, 1 / hold.dt_s, scene.accuracy.substeps,
-        1 / scene.accuracy.dt_s, hold.dt_s < scene.accuracy.dt_s ? " and accuracy.dt_s" : "");
+    std::snprintf(text, sizeof text,
+                  "the chain of '%s', which carries %.4g times its own weight, may tear: it needs "
+                  "%d substeps of dt 1/%.4g s, the scene has %d of 1/%.4g s; raise "
+                  "accuracy.substeps%s, or make the links heavier",
+                  link.name.c_str(), link.load, hold.substeps, 1 / hold.dt_s,
+                  scene.accuracy.substeps, 1 / scene.accuracy.dt_s,
+                  hold.dt_s < scene.accuracy.dt_s ? " and reduce accuracy.dt_s" : "");
     warnings.emplace_back(text);
   }
   return warnings;

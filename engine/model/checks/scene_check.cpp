@@ -133,42 +133,43 @@ class SceneCheck {
 
   void need_material(MaterialIndex index, const std::string& name) const {
     if (index.value < scene_.materials.size()) return;
-    refuse(name + (index.none() ? " has no material"
-                                : " is of material " + std::to_string(index.value)),
-           scene_.materials.empty()
-               ? "a material in scene.materials, which is empty"
-               : "one of the " + std::to_string(scene_.materials.size()) + " in scene.materials");
+    refuse(
+        name + (index.none() ? " has no material" : " has material " + std::to_string(index.value)),
+        scene_.materials.empty()
+            ? "a material in scene.materials, which is empty"
+            : "one of the " + std::to_string(scene_.materials.size()) + " in scene.materials");
   }
 
   void check_solid(const Solid& solid, const std::string& name) const {
     const Compound& compound = solid.compound;
     const std::size_t count = compound.convexes.size();
-    if (count == 0) refuse(name + ".compound has no convexes", "one or more");
+    if (count == 0) refuse(name + ".compound has no convexes", "at least one");
     if (compound.anchored.size() != count)
       refuse(
           name + ".compound.anchored has " + std::to_string(compound.anchored.size()) + " elements",
-          "one a convex, " + std::to_string(count));
+          "one for each convex, " + std::to_string(count));
     for (const ConvexPtr& convex : compound.convexes) {
-      if (!convex) refuse(name + ".compound has a null convex", "convexes");
+      if (!convex) refuse(name + ".compound has a null convex", "no null pointers");
       if (!(convex->solid.volume_m3 > 0))
-        refuse(name + ".compound has a convex without volume", "solids");
+        refuse(name + ".compound has a convex without volume", "a volume above 0");
       need_material(convex->material, name);
     }
     for (const Bond& bond : compound.bonds) {
       if (bond.a >= count || bond.b >= count)
-        refuse(name + ".compound has a bond of convex " + std::to_string(std::max(bond.a, bond.b)),
-               "one of " + std::to_string(count));
+        refuse(
+            name + ".compound has a bond with convex " + std::to_string(std::max(bond.a, bond.b)),
+            "an index below " + std::to_string(count));
       if (bond.face_a >= compound.convexes[bond.a]->polyhedron.faces.size() ||
           bond.face_b >= compound.convexes[bond.b]->polyhedron.faces.size())
-        refuse(name + ".compound has a bond of a face that is not there",
+        refuse(name + ".compound has a bond with a face that does not exist",
                "faces of the convexes; make_compound() finds bonds");
     }
     for (const Ghost& ghost : compound.ghosts) {
-      if (!ghost.convex) refuse(name + ".compound has a ghost without a convex", "one");
+      if (!ghost.convex) refuse(name + ".compound has a ghost without a convex", "a convex");
       for (const std::uint32_t of : ghost.of) {
         if (of >= count)
-          refuse(name + ".compound has a ghost of convex " + std::to_string(of),
-                 "one of " + std::to_string(count));
+          refuse(name + ".compound has a ghost with convex " + std::to_string(of),
+                 "an index below " + std::to_string(count));
       }
     }
     need_finite(solid.X_WR.position, name + ".X_WR.position");
@@ -192,8 +193,8 @@ class SceneCheck {
     for (const Vec3& vertex : mesh.vertices_W) need_finite(vertex, name + ".vertices_W");
     for (const auto& triangle : mesh.triangles) {
       if (std::ranges::max(triangle) >= mesh.vertices_W.size())
-        refuse(name + " has a triangle of vertex " + std::to_string(std::ranges::max(triangle)),
-               "one of " + std::to_string(mesh.vertices_W.size()));
+        refuse(name + " has a triangle with vertex " + std::to_string(std::ranges::max(triangle)),
+               "an index below " + std::to_string(mesh.vertices_W.size()));
     }
   }
 
@@ -202,30 +203,31 @@ class SceneCheck {
   void check_joint(std::size_t i) const {
     const Joint& joint = scene_.joints[i];
     const std::string name = item("joints", i);
-    if (!joint.a && !joint.b) refuse(name + " holds no body", "a, b or both");
+    if (!joint.a && !joint.b) refuse(name + " has no body", "a, b or both");
     for (const std::optional<std::uint32_t>& end : {joint.a, joint.b}) {
       if (end && *end >= bodies())
-        refuse(name + " holds body " + std::to_string(*end),
+        refuse(name + " has body " + std::to_string(*end),
                "one of the " + std::to_string(bodies()) + " solids and balls");
     }
-    if (joint.a == joint.b) refuse(name + " joins a body to itself", "two");
+    if (joint.a == joint.b) refuse(name + " joins a body to itself", "two different bodies");
     need_finite(joint.at_W, name + ".at_W");
     need_finite(joint.to_W, name + ".to_W");
     need_finite(joint.axis_W, name + ".axis_W");
     need_number(joint.breaking_N, 0, kInfinity, name + ".breaking_N");
     need_number(joint.breaking_Nm, 0, kInfinity, name + ".breaking_Nm");
     if (joint.kind == JointKind::kHinge && !(joint.axis_W.norm() > 0))
-      refuse(name + ".axis_W is 0", "a direction");
+      refuse(name + ".axis_W is zero", "a vector with a length");
     if (joint.kind == JointKind::kPlastic)
-      refuse(name + ".kind is kPlastic", "a kind of joints of scenes");
+      refuse(name + ".kind is kPlastic, which scenes cannot use", "another kind of joint");
   }
 
   void need_roots(const std::vector<std::uint32_t>& roots, std::size_t count,
                   const std::string& name) const {
-    if (!std::ranges::is_sorted(roots)) refuse(name + ".roots do not ascend", "ascending indices");
+    if (!std::ranges::is_sorted(roots))
+      refuse(name + ".roots are not in ascending order", "ascending indices");
     if (!roots.empty() && roots.back() >= count)
-      refuse(name + " is of body " + std::to_string(roots.back()),
-             "one of the " + std::to_string(count) + " that it may be of");
+      refuse(name + ".roots has index " + std::to_string(roots.back()),
+             "one of the " + std::to_string(count) + " bodies");
   }
 
   /// Returns true if the box contains the centroid of an anchored convex of a solid.
@@ -246,7 +248,7 @@ class SceneCheck {
     for (std::size_t i = 0; i < acts.size(); ++i) {
       need_number(acts[i].time_s, -kMaxTime_s, kMaxTime_s, item(list, i) + ".time_s");
       if (i > 0 && acts[i].time_s < acts[i - 1].time_s)
-        refuse(item(list, i) + " comes before " + item(list, i - 1), "an order of time");
+        refuse(item(list, i) + " comes before " + item(list, i - 1), "events in order of time");
     }
   }
 
@@ -268,8 +270,9 @@ class SceneCheck {
       const Removal& removal = scene_.removals[i];
       need_roots(removal.roots, bodies(), item("removals", i));
       if (removal.roots.empty() && !has_anchors(removal.anchors_W))
-        refuse(item("removals", i) + " takes nothing: it has no roots, and no anchor is in its box",
-               "one or the other");
+        refuse(item("removals", i) +
+                   " removes nothing: roots is empty, and no anchored convex is in anchors_W",
+               "roots, or a box with anchored convexes");
     }
     for (std::size_t i = 0; i < scene_.drives.size(); ++i)
       check_drive(scene_.drives[i], item("drives", i));
@@ -288,7 +291,7 @@ class SceneCheck {
     need_roots(drive.roots, bodies(), name);
     need_number(drive.until_s, drive.time_s, kInfinity, name + ".until_s");
     if (!drive.velocity_W && !drive.angular_velocity_W)
-      refuse(name + " holds no velocity", "velocity_W, angular_velocity_W or both");
+      refuse(name + " has no velocity", "velocity_W, angular_velocity_W or both");
     need_finite(drive.velocity_W.value_or(Vec3::Zero()), name + ".velocity_W");
     need_finite(drive.angular_velocity_W.value_or(Vec3::Zero()), name + ".angular_velocity_W");
     need_number(drive.force_N, 0, kInfinity, name + ".force_N");
@@ -297,7 +300,7 @@ class SceneCheck {
 
   void check_move(const Move& move, const std::string& name) const {
     for (const std::uint32_t root : move.roots) need_roots({root}, scene_.solids.size(), name);
-    if (std::isnan(move.release_s)) refuse(name + ".release_s is no number", "a time");
+    if (std::isnan(move.release_s)) refuse(name + ".release_s is not a number", "a time");
     need_finite(move.pivot_W.value_or(Vec3::Zero()), name + ".pivot_W");
     double last_s = 0;
     for (const PathKey& key : move.path.keys) {

@@ -363,14 +363,13 @@ std::string post_warning(const Scene& scene) {
                      : worst->length_factor == 1 ? "free to sway with the posts beside it"
                                                  : "held at its head";
   char text[500];
-  std::snprintf(
-      text, sizeof text,
-      "the post '%s' bears %.3g kg and would buckle: Euler's critical load is %.3g kg for "
-      "a height of %.3g m, clamped at the foot and %s (K = %.1f); bodies are rigid, so it "
-      "stands all the same; make it thicker or shorter, raise youngs_Pa, or lessen its "
-      "load%s",
-      worst->name.c_str(), worst->load_kg, worst->critical_kg, worst->height_m, head,
-      worst->length_factor, others.c_str());
+  std::snprintf(text, sizeof text,
+                "the post '%s' carries %.3g kg and would buckle: Euler's critical load is %.3g kg "
+                "for a height of %.3g m, clamped at the foot and %s (K = %.1f); bodies are rigid, "
+                "so the simulation does not show it; make the post thicker or shorter, raise "
+                "youngs_Pa, or reduce its load%s",
+                worst->name.c_str(), worst->load_kg, worst->critical_kg, worst->height_m, head,
+                worst->length_factor, others.c_str());
   return text;
 }
 
