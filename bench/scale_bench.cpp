@@ -180,7 +180,7 @@ double clock_GHz() {
 }
 
 void machine(int threads) {
-  std::printf("\nclock: %.2f GHz by additions that wait for each other\n", clock_GHz());
+  std::printf("\nclock: %.2f GHz by additions each of which needs the one before\n", clock_GHz());
   for (int t = 1; t <= threads; t *= 2)
     std::printf("triad: %.1f GB/s by %d threads\n", triad_GB_s(t), t);
   using namespace solver;

@@ -81,14 +81,15 @@ std::string placement_warning(const Scene& scene) {
   if (!scene.ground.meshes.empty()) return "";
   std::size_t under = 0;
   std::string first;
-  for (const Solid& solid : scene.solids) {
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    const Solid& solid = scene.solids[i];
     double top_m = -std::numeric_limits<double>::infinity();
     for (const ConvexPtr& convex : solid.compound.convexes) {
       for (const Vec3& vertex : convex->polyhedron.vertices)
         top_m = std::max(top_m, (solid.X_WR * vertex).y());
     }
     if (top_m >= scene.ground.height_m || solid.compound.is_anchored()) continue;
-    if (++under == 1) first = solid.name;
+    if (++under == 1) first = name_or_index(solid.name, "solid", i);
   }
   if (under == 0) return "";
   return "'" + first + "'" + (under > 1 ? " and " + std::to_string(under - 1) + " more" : "") +

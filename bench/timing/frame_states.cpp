@@ -115,7 +115,7 @@ Verdict check_digits(const GuardedRun& run, const std::string& preset, const std
   Verdict verdict{run.name, "simulation at " + preset, Outcome::kPassed, {}};
   if (const std::optional<int> frame = first_difference(known, states)) {
     verdict.outcome = Outcome::kFailed;
-    verdict.text = "the state differs from frame " + std::to_string(*frame) + " on";
+    verdict.text = "differs from frame " + std::to_string(*frame) + " on";
   } else {
     verdict.text = std::to_string(known.size() / kDigits) + " frames are equal to the stored ones";
   }

@@ -168,6 +168,11 @@ struct Scene {
   std::vector<Move> moves;  ///< Unsorted.
 };
 
+/// Returns `name` or, if it is empty, "kind.index", as in "shot.0".
+inline std::string name_or_index(const std::string& name, const char* kind, std::size_t index) {
+  return name.empty() ? kind + ("." + std::to_string(index)) : name;
+}
+
 /// Returns the names of solids, balls and shots, in this order; a chain has the name of its ball.
 /// Shots without a name are shot.0, shot.1 and so on, by their index among all shots.
 inline std::vector<std::string> object_names(const Scene& scene) {
@@ -175,8 +180,7 @@ inline std::vector<std::string> object_names(const Scene& scene) {
   for (const Solid& solid : scene.solids) names.push_back(solid.name);
   for (const Ball& ball : scene.balls) names.push_back(ball.name);
   for (std::size_t i = 0; i < scene.shots.size(); ++i) {
-    const std::string& name = scene.shots[i].ball.name;
-    names.push_back(name.empty() ? "shot." + std::to_string(i) : name);
+    names.push_back(name_or_index(scene.shots[i].ball.name, "shot", i));
   }
   return names;
 }

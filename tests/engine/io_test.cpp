@@ -226,7 +226,7 @@ TEST(Statistics, WarnsOfWhatWasLeftWholeAndOfLimits) {
   EXPECT_EQ(json["fractures"]["failed"], 4);
   EXPECT_EQ(json["fractures"]["failed_volume_m3"], 1.0);
   ASSERT_EQ(json["warnings"].size(), 2u);
-  EXPECT_NE(json["warnings"][0].get<std::string>().find("4 convexes were left whole, 50 %"),
+  EXPECT_NE(json["warnings"][0].get<std::string>().find("4 convexes were not cut, 50 %"),
             std::string::npos);
   EXPECT_NE(json["warnings"][1].get<std::string>().find("6 times"), std::string::npos);
 }

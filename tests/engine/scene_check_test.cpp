@@ -38,7 +38,7 @@ TEST(SceneCheck, AcceptsWhatCanBeRun) { EXPECT_NO_THROW(check_scene(good())); }
 
 TEST(SceneCheck, NamesWhatIsWrong) {
   const std::pair<const char*, std::function<void(Scene&)>> mistakes[] = {
-      {"solids[0] is of material 0", [](Scene& s) { s.materials.clear(); }},
+      {"solids[0] has material 0", [](Scene& s) { s.materials.clear(); }},
       {"gravity_W", [](Scene& s) { s.gravity_W.y() = kNaN; }},
       {"duration_s", [](Scene& s) { s.duration_s = -1; }},
       {"dt_s is 0;", [](Scene& s) { s.accuracy.dt_s = 0; }},
@@ -62,17 +62,17 @@ TEST(SceneCheck, NamesWhatIsWrong) {
       {"velocity_W", [](Scene& s) { s.solids[0].velocity_W.z() = kNaN; }},
       {"balls[0].radius_m", [](Scene& s) { s.balls[0].radius_m = 0; }},
       {"shots[1].ball has no material", [](Scene& s) { s.shots[1].ball.material = {}; }},
-      {"balls[0] is of material 7", [](Scene& s) { s.balls[0].material = MaterialIndex(7); }},
-      {"joints[0] holds no body", [](Scene& s) { s.joints[0].a = s.joints[0].b = std::nullopt; }},
-      {"joints[0] holds body 3", [](Scene& s) { s.joints[0].b = 3; }},
+      {"balls[0] has material 7", [](Scene& s) { s.balls[0].material = MaterialIndex(7); }},
+      {"joints[0] has no body", [](Scene& s) { s.joints[0].a = s.joints[0].b = std::nullopt; }},
+      {"joints[0] has body 3", [](Scene& s) { s.joints[0].b = 3; }},
       {"joins a body to itself", [](Scene& s) { s.joints[0].b = 0; }},
       {"shots[1] comes before shots[0]", [](Scene& s) { s.shots[1].time_s = 0; }},
       {"shots[0].time_s", [](Scene& s) { s.shots[0].time_s = kNaN; }},
-      {"removals[0] is of body 3",
+      {"removals[0].roots has index 3",
        [](Scene& s) {
          s.removals[0].roots = {0, 3};
        }},
-      {"roots do not ascend",
+      {"roots are not in ascending order",
        [](Scene& s) {
          s.removals[0].roots = {2, 0};
        }},
@@ -89,20 +89,20 @@ TEST(SceneCheck, NamesWhatIsWrong) {
        [](Scene& s) { s.materials[1].crumbling.debris_largest_m = 0; }},
       {"limits.bodies is 0", [](Scene& s) { s.limits.bodies = 0; }},
       {"max_colors", [](Scene& s) { s.solver.max_colors = 65; }},
-      {"solids[1].compound has a bond of a face",
+      {"solids[1].compound has a bond with a face",
        [](Scene& s) {
          Compound& compound = s.solids[1].compound;
          compound.convexes.push_back(compound.convexes[0]);
          compound.anchored.push_back(0);
          compound.bonds = {{0, 1, 0, 6, 1}};
        }},
-      {"a ghost of convex 3",
+      {"a ghost with convex 3",
        [](Scene& s) {
          Compound& compound = s.solids[1].compound;
          compound.ghosts = {{compound.convexes[0], {0, 3}}};
        }},
       {"joints[0].breaking_N", [](Scene& s) { s.joints[0].breaking_N = -1; }},
-      {"joints[0].axis_W is 0",
+      {"joints[0].axis_W is zero",
        [](Scene& s) {
          s.joints[0].kind = JointKind::kHinge;
          s.joints[0].axis_W.setZero();
@@ -119,20 +119,20 @@ TEST(SceneCheck, NamesWhatIsWrong) {
        }},
       {"shots[0].hangs_from_W",
        [](Scene& s) { s.shots[0].hangs_from_W = Vec3(0, kNaN, 0); }},
-      {"removals[0] takes nothing", [](Scene& s) { s.removals[0].roots.clear(); }},
-      {"removals[0] takes nothing",
+      {"removals[0] removes nothing", [](Scene& s) { s.removals[0].roots.clear(); }},
+      {"removals[0] removes nothing",
        [](Scene& s) {
          s.removals[0].roots.clear();
          s.removals[0].anchors_W = {Vec3(-1, -1, -1), Vec3(2, 2, 2)};  // nothing is anchored
        }},
-      {"drives[0] holds no velocity", [](Scene& s) { s.drives.resize(1); }},
+      {"drives[0] has no velocity", [](Scene& s) { s.drives.resize(1); }},
       {"drives[0].until_s",
        [](Scene& s) {
          s.drives.resize(1);
          s.drives[0].velocity_W = Vec3::Zero();
          s.drives[0].until_s = -1;
        }},
-      {"moves[0] is of body 2",
+      {"moves[0].roots has index 2",
        [](Scene& s) {
          s.moves.resize(1);
          s.moves[0].roots = {2};

@@ -363,7 +363,7 @@ TEST_F(Take, ALongerRunIsToldThatTheTakeHasEnded) {
   FrameSink* const sinks[] = {&verifier};
   Run run(12);
   pump(run, sinks);
-  EXPECT_EQ(verifier.difference(), "frame 10: the take has ended");
+  EXPECT_EQ(verifier.difference(), "frame 10: the recording has ended");
 }
 
 }  // namespace

@@ -87,13 +87,14 @@ TEST(FilePattern, reports_errors_in_a_file) {
   EXPECT_NE(message_of("g a\nv 1 2 nan\n").find("three numbers"), std::string::npos);
   EXPECT_NE(message_of("g a\nv 0 0 0\nf 1 2 3\n").find("p.obj:3: vertex 2"), std::string::npos);
   EXPECT_NE(message_of("g a\nv 0 0 0\nf 1 1\n").find("three vertices"), std::string::npos);
-  EXPECT_NE(message_of("g a\nv 0 0 0\nf 1 x 1\n").find("'x' is no vertex"), std::string::npos);
+  EXPECT_NE(message_of("g a\nv 0 0 0\nf 1 x 1\n").find("'x' is not the number of a vertex"),
+            std::string::npos);
   EXPECT_EQ(message_of("usemtl red" + box.substr(box.find('\n'))), "accepted") << "without groups";
   const std::string gap = as_obj(
       {make_box(Vec3(-1, -1, -1), Vec3(0, 1, 1)), make_box(Vec3(.5, -1, -1), Vec3(1, 1, 1))}, 6);
   EXPECT_NE(message_of(gap).find("overlap or leave gaps"), std::string::npos);
   const std::string aside = as_obj({make_box(Vec3(1, -1, -1), Vec3(2, 1, 1))}, 6);
-  EXPECT_NE(message_of(aside).find("must lie inside"), std::string::npos);
+  EXPECT_NE(message_of(aside).find("must enclose the origin"), std::string::npos);
   const std::string far = as_obj({make_box(Vec3(-1, -1, -1), Vec3(20, 1, 1))}, 6);
   EXPECT_NE(message_of(far).find("within 16 units"), std::string::npos);
   std::string dented = box;

@@ -193,7 +193,7 @@ def a_file_cut_short(chance, folder):
     """A file that says how long it is, or that is TOML or JSON, without its end."""
     name = chance.choice(["k.take", "s.frame", "m.glb", "m.stl", "a.toml", "old.json", "b.case"])
     whole = (folder / name).read_bytes()
-    first_frame = 60  # of a take: what is cut behind it can be played up to there
+    first_frame = 60  # of a take: frames up to there can be read
     end = chance.randrange(first_frame if name == "k.take" else len(whole) - 1)
     part = whole[:end]
     if name == "a.toml":

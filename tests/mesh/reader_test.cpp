@@ -194,7 +194,7 @@ TEST(MeshReader, ErrorsNameTheFileAndTheLine) {
   EXPECT_EQ(message("v 0 zero 0\n", MeshFormat::kObj).rfind("test:1: 'zero' is not a number", 0),
             0u);
   EXPECT_EQ(message("f 0 1 2\n", MeshFormat::kObj).rfind("test:1: there is no vertex 0", 0), 0u);
-  EXPECT_NE(message("OFF\n3 1 0\n0 0 0\n", MeshFormat::kOff).find("cut short"), std::string::npos);
+  EXPECT_NE(message("OFF\n3 1 0\n0 0 0\n", MeshFormat::kOff).find("truncated"), std::string::npos);
   EXPECT_NE(message("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", MeshFormat::kOff).find("test:6"),
             std::string::npos);
   EXPECT_NE(message("", MeshFormat::kObj).find("no faces"), std::string::npos);

@@ -115,8 +115,8 @@ TEST(Repair, AMeshWithDefectsIsRefusedIfRepairIsOff) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "box.obj: repairs are off, and the mesh needs them: planar holes closed (1); mend "
-                 "it, or allow repairs");
+                 "box.obj: the mesh needs repairs, but repair is off: planar holes closed (1); fix "
+                 "the mesh, or set repair to auto");
   }
 }
 
@@ -143,7 +143,7 @@ TEST(Repair, FacesAreOrientedConsistentlyAndOutward) {
   reverse_polygon(mesh, 0);
   reverse_polygon(mesh, 3);
   const RepairedMesh repaired = repair_mesh(mesh, "box");
-  EXPECT_EQ(count_of(repaired, "faces turned to agree with their neighbours"), 2u);
+  EXPECT_EQ(count_of(repaired, "faces flipped to match their neighbours"), 2u);
   EXPECT_EQ(total_volume(repaired), 6);
   RawMesh inside_out;
   add_box(inside_out, Vec3::Zero(), Vec3(1, 2, 3), {}, true);
@@ -156,8 +156,8 @@ TEST(Repair, DegenerateAndDuplicateFacesAreDropped) {
   append_polygon(mesh, std::array{0u, 1u, 0u, 2u}, 0);
   append_polygon(mesh, std::array{6u, 2u, 0u, 4u}, 0);  // The first face, from another corner on.
   const RepairedMesh repaired = repair_mesh(mesh, "box");
-  EXPECT_EQ(count_of(repaired, "degenerate faces dropped"), 2u);
-  EXPECT_EQ(count_of(repaired, "duplicate faces dropped"), 1u);
+  EXPECT_EQ(count_of(repaired, "degenerate faces removed"), 2u);
+  EXPECT_EQ(count_of(repaired, "duplicate faces removed"), 1u);
   EXPECT_EQ(total_volume(repaired), 6);
 }
 
@@ -165,7 +165,7 @@ TEST(Repair, ADoubleSidedMeshBecomesOneSided) {
   RawMesh mesh = box();
   add_box(mesh, Vec3::Zero(), Vec3(1, 2, 3), {}, true);
   const RepairedMesh repaired = repair_mesh(mesh, "box");
-  EXPECT_EQ(count_of(repaired, "duplicate faces dropped"), 6u);
+  EXPECT_EQ(count_of(repaired, "duplicate faces removed"), 6u);
   EXPECT_EQ(total_volume(repaired), 6);
 }
 
@@ -176,7 +176,7 @@ TEST(Repair, VerticesOnEdgesBecomeCornersAtTheEdge) {
   append_polygon(mesh, std::array{0u, 2u, 9u, 8u}, 0);
   append_polygon(mesh, std::array{8u, 9u, 3u, 1u}, 0);
   const RepairedMesh repaired = repair_mesh(mesh, "box");
-  EXPECT_EQ(count_of(repaired, "vertices put into the edges they lie on"), 2u);
+  EXPECT_EQ(count_of(repaired, "T-junctions fixed (vertices inserted into edges)"), 2u);
   EXPECT_EQ(repaired.shells[0].faces.size(), 7u);
   EXPECT_EQ(total_volume(repaired), 6);
 }

@@ -129,7 +129,7 @@ TEST(Renderer, APictureTooLargeForTheDeviceIsRefusedWithTheLargestSize) {
     ADD_FAILURE();
   } catch (const InputError& error) {
     const std::string said = error.what();
-    EXPECT_TRUE(said.starts_with("--size 1048576x16: the largest picture")) << said;
+    EXPECT_TRUE(said.starts_with("--size 1048576x16: too large")) << said;
   }
 }
 

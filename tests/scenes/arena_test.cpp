@@ -169,7 +169,8 @@ TEST(Arena, WedgesMeetAndDoNotOverlap) {
 }
 
 TEST(Arena, AnImpossibleArenaIsRefused) {
-  EXPECT_NE(message_of("tiers = 16").find("reach up to 11 m, above the gallery"), std::string::npos)
+  EXPECT_NE(message_of("tiers = 16").find("reach a height of 11 m, above the gallery"),
+            std::string::npos)
       << message_of("tiers = 16");
   EXPECT_NE(message_of("ends = 13").find("up to twice the sides"), std::string::npos);
   EXPECT_NE(message_of("storey_m = 3.2").find("too low for arches"), std::string::npos);

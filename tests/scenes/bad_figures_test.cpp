@@ -80,16 +80,14 @@ TEST(BadBlasts, ThatDoNothingAreRefused) {
 }
 
 TEST(BadBlasts, OfTwoStrengthsAreRefused) {
-  expect_refusals({{"tnt_kg = 1\nimpulse_Ns_m2 = 100",
-                    "bad.toml:7: impulse_Ns_m2 in [[script.blast]] is given beside tnt_kg, which "
-                    "decides it; keep one"},
-                   {"tnt_kg = 1\nradius_m = 100",
-                    "bad.toml:7: radius_m in [[script.blast]] is given beside tnt_kg, which "
-                    "decides it; keep one"},
-                   {"burst = \"air\"",
-                    "bad.toml:6: burst in [[script.blast]] is for a charge; give tnt_kg, or take "
-                    "it away"}},
-                  "[[script.blast]]\ntime_s = 1\nat = [0, 0, 0]\n");
+  expect_refusals(
+      {{"tnt_kg = 1\nimpulse_Ns_m2 = 100",
+        "bad.toml:7: impulse_Ns_m2 and tnt_kg in [[script.blast]] exclude each other; remove one"},
+       {"tnt_kg = 1\nradius_m = 100",
+        "bad.toml:7: radius_m and tnt_kg in [[script.blast]] exclude each other; remove one"},
+       {"burst = \"air\"",
+        "bad.toml:6: burst in [[script.blast]] needs tnt_kg; add tnt_kg, or remove burst"}},
+      "[[script.blast]]\ntime_s = 1\nat = [0, 0, 0]\n");
   EXPECT_EQ(refusal_of("[[script.blast]]\ntime_s = 1\nat = [0, 0, 0]\ntnt_kg = 2\nburst = \"air\""),
             "");
 }

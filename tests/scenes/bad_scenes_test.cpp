@@ -16,9 +16,9 @@ constexpr Fault kFaults[] = {
      "bad.toml:3: unknown key 'grund' in the scene file; did you mean "
      "'ground'?"},
     {"[[solid]]\nstructure = \"box\"\nsize_m = [1000, 1000, 1000]\nblock_m = 0.05",
-     "bad.toml:3: 8e+12 parts, more than 200000; make them larger, or fewer"},
+     "bad.toml:3: 8e+12 parts; allowed: at most 200000; make them larger, or use fewer"},
     {"[[solid]]\nstructure = \"brick_wall\"\nbricks = 1000\ncourses = 1000",
-     "bad.toml:3: 1e+06 parts, more than 200000"},
+     "bad.toml:3: 1e+06 parts; allowed: at most 200000"},
     {"[ground]\nbounciness = 1",
      "bad.toml:4: unknown key 'bounciness' in [ground]; allowed: "
      "height_m, friction, restitution"},
@@ -43,7 +43,7 @@ constexpr Fault kFaults[] = {
      "distance | rope"},
     {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"rope\"\na "
      "= \"x\"",
-     "bad.toml:6: missing key 'to' in [[joint]] of kind rope: where on b it ends"},
+     "bad.toml:6: missing key 'to' in [[joint]] of kind rope, its end point on b"},
     {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"ball\"\na "
      "= \"x\"\nto = [0, 2, 0]",
      "bad.toml:10: to in [[joint]] is for kinds distance and rope; this one is ball"},
@@ -58,11 +58,11 @@ constexpr Fault kFaults[] = {
      "bad.toml:10: breaking_Nm in [[joint]] is for kinds hinge and fixed"},
     {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"ball\"\na "
      "= \"x\"\nb = \"x\"",
-     "bad.toml:10: a and b in [[joint]] are the same thing"},
+     "bad.toml:10: a and b in [[joint]] are the same body"},
     {"[[solid]]\nstructure = \"box\"\nname = \"x\"\n[[joint]]\nat = [0, 1, 0]\nkind = \"ball\"\na "
      "= \"x\"\n[[solid]]\nstructure = \"box\"\nanchored = \"bottom\"\nname = "
      "\"z\"\n[[joint]]\nkind = \"ball\"\nat = [0, 0, 0]\na = \"z\"",
-     "bad.toml:17: neither end of this [[joint]] can move: the world holds both"},
+     "bad.toml:17: neither end of this [[joint]] can move: both are anchored to the world"},
     // Types
     {"duration_s = \"long\"",
      "bad.toml:3: duration_s in [scene] is the string \"long\"; allowed: "
@@ -89,7 +89,7 @@ constexpr Fault kFaults[] = {
     {"[[material]]\nname = \"x\"\npattern = \"web\"",
      "bad.toml:5: [material.pattern] is the string "
      "\"web\"; expected a table"},
-    {"duration_s = 2020-01-01", "bad.toml:3: scenes have no use for dates and times"},
+    {"duration_s = 2020-01-01", "bad.toml:3: dates and times are not allowed in scene files"},
     // Ranges
     {"duration_s = -1",
      "bad.toml:3: duration_s in [scene] is the number -1; allowed: a number "
@@ -137,9 +137,7 @@ constexpr Fault kFaults[] = {
      "mesh "
      "| pane | prism | reinforced | stack | temple | terrain | wheel"},
     {"[[solid]]\nstructure = \"box\"\nmaterial = \"stel\"",
-     "bad.toml:5: unknown material 'stel'; "
-     "did you mean 'steel'?; there are: "
-     "brick, clay, "},
+     "bad.toml:5: unknown material 'stel'; did you mean 'steel'?; materials: brick, clay, "},
     {"[[solid]]\nstructure = \"box\"\nanchored = \"top\"",
      "bad.toml:5: anchored in [[solid]] is the "
      "string \"top\"; allowed: none | bottom"},
@@ -148,21 +146,18 @@ constexpr Fault kFaults[] = {
      "bad.toml:5: kind in [material.pattern] is the string \"spider\"; allowed: none | voronoi | "
      "web"},
     {"[[material]]\nname = \"x\"\n[[material]]\nname = \"x\"",
-     "bad.toml:5: a second [[material]] "
-     "named 'x'"},
+     "bad.toml:5: duplicate [[material]] 'x'"},
     {"[[solid]]\nstructure = \"box\"\nname = \"a\"\n[[ball]]\nname = \"a\"",
-     "bad.toml:7: two things are named 'a', the other at bad.toml:5; give each a name of its own"},
+     "bad.toml:7: duplicate name 'a', also at bad.toml:5; give each its own name"},
     {"[[solid]]\nstructure = \"stack\"\n[[body]]\nmesh = \"box:1,1,1\"\nname = \"stack.0\"",
-     "bad.toml:3: two things are named 'stack.0', the other at bad.toml:7; give each a name of its "
-     "own"},
+     "bad.toml:3: duplicate name 'stack.0', also at bad.toml:7; give each its own name"},
     {"[[solid]]\nstructure = \"pane\"\n[[solid]]\nstructure = \"pane\"\n[[script.remove]]\ntime_s "
      "= "
      "1\nname = \"pane\"",
-     "bad.toml:9: 'pane' may be the one at bad.toml:3 or the one at bad.toml:5; give them names of "
-     "their own"},
+     "bad.toml:9: 'pane' is ambiguous: it is the default name at bad.toml:3 and at bad.toml:5; "
+     "give each its own name"},
     {"[[ball]]\nname = \"\"",
-     "bad.toml:4: name in [[ball]] is the string \"\"; allowed: a text "
-     "that is not empty"},
+     "bad.toml:4: name in [[ball]] is the string \"\"; allowed: a non-empty string"},
     // Missing or superfluous keys
     {"[[solid]]\nposition = [0, 0, 0]", "bad.toml:3: missing key 'structure' in [[solid]]"},
     {"[[material]]\nfriction = 1", "bad.toml:3: missing key 'name' in [[material]]"},
@@ -177,8 +172,8 @@ constexpr Fault kFaults[] = {
     {"[[script.shot]]\ntime_s = 1\nfrom = [0, 0, 0]\nat = [0, 0, 0]",
      "bad.toml:3: at and from in [[script.shot]] are the same point"},
     {"[[script.wrecking_ball]]\nfrom = [0, 5, 0]\nhangs_from = [0, 5.2, 0]",
-     "bad.toml:3: hangs_from in [[script.wrecking_ball]] is within the ball; move it out, or "
-     "lessen radius_m"},
+     "bad.toml:3: hangs_from in [[script.wrecking_ball]] is inside the ball; move it outside, or "
+     "reduce radius_m"},
     {"[[script.remove]]\ntime_s = 1", "bad.toml:3: [[script.remove]] needs either name, or from"},
     {"[[script.remove]]\ntime_s = 1\nfrom = [0, 0, 0]",
      "bad.toml:3: [[script.remove]] needs either name, or from and to"},
@@ -192,52 +187,50 @@ constexpr Fault kFaults[] = {
      "bad.toml:5: [[script.drive]] needs velocity, or angular_velocity, or both"},
     {"[[solid]]\nstructure = \"box\"\nanchored = \"bottom\"\n[[script.drive]]\nvelocity = [1, 0, "
      "0]\nname = \"box\"",
-     "bad.toml:8: 'box' in [[script.drive]] is anchored to the world, which no force moves; take "
-     "its "
-     "anchored away"},
+     "bad.toml:8: 'box' in [[script.drive]] is anchored to the world and cannot be moved; remove "
+     "its key 'anchored'"},
     {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"",
-     "bad.toml:5: [[script.move]] needs a [[script.move.key]] or more"},
+     "bad.toml:5: [[script.move]] needs at least one [[script.move.key]]"},
     {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 0 }]",
-     "bad.toml:7: time_s in [[script.move.key]] is 0, not after 0, when it stands where it stood"},
+     "bad.toml:7: time_s in [[script.move.key]] is 0, not after 0, the time of the initial pose"},
     {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\n[[script.move.key]]\ntime_s "
      "= 2\n[[script.move.key]]\ntime_s = 1.5",
-     "bad.toml:10: time_s in [[script.move.key]] is 1.5, not after 2 of the key before; keys go by "
-     "time"},
+     "bad.toml:10: time_s in [[script.move.key]] is 1.5, not after 2 of the previous key; sort the "
+     "keys by time_s"},
     {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\n[[script.move.key]]\ntime_s "
      "= 0.1\nshift = [0, 50, 0]",
-     "bad.toml:7: the way to this [[script.move.key]] takes 500 m/s; allowed: at most 100; give it "
-     "more time"},
+     "bad.toml:7: the motion to this [[script.move.key]] needs 500 m/s; allowed: at most 100; "
+     "increase time_s"},
     {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\n[[script.move.key]]\ntime_s "
      "= 0.1\nturn_rad = [0, 20, 0]",
-     "bad.toml:7: the way to this [[script.move.key]] takes 200 rad/s; allowed: at most 50; give "
-     "it more time"},
+     "bad.toml:7: the motion to this [[script.move.key]] needs 200 rad/s; allowed: at most 50; "
+     "increase time_s"},
     {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nloop = "
      "true\n[[script.move.key]]\ntime_s = 1\nturn_deg = [0, 180, 0]",
-     "bad.toml:8: the last key of a [[script.move]] with loop = true has to be where it stood"},
+     "bad.toml:8: the last key of a [[script.move]] with loop = true must be the initial pose"},
     {"[[solid]]\nstructure = \"box\"\nanchored = \"all\"\n[[script.move]]\nname = \"box\"\nkey = "
      "[{ time_s = 1 }]",
-     "bad.toml:7: 'box' in [[script.move]] is anchored to the world, which does not let go of it; "
-     "take its anchored away"},
+     "bad.toml:7: 'box' in [[script.move]] is anchored to the world and cannot be moved; remove "
+     "its key 'anchored'"},
     {"[[ball]]\nname = \"b\"\n[[script.move]]\nname = \"b\"\nkey = [{ time_s = 1 }]",
-     "bad.toml:6: 'b' in [[script.move]] is a ball; a [[body]] or [[solid]] can be moved"},
+     "bad.toml:6: 'b' in [[script.move]] is a ball; only a [[body]] or [[solid]] can be moved"},
     {"[[solid]]\nstructure = \"box\"\n[[joint]]\nkind = \"ball\"\na = \"box\"\nat = [0, 1, "
      "0]\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1 }]",
-     "bad.toml:10: 'box' in [[script.move]] is held by a [[joint]] to the world, or to what is "
-     "anchored or moved as well; of the two ends of a joint one has to be free"},
+     "bad.toml:10: 'box' in [[script.move]] has a [[joint]] to the world, or to a body that is "
+     "anchored or moved, too; one of the two bodies of a joint must be free"},
     {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1 "
      "}]\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1 }]",
-     "bad.toml:9: 'box' in [[script.move]] is moved by another one already"},
+     "bad.toml:9: 'box' in [[script.move]] is moved by another [[script.move]] already"},
     {"planar = true\n[[material]]\nname = \"concrete\"\npattern = { kind = \"none\" "
      "}\n[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1, "
      "shift = [0, 0, 1] }]",
-     "bad.toml:3: planar = true in [scene], but a move's shift has a z of its own; make it 0"},
+     "bad.toml:3: planar = true in [scene], but a move's shift has a z component; set it to 0"},
     {"planar = true\n[[material]]\nname = \"concrete\"\npattern = { kind = \"none\" "
      "}\n[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 1, "
      "turn_rad = [1, 0, 0] }]",
-     "bad.toml:3: planar = true in [scene], but a move turns about another axis than z"},
+     "bad.toml:3: planar = true in [scene], but a move rotates about an axis other than z"},
     {"[view]\nfov_rad = 1\nfov_deg = 50",
-     "bad.toml:5: fov_deg in [view] is given beside fov_rad; "
-     "keep one"},
+     "bad.toml:5: fov_deg and fov_rad in [view] exclude each other; remove one"},
     {"[[solid]]\nstructure = \"box\"\nrotation_deg = [0, 400, 0]",
      "bad.toml:5: rotation_deg in [[solid]] is [0, 400, 0], in which the number 400 is wrong; "
      "allowed: [x, y, z], each a number from -360 to 360, in degrees"},
@@ -251,19 +244,20 @@ constexpr Fault kFaults[] = {
      "not fit side by side"},
     // Planar scenes
     {"planar = true\n[[solid]]\nstructure = \"box\"\nmaterial = \"clay\"",
-     "bad.toml:3: planar = true in [scene], but solid 'box' is made of clay, whose pattern would "
-     "break it along z; say pattern = { kind = \"none\" } in a [[material]] of that name"},
+     "bad.toml:3: planar = true in [scene], but solid 'box' has the material clay, whose pattern "
+     "would break it along z; set pattern = { kind = \"none\" } in a [[material]] of this name"},
     {"planar = true\n[[solid]]\nname = \"post\"\nstructure = \"column\"",
-     "bad.toml:3: planar = true in [scene], but solid 'post' is no prism along z; turn it"},
+     "bad.toml:3: planar = true in [scene], but solid 'post' is not a prism along z; rotate it"},
     {"planar = true\n[[solid]]\nstructure = \"box\"\nposition = [0, 0, 2]",
-     "bad.toml:3: planar = true in [scene], but solid 'box' has parts that do not reach through "
-     "the plane z = 0; move it there"},
+     "bad.toml:3: planar = true in [scene], but solid 'box' has parts that do not cross the plane "
+     "z = 0; move it there"},
     {"planar = true\n[[ball]]\nname = \"b\"\nvelocity = [0, 0, 1]",
-     "bad.toml:3: planar = true in [scene], but ball 'b' has a velocity that has a z of its own"},
+     "bad.toml:3: planar = true in [scene], but ball 'b' has a velocity that has a z component"},
     {"planar = true\ngravity = [0, -9, 1]",
-     "bad.toml:3: planar = true in [scene], but gravity has a z of its own; make it 0"},
+     "bad.toml:3: planar = true in [scene], but gravity has a z component; set it to 0"},
     {"planar = true\n[script]\n[[script.shot]]\ntime_s = 1\nfrom = [0, 0, 5]\nat = [0, 0, 0]",
-     "bad.toml:3: planar = true in [scene], but a ball of [script] is at a place that has a z of"},
+     "bad.toml:3: planar = true in [scene], but a ball of [script] has a position that has a z "
+     "component"},
     // Syntax
     {"duration_s = ", "bad.toml:3: "},
     {"duration_s = 1\nduration_s = 2", "bad.toml:4: "},
@@ -282,7 +276,7 @@ TEST(BadScenes, AreRefusedWithPlaceKeyAndTheAllowedValues) {
 TEST(BadScenes, WithoutASceneTableAreRefused) {
   EXPECT_EQ(refusal("[ground]\nfriction = 1\n"), "bad.toml: missing table [scene]");
   EXPECT_EQ(refusal("[scene]\nseed = 1\n"),
-            "bad.toml:1: missing key 'description' in [scene]: a text that is not empty");
+            "bad.toml:1: missing key 'description' in [scene]: a non-empty string");
 }
 
 TEST(BadFlags, AreRefusedByTheirOwnName) {
@@ -300,7 +294,7 @@ TEST(BadFlags, AreRefusedByTheirOwnName) {
       {"scene.seed.x=1", "--set scene.seed.x=1: "},
       {"ball.3.radius_m=1", "--set ball.3.radius_m=1: '3' is not an index of an array of 1"},
       {"ball.first.radius_m=1", "--set ball.first.radius_m=1: 'first' is not an index"},
-      {"scene.description.x=1", "--set scene.description.x=1: 'x' is sought inside the string"},
+      {"scene.description.x=1", "--set scene.description.x=1: there is no key 'x' in the string"},
   };
   for (const Fault& flag : flags) {
     LoadOptions options;
@@ -330,11 +324,11 @@ TEST(BadFiles, AreNamed) {
     ADD_FAILURE() << "there is no catalogue";
   } catch (const InputError& error) {
     EXPECT_TRUE(std::string(error.what())
-                    .starts_with("house: no such file, and no catalogue of scenes is here: "))
+                    .starts_with("house: no such file, and no catalogue of scenes found: "))
         << error.what();
   }
   EXPECT_TRUE(refused("hause").starts_with(
-      "hause: no such file, and no scene of that name; did you mean 'house'?; scenes: "));
+      "hause: no such file, and no scene of this name; did you mean 'house'?; scenes: "));
 }
 
 }  // namespace

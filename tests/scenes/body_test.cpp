@@ -169,8 +169,8 @@ TEST_F(Bodies, FaultsAreNamedWithTheirPlace) {
       {"mesh = \"box.obj\"\nfit = \"loose\"", "scene.toml:3: fit loose: expected aabb"},
       {"mesh = \"box.obj\"\nmaterial = \"cheese\"", "unknown material 'cheese'"},
       {"mesh = \"box.obj\"\nrepair = \"maybe\"", "allowed: auto | off"},
-      {"mesh = \"torus:1,2\"", "scene.toml:3: 'torus:1,2' is no built-in solid"},
-      {"mesh = \"torus:1,0.2\"\nscale = 3", "is built in"},
+      {"mesh = \"torus:1,2\"", "scene.toml:3: 'torus:1,2' is not a built-in solid"},
+      {"mesh = \"torus:1,0.2\"\nscale = 3", "a built-in solid has no scale"},
       {"mesh = \"box.obj\"\nstructure = \"box\"", "unknown key 'structure' in [[body]]"}};
   for (const auto& [lines, message] : faults) {
     const std::string got = refusal(std::string("[[body]]\n") + lines + "\n");
@@ -223,7 +223,7 @@ TEST_F(Patterns, FaultsAreNamedWithTheirPlace) {
       {"pattern = { kind = \"file\", file = \"bad.obj\" }", "bad.obj:"},
       {"pattern = { kind = \"voronoi\", colors = -1 }", "colors in [material.pattern]"},
       {"stronger = [{ impact_radius_m = 1 }]", "missing key 'energy_J' in [[material.stronger]]"},
-      {"stronger = [{ energy_J = 5 }, { energy_J = 5 }]", "let them ascend"},
+      {"stronger = [{ energy_J = 5 }, { energy_J = 5 }]", "sort the entries by energy_J"},
       {"stronger = [{ energy_J = 5, patern = {} }]", "did you mean 'pattern'"},
       {"stronger = { energy_J = 5 }", "expected an array of tables"}};
   for (const auto& [lines, message] : faults) {

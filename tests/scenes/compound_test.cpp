@@ -107,11 +107,11 @@ TEST(CompoundStructure, RefusesAPartWithoutABond) {
   const std::string box = part("box");
   EXPECT_EQ(refusal(kCompound + box + part("box", "position = [0, 1, 0]") +
                     part("box", "position = [1.25, 0, 0]")),
-            "x.toml:11: [[solid.part]] does not hold on to the others: it touches none of them "
-            "with a face, nor overlaps any; the nearest is 0.25 m away; move it, or make it a "
-            "[[solid]] of its own");
+            "x.toml:11: [[solid.part]] is not connected to the others: it shares no face with "
+            "another part, and overlaps none; the nearest is 0.25 m away; move it, or make it a "
+            "separate [[solid]]");
   EXPECT_TRUE(refusal(kCompound + box + part("box", "position = [1, 1, 0]"))
-                  .starts_with("x.toml:8: [[solid.part]] does not hold on"))
+                  .starts_with("x.toml:8: [[solid.part]] is not connected"))
       << "a shared edge is no bond";
   EXPECT_EQ(refusal(kCompound + box + part("box", "position = [1, 0.5, 0]")), "");
 }
@@ -143,12 +143,12 @@ TEST(CompoundStructure, RefusesFaultsWithTheirPlace) {
   EXPECT_TRUE(refusal("[[solid]]\nstructure = \"box\"\nrepeat = { cuont = 2 }")
                   .starts_with("x.toml:5: unknown key 'cuont'"));
   EXPECT_EQ(refusal("[[solid]]\nstructure = \"box\"\nrepeat = { count = 2 }"),
-            "x.toml:5: repeat puts all copies in one place; give it step_m, turn_rad or turn_deg");
+            "x.toml:5: repeat puts all copies at one place; add step_m, turn_rad or turn_deg");
   EXPECT_TRUE(refusal("[[solid]]\nstructure = \"box\"\nrepeat = 3").starts_with("x.toml:5: "));
   EXPECT_TRUE(
       refusal(
           "[[solid]]\nstructure = \"box\"\nblock_m = 0.05\nrepeat = { count = 100, turn_deg = 3 }")
-          .starts_with("x.toml:3: 8e+05 parts, more than 200000"));
+          .starts_with("x.toml:3: 8e+05 parts; allowed: at most 200000"));
 }
 
 TEST(Copies, StandInARowAndHaveUniqueNames) {

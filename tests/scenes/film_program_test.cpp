@@ -94,13 +94,13 @@ TEST_F(Film, OptionsThatDoNotApplyAreRefusedByName) {
   expect_refused(recording() + " --sheet 4 -o " + folder_ / "x.mp4", "X.png");
   const std::string frame = SUNDER_ROOT "/tests/golden/stack.frame";
   for (const char* flag : {"--frames 2", "--speed 0.5", "--fps 30", "--sheet 4"})
-    expect_refused(frame + " " + flag + x, "is one frame");
+    expect_refused(frame + " " + flag + x, "is a single frame");
   const std::string path = folder_ / "path.toml";
   const auto path_says = [&](const std::string& text, const std::string& word) {
     std::ofstream(path) << text;
     expect_refused(recording() + " --view " + path + x, word);
   };
-  path_says("# none\n", "[[key]] or more");
+  path_says("# none\n", "at least one [[key]]");
   path_says("[[key]]\ntime_s = 1\n[[key]]\ntime_s = 1\n", "path.toml:4: time_s in [[key]] is 1");
   path_says("[[key]]\ntime_s = 1\neyes = 2\n", "did you mean 'eye'?");
   path_says("[view]\n", "unknown key 'view'");

@@ -211,7 +211,7 @@ TEST(Golden, AcceptingAnotherCameraRecordsTheFrameAgain) {
       << failed.out;
   EXPECT_NE(failed.out.find("view.fov_deg"), std::string::npos) << failed.out;
   const Outcome accepted = sunder("golden accept stack" + at);
-  EXPECT_NE(accepted.out.find("frame anew, simulation as before"), std::string::npos)
+  EXPECT_NE(accepted.out.find("new frame, simulation unchanged"), std::string::npos)
       << accepted.out;
   EXPECT_EQ(read_frame(folder / "stack.frame")->view.fov_rad, 30 * std::numbers::pi / 180);
   EXPECT_EQ(sunder(test).exit_code, 0);
@@ -224,7 +224,7 @@ TEST(Golden, ABaselineOfAnotherSizeIsNamedAsThat) {
   const Outcome outcome =
       sunder("golden test --folder " + folder.path().string() + " --out " + folder / "out");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.out.find("is of another size: 64x36, drawn are 640x360"), std::string::npos)
+  EXPECT_NE(outcome.out.find("has another size: 64x36, the picture 640x360"), std::string::npos)
       << outcome.out;
 }
 
@@ -237,7 +237,7 @@ TEST(Golden, ACopiedProgramTestsAndAcceptsInTheWorkingDirectory) {
   const std::string err = folder / "err";
   EXPECT_NE(std::system((enter + program + " " + arguments + " >/dev/null 2>" + err).c_str()), 0);
   const std::string refusal = scenes::read_text(err);
-  EXPECT_NE(refusal.find("tests/golden: no goldens (NAME.json) here; name their folder"),
+  EXPECT_NE(refusal.find("tests/golden: no goldens (NAME.json) in this folder; give their folder"),
             std::string::npos)
       << refusal;
 }

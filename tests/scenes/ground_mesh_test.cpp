@@ -114,12 +114,13 @@ TEST(GroundMesh, AFileMayBeOpenAndHaveFacesOfManyCorners) {
 TEST(GroundMesh, RefusesFaultsWithTheirPlace) {
   const std::string at = "x.toml:3: ";
   EXPECT_EQ(refusal("[[ground.mesh]]\nspacing_m = 1\n"),
-            at + "[[ground.mesh]] has none of mesh, heights_m and hills_m; give one");
-  EXPECT_EQ(refusal("[[ground.mesh]]\nhills_m = 1\nheights_m = [[1, 2], [3, 4]]\n"),
-            at + "[[ground.mesh]] has more than one of mesh, heights_m and hills_m; give one");
+            at + "[[ground.mesh]] has none of mesh, heights_m and hills_m; give exactly one");
   EXPECT_EQ(
-      refusal("[[ground.mesh]]\nhills_m = 1\nspacing_m = 0.01\nwidth_m = 1000\n"),
-      at + "[[ground.mesh]] has 8e+08 triangles, more than 1000000; make it coarser, or smaller");
+      refusal("[[ground.mesh]]\nhills_m = 1\nheights_m = [[1, 2], [3, 4]]\n"),
+      at + "[[ground.mesh]] has more than one of mesh, heights_m and hills_m; give exactly one");
+  EXPECT_EQ(refusal("[[ground.mesh]]\nhills_m = 1\nspacing_m = 0.01\nwidth_m = 1000\n"),
+            at + "[[ground.mesh]] has 8e+08 triangles; allowed: at most 1000000; increase "
+                 "spacing_m, reduce its size, or simplify the mesh");
   EXPECT_NE(refusal("[[ground.mesh]]\nmesh = \"none.obj\"\n").find("x.toml:3: none.obj"),
             std::string::npos);
   EXPECT_NE(refusal("[[ground.mesh]]\nhills_m = 1\nhigh = 2\n").find("unknown key 'high'"),
@@ -128,7 +129,7 @@ TEST(GroundMesh, RefusesFaultsWithTheirPlace) {
       refusal("[[ground.mesh]]\nhills_m = 1\nmaterial = \"chese\"\n").find("unknown material"),
       std::string::npos);
   EXPECT_EQ(refusal("[[ground.mesh]]\nhills_m = 1\nposition = [999990, 0, 0]\n"),
-            at + "[[ground.mesh]] reaches farther than 1e+06 m; make its scale smaller");
+            at + "[[ground.mesh]] has a coordinate beyond 1e+06 m; reduce its scale, or move it");
   EXPECT_NE(refusal("planar = true\n[[ground.mesh]]\nhills_m = 1\n")
                 .find("planar = true in [scene], but it has a [[ground.mesh]]"),
             std::string::npos);
@@ -136,12 +137,13 @@ TEST(GroundMesh, RefusesFaultsWithTheirPlace) {
 
 TEST(GroundMesh, RefusesFilesThatAreNoSurface) {
   const MeshFile line("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
-  EXPECT_EQ(refusal(line.table()), "x.toml:3: [[ground.mesh]] has no triangle with an area");
+  EXPECT_EQ(refusal(line.table()),
+            "x.toml:3: [[ground.mesh]] has no triangle with an area above 0");
   const MeshFile opposite("v 0 0 0\nv 0 0 2\nv 2 0 2\nv 2 0 0\nf 1 2 3\nf 1 4 3\n");
-  EXPECT_EQ(
-      refusal(opposite.table()),
-      "x.toml:3: two triangles of [[ground.mesh]] that meet at [1, 0, 1] face opposite sides; "
-      "turn one round: they are met from the side from which they run counter-clockwise");
+  EXPECT_EQ(refusal(opposite.table()),
+            "x.toml:3: two neighbouring triangles of [[ground.mesh]] at [1, 0, 1] have opposite "
+            "orientations; reverse one of them: bodies collide with the side from which the "
+            "vertices are counter-clockwise");
   const MeshFile infinite("v 0 0 0\nv 0 0 inf\nv 2 0 2\nf 1 2 3\n");
   EXPECT_NE(refusal(infinite.table()), "");
 }

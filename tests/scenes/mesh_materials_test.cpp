@@ -186,16 +186,17 @@ TEST_F(MeshMaterials, FaultsAreNamedWithTheirPlaceAndTheNamesOfTheFile) {
         "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
   const std::pair<const char*, const char*> faults[] = {
       {"mesh = \"table.obj\"\nmaterials = { lag = \"wood\" }",
-       "table.obj: nothing in it is called 'lag'; did you mean 'leg'?; there are: dark oak, flat, "
-       "leg, pale, plate, top"},
+       "table.obj: no object, group or material in it is named 'lag'; did you mean 'leg'?; names: "
+       "dark oak, flat, leg, pale, plate, top"},
       {"mesh = \"table.obj\"\nmaterials = { leg = \"wod\" }",
        "scene.toml:5: unknown material 'wod'; did you mean 'wood'?"},
       {"mesh = \"table.obj\"\nmaterials = { leg = 3 }",
        "scene.toml:5: 'leg' in materials is the number 3; expected the name of a material"},
       {"mesh = \"table.obj\"\nmaterials = \"wood\"", "scene.toml:5: materials is"},
       {"mesh = \"plain.off\"\nmaterials = { leg = \"wood\" }",
-       "OBJ and glTF files have names, of objects, groups and materials"},
-      {"mesh = \"box:1,1,1\"\nmaterials = { leg = \"wood\" }", "is built in, and has no names"}};
+       "only OBJ and glTF files have such names"},
+      {"mesh = \"box:1,1,1\"\nmaterials = { leg = \"wood\" }",
+       "a built-in solid has no named parts"}};
   for (const auto& [lines, message] : faults) {
     const std::string got = refusal(std::string("[[body]]\n") + lines + "\n");
     EXPECT_NE(got.find(message), std::string::npos) << lines << "\n" << got;

@@ -34,7 +34,7 @@ class Outputs : public ::testing::Test {
     const Outcome outcome = sunder(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.out << outcome.err;
     EXPECT_EQ(bytes_of(input), before) << arguments;
-    EXPECT_NE(outcome.err.find("name another"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("give another"), std::string::npos) << outcome.err;
   }
 
   Folder folder_;

@@ -173,7 +173,7 @@ TEST(Program, ChangesOnTheCommandLineChangeTheRun) {
 TEST(Program, APlanarSceneRunsWithoutAThirdDimensionAndSaysSo) {
   const Figures json = figures("simulate planar_wall --frames 40 --preset draft");
   EXPECT_EQ(std::get<std::string>(json.at("/modelled/third_dimension")),
-            "off: planar = true, so Box2D moves it");
+            "off: planar = true, so Box2D simulates it");
   EXPECT_LT(std::get<double>(json.at("/momentum_residual")), 1e-4);
   const Figures solid = figures("simulate stack --frames 2");
   EXPECT_EQ(std::get<std::string>(solid.at("/modelled/third_dimension")), "on");

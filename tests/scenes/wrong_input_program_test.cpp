@@ -19,7 +19,7 @@ class WrongInput : public ::testing::Test {
     std::ofstream(folder_ / "t.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
                                         "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
     std::ofstream(folder_ / "empty");
-    std::ofstream(folder_ / "noise.take") << "not a take";
+    std::ofstream(folder_ / "noise.take") << "not a recording";
     std::ofstream(folder_ / "noise.glb") << "not a mesh";
     fs::create_directory(folder_ / "d");
   }
@@ -75,7 +75,7 @@ TEST_F(WrongInput, IsNamed) {
       {"simulate a.toml --set solid.9.name=x", "9"},
       {"simulate a.toml --json d", "is a folder"},
       {"simulate a.toml --take d", "is a folder"},
-      {"simulate a.toml --verify noise.take", "not a take"},
+      {"simulate a.toml --verify noise.take", "not a recording"},
       {"simulate a.toml --verify nope.take", "nope.take"},
       {"render a.toml -o x.xyz", "x.xyz"},
       {"render a.toml -o x.png --size 100", "WIDTHxHEIGHT"},
@@ -88,7 +88,7 @@ TEST_F(WrongInput, IsNamed) {
       {"render a.toml -o x.png --frames 99", "ends with frame"},
       {"render a.toml -o x.png --view-mode pretty", "pretty"},
       {"render a.toml -o x.png --gl vulkan", "vulkan"},
-      {"render noise.take -o x.png", "not a take"},
+      {"render noise.take -o x.png", "not a recording"},
       {"render a.toml -o x.mp4 --size 101x101", "even"},
       {"fracture t.obj", "--pattern is missing"},
       {"fracture nope.obj --pattern voronoi:5", "nope.obj"},
@@ -108,8 +108,8 @@ TEST_F(WrongInput, IsNamed) {
       {"fracture t.obj --pattern voronoi:5 --convexes 0", "from 1 to"},
       {"fracture hall:100000 --pattern voronoi:5", "5,000"},
       {"fracture voronoi:999999999 --pattern voronoi:5", "100,000"},
-      {"fracture grid:1000,1000,1000 --pattern voronoi:5", "a million"},
-      {"fracture box:nan,1,1 --pattern voronoi:5", "no built-in solid"},
+      {"fracture grid:1000,1000,1000 --pattern voronoi:5", "1,000,000"},
+      {"fracture box:nan,1,1 --pattern voronoi:5", "not a built-in solid"},
       {"fracture torus:1,2 --pattern voronoi:5", "r < R"},
       {"fracture statue:-5 --pattern voronoi:5", "statue"},
       {"vacd nope.obj", "nope.obj"},
@@ -118,12 +118,12 @@ TEST_F(WrongInput, IsNamed) {
       {"bench nope", "nope"},
       {"bench a.toml --repeats 0", "from 1 to 1000"},
       {"bench a.toml --compare nope.json", "nope.json"},
-      {"bench a.toml --against nope", "no program"},
+      {"bench a.toml --against nope", "not a program"},
       {"bench a.toml --fail-slower 10%", "needs --compare"},
       {"trade a.toml --seeds 0", "from 1 to 10000"},
       {"trade a.toml --shard 3/2", "3/2"},
       {"trade a.toml --list --switch =1", "KEY=VALUE"},
-      {"trade a.toml -o out --set scene.seed=x", "seed of its own"},
+      {"trade a.toml -o out --set scene.seed=x", "its own seed"},
       {"golden test nope", "nope"},
       {"check nope.toml a.toml", "nope.toml"}};
   for (const auto& [arguments, said] : lines) expect(arguments, said);
@@ -133,20 +133,25 @@ TEST_F(WrongInput, OfASceneNamesTheKeyThatWasMeant) {
   std::ofstream(folder_ / "b.toml") << "[scene]\ndescription = \"x\"\n[[solid]]\n"
                                        "structur = \"box\"\nsize_m = [1, 1, 1]\n";
   expect("check b.toml",
-         "b.toml:4: missing key 'structure' in [[solid]]; did you mean it by 'structur'?");
+         "b.toml:4: missing key 'structure' in [[solid]]; did you misspell it as 'structur'?");
 }
 
 TEST_F(WrongInput, OfARecordingNamesWhereItEnds) {
   ASSERT_EQ(run("simulate a.toml --quiet --take k.take").exit_code, 0);
   fs::resize_file(folder_ / "k.take", 100);
-  expect("render k.take -o x.png", "before its first frame");
+  expect("render k.take -o x.png", "before the first frame");
 }
 
 TEST_F(WrongInput, ThatCanBeRunGivesAWarning) {
   std::ofstream(folder_ / "none.toml") << "[scene]\ndescription = \"x\"\nduration_s = 0.1\n";
-  EXPECT_NE(run("simulate none.toml --quiet").err.find("nothing is in it"), std::string::npos);
+  EXPECT_NE(
+      run("simulate none.toml --quiet")
+          .err.find(
+              "the scene is empty: it has no [[solid]], [[body]], [[ball]] or [[script.shot]]"),
+      std::string::npos);
   std::ofstream(folder_ / "under.toml") << kBlock << "position = [0, -5, 0]\n";
-  EXPECT_NE(run("check under.toml").err.find("under the ground"), std::string::npos);
+  EXPECT_NE(run("check under.toml").err.find("below the ground; raise position"),
+            std::string::npos);
   EXPECT_EQ(run("check a.toml").err, "");
   std::ofstream(folder_ / "shot.toml") << kBlock << "anchored = \"bottom\"\n[[script.shot]]\n"
                                        << "time_s = 0.02\nfrom = [0, 0.5, 4]\nat = [0, 0.5, 0]\n"
@@ -155,7 +160,7 @@ TEST_F(WrongInput, ThatCanBeRunGivesAWarning) {
     const Outcome outcome = run(command + std::string(" --quiet"));
     EXPECT_NE(outcome.err.find("raise limits.bodies"), std::string::npos) << command;
   }
-  EXPECT_NE(run("simulate a.toml --quiet --threads 1000").err.find("wait for each other"),
+  EXPECT_NE(run("simulate a.toml --quiet --threads 1000").err.find("which is slower"),
             std::string::npos);
 }
 

@@ -110,12 +110,14 @@ TEST(Planar, BodiesThatAreNotPlanarAreRefusedByNameAndChangeNothing) {
   BodyDesc leaning = W::box(Vec3(1, 1, 1), Vec3(0, 0, 0));
   leaning.tag = 17;
   leaning.X_WB.rotation = Quat(Eigen::AngleAxisd(0.3, Vec3::UnitX()));
-  EXPECT_NE(refusal(leaning).find("body 17 is no prism along z"), std::string::npos);
-  EXPECT_NE(refusal(W::box(Vec3(1, 1, 1), Vec3(0, 0, 2))).find("does not reach through the plane"),
+  EXPECT_NE(refusal(leaning).find("body 17 is not a prism along z"), std::string::npos);
+  EXPECT_NE(refusal(W::box(Vec3(1, 1, 1), Vec3(0, 0, 2))).find("does not cross the plane"),
             std::string::npos);
   EXPECT_NE(refusal(W::sphere(1, Vec3(0, 0, 0.1))).find("centre is off the plane"),
             std::string::npos);
-  EXPECT_NE(refusal(W::ground(Vec3(0, 1, 1))).find("leans out of the plane"), std::string::npos);
+  EXPECT_NE(
+      refusal(W::ground(Vec3(0, 1, 1))).find("is a half-space whose normal has a z component"),
+      std::string::npos);
 
   RigidWorld world = plane();
   const BodyId kept = world.add(W::box(Vec3(1, 1, 1), Vec3::Zero()));

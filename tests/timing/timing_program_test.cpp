@@ -53,7 +53,7 @@ TEST_F(Bench, AcceptsAStateAndComparesRunsWithIt) {
   EXPECT_NE(book.find("state/fall/realtime/12"), std::string::npos) << book;
   const Outcome same = bench("--from " + file("now"));
   EXPECT_EQ(same.exit_code, 0) << same.err;
-  EXPECT_NE(same.out.find("as stored"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("equal to the stored state"), std::string::npos) << same.out;
   const Outcome longer = bench(folder_ / "fall.toml" + " --repeats 1 --warm-up 0");
   EXPECT_EQ(longer.exit_code, 0) << longer.err;
 }
@@ -133,7 +133,8 @@ TEST_F(Bench, KeepsAndReportsFinishedRepeatsWhenStopped) {
   };
   const Outcome outcome = stopped(" --repeats 1000 --warm-up 0");
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
-  EXPECT_NE(outcome.out.find("stopped; this is what was timed"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("stopped; results of the runs that were timed"), std::string::npos)
+      << outcome.out;
   EXPECT_NE(outcome.out.find("fall: realtime"), std::string::npos) << outcome.out;
   const Json json = Json::parse(scenes::read_text(file("stopped")));
   ASSERT_EQ(json["scenes"].size(), 1u);
@@ -145,7 +146,7 @@ TEST_F(Bench, KeepsAndReportsFinishedRepeatsWhenStopped) {
   std::filesystem::remove(file("stopped"));
   const Outcome nothing = stopped(" --repeats 1 --warm-up 1000");
   EXPECT_EQ(nothing.exit_code, 130) << nothing.err;
-  EXPECT_NE(nothing.out.find("stopped before anything was timed"), std::string::npos);
+  EXPECT_NE(nothing.out.find("stopped before the first scene was timed"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(file("stopped")));
 }
 

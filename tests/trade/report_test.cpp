@@ -188,7 +188,7 @@ TEST(Report, TheTableHasTheUnitsOfItsFigures) {
   const auto runs = study_runs(small_study());
   write_all(folder, runs);
   const std::string table = trade_table(merge(runs, folder.path()));
-  EXPECT_NE(table.find("ms a frame  error/noise  cost/front  largest error\n"), std::string::npos)
+  EXPECT_NE(table.find("ms per frame  error/noise  cost/front  largest error\n"), std::string::npos)
       << table;
   EXPECT_NE(table.find("drift, <b>\"largest\"</b> 0.5 m\n"), std::string::npos) << table;
 }

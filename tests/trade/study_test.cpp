@@ -96,14 +96,15 @@ TEST(Points, MistakesAreNamedWithTheirLine) {
   const auto said = [](const std::string& text) {
     return refusal([&] { parse_points(text, "x.txt"); });
   };
-  EXPECT_EQ(said("a draft\na realtime\n"), "x.txt:2: a second point named 'a'");
-  EXPECT_EQ(said("a/b draft\n"),
-            "x.txt:1: 'a/b' cannot name a point; allowed: letters, digits and . _ + = -");
+  EXPECT_EQ(said("a draft\na realtime\n"), "x.txt:2: duplicate point 'a'");
+  EXPECT_EQ(
+      said("a/b draft\n"),
+      "x.txt:1: 'a/b' is not a valid name of a point; allowed: letters, digits and . _ + = -");
   EXPECT_EQ(said("a\n"), "x.txt:1: expected NAME PRESET KEY=VALUE...");
   EXPECT_EQ(said("a draft substeps\n"), "x.txt:1: expected KEY=VALUE, got 'substeps'");
   EXPECT_EQ(said("a fast\n"),
             "x.txt:1: unknown preset 'fast'; allowed: draft, realtime, accurate, reference");
-  EXPECT_EQ(said("limit draft\n"), "x.txt: names no point to hold against the limit");
+  EXPECT_EQ(said("limit draft\n"), "x.txt: has no point besides the limit; add at least one");
 }
 
 TEST(Points, ASwitchIsTriedAtEveryPreset) {
@@ -174,7 +175,7 @@ Ran some_facts() {
 TEST(RunFile, IsReadAsItWasWritten) {
   const Folder folder;
   const Ran ran = some_facts();
-  EXPECT_EQ(read_run(folder.path(), short_run()).missing, "not done");
+  EXPECT_EQ(read_run(folder.path(), short_run()).missing, "not run yet");
   write_run(folder.path(), short_run(), ran);
   const StoredRun stored = read_run(folder.path(), short_run());
   EXPECT_EQ(stored.missing, "");
@@ -206,7 +207,7 @@ TEST(RunFile, OfAnotherStudyIsDoneAgain) {
     const StoredRun stored = read_run(folder.path(), run);
     return stored.damaged ? stored.missing : "the same";
   };
-  const std::string other = "of another study";
+  const std::string other = "belongs to another study";
   EXPECT_EQ(changed([](StudyRun&) {}), "the same");
   EXPECT_EQ(changed([](StudyRun& run) { run.frames = 4; }), other);
   EXPECT_EQ(changed([](StudyRun& run) { run.frames = -1; }), other);

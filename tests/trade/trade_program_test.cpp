@@ -103,10 +103,9 @@ TEST(Trade, SharesMakeTheFilesOfTheWholeAndAreMerged) {
   const Outcome gaps = sunder("trade " + study + "--merge -o " + shared);
   EXPECT_EQ(gaps.exit_code, 1);
   EXPECT_EQ(lines_of(gaps.err),
-            (std::vector<std::string>{"missing: pile/realtime-1", "missing: pile/draft-2",
-                                      "missing: pile/limit-2",
-                                      "failed: 3 of 6 runs are missing; the same command does "
-                                      "them"}));
+            (std::vector<std::string>{
+                "missing: pile/realtime-1", "missing: pile/draft-2", "missing: pile/limit-2",
+                "failed: 3 of 6 runs are missing; run the same command again to complete them"}));
   for (const char* file : {"trade.csv", "trade.json", "trade.html", "pile.svg"}) {
     EXPECT_TRUE(fs::exists(fs::path(shared) / file)) << file;
   }
@@ -136,9 +135,9 @@ TEST(Trade, AFinishedRunIsNotRepeatedUnlessItIsOfAnotherStudy) {
   EXPECT_EQ(other.exit_code, 0);
   const auto said = lines_of(other.err);
   ASSERT_EQ(said.size(), 3u) << other.err;
-  EXPECT_EQ(said[0], "pile/realtime-1: of another study, done again");
-  EXPECT_NE(said[1].find("limit-1.json: not a JSON document, done again"), std::string::npos);
-  EXPECT_EQ(said[2], "pile/realtime-2: of another study, done again");
+  EXPECT_EQ(said[0], "pile/realtime-1: belongs to another study; run again");
+  EXPECT_NE(said[1].find("limit-1.json: not a JSON document; run again"), std::string::npos);
+  EXPECT_EQ(said[2], "pile/realtime-2: belongs to another study; run again");
 }
 
 }  // namespace

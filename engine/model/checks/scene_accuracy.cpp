@@ -41,18 +41,21 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
   Eigen::Index upward = 0;
   up.cwiseAbs().maxCoeff(&upward);
   std::vector<Block> blocks;
-  for (const Solid& solid : scene.solids) {
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    const Solid& solid = scene.solids[i];
     if (solid.compound.is_anchored()) continue;
     Block block;
-    block.name = solid.name;
+    block.name = name_or_index(solid.name, "solid", i);
     for (const ConvexPtr& convex : solid.compound.convexes)
       for (const Vec3& corner : convex->polyhedron.vertices) block.box.extend(solid.X_WR * corner);
     block.mass_kg = mass_of(solid.compound, scene.materials).mass_kg;
     blocks.push_back(block);
   }
-  for (const Ball& ball : scene.balls) {
+  for (std::size_t i = 0; i < scene.balls.size(); ++i) {
+    const Ball& ball = scene.balls[i];
     const Vec3 reach = Vec3::Constant(ball.radius_m);
-    Block block{ball.name, {ball.center_W - reach, ball.center_W + reach}};
+    Block block{name_or_index(ball.name, "ball", i),
+                {ball.center_W - reach, ball.center_W + reach}};
     block.mass_kg = ball_mass_kg(ball, scene.materials);
     blocks.push_back(block);
   }
@@ -158,7 +161,7 @@ Accuracy divide_step(Accuracy accuracy, int all, int max_substeps) {
 std::string long_step_warning(const Scene& scene) {
   const double dt_s = scene.accuracy.dt_s;
   if (dt_s < 1.001 * kFrame_s) return {};
-  char text[200];
+  char text[300];
   std::snprintf(
       text, sizeof text,
       "dt_s = %.4g s is longer than a frame (1/60 s) and than the step of any preset: stacks may "
@@ -168,22 +171,28 @@ std::string long_step_warning(const Scene& scene) {
 }
 
 std::string far_warning(const Scene& scene) {
-  const std::string* name = nullptr;
+  std::string name;
   double farthest_m = kMaxDebrisDistance_m;
-  const auto check_position = [&](const std::string& what, const Vec3& position_W) {
+  const auto check_position = [&](const std::string& own_name, const char* kind, std::size_t index,
+                                  const Vec3& position_W) {
     const double away_m = position_W.cwiseAbs().maxCoeff();
-    if (away_m > farthest_m) farthest_m = away_m, name = &what;
+    if (away_m <= farthest_m) return;
+    farthest_m = away_m;
+    name = name_or_index(own_name, kind, index);
   };
-  for (const Solid& solid : scene.solids) check_position(solid.name, solid.X_WR.position);
-  for (const Ball& ball : scene.balls) check_position(ball.name, ball.center_W);
-  for (const Shot& shot : scene.shots) check_position(shot.ball.name, shot.ball.center_W);
-  if (!name) return {};
-  char text[300];
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    check_position(scene.solids[i].name, "solid", i, scene.solids[i].X_WR.position);
+  for (std::size_t i = 0; i < scene.balls.size(); ++i)
+    check_position(scene.balls[i].name, "ball", i, scene.balls[i].center_W);
+  for (std::size_t i = 0; i < scene.shots.size(); ++i)
+    check_position(scene.shots[i].ball.name, "shot", i, scene.shots[i].ball.center_W);
+  if (name.empty()) return {};
+  char text[500];
   std::snprintf(text, sizeof text,
                 "'%s' is %.4g m from the origin: bodies are not affected, but positions of debris "
                 "and dust have a precision of only %.1g m, and recordings store debris only up to "
                 "%.4g m; move the scene closer to the origin",
-                name->c_str(), farthest_m, farthest_m * kFloatEpsilon, kMaxDebrisDistance_m);
+                name.c_str(), farthest_m, farthest_m * kFloatEpsilon, kMaxDebrisDistance_m);
   return text;
 }
 
@@ -203,7 +212,7 @@ std::string crush_warning(const Scene& scene, int max_substeps) {
   const Accuracy sufficient = divide_step(
       accuracy, substeps_for_penetration(pair, g, accuracy.dt_s, kMaxSink * pair.size_m),
       max_substeps);
-  char text[400];
+  char text[500];
   std::snprintf(text, sizeof text,
                 "'%s' weighs %.4g times as much as '%s', and would sink into it if it came to rest "
                 "on it: this needs %d substeps of dt 1/%.4g s, the scene has %d of 1/%.4g s; raise "
@@ -218,7 +227,7 @@ std::string accuracy_warning(const Scene& scene, int max_substeps) {
   const Accuracy& accuracy = scene.accuracy;
   const Stacks stacks = find_stacks(scene);
   const double g = scene.gravity_W.norm();
-  char text[400];
+  char text[500];
   if (substeps_against_buckling(stacks.weakest, g, accuracy.dt_s) > accuracy.substeps) {
     const Accuracy sufficient = accuracy_against_buckling(scene, max_substeps);
     std::snprintf(text, sizeof text,

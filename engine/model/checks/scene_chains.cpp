@@ -123,8 +123,9 @@ class ChainFinder {
   double worst_need_ = 0;
 };
 
-/// Appends the chain of a wrecking ball, with the joints it will have.
-void find_chain(const Scene& scene, const Shot& shot, std::vector<ChainLink>& chains) {
+/// Appends the chain of the wrecking ball scene.shots[index], with the joints it will have.
+void find_chain(const Scene& scene, std::size_t index, std::vector<ChainLink>& chains) {
+  const Shot& shot = scene.shots[index];
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   const Vec3 from = *shot.hangs_from_W, offset = shot.ball.center_W - from;
@@ -133,6 +134,7 @@ void find_chain(const Scene& scene, const Shot& shot, std::vector<ChainLink>& ch
   for (std::uint32_t i = 0; i <= shot.links.size(); ++i) {
     bodies.push_back(i < shot.links.size() ? body_of(shot.links[i], scene)
                                            : body_of(shot.ball, scene));
+    bodies.back().name = name_or_index(bodies.back().name, "shot", index);
     Joint& joint = joints.emplace_back();
     if (i > 0) joint.a = i - 1;
     joint.b = i;
@@ -148,12 +150,20 @@ std::vector<ChainLink> find_chains(const Scene& scene) {
   if (scene.gravity_W.isZero()) return chains;
   std::vector<Body> bodies;
   if (!scene.joints.empty()) {
-    for (const Solid& solid : scene.solids) bodies.push_back(body_of(solid, scene));
-    for (const Ball& ball : scene.balls) bodies.push_back(body_of(ball, scene));
+    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+      bodies.push_back(body_of(scene.solids[i], scene));
+      bodies.back().name = name_or_index(bodies.back().name, "solid", i);
+    }
+    for (std::size_t i = 0; i < scene.balls.size(); ++i) {
+      bodies.push_back(body_of(scene.balls[i], scene));
+      bodies.back().name = name_or_index(bodies.back().name, "ball", i);
+    }
     ChainFinder(scene, std::move(bodies), scene.joints).find(chains);
   }
-  for (const Shot& shot : scene.shots)
-    if (shot.hangs_from_W && !shot.links.empty()) find_chain(scene, shot, chains);
+  for (std::size_t i = 0; i < scene.shots.size(); ++i) {
+    const Shot& shot = scene.shots[i];
+    if (shot.hangs_from_W && !shot.links.empty()) find_chain(scene, i, chains);
+  }
   return chains;
 }
 
@@ -162,7 +172,7 @@ std::vector<std::string> chain_warnings(const Scene& scene, int max_substeps) {
   for (const ChainLink& link : find_chains(scene)) {
     if (link.substeps <= scene.accuracy.substeps) continue;
     const Accuracy hold = divide_step(scene.accuracy, link.substeps, max_substeps);
-    char text[400];
+    char text[500];
     std::snprintf(text, sizeof text,
                   "the chain of '%s', which carries %.4g times its own weight, may tear: it needs "
                   "%d substeps of dt 1/%.4g s, the scene has %d of 1/%.4g s; raise "
