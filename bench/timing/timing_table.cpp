@@ -23,7 +23,7 @@ std::string stage_row(const Figures& scene, const std::string& name, const std::
 }
 
 constexpr const char* kHead =
-    "             processor ms a frame                           wall ms a frame\n"
+    "             processor ms per frame                         wall ms per frame\n"
     "  stage          mean      p50      p95      p99      max       mean      p50      p95      "
     "p99"
     "      max\n";

@@ -87,7 +87,7 @@ void print_warnings(const std::vector<Line>& lines) {
     const auto first =
         std::ranges::find_if(line.figures, std::not_fn(&std::string::empty), &Figure::told);
     if (first == line.figures.end() || !seen.insert(first->told).second) continue;
-    std::printf("%s* %s, `%s`: %s\n", seen.size() > 1 ? "" : "\n† What the user is told:\n\n",
+    std::printf("%s* %s, `%s`: %s\n", seen.size() > 1 ? "" : "\n† Warnings that the user gets:\n\n",
                 line.truth.what, kPresets[first->preset].name, first->told.c_str());
   }
 }

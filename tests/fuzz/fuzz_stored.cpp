@@ -126,7 +126,7 @@ void show(std::span<const std::uint8_t> bytes) {
   try {
     check_frame(*read_frame(stored.path()));
   } catch (const InputError& error) {
-    SUNDER_CHECK(std::string(error.what()).find("unpacked") == std::string::npos);
+    SUNDER_CHECK(std::string(error.what()).find("decompressed") == std::string::npos);
   }
 }
 

@@ -231,11 +231,12 @@ std::string accuracy_warning(const Scene& scene, int max_substeps) {
   if (substeps_against_buckling(stacks.weakest, g, accuracy.dt_s) > accuracy.substeps) {
     const Accuracy sufficient = accuracy_against_buckling(scene, max_substeps);
     std::snprintf(text, sizeof text,
-                  "a stack of %u bodies, the lowest under %.4g times its own weight, may sink in "
+                  "a stack of %u %s, the lowest under %.4g times its own weight, may sink in "
                   "and buckle: it needs %d substeps of dt 1/%.4g s, the scene has %d of 1/%.4g s; "
                   "raise accuracy.substeps%s, or use a more accurate preset",
-                  stacks.weakest.bodies, stacks.weakest.load, sufficient.substeps,
-                  1 / sufficient.dt_s, accuracy.substeps, 1 / accuracy.dt_s,
+                  stacks.weakest.bodies, stacks.weakest.bodies == 1 ? "body" : "bodies",
+                  stacks.weakest.load, sufficient.substeps, 1 / sufficient.dt_s, accuracy.substeps,
+                  1 / accuracy.dt_s,
                   sufficient.dt_s < accuracy.dt_s ? " and reduce accuracy.dt_s" : "");
     return text;
   }
