@@ -66,7 +66,10 @@ void check_planar(const Scene& scene, const std::string& where) {
       scene.ground.meshes.empty(),
       "it has a [[ground.mesh]], which planar scenes do not support; build it from prisms");
   for (const Solid& solid : scene.solids) checker.check(solid);
-  for (const Ball& ball : scene.balls) checker.check(ball, "ball '" + ball.name + "' ");
+  for (std::size_t i = 0; i < scene.balls.size(); ++i) {
+    const Ball& ball = scene.balls[i];
+    checker.check(ball, "ball '" + name_or_index(ball.name, "ball", i) + "' ");
+  }
   checker.require(scene.joints.empty(), "it has a [[joint]], which planar scenes do not support");
   for (const Shot& shot : scene.shots) {
     checker.check(shot.ball, "a ball of [script] ");
@@ -83,7 +86,7 @@ void check_planar(const Scene& scene, const std::string& where) {
   for (const Move& move : scene.moves) {
     for (const PathKey& key : move.path.keys) {
       checker.in_plane(key.shift_W, "a move's shift");
-      checker.require(key.turn_W.head<2>().norm() <= kPlaneTolerance,
+      checker.require(key.rotation_W.head<2>().norm() <= kPlaneTolerance,
                       "a move rotates about an axis other than z");
     }
   }

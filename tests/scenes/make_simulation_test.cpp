@@ -170,6 +170,21 @@ TEST(MakeSimulation, WarnsOfBodiesThatTheHeaviestWouldCrush) {
   EXPECT_FALSE(has_warning(bears, {"weighs"}));
 }
 
+TEST(MakeSimulation, WarningsNameAnUnnamedBallOrShotByItsIndex) {
+  const Scene heavy = parse_scene(std::string(kHead) +
+                                      "[[ball]]\nradius_m = 0.01\n[[ball]]\nradius_m = 2\n"
+                                      "position = [9, 2, 0]\n",
+                                  "x.toml", {"draft", {}});
+  EXPECT_TRUE(has_warning(heavy, {"'ball.1' weighs", "as much as 'ball.0'"}));
+  const Scene far = parse_scene(std::string(kHead) +
+                                    "[[solid]]\nstructure = \"box\"\nsize_m = [1, 1, 1]\n"
+                                    "[[script.shot]]\ntime_s = 1\nfrom = [0, 9, 9]\n"
+                                    "velocity = [0, 0, -1]\n[[script.shot]]\ntime_s = 0\n"
+                                    "from = [1e5, 9, 0]\nvelocity = [0, 0, -1]\n",
+                                "x.toml", {"draft", {}});
+  EXPECT_TRUE(has_warning(far, {"'shot.0' is 1e+05 m from the origin"}));
+}
+
 TEST(MakeSimulation, NoSceneOfTheCatalogueHasTheseWarnings) {
   for (const CatalogEntry& entry : catalog()) {
     const Scene scene = load_scene(entry.name, {"draft", {}});
