@@ -21,13 +21,13 @@ run(${CMAKE_COMMAND} -E chdir ${work}/build ./consumer)
 file(GLOB_RECURSE headers ${prefix}/include/*)
 list(LENGTH headers count)
 if(count GREATER 20)
-  message(FATAL_ERROR "${count} headers are installed: the public face has 20")
+  message(FATAL_ERROR "${count} headers are installed; the public interface has 20")
 endif()
 
 # What names the checkout would open it, or fail without it.
 execute_process(COMMAND grep -rlF ${ROOT} ${prefix}/include ${prefix}/lib ${prefix}/share
   ${work}/build/consumer OUTPUT_VARIABLE naming RESULT_VARIABLE found)
 if(NOT found EQUAL 1)
-  message(FATAL_ERROR "these name the checkout ${ROOT}:\n${naming}")
+  message(FATAL_ERROR "installed files contain the path of the checkout ${ROOT}:\n${naming}")
 endif()
 file(REMOVE_RECURSE ${work})

@@ -66,7 +66,7 @@ TEST(Blast, PushesEachFaceThatSeesItByAreaAndDistance) {
   EXPECT_NEAR(run.state(1).velocity_W.x(), -0.4 * 0.4, 1e-9);
   EXPECT_EQ(run.state(2).velocity_W.norm(), 0) << "out of reach";
   for (int i = 0; i < 5; ++i) run.simulation->next();
-  EXPECT_NEAR(run.state(0).velocity_W.x(), 0.6 * 0.6, 1e-9) << "once";
+  EXPECT_NEAR(run.state(0).velocity_W.x(), 0.6 * 0.6, 1e-9) << "the blast pushes once";
 }
 
 TEST(Blast, PushesOnlyWhatNothingCoversIfItIsAskedTo) {
@@ -205,7 +205,8 @@ TEST(WreckingBall, HangsOnAChainThatReachesItsSurface) {
   ASSERT_EQ(run.physics->joints.size(), 6u);
   EXPECT_LT((run.physics->joints[5].anchor_b_R - Vec3(0, 0.5, 0)).norm(), 1e-12);
   EXPECT_LT((run.physics->joints[5].anchor_a_R - Vec3(0, -0.25, 0)).norm(), 1e-12);
-  EXPECT_NEAR(run.simulation->next()->report.mass_kg, before, 1e-9 * before) << "it was counted";
+  EXPECT_NEAR(run.simulation->next()->report.mass_kg, before, 1e-9 * before)
+      << "the mass of the ball and its chain is counted from the start";
 }
 
 TEST(Joint, FollowsThePieceThatHasItsAnchorOrGoes) {
@@ -263,7 +264,7 @@ TEST(Ageing, MakesDebrisOfTheSmallestFragmentsAtRestAndKeepsTheMass) {
   Rubble rubble(limits);
   ASSERT_EQ(rubble.parted->bodies.size(), 21u);
   const FramePtr frame = rubble.simulation->next();
-  EXPECT_EQ(frame->bodies.size(), 14u) << "room for two more than there may be";
+  EXPECT_EQ(frame->bodies.size(), 14u) << "two fewer than limits.ageing";
   EXPECT_EQ(frame->report.aged, 7u);
   EXPECT_NEAR(frame->report.mass_kg, rubble.parted->report.mass_kg, 1e-9);
   double smallest_left = 1e9;
@@ -272,7 +273,7 @@ TEST(Ageing, MakesDebrisOfTheSmallestFragmentsAtRestAndKeepsTheMass) {
       smallest_left = std::min(smallest_left, body.desc.mass_kg);
     }
   }
-  EXPECT_NEAR(smallest_left, 1000 * (0.1 + 0.05 * 7), 1e-6) << "the seven smallest went";
+  EXPECT_NEAR(smallest_left, 1000 * (0.1 + 0.05 * 7), 1e-6) << "the seven smallest were removed";
   EXPECT_EQ(rubble.simulation->next()->report.aged, 0u);
 }
 

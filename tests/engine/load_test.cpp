@@ -200,7 +200,7 @@ TEST(LoadStage, JudgesSpinWhenItCanMatterAndAgainWhenItHasChanged) {
   EXPECT_EQ(spin(20), 1);
   EXPECT_EQ(run.asked_spin_R, Vec3(20, 0, 0));
   EXPECT_EQ(spin(20.9), 1);
-  EXPECT_EQ(spin(-20.9), 1) << "it feels the same the other way round";
+  EXPECT_EQ(spin(-20.9), 1) << "the stress is equal for the opposite spin";
   EXPECT_EQ(spin(21.1), 2);
   EXPECT_EQ(spin(-21.1), 2);
 }
@@ -279,7 +279,8 @@ TEST(LoadStage, AFrameMaySpendWhatTheOneBeforeSaved) {
   run.frames(5);
   run.press(1e6);
   run.frames(1);
-  EXPECT_EQ(allowed, (std::vector<std::uint64_t>{10, 20})) << "of one frame before, and no more";
+  EXPECT_EQ(allowed, (std::vector<std::uint64_t>{10, 20}))
+      << "the unused budget of one frame, and no more";
 }
 
 TEST(LoadStage, GivesTheMemoryBack) {

@@ -101,7 +101,7 @@ TEST(Plot, EqualRatiosAreEquallyFarOnLogarithmicAxes) {
   ASSERT_EQ(places.size(), 3u);
   EXPECT_NEAR(places[1].first - places[0].first, places[2].first - places[1].first, 0.02);
   EXPECT_GT(places[1].first, places[0].first);
-  EXPECT_GT(places[1].second, places[0].second) << "less is lower";
+  EXPECT_GT(places[1].second, places[0].second) << "smaller values are lower";
 }
 
 TEST(Plot, WhatHasNoPlaceIsAtTheEndOfItsAxis) {

@@ -79,7 +79,8 @@ void expect_same(const Frame& read, const Frame& frame) {
       EXPECT_EQ(*got.gloss->picture, *given.gloss->picture);
     }
   }
-  EXPECT_EQ((*read.paints)[0].picture, (*read.paints)[3].picture) << "one picture is read once";
+  EXPECT_EQ((*read.paints)[0].picture, (*read.paints)[3].picture)
+      << "a shared texture is read once";
   EXPECT_EQ((*read.paints)[0].picture, (*read.paints)[4].relief);
   ASSERT_EQ(read.meshes->size(), 2u);
   EXPECT_TRUE(read.meshes->at(0)->uvs.empty());

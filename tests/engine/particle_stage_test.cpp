@@ -160,12 +160,12 @@ TEST(ParticleStage, FacesMoveAsTheirPiecesDoOnceTheBlowHasDrivenThemApart) {
   for (const RecordingParticles::Face& face : run.particles->faces) {
     const Vec3 velocity_W = face.emission.motion(face.corners_W[0]);
     EXPECT_LT((velocity_W - Vec3(0, 3, 6)).norm(), 1e-9)
-        << "the parent's, and what the impact added";
+        << "the velocity of the parent plus the change by the impact";
     EXPECT_NEAR(face.emission.opening_speed_m_s, 5, 1e-9);
   }
   const Vec3 corner = box.vertices[box.face_corners(0)[0]];
   EXPECT_LT((run.particles->faces[0].corners_W[0] - corner).norm(), 1e-9)
-      << "they start where the frame began, so that they keep up with their piece";
+      << "faces start at their place at the beginning of the frame";
 }
 
 TEST(ParticleStage, PiecesThatGoOnAsTheirSolidSpunDoNotPart) {
@@ -216,7 +216,7 @@ TEST(ParticleStage, MovesOnceAFrameFromWhereTheFrameBegan) {
   const ConvexPolyhedron box = make_box(Vec3::Zero(), Vec3::Ones());
   const Vec3 corner = box.vertices[box.face_corners(0)[0]];
   EXPECT_NEAR(run.particles->faces[0].corners_W[0].z(), corner.z(), 1e-9)
-      << "whichever of the frame's steps broke it, the face was here when the frame began";
+      << "the place at the beginning of the frame, whichever step broke the solid";
 }
 
 TEST(ParticleStage, SeesEveryBodyAndTheGround) {
@@ -293,7 +293,7 @@ TEST(ParticleStage, ABlastPushesChipsThatItMakes) {
   const DebrisPiece& chip = run.particles->chips[0];
   EXPECT_GT(chip.velocity_W.x(), 0.5);
   EXPECT_NEAR(chip.velocity_W.z(), 1, 0.1);
-  EXPECT_NEAR(chip.center_W.z(), 0.05, 1e-9) << "it has flown on meanwhile";
+  EXPECT_NEAR(chip.center_W.z(), 0.05, 1e-9) << "the chip has moved for three steps";
 }
 
 TEST(ParticleStage, AChipOfAnyStepStartsWhereItWasWhenTheFrameBegan) {
@@ -305,7 +305,7 @@ TEST(ParticleStage, AChipOfAnyStepStartsWhereItWasWhenTheFrameBegan) {
 
 TEST(ParticleStage, WithNothingToMoveDoesNothing) {
   ParticleRun run(1.0 / 60, 0, 0);
-  ASSERT_EQ(run.simulation->next()->breaks.size(), 1u) << "this material does not crumble";
+  ASSERT_EQ(run.simulation->next()->breaks.size(), 1u) << "this material emits no particles";
   EXPECT_TRUE(run.particles->faces.empty());
   EXPECT_TRUE(run.particles->steps_s.empty());
 }

@@ -31,7 +31,7 @@ TEST(Path, GoesThroughItsKeysFromWhereItStoodAndStays) {
     }
     EXPECT_EQ(path.at(100).shift_W, path.at(4).shift_W);
   }
-  EXPECT_EQ(Path().at(3).shift_W, Vec3::Zero()) << "without keys it stands";
+  EXPECT_EQ(Path().at(3).shift_W, Vec3::Zero()) << "a path without keys stays at zero";
 }
 
 TEST(Path, ASmoothOneHasNoJumpOfVelocityAndOvershootsNothing) {

@@ -80,7 +80,7 @@ TEST(CarryOut, LeavesStandingWhatIsLikeNewOfItsSize) {
   EXPECT_EQ(left.weight.mass_kg, same.weight.mass_kg);
   EXPECT_EQ(left.volume_m3, same.volume_m3);
   EXPECT_FALSE(left.stress.settled);
-  ASSERT_EQ(left.stress.mean_forces.size(), 1u) << "what pressed on the rest is forgotten";
+  ASSERT_EQ(left.stress.mean_forces.size(), 1u) << "forces on removed convexes are dropped";
   EXPECT_EQ(left.stress.mean_forces[0].convex, ConvexSlot(1));
   EXPECT_EQ(column.physics->bodies[0].desc.shapes.size(), 2u);
 }

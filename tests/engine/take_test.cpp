@@ -257,7 +257,7 @@ TEST_F(Take, CutShortAnywherePlaysWhatIsLeftOrSaysWhyNot) {
     write_file(path_, {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
     std::string word;
     const int frames = playable(path_, word);
-    EXPECT_LE(frames, last) << "less of the file cannot hold more frames";
+    EXPECT_LE(frames, last) << "a shorter file has no more frames";
     EXPECT_FALSE(word.empty() && frames < 0);
     if (frames < 0) {
       EXPECT_NE(word.find(path_.string()), std::string::npos) << word;

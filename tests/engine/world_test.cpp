@@ -156,7 +156,8 @@ TEST(BreakStage, BreaksWhatIsWeakBesideWhatIsTooStrong) {
   run.simulation.next();
   const FramePtr frame = run.simulation.next();
   ASSERT_EQ(frame->breaks.size(), 1u);
-  EXPECT_EQ(frame->report.counts.compounds, 3u) << "two pieces of what is weak";
+  EXPECT_EQ(frame->report.counts.compounds, 3u)
+      << "two pieces of the weak solid, and the strong solid";
 }
 
 TEST(BreakStage, LetsTheAnchoredPartStandAndTheRestGo) {
@@ -232,7 +233,8 @@ TEST(BreakStage, AsksNothingTwiceInAStepThatBreaksElsewhere) {
     const auto is_it = [&](const WorkItem& item) { return item.name == name; };
     return std::ranges::find_if(frame->report.work, is_it)->count;
   };
-  EXPECT_EQ(counted("clusters found"), 3u) << "what holds is there again after the break";
+  EXPECT_EQ(counted("clusters found"), 3u)
+      << "the cluster that does not break is found again after the break";
   EXPECT_EQ(counted("breaks planned"), 2u) << "and is not planned again";
 }
 
@@ -262,7 +264,7 @@ TEST(BreakStage, TakesWhatHasWaitedBeforeHarderImpactsThatAreNew) {
   };
   EXPECT_EQ(broken(), 0) << "the harder one of two";
   all_meet = true;
-  EXPECT_EQ(broken(), 1) << "which has waited";
+  EXPECT_EQ(broken(), 1) << "the deferred one";
   EXPECT_EQ(broken(), 2);
 }
 

@@ -172,7 +172,7 @@ TEST(ImpactLoad, OnAFreeRodBendsItAgainstItsInertia) {
   const Vec3 middle(kBarLength / 2 + 0.01, kBarWidth, kBarWidth / 2);
   const StressResult answer = struck(rod, 1e6, 0.01, 0, middle);
   EXPECT_NEAR(answer.impulsive_stress.worst_R.x(), kBarLength / 2, 0.11);
-  EXPECT_TRUE(struck(rod, 1e6, 0, 0, middle).edit.cut.empty()) << "no blow";
+  EXPECT_TRUE(struck(rod, 1e6, 0, 0, middle).edit.cut.empty()) << "no impact";
 }
 
 TEST(ImpactLoad, SpendsItsEnergyOnEachBrokenBond) {
@@ -183,7 +183,7 @@ TEST(ImpactLoad, SpendsItsEnergyOnEachBrokenBond) {
   const double all_J_m2 = energy_J / (kBarWidth * kBarWidth);
   const std::size_t cut = struck(compound, kg, m_s, 0, kTip, 4 * all_J_m2).edit.cut.size();
   EXPECT_GT(cut, 0u);
-  EXPECT_LT(cut, 16u) << "it comes to rest in a crack";
+  EXPECT_LT(cut, 16u) << "the impact's energy ends within the section";
 }
 
 TEST(ImpactLoad, IsTheSameToTheLastBitForAnyNumberOfThreads) {

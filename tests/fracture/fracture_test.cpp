@@ -213,7 +213,7 @@ TEST(Fracture, separates_breakable_from_unbreakable_convexes_at_their_bond) {
   EXPECT_NEAR(plan.new_area_m2, 3 + 1, 1e-12);
   double exposed = 0;
   for (const ExposedFace& face : plan.exposed) {
-    EXPECT_EQ(face.material, MaterialIndex(0u)) << "the bond takes what the weaker side takes";
+    EXPECT_EQ(face.material, MaterialIndex(0u)) << "the bond has the weaker side's strength";
     exposed += face.area_m2;
   }
   EXPECT_NEAR(exposed, 2 * plan.new_area_m2, 1e-12);

@@ -162,11 +162,11 @@ std::string find_unbreakable_violation(const Compound& parent, const BreakPlan& 
   }
   std::ranges::sort(before);
   std::ranges::sort(after);
-  if (before != after) return "a convex that does not break was replaced";
+  if (before != after) return "an unbreakable convex was replaced";
   double sides_m2 = 0;
   for (const ExposedFace& face : plan.exposed) {
     const Convex& convex = *plan.pieces[face.piece].convexes[face.convex];
-    if (std::ranges::count(kUnbreakable, face.material) > 0) return "what does not break cracked";
+    if (std::ranges::count(kUnbreakable, face.material) > 0) return "an unbreakable convex cracked";
     if (is_unbreakable(convex)) exposed_m2 += face.area_m2;
     sides_m2 += face.area_m2;
   }
@@ -174,8 +174,9 @@ std::string find_unbreakable_violation(const Compound& parent, const BreakPlan& 
   const double least_m2 = 1e-4 * bounds(parent).extent().squaredNorm();
   if (std::abs(sides_m2 - 2 * plan.new_area_m2) > least_m2) return "a crack with one side";
   if (!parent.ghosts.empty()) return {};  // Bonds count overlaps twice.
-  if (std::abs(both_m2) > least_m2) return "what does not break parted";
-  if (std::abs(parted_m2 - exposed_m2) > least_m2) return "parted for another price";
+  if (std::abs(both_m2) > least_m2) return "unbreakable convexes were separated";
+  if (std::abs(parted_m2 - exposed_m2) > least_m2)
+    return "area broken off an unbreakable convex is not counted";
   return {};
 }
 

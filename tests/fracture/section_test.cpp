@@ -149,7 +149,7 @@ TEST(Section, IsFullyPlasticInTensionAndBendingAsARectangle) {
     const Section root = Loaded(std::move(beam), loads).at(Vec3(0, h / 4, h / 2));
     const SectionLoad load = relative_load(root.strength, root.wrench_R);
     EXPECT_NEAR(load.axial, n, 1e-4);
-    EXPECT_NEAR(root.utilisation, 1, 0.02) << n << ": it is sheared besides";
+    EXPECT_NEAR(root.utilisation, 1, 0.02) << n << ": shear adds to it";
   }
 }
 
@@ -208,7 +208,7 @@ TEST(Section, DoesNotReachIntoOtherMembers) {
   EXPECT_EQ(column.crossings.size(), 4u);
   EXPECT_NEAR(column.area_m2, 1, 1e-12);
   const Section beam = loaded.at(Vec3(2, 6.5, 0.5));
-  EXPECT_EQ(beam.crossings.size(), 1u) << "and not the footing below it";
+  EXPECT_EQ(beam.crossings.size(), 1u) << "the footing is no part of the section";
 }
 
 TEST(Section, IsEmptyIfAMaterialInItCannotYield) {

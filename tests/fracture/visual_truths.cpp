@@ -48,13 +48,14 @@ std::string find_mesh_violation(const Convex& convex) {
   const double near = 1e-12 * box.extent().maxCoeff() + 1e-14 * reach;
   for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces) {
     for (const Vec3& vertex : mesh.vertices) {
-      if (face.plane.distance(vertex) > near) return "a mesh that sticks out of its convex";
+      if (face.plane.distance(vertex) > near) return "a mesh outside its convex";
     }
   }
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const bool is_cap = !mesh.faces[f].id.none();
     if (is_cap != (f >= first_cap(mesh))) return "a cap among the other faces";
-    if (is_cap != (mesh.faces[f].kind == FaceKind::kInterior)) return "a cap that looks old";
+    if (is_cap != (mesh.faces[f].kind == FaceKind::kInterior))
+      return "a cap that is marked as surface";
     const auto& faces = convex.polyhedron.faces;
     const bool is_shared = std::any_of(
         faces.begin(), faces.end(), [&](const auto& face) { return face.id == mesh.faces[f].id; });

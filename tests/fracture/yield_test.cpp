@@ -237,7 +237,7 @@ TEST(Yield, ASwayingPortalYieldsAtItsFeet) {
   ASSERT_EQ(answer.edit.hinges.size(), 2u);
   for (const PlasticHinge& hinge : answer.edit.hinges)
     EXPECT_NEAR(hinge.section.centroid_R.y(), 0, 1e-9);
-  EXPECT_EQ(answer.edit.loose.pieces.size(), 2u) << "a foot, and what stood on both";
+  EXPECT_EQ(answer.edit.loose.pieces.size(), 2u) << "one foot, and the part above both";
 }
 
 TEST(Yield, APlateFixedAlongItsEdgesDoesNotYield) {

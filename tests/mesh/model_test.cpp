@@ -166,7 +166,7 @@ TEST(Glb, FollowsTheRulesOfTheFormat) {
   EXPECT_EQ(document["buffers"][0]["byteLength"], binary_size);
   EXPECT_EQ(document["nodes"].size(), 2u);
   EXPECT_EQ(document["meshes"][0]["primitives"].size(), 1u);
-  EXPECT_EQ(document["meshes"][1]["primitives"].size(), 2u) << "one side is broken";
+  EXPECT_EQ(document["meshes"][1]["primitives"].size(), 2u) << "one face is interior";
   EXPECT_EQ(document["materials"][1]["name"], "old stone inside");
   for (const auto& accessor : document["accessors"]) {
     const auto& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
@@ -233,7 +233,7 @@ TEST(Glb, KeepsAppearancesWithTheirTexturesAndCoordinates) {
   }
   EXPECT_EQ(seen[1], 8u);
   EXPECT_EQ(seen[2], 8u);
-  EXPECT_EQ(seen[0], 8u) << "among them the broken side";
+  EXPECT_EQ(seen[0], 8u) << "the interior face included";
   const std::vector<std::byte> bytes = read_file(folder / "x.glb");
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   EXPECT_EQ(text.find("\x89PNG5"), text.rfind("\x89PNG5")) << "each is written once";

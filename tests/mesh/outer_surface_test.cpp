@@ -68,7 +68,7 @@ TEST(OuterSurface, OfBoxesThatTouchInAnEdgeHasTheEdgeOncePerBox) {
   std::set<std::vector<double>> places;
   for (const Vec3& vertex : outer->mesh.vertices)
     places.insert({vertex.x(), vertex.y(), vertex.z()});
-  EXPECT_EQ(places.size(), 16u) << "in a place of its own";
+  EXPECT_EQ(places.size(), 16u) << "each box has its own position of the vertex";
 }
 
 TEST(OuterSurface, OfAnOpenMeshIsEmpty) {

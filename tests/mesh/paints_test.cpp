@@ -65,14 +65,14 @@ TEST_F(Appearances, OfAnObjAreReadFromItsMtl) {
   };
   ASSERT_TRUE(paint(1));
   EXPECT_NEAR(paint(1)->color.x(), 1, 1e-3);
-  EXPECT_NEAR(paint(1)->color.y(), 0.214, 2e-3) << "from what a screen shows to light";
+  EXPECT_NEAR(paint(1)->color.y(), 0.214, 2e-3) << "sRGB to linear";
   EXPECT_EQ(paint(1)->color.z(), 0);
   EXPECT_FALSE(paint(1)->picture);
   ASSERT_TRUE(paint(2));
   ASSERT_TRUE(paint(2)->picture);
   EXPECT_EQ(text_of(paint(2)->picture), "PNG!");
   EXPECT_TRUE(paint(2)->v_from_bottom);
-  EXPECT_EQ(paint(2)->color, Vec3f(1, 1, 1)) << "black times a picture is not meant";
+  EXPECT_EQ(paint(2)->color, Vec3f(1, 1, 1)) << "a black factor of a texture is ignored";
   EXPECT_FALSE(paint(3));
 }
 
@@ -146,7 +146,7 @@ TEST_F(Appearances, OfAnMtlHaveItsRoughnessOrOneFromItsExponent) {
   EXPECT_EQ(gloss(0)->metallic, 1);
   EXPECT_NEAR(gloss(1)->roughness, 0.5, 1e-6) << "the fourth root of 2 / (30 + 2)";
   EXPECT_EQ(gloss(1)->metallic, 0);
-  EXPECT_FALSE(gloss(2)) << "an exponent of highlights that are black";
+  EXPECT_FALSE(gloss(2)) << "black highlights have no exponent";
   EXPECT_EQ(gloss(3)->metallic, 1) << "at most";
   EXPECT_EQ(gloss(3)->roughness, 1);
   EXPECT_FALSE(gloss(4));
@@ -180,16 +180,16 @@ TEST_F(Appearances, OfAGltfHaveItsNormalMapsAndTheirScale) {
   ASSERT_TRUE(paint(0));
   EXPECT_EQ(text_of(paint(0)->relief), "N");
   EXPECT_EQ(paint(0)->normal_scale, 0.5f);
-  EXPECT_EQ(paint(0)->color, Vec3f(1, 1, 1)) << "which is what the format says of none";
-  EXPECT_FALSE(paint(1)->relief) << "it is not there";
+  EXPECT_EQ(paint(0)->color, Vec3f(1, 1, 1)) << "the default of the format";
+  EXPECT_FALSE(paint(1)->relief) << "the file is missing";
   EXPECT_EQ(paint(1)->color, Vec3f(0, 0, 1));
-  EXPECT_EQ(paint(0)->gloss->roughness, 1) << "likewise";
+  EXPECT_EQ(paint(0)->gloss->roughness, 1) << "the default of the format";
   EXPECT_EQ(paint(0)->gloss->metallic, 1);
   EXPECT_FALSE(paint(0)->gloss->picture);
   EXPECT_EQ(paint(1)->gloss->roughness, 0.5f);
   EXPECT_EQ(paint(1)->gloss->metallic, 0);
   EXPECT_EQ(paint(1)->gloss->picture, paint(0)->relief) << "one picture is read once";
-  EXPECT_FALSE(paint(2)->relief) << "of other coordinates than those that are read";
+  EXPECT_FALSE(paint(2)->relief) << "uses a set of coordinates that is not read";
 
   write("a.gltf", gltf(R"({"normalTexture":{"index":0,"scale":"much"}},{},{})"));
   expect_refused("a.gltf", "a.gltf: scale must be a number");
@@ -233,7 +233,7 @@ TEST_F(Appearances, OfAGltfHaveItsBaseColoursAndTexturesFromAnySource) {
   EXPECT_FALSE(paint(3)->v_from_bottom);
   ASSERT_TRUE(paint(4));
   EXPECT_FALSE(paint(4)->picture);
-  EXPECT_FALSE(paint(5)) << "it says nothing of its look";
+  EXPECT_FALSE(paint(5)) << "the material has no appearance";
 }
 
 }  // namespace

@@ -56,7 +56,8 @@ TEST(Polygons, OfARepeatedlyCutTorusAreFewerThanTrianglesByAGrowingFactor) {
     ASSERT_EQ(polygons.size(), triangles.size());
     for (const PolygonMesh& piece : triangles) ASSERT_EQ(open_edges(piece), 0u);
     EXPECT_NEAR(bench::volume_m3(polygons), volume_m3, 1e-12);
-    EXPECT_NEAR(bench::volume_m3(triangles), volume_m3, 1e-9) << "both cutters cut the same";
+    EXPECT_NEAR(bench::volume_m3(triangles), volume_m3, 1e-9)
+        << "both cutters must make the same volumes";
     const double now = double(bench::face_count(triangles)) / double(bench::face_count(polygons));
     EXPECT_GT(now, ratio);
     EXPECT_GE(bench::ill_shaped(triangles), ill_count);

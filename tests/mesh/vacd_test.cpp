@@ -49,7 +49,7 @@ std::string find_violation(const Compound& compound, const RepairedMesh& mesh) {
     if (open_edges(visual) != 0) return "open mesh" + which;
     const double size = bounds(convex.polyhedron).extent().maxCoeff();
     for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces) {
-      if (face.id.none()) return "plane without a name" + which;
+      if (face.id.none()) return "plane without an id" + which;
       for (const Vec3& v : visual.vertices) {
         if (face.plane.distance(v) > 1e-10 * size) return "mesh outside the hull" + which;
       }

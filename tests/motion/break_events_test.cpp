@@ -47,7 +47,7 @@ std::size_t expect_attributed(const Frame& before, const Frame& frame) {
     }
   }
   for (const std::uint64_t key : now)
-    EXPECT_TRUE(last.contains(key) || born.contains(key)) << key << " comes from nowhere";
+    EXPECT_TRUE(last.contains(key) || born.contains(key)) << key << " is in no break event";
   return short_lived;
 }
 
@@ -77,7 +77,7 @@ TEST(BreakEvents, NameBodiesOfTheFrameBeforeOrOfEarlierEvents) {
     }
   }
   EXPECT_GT(events, 20u);
-  EXPECT_GT(short_lived, 0u) << "no body is born and broken within a frame";
+  EXPECT_GT(short_lived, 0u) << "no body was created and broken within a frame";
 }
 
 TEST(BreakEvents, OfWhatBendsLeadToTheFrameBefore) {

@@ -41,7 +41,7 @@ TEST(Moves, ItIsAlwaysWhereItsPathIs) {
     EXPECT_LT((trial.body(0).X_WB.position - at_W).norm(), 1e-9) << trial.frame->time_s;
     EXPECT_LT(trial.body(0).X_WB.rotation.angularDistance(turn), 1e-6);
   }
-  EXPECT_TRUE(trial.body(0).velocity_W.isZero(0)) << "it stands at its last key";
+  EXPECT_TRUE(trial.body(0).velocity_W.isZero(0)) << "the body rests at its last key";
 }
 
 TEST(Moves, ARamBreaksWhatItHitsAndNotItself) {
@@ -53,14 +53,16 @@ TEST(Moves, ARamBreaksWhatItHitsAndNotItself) {
     trial.step();
     for (const FrameBody& body : trial.frame->bodies) {
       const Vec3 way_W = body.X_WB.position - trial.body(0).X_WB.position;
-      EXPECT_TRUE(body.key == 0 || way_W.cwiseAbs().maxCoeff() > 0.48) << "it is run over";
+      EXPECT_TRUE(body.key == 0 || way_W.cwiseAbs().maxCoeff() > 0.48)
+          << "a piece is inside the ram";
     }
   }
   EXPECT_FALSE(trial.breaks.empty());
   for (const BreakEvent& event : trial.breaks) EXPECT_NE(event.parent_key, 0u);
-  EXPECT_NEAR(trial.body(0).velocity_W.x(), 10, 1e-9) << "whatever it broke";
+  EXPECT_NEAR(trial.body(0).velocity_W.x(), 10, 1e-9)
+      << "the velocity of the ram does not depend on what it broke";
   const double blow_J = 0.5 * 1000 * 10 * 10;  // what a plastic one makes of 1000 kg
-  EXPECT_GT(trial.kinetic_J(), 0.9 * blow_J) << "all is pushed as fast as it goes";
+  EXPECT_GT(trial.kinetic_J(), 0.9 * blow_J) << "all pieces reach the speed of the ram";
   EXPECT_LT(trial.kinetic_J(), 2 * blow_J) << "and hardly faster";
 }
 
@@ -126,7 +128,8 @@ TEST(Moves, AChainHangsFromACraneUntilTheCraneIsLetGoAndThenStill) {
     EXPECT_LT(most_apart_m(), 0.01) << trial.frame->time_s;
     const PathKey key = path.at(trial.frame->time_s);
     const Vec3 at_W = Vec3(0, 0.2, 0) + key.shift_W;
-    EXPECT_LT((trial.body(0).X_WB.position - at_W).norm(), 1e-6) << "whatever hangs on it";
+    EXPECT_LT((trial.body(0).X_WB.position - at_W).norm(), 1e-6)
+        << "the path does not depend on the chain";
   }
   EXPECT_GT(trial.body(kLinks).X_WB.position.x(), 0.5) << "it is taken along";
   while (trial.frame->time_s < 4) trial.step();

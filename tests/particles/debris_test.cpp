@@ -218,11 +218,11 @@ TEST(Debris, OverItsBudgetFadesTheOldestAtRestAndOverItsLimitRejectsChips) {
   run(debris, obstacles, 2);
   const ParticleCounts ledger = debris.ledger();
   EXPECT_EQ(ledger.alive, ledger.emitted - ledger.gone);
-  EXPECT_LE(ledger.alive, 150u) << "room for the next";
-  EXPECT_GE(ledger.alive, 130u) << "but no more than that";
+  EXPECT_LE(ledger.alive, 150u) << "space for new chips";
+  EXPECT_GE(ledger.alive, 130u) << "not more removed than needed";
   for (const Vec3f& at : debris.view().position_W) {
     if (at.z() > 4) continue;
-    EXPECT_GE(at.x(), 10) << "those that lay first have gone first";
+    EXPECT_GE(at.x(), 10) << "the oldest must be removed first";
   }
 }
 
@@ -242,7 +242,7 @@ TEST(Debris, OverItsBudgetShrinksSmallChipsBeforeLargeOnes) {
   ASSERT_EQ(debris.ledger().ignored, 0u);
   for (int step = 0; step < 20; ++step) {
     run(debris, obstacles, 0.9 * kDt);
-    ASSERT_EQ(debris.ledger().alive, 155u) << "none pops out of sight";
+    ASSERT_EQ(debris.ledger().alive, 155u) << "no chip may vanish at once";
   }
   int shrinking = 0;
   for (std::size_t chip = 0; chip < full_m.size(); ++chip) {
@@ -253,7 +253,7 @@ TEST(Debris, OverItsBudgetShrinksSmallChipsBeforeLargeOnes) {
     EXPECT_LT(full_m[chip], 0.1f) << "a large chip goes before a small one";
   }
   EXPECT_GE(shrinking, 5);
-  EXPECT_LE(shrinking, 30) << "those that are too many, and some room";
+  EXPECT_LE(shrinking, 30) << "the surplus and a reserve";
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ TEST(Dust, OverItsLimitIsRejectedAndCounted) {
   EXPECT_EQ(dust.ledger().alive, 64u);
   EXPECT_EQ(dust.ledger().ignored, 36u);
   for (int step = 0; step < 60; ++step) dust.advance(kDt, obstacles.view());
-  EXPECT_LE(dust.ledger().alive, 60u) << "the oldest made room";
+  EXPECT_LE(dust.ledger().alive, 60u) << "the oldest were removed";
 }
 
 Vec3f velocity_in(const Swirl& swirl, std::size_t cell, const Vec3f& at) {

@@ -56,12 +56,12 @@ void expect_contacts_of_all(Random& random, const ObstacleGrid& grid, std::size_
     grid.sweep(paths, near, found);
     grid.sweep(paths, all, expected);
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      ASSERT_EQ(found[i].has_value(), expected[i].has_value()) << round << ", way " << i;
+      ASSERT_EQ(found[i].has_value(), expected[i].has_value()) << round << ", path " << i;
       if (!found[i]) continue;
       ++touched;
-      ASSERT_EQ(found[i]->time, expected[i]->time) << round << ", way " << i;
+      ASSERT_EQ(found[i]->time, expected[i]->time) << round << ", path " << i;
       if (expected[i]->time == 0) continue;  // The sphere may start inside several obstacles.
-      ASSERT_EQ(found[i]->body, expected[i]->body) << round << ", way " << i;
+      ASSERT_EQ(found[i]->body, expected[i]->body) << round << ", path " << i;
     }
   }
   EXPECT_GT(touched, 20);
@@ -142,7 +142,7 @@ TEST(ObstacleGrid, HasOnlyTheRequestedObstacles) {
   using Touched = std::array<bool, 4>;
   EXPECT_EQ(touched(ObstacleGrid::Which::kAll, kEverywhere), (Touched{true, true, true, true}));
   EXPECT_EQ(touched(ObstacleGrid::Which::kMoving, kEverywhere), (Touched{false, true, false, true}))
-      << "what creeps lies still";
+      << "slow obstacles count as at rest";
   const Box right{Vec3(1.5, -1, -1), Vec3(2.5, 1, 1)};
   EXPECT_EQ(touched(ObstacleGrid::Which::kAll, right), (Touched{false, false, true, false}));
   EXPECT_EQ(touched(ObstacleGrid::Which::kAll, Box()), (Touched{false, false, false, false}));

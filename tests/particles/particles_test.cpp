@@ -160,7 +160,7 @@ TEST(Particles, AreFewAndSlowAtAClosedCrackAndManyAndFastAtOneOpenedByAnImpact) 
   EXPECT_GT(alive[0], 0u);
   EXPECT_LT(alive[0] * 5, alive[1]);
   EXPECT_LT(alive[1], alive[2]);
-  EXPECT_EQ(alive[2], 4000u) << "never more than the material says";
+  EXPECT_EQ(alive[2], 4000u) << "at most the material's number";
   EXPECT_LT(mean_m[0], mean_m[1]);
   EXPECT_LT(1.5 * mean_m[1], mean_m[2]);
 }

@@ -27,7 +27,7 @@ TEST(RegressDebris, FallsFromWhatStandsWhenTheConvexUnderItHasComeOff) {
   ASSERT_EQ(debris.ledger().awake, 0u);
   obstacles.shapes.clear();  // the body has others, elsewhere
   run(debris, obstacles, 0.2);
-  EXPECT_EQ(debris.ledger().awake, 0u) << "nobody has said so";
+  EXPECT_EQ(debris.ledger().awake, 0u) << "the number of edits has not changed";
   ++obstacles.bodies[0].edits;
   run(debris, obstacles, 3);
   EXPECT_NEAR(debris.view().position_W[0].y(), 0.02, 1e-3);

@@ -111,7 +111,8 @@ Worst worst_of(double restitution) {
 
 TEST(RegressJoints, WhatHangsTogetherAndIsStruckMakesNone) {
   const Worst worst = worst_of(0);
-  EXPECT_LT(worst.rise, 1e-3) << "what fast turns make of a substep; 5e-2 without a guard";
+  EXPECT_LT(worst.rise, 1e-3)
+      << "error of fast rotation in a substep; 5e-2 without the limit on energy";
   EXPECT_LT(worst.push, 1e-5);
   EXPECT_LT(worst.spin, 1e-4);
 }

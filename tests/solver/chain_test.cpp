@@ -53,7 +53,7 @@ TEST(Chain, HoldsABallOfTenThousandLinksAtEveryPreset) {
         char what[80];
         std::snprintf(what, sizeof what, "20 %s, ball x %.0f, %s: stretch",
                       kind == Kind::kBall ? "balls" : "hinges", ratio,
-                      along.x() == 1 ? "let go level" : "hanging");
+                      along.x() == 1 ? "released level" : "hanging");
         at_each_preset(what, [&](const Preset& preset) {
           const double stretch =
               worst_stretch(preset, {.ball_ratio = ratio, .along = along, .kind = kind});

@@ -160,7 +160,8 @@ TEST(Extremes, BodiesThatSpinByRadiansPerStepStayFinite) {
     const double before_J = world.kinetic_energy();
     for (int i = 0; i < 10; ++i) world.step(1.0 / 120, 4);
     ASSERT_TRUE(finite(world));
-    EXPECT_GT(world.state(id).angular_velocity_W.norm(), 0.1 * turn_s) << "it was not frozen";
+    EXPECT_GT(world.state(id).angular_velocity_W.norm(), 0.1 * turn_s)
+        << "the body must not be frozen";
     EXPECT_LT(world.kinetic_energy(), 1.5 * before_J + 1);
   }
 }

@@ -114,7 +114,7 @@ TEST(Facets, ABoxSlidesOverAThousandAsOverThePlane) {
   EXPECT_LT(over.up_m, 1e-4) << "on the plane " << on.up_m;
   EXPECT_LT(over.end.angular_velocity_W.norm(), 0.002);
   EXPECT_NEAR(over.end.velocity_W.norm(), on.end.velocity_W.norm(), 1e-4);
-  EXPECT_GT(over.end.X_WB.position.x(), 2) << "it crossed them";
+  EXPECT_GT(over.end.X_WB.position.x(), 2) << "the box crossed the triangles";
 }
 
 TEST(Facets, FrictionOnThemEqualsThatOnThePlane) {
@@ -192,7 +192,7 @@ TEST(Facets, ABoxStopsAtAWallOfThemAndStandsOnItsFloor) {
   const BodyDesc box = W::box(Vec3(0.5, 0.5, 0.5), Vec3(-1, 0.25, 0));
   const BodyId id = world.add(W::moving(box, Vec3(5, 0, 0)));
   world.run(2, kDt_s, kSubsteps);
-  EXPECT_LT(world.state(id).X_WB.position.x(), 0.751) << "it went through";
+  EXPECT_LT(world.state(id).X_WB.position.x(), 0.751) << "the box passed the wall";
   EXPECT_NEAR(world.state(id).X_WB.position.y(), 0.25, 0.005);
   EXPECT_LT(world.state(id).velocity_W.norm(), 0.01);
 }
@@ -292,7 +292,7 @@ TEST(Facets, BodiesDroppedOnBumpyGroundStayAboveIt) {
       EXPECT_TRUE(at.allFinite());
       if (std::max(std::abs(at.x()), std::abs(at.z())) > 4.7) continue;
       EXPECT_GT(at.y(), height_at(mesh, at.x(), at.z()) - 0.01) << seed << ": body " << id.slot;
-      EXPECT_LT(state.velocity_W.norm(), 12) << "nothing is thrown";
+      EXPECT_LT(state.velocity_W.norm(), 12) << "no body is thrown up";
     }
   }
 }

@@ -131,8 +131,8 @@ TEST(Joint, ABallOnARopeCirclesWithoutLosingSpeed) {
     slowest = std::min(slowest, now.velocity_W.norm());
   }
   EXPECT_LT(farthest, 3.001);
-  EXPECT_GT(slowest, 1.99) << "ten seconds cost it little";
-  EXPECT_LT(lowest, -2.9) << "it has been at the far side";
+  EXPECT_GT(slowest, 1.99) << "speed after ten seconds";
+  EXPECT_LT(lowest, -2.9) << "the ball reached the far side";
 }
 
 TEST(Joint, ACantileverOfFixedJointsStaysStraight) {
@@ -213,7 +213,7 @@ TEST(Joint, JoinedBodiesSleepAndWakeTogether) {
   world.physics().join(joint_at(world, Kind::kBall, {}, hanging, Vec3(4, 2.25, 0)));
   world.physics().join(joint_at(world, Kind::kBall, first, {}, Vec3(6, 2.25, 0)));
   world.run(3, kDt_s, 4);
-  EXPECT_TRUE(world.state(first).asleep) << "whichever end the world is";
+  EXPECT_TRUE(world.state(first).asleep) << "the world may be either end";
   EXPECT_TRUE(world.state(a).asleep && world.state(b).asleep && world.state(hanging).asleep);
   world.physics().apply_impulse(a, Vec3(0, 5, 0), Vec3(0, 0.25, 0));
   world.step(kDt_s, 4);
@@ -225,7 +225,7 @@ TEST(Joint, JoinedBodiesSleepAndWakeTogether) {
   world.physics().apply_impulse(a, Vec3(0, 5, 0), Vec3(0, 0.25, 0));
   world.run(2, kDt_s, 4);
   world.physics().apply_impulse(a, Vec3(0, 5, 0), Vec3(0, 0.25, 0));
-  EXPECT_TRUE(world.state(b).asleep) << "they are parted";
+  EXPECT_TRUE(world.state(b).asleep) << "the bodies are no longer joined";
 }
 
 /// Returns the sums of force and torque impulses on the body with a tag, about a point.
@@ -266,7 +266,7 @@ TEST(Joint, ReportsItsLoadOnBothBodies) {
       EXPECT_LT((up + weight_Ns).norm(), 1e-3 * weight_Ns.norm());
       EXPECT_LT(back.norm(), 1e-3 * weight_Ns.norm());
     }
-    EXPECT_TRUE(world.state(b).asleep) << "and sleepers are borne as well";
+    EXPECT_TRUE(world.state(b).asleep) << "loads of sleeping bodies are reported too";
   }
 }
 

@@ -36,7 +36,8 @@ TEST_P(Kinematic, MovesAsPrescribedAgainstAnyMass) {
   world.run(1, kDt_s, kSubsteps);
   EXPECT_LT((world.state(wall).X_WB.position - Vec3(2, 1, 0)).norm(), 1e-4) << "Box2D has floats";
   EXPECT_NEAR(world.state(wall).X_WB.rotation.angularDistance(Quat::Identity()), 0.5, 1e-4);
-  EXPECT_EQ(world.state(wall).velocity_W, Vec3(2, 1, 0)) << "without weight";
+  EXPECT_EQ(world.state(wall).velocity_W, Vec3(2, 1, 0))
+      << "gravity must not act on a kinematic body";
   world.physics().apply_impulse(wall, Vec3(1e6, 0, 0), Vec3::Zero());
   EXPECT_EQ(world.state(wall).velocity_W, Vec3(2, 1, 0));
   EXPECT_GT(world.state(block).velocity_W.x(), 1) << "512 t gave way";
@@ -56,7 +57,7 @@ TEST_P(Kinematic, ABoxOnALiftLoadsItByWeightAndAcceleration) {
     const SolveReport report = world.step(kDt_s, kSubsteps);
     const Vec3 error_Ns =
         report.momentum_after_Ns - report.momentum_before_Ns - report.external_impulse_Ns;
-    EXPECT_LT(error_Ns.norm(), 1e-4 * 1000 * kG * kDt_s) << "its work is from outside";
+    EXPECT_LT(error_Ns.norm(), 1e-4 * 1000 * kG * kDt_s) << "the lift's impulse is an external one";
   }
   double force_N = 0;
   for (const ContactImpulse& load : world.physics().contact_impulses())
@@ -117,7 +118,8 @@ TEST_P(Kinematic, SleepingBodiesWakeWhenTheirSupportMovesAndRideAlong) {
   state.velocity_W.setZero();
   world.physics().set_state(lift, state);
   world.run(4, kDt_s, kSubsteps);
-  for (const BodyId box : boxes) EXPECT_TRUE(world.state(box).asleep) << "it stands again";
+  for (const BodyId box : boxes)
+    EXPECT_TRUE(world.state(box).asleep) << "the lift is at rest again";
 }
 
 TEST(Turntable, CarriesBodiesUpToTheRadiusThatFrictionAllows) {
@@ -188,7 +190,7 @@ TEST(Crane, LiftsALoadByWeightAndAcceleration) {
   rope.length_m = 2.4;
   world.physics().join(rope);
   world.run(4, kDt_s, kSubsteps);
-  EXPECT_TRUE(world.state(id).asleep) << "while it stands";
+  EXPECT_TRUE(world.state(id).asleep) << "while the crane is at rest";
   const double a_m_s2 = 2;
   double force_N = 0;
   for (int i = 0; i < 240; ++i) {

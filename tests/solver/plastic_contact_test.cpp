@@ -107,7 +107,8 @@ TEST(PlasticContact, NonCollidingShapesIgnoreTheOtherBodyOnly) {
     world.physics().cut(id);
     return std::array{before, after, again, world.step(kPlasticDt_s, 4).contacts};
   };
-  EXPECT_EQ(two({}, {}), (std::array{2u, 2u, 1u, 2u})) << "the third is touched in any case";
+  EXPECT_EQ(two({}, {}), (std::array{2u, 2u, 1u, 2u}))
+      << "the third body is in contact in any case";
   EXPECT_EQ(two({5}, {}), (std::array{1u, 2u, 1u, 2u}));
   EXPECT_EQ(two({}, {6}), (std::array{1u, 2u, 1u, 2u}));
   EXPECT_EQ(two({6}, {5}), (std::array{2u, 2u, 1u, 2u}));

@@ -32,7 +32,7 @@ TEST(PlasticJoint, AThrownBarStopsWhenItsEnergyIsDissipated) {
     EXPECT_NEAR(frame.work_J / (kMoment_Nm * turn), 1, 0.4 / (60 * substeps));
     EXPECT_NEAR(frame.flowed[0].turn_R.z(), turn, 1e-5);
     frame.run(5, substeps);
-    EXPECT_NEAR(angle(frame.world, id), turn, 1e-4) << "nothing springs back";
+    EXPECT_NEAR(angle(frame.world, id), turn, 1e-4) << "the bar must not spring back";
     EXPECT_LT((frame.world.state(id).X_WB.position.norm() - 1), 1e-4);
   }
 }
@@ -218,7 +218,7 @@ TEST(PlasticJoint, ManyThrownChainsKeepTheirMomentaAndGainNoEnergy) {
   }
   std::printf("200 chains: motion rises by %.1e, with work by %.1e of E0 at most; p %.1e, L %.1e\n",
               worst.motion, worst.energy, worst.momentum, worst.spin);
-  EXPECT_LT(worst.motion, 2e-3) << "as tumbling in any joint";
+  EXPECT_LT(worst.motion, 2e-3) << "the error of tumbling in any joint";
   EXPECT_LT(worst.energy, 0.01);
   EXPECT_LT(worst.momentum, 1e-5);
   EXPECT_LT(worst.spin, 1e-4);

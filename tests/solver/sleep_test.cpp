@@ -250,7 +250,7 @@ TEST(Sleep, APausedBodyFallsAsleepUnderAMovingOne) {
     world.step(kDt_s, kSubsteps);
   }
   EXPECT_FALSE(world.state(spinning).asleep);
-  EXPECT_TRUE(world.state(plate).asleep) << "woken by a load that it has had all along";
+  EXPECT_TRUE(world.state(plate).asleep) << "woken by an unchanged load";
 }
 
 TEST(Sleep, GivesTheSameBitsForAnyNumberOfThreads) {

@@ -271,7 +271,8 @@ void run_case(Kind kind, std::uint64_t seed, Counts& counts) {
   for (const std::vector<std::uint32_t>& set : unsupported) {
     const auto moved = [&](std::uint32_t i) { return motion_bound_m(from[i], to[i]) > kMoved_m; };
     if (std::ranges::any_of(set, moved)) continue;
-    ADD_FAILURE() << "body " << set[0] << " of case " << seed << " hangs after step " << steps;
+    ADD_FAILURE() << "body " << set[0] << " of case " << seed << " does not fall after step "
+                  << steps;
   }
   for (std::size_t i = 0; i < scene.size(); ++i) {
     if (scene.is_support(i) || motion_bound_m(without_sleep_from[i], without_sleep_to[i]) < 0.1)
