@@ -1,5 +1,5 @@
-// Any bytes as a pattern file: a pattern that breaks a box without losing any of it, or an
-// InputError.
+// Fuzz target: any bytes as a pattern file give a pattern that breaks a box and keeps its volume,
+// or an InputError.
 #include <cmath>
 #include <cstdint>
 #include <sstream>
