@@ -7,7 +7,7 @@ function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# The work directory is outside the checkout, as its path would otherwise contain that of the checkout.
+# The work directory is outside the checkout, whose path would otherwise be part of the prefix.
 execute_process(COMMAND mktemp -d OUTPUT_VARIABLE work OUTPUT_STRIP_TRAILING_WHITESPACE
   COMMAND_ERROR_IS_FATAL ANY)
 set(prefix ${work}/prefix)

@@ -31,11 +31,11 @@ extern "C" int malloc_trim(std::size_t pad);  // of <malloc.h>
 namespace sunder::fuzz {
 namespace {
 
-constexpr int kMaxFrames = 180;             // largest number of frames of a scene
-constexpr double kMassTolerance = 1e-9;     // relative
-constexpr double kLongRun_s = 300;          // shortest run whose memory is checked
-constexpr double kMaxMemoryGrowth = 1.05;   // factor
-constexpr double kMemoryAllowance_MiB = 8;  // growth allowed beyond that factor
+constexpr int kMaxFrames = 180;          // largest number of frames of a scene
+constexpr double kMassTolerance = 1e-9;  // relative
+constexpr double kLongRun_s = 300;       // shortest run whose memory is checked
+/// Largest growth of memory in a long run: a factor, and an addition to it.
+constexpr double kMaxMemoryGrowth = 1.05, kMemoryAllowance_MiB = 8;
 
 struct Options {
   double time_s = 0;

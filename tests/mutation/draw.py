@@ -26,7 +26,7 @@ SKIPPED = re.compile(r"^\s*#|\b(constexpr|static_assert|SUNDER_CHECK|reserve|shr
                      r"for_chunks|prefetch|__builtin_prefetch|requires|case)\b|"
                      r"^\s*(public|private):")
 
-# Statements that are not dropped: declarations are needed, and control statements contain others.
+# Statements that are not dropped: declarations, and control statements, which contain others.
 DECLARATION = re.compile(r"[\w:]+(<.*>)?(::\w+)?( ?[&*]+ ?| )\w+( = |$|[{(,;\[])")
 NOTHING = re.compile(r"return( (\{\}|false|0u?|0\.0f?|nullptr|\w+::Zero\(\)))?")
 KEYWORDS = ("if", "for", "while", "do", "else", "goto", "const", "auto", "struct", "switch",
@@ -53,7 +53,7 @@ class Mutant:
 
 
 def masked(text):
-    """Returns the text with comments, strings and preprocessor lines blanked, at the same length."""
+    """Returns the text with comments, strings and preprocessor lines blanked, of equal length."""
     def blank(match):
         return re.sub(r"[^\n]", " ", match.group())
 
@@ -96,7 +96,7 @@ def matching(code, i, step):
 
 
 def operand_end(code, i, stops):
-    """Returns the end of the expression that begins at i: one of `stops`, or an unmatched bracket."""
+    """Returns the end of the expression that begins at i: one of `stops` or a bracket."""
     while i < len(code) and code[i] not in ")]}" and not re.match(stops, code[i:i + 3]):
         i = matching(code, i, 1) + 1 if code[i] in "([{" else i + 1
     return i
@@ -267,8 +267,8 @@ def candidates(path, text):
 
 
 def draw(texts, folders, seed):
-    """Yields one mutant of each line with mutants, in random order. The random number of a line depends
-    on its text only, so that changes elsewhere do not change the order."""
+    """Yields one mutant of each line with mutants, in random order. The random number of a line
+    depends on its text only, so that changes elsewhere do not change the order."""
     drawn, alike = [], Counter()
     for path in sorted(texts):
         inside = path.startswith(tuple(f"{folder}/" for folder in folders))

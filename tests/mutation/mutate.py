@@ -95,7 +95,7 @@ def fits(mutant, others):
 
 
 def drawn(texts, seeds, count, wrong):
-    """Returns the first `count` mutants of each seed that compile and do not overlap, by number."""
+    """Returns, by number, the first `count` mutants of each seed that compile and do not overlap."""
     mutants = {}
     for place, seed in enumerate(seeds):
         number, last = place * 1000, len(mutants) + count
